@@ -1,0 +1,1 @@
+"""The `floatref` command, one module per sub-command."""

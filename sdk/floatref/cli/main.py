@@ -1,0 +1,20 @@
+"""Entry point of the `floatref` command."""
+
+import click
+
+from floatref import __version__
+from floatref.cli.lazy import LazyGroup
+
+COMMANDS = {
+    "process": ("floatref.cli.process:process", "turn a recording into a road profile"),
+    "iri": ("floatref.cli.iri:iri", "IRI of a profile, whole and by segment"),
+    "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
+    "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
+    "adapters": ("floatref.cli.listings:adapters", "list the adapters"),
+}
+
+
+@click.group(cls=LazyGroup, lazy=COMMANDS)
+@click.version_option(__version__, prog_name="floatref")
+def main() -> None:
+    """Turn the sensor streams of an inertial profiler into road profiles."""

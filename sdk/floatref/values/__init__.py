@@ -1,0 +1,1 @@
+"""Values: what goes in (`Recording`), what flows (`Block`), what comes out (`Profile`)."""

@@ -1,0 +1,91 @@
+"""Blocks: stretches of all channels on one clock, as stages see them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from fractions import Fraction
+
+from floatref.errors import InputError
+from floatref.values.arrays import BoolArray, FlagArray, FloatArray
+from floatref.values.channels import ChannelId
+from floatref.values.recording import Setup
+
+
+class Axis(Enum):
+    """What a block's index counts."""
+
+    TIME = "time"
+    """Samples of the accelerometer's clock; the step is in s."""
+    DISTANCE = "distance"
+    """Points of the profile or triggers of the encoder; the step is in m."""
+
+
+@dataclass(frozen=True)
+class Header:
+    """What every block of a stream has in common.
+
+    Index k lies at ``origin + k * step``, in s or m after `axis`. ``rate`` is the rational
+    sampling rate of the time axis in Hz, also after a change to the distance axis.
+    """
+
+    axis: Axis
+    step: float
+    origin: float
+    rate: Fraction
+    channels: frozenset[ChannelId]
+    tracks: tuple[str, ...]
+    setup: Setup = field(default_factory=Setup)
+
+    def adding(self, *channels: ChannelId) -> "Header":
+        """Return the header with ``channels`` added."""
+        return replace(self, channels=self.channels | set(channels))
+
+    def require(self, stage: str, *channels: ChannelId) -> None:
+        """Raise InputError unless all ``channels`` are there for ``stage`` to use."""
+        missing = [str(c) for c in channels if c not in self.channels]
+        if missing:
+            raise InputError(f"stage {stage} needs channel {', '.join(missing)}; add what makes it")
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """A sample that keeps its own time (GNSS): time in s and its values."""
+
+    time_s: float
+    values: Mapping[ChannelId, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Samples ``first`` to ``first + length - 1`` of every channel.
+
+    ``fresh`` tells where a channel's value is a new measurement (a held or interpolated one is
+    not); a channel without a mask is fresh throughout. ``flags`` holds `Flag` bits; a channel
+    without them is trusted throughout.
+    """
+
+    first: int
+    values: Mapping[ChannelId, FloatArray]
+    fresh: Mapping[ChannelId, BoolArray] = field(default_factory=dict)
+    flags: Mapping[ChannelId, FlagArray] = field(default_factory=dict)
+    events: tuple[Event, ...] = ()
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return next((v.size for v in self.values.values()), 0)
+
+    def __getitem__(self, channel: ChannelId) -> FloatArray:
+        """Return the samples of ``channel``."""
+        return self.values[channel]
+
+    def setting(
+        self,
+        values: Mapping[ChannelId, FloatArray],
+        flags: Mapping[ChannelId, FlagArray] | None = None,
+    ) -> "Block":
+        """Return a block with ``values`` (and ``flags``) added or replaced."""
+        for array in values.values():
+            array.flags.writeable = False
+        return replace(
+            self, values={**self.values, **values}, flags={**self.flags, **(flags or {})}
+        )

@@ -1,0 +1,82 @@
+"""The channels of a recording: names, units and meaning.
+
+Every channel has one unit and one sign; a recording in other units is refused, and an
+adapter converts it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from types import MappingProxyType
+from typing import NamedTuple
+
+from floatref.errors import InputError
+
+STANDARD_GRAVITY = 9.80665
+"""Standard gravity g in m/s², added by an accelerometer at rest."""
+
+
+class ChannelId(NamedTuple):
+    """A channel's name and the wheel path it belongs to; ``None`` is shared by all."""
+
+    name: str
+    track: str | None = None
+
+    def __str__(self) -> str:
+        """Return ``track.name``, as in the file names of a recording directory."""
+        return self.name if self.track is None else f"{self.track}.{self.name}"
+
+
+@dataclass(frozen=True)
+class ChannelSpec:
+    """Unit and meaning of one channel, and whether each wheel path has its own."""
+
+    unit: str
+    meaning: str
+    per_track: bool = False
+
+
+CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
+    {
+        "vertical_specific_force": ChannelSpec(
+            "m/s^2", "accelerometer along body Z, +9.8 at rest", True
+        ),
+        "longitudinal_specific_force": ChannelSpec("m/s^2", "accelerometer along body X", True),
+        "lateral_specific_force": ChannelSpec("m/s^2", "accelerometer along body Y", True),
+        "height": ChannelSpec("m", "range from the reference point to the road, positive", True),
+        "distance": ChannelSpec("m", "encoder distance, non-decreasing"),
+        "roll_rate": ChannelSpec("rad/s", "angular rate about body X"),
+        "pitch_rate": ChannelSpec("rad/s", "angular rate about body Y"),
+        "yaw_rate": ChannelSpec("rad/s", "angular rate about body Z"),
+        "gnss_height": ChannelSpec("m", "antenna height, up"),
+        "gnss_vertical_velocity": ChannelSpec("m/s", "antenna vertical velocity, up"),
+        "gnss_pitch": ChannelSpec("rad", "Euler pitch, nose down positive"),
+        "gnss_roll": ChannelSpec("rad", "asin(cos pitch sin roll), left side up positive"),
+        "gnss_quality": ChannelSpec(
+            "1", "0 none, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
+        ),
+        "gnss_latitude": ChannelSpec("rad", "geodetic latitude"),
+        "gnss_longitude": ChannelSpec("rad", "geodetic longitude"),
+    }
+)
+
+DIMENSIONLESS = frozenset({"1", "-", "–", ""})
+
+
+def channel_spec(name: str) -> ChannelSpec:
+    """Return the specification of channel ``name``; InputError if there is none."""
+    if name in CHANNELS:
+        return CHANNELS[name]
+    near = get_close_matches(name, CHANNELS, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(CHANNELS)}"
+    raise InputError(f"channel {name}: unknown name; {hint}")
+
+
+def check_unit(channel: ChannelId, unit: str) -> None:
+    """Raise InputError unless ``unit`` is the one that ``channel`` is defined in."""
+    expected = channel_spec(channel.name).unit
+    if unit == expected or (expected == "1" and unit in DIMENSIONLESS):
+        return
+    raise InputError(
+        f"channel {channel}: unit {unit!r}, expected {expected!r}; convert the samples"
+    )
