@@ -1,0 +1,1 @@
+"""Compiled loops; each kernel is checked against the reference implementation."""
