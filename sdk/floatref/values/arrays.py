@@ -17,8 +17,6 @@ class Flag(IntFlag):
     """The sample itself was not measured and has been bridged."""
     DRIFT = 2
     """The floating reference height is disturbed here; a high-pass filter spreads it."""
-    EDGE = 4
-    """Run-in or run-out of a filter."""
 
 
 def frozen(values: ArrayLike) -> FloatArray:

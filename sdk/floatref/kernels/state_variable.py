@@ -1,0 +1,123 @@
+"""Butterworth stages in trapezoidal state-variable form, after appendix A of Karamihas (2021).
+
+The transfer functions are those of (A.1)-(A.8); the states are the integrators of the analog
+prototype, so nothing cancels at a cut-off a million times below the sampling rate. With
+c = tan(pi f_c dt) (A.11), a first-order stage has one state s and a second-order stage two:
+
+    S1:  hp = (x - s) / (1 + c),  lp = x - hp,  s += 2 c hp
+    S2:  hp = (x - s2 - (1 + c) s1) / (1 + c + c^2),  bp = s1 + c hp,  lp = s2 + c bp,
+         s1 += 2 c hp,  s2 += 2 c bp
+
+Each kernel reads ``x`` and writes ``y`` (they may be one array), from the last sample down if
+``backward``. `memory` is float64: started (0 or 1), the last input, then the states. A missing
+(NaN) input is bridged by the one before it. The states are advanced by small products of
+themselves, the newest last, because the loop waits for nothing else.
+"""
+
+from floatref.kernels.compiling import compiled
+from floatref.values.arrays import FloatArray
+
+MEMORY = 4
+"""Length of the memory of one stage."""
+
+
+@compiled
+def _first_good(x: FloatArray, backward: bool) -> float:
+    for j in range(x.size):
+        value = x[x.size - 1 - j] if backward else x[j]
+        if value == value:
+            return value
+    return 0.0
+
+
+@compiled
+def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+    """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
+    if memory[0] == 0.0 and x.size > 0:
+        memory[0], memory[1] = 1.0, _first_good(x, backward)
+        memory[2] = c * memory[1]
+    held, s = memory[1], memory[2]
+    gain = 1.0 / (1.0 + c)
+    k = 2.0 * c * gain
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        y[i] = (value - s) * gain
+        s = (s - k * s) + k * value
+    memory[1], memory[2] = held, s
+
+
+@compiled
+def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+    """LPF_B3S1: (A.4), started by (A.12) or, backward, (A.16)."""
+    if memory[0] == 0.0 and x.size > 0:
+        memory[0], memory[1] = 1.0, _first_good(x, backward)
+        memory[2] = memory[1]
+    held, s = memory[1], memory[2]
+    gain = c / (1.0 + c)
+    k = 2.0 * gain
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        y[i] = s + gain * (value - s)
+        s = (s - k * s) + k * value
+    memory[1], memory[2] = held, s
+
+
+@compiled
+def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+    """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
+    d = 1.0 / (1.0 + c + c * c)
+    starting = memory[0] == 0.0 and x.size > 0
+    if starting:
+        memory[0], memory[1] = 1.0, _first_good(x, backward)
+        started = (1.0 + c - 3.0 * c * c) * d * memory[1]
+        # The second sample of (A.15) sees (x1, y1) twice; these two states are that past.
+        memory[2] = (2.0 * c - 1.0) * started
+        memory[3] = memory[1] + (c * c - 2.0 * c) * started
+        y[x.size - 1 if backward else 0] = started
+    held, s1, s2 = memory[1], memory[2], memory[3]
+    p = 1.0 + c
+    k1 = 2.0 * c * d
+    k2, k3 = k1 * p, k1 * c
+    for j in range(1 if starting else 0, x.size):
+        i = x.size - 1 - j if backward else j
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        y[i] = ((value - s2) - p * s1) * d
+        s1_next = (s1 - k2 * s1) + (k1 * value - k1 * s2)
+        s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
+        s1 = s1_next
+    memory[1], memory[2], memory[3] = held, s1, s2
+
+
+@compiled
+def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+    """LPF_B3S2: (A.5), started by (A.13) or, backward, (A.17)."""
+    if memory[0] == 0.0 and x.size > 0:
+        memory[0], memory[1] = 1.0, _first_good(x, backward)
+        memory[2], memory[3] = 0.0, memory[1]
+    held, s1, s2 = memory[1], memory[2], memory[3]
+    d = 1.0 / (1.0 + c + c * c)
+    p = 1.0 + c
+    k1 = 2.0 * c * d
+    k2, k3 = k1 * p, k1 * c
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        y[i] = s2 + c * d * (s1 + c * (value - s2))
+        s1_next = (s1 - k2 * s1) + (k1 * value - k1 * s2)
+        s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
+        s1 = s1_next
+    memory[1], memory[2], memory[3] = held, s1, s2
