@@ -1,0 +1,1 @@
+"""Roads, drives, vehicles and sensors whose truth is known."""
