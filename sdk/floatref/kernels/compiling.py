@@ -12,11 +12,14 @@ R = TypeVar("R")
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """Return ``function`` compiled on first call, keeping its type.
 
+    A product and a sum may become one fused operation, which rounds once instead of twice; no
+    other freedom is given, so infinities, NaN and the order of operations are as written.
+
     numba refuses `cache=True` with RuntimeError when it finds no folder to write to (a
     read-only installation without a home); the kernel is then compiled in every process.
     """
     try:
-        kernel: Callable[P, R] = njit(cache=True, nogil=True)(function)
+        kernel: Callable[P, R] = njit(cache=True, nogil=True, fastmath={"contract"})(function)
     except RuntimeError:
-        kernel = njit(nogil=True)(function)
+        kernel = njit(nogil=True, fastmath={"contract"})(function)
     return kernel

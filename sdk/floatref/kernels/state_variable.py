@@ -121,3 +121,44 @@ def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backw
         s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
         s1 = s1_next
     memory[1], memory[2], memory[3] = held, s1, s2
+
+
+@compiled
+def high_pass_21(
+    x: FloatArray, y: FloatArray, second: FloatArray, first: FloatArray, c: float, backward: bool
+) -> None:
+    """HPF_B3S2 then HPF_B3S1 in one loop, in which the two recursions overlap."""
+    n = x.size
+    if n == 0:
+        return
+    begin = 0
+    if second[0] == 0.0:
+        begin = 1
+        while (
+            begin < n
+            and x[n - begin if backward else begin - 1] != x[n - begin if backward else begin - 1]
+        ):
+            begin += 1
+        start = n - begin if backward else 0
+        high_pass_2(x[start : start + begin], y[start : start + begin], second, c, backward)
+        high_pass_1(y[start : start + begin], y[start : start + begin], first, c, backward)
+    held, s1, s2, s = second[1], second[2], second[3], first[2]
+    d = 1.0 / (1.0 + c + c * c)
+    p = 1.0 + c
+    k1 = 2.0 * c * d
+    k2, k3 = k1 * p, k1 * c
+    gain = 1.0 / (1.0 + c)
+    k = 2.0 * c * gain
+    for j in range(begin, n):
+        i = n - 1 - j if backward else j
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        high = ((value - s2) - p * s1) * d
+        s1_next = (s1 - k2 * s1) + (k1 * value - k1 * s2)
+        s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
+        s1 = s1_next
+        y[i] = (high - s) * gain
+        s = (s - k * s) + k * high
+    second[1], second[2], second[3], first[2] = held, s1, s2, s

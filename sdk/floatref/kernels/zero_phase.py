@@ -9,13 +9,11 @@ from floatref.kernels.state_variable import (
     MEMORY,
     high_pass_1,
     high_pass_2,
+    high_pass_21,
     low_pass_1,
     low_pass_2,
 )
 from floatref.values.arrays import FloatArray
-
-STRETCH = 8192
-"""Samples per stretch: two stages run over it while it is in the cache."""
 
 
 def _c(interval: float, cutoff_wavelength: float) -> float:
@@ -35,11 +33,7 @@ def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> 
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size)
     high_pass_1(x, y, _new_memory(), c, False)
-    second, first = _new_memory(), _new_memory()
-    for end in range(x.size, 0, -STRETCH):
-        stretch = y[max(0, end - STRETCH) : end]
-        high_pass_2(stretch, stretch, second, c, True)
-        high_pass_1(stretch, stretch, first, c, True)
+    high_pass_21(y, y, _new_memory(), _new_memory(), c, True)
     high_pass_2(y, y, _new_memory(), c, False)
     return y
 
