@@ -1,0 +1,60 @@
+"""Measures of a profile: IRI, where its roughness lies, and its agreement with another.
+
+Every function takes a one-dimensional float64 elevation in m and its constant interval in m.
+NaN marks points that were not measured: gaps are bridged by a straight line, and nothing is
+calculated before the first and after the last measured point.
+"""
+
+from floatref.measures.alignment import on_common_grid
+from floatref.measures.correlation import Agreement, cross_correlation
+from floatref.measures.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
+from floatref.measures.roughness_index import Segment, iri, iri_segments, iri_trace
+from floatref.measures.roughness_profile import (
+    LocalizedRoughness,
+    in_per_mi,
+    localized_roughness,
+    m_per_km,
+    mean_roughness_index,
+    short_interval_roughness,
+)
+from floatref.measures.settings import IriSettings
+from floatref.measures.thresholds import (
+    INDICES,
+    SAMPLE_ROADS,
+    ProfileIndex,
+    RoadSpectrum,
+    WavelengthThresholds,
+    wavelength_thresholds,
+)
+from floatref.measures.wavebands import BANDS, WAVEBANDS, agreement, high_pass, waveband_slope
+
+__all__ = [
+    "BANDS",
+    "GOLDEN_CAR",
+    "INDICES",
+    "RIDE_NUMBER_CAR",
+    "SAMPLE_ROADS",
+    "WAVEBANDS",
+    "Agreement",
+    "IriSettings",
+    "LocalizedRoughness",
+    "ProfileIndex",
+    "QuarterCar",
+    "RoadSpectrum",
+    "Segment",
+    "WavelengthThresholds",
+    "agreement",
+    "cross_correlation",
+    "high_pass",
+    "in_per_mi",
+    "iri",
+    "iri_segments",
+    "iri_trace",
+    "localized_roughness",
+    "m_per_km",
+    "mean_roughness_index",
+    "on_common_grid",
+    "short_interval_roughness",
+    "waveband_slope",
+    "wavelength_thresholds",
+]

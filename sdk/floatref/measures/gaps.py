@@ -1,0 +1,43 @@
+"""Missing elevations: the stretch that was measured, and the bridges over gaps inside it."""
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+
+
+def checked_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
+    """Return ``elevation`` in m as float64; InputError unless it and ``interval_m`` are usable.
+
+    Needs one dimension, no infinities, at least one finite point, and a positive interval.
+    """
+    if not (np.isfinite(interval_m) and interval_m > 0):
+        raise InputError(f"interval is {interval_m} m; it must be above zero")
+    values = np.ascontiguousarray(elevation, dtype=np.float64)
+    if values.ndim != 1:
+        raise InputError(f"elevation has shape {values.shape}; give one wheel path at a time")
+    finite = np.isfinite(values)
+    if finite.all() and values.size:
+        return values
+    if np.isinf(values).any():
+        raise InputError("elevation is infinite in places; mark missing points as NaN")
+    if not finite.any():
+        raise InputError(f"none of the {values.size} elevations is finite; nothing was measured")
+    return values
+
+
+def measured_stretch(elevation: FloatArray) -> slice:
+    """Return the points from the first to the last finite elevation."""
+    if np.isfinite(elevation[[0, -1]]).all():
+        return slice(0, elevation.size)
+    finite = np.isfinite(elevation)
+    return slice(int(finite.argmax()), elevation.size - int(finite[::-1].argmax()))
+
+
+def bridged(elevation: FloatArray) -> FloatArray:
+    """Return ``elevation`` with every NaN between finite points on the straight line over it."""
+    finite = np.isfinite(elevation)
+    if finite.all():
+        return elevation
+    points = np.arange(elevation.size)
+    return np.interp(points, points[finite], elevation[finite])
