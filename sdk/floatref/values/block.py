@@ -40,6 +40,18 @@ class Header:
         """Return the header with ``channels`` added."""
         return replace(self, channels=self.channels | set(channels))
 
+    def without(self, *names: str) -> "Header":
+        """Return the header without the channels called ``names``, of any track."""
+        return replace(self, channels=frozenset(c for c in self.channels if c.name not in names))
+
+    def replacing(self, name: str, by: str) -> "Header":
+        """Return the header with channel ``by`` in place of ``name`` for every track."""
+        return self.without(name).adding(*(ChannelId(by, track) for track in self.tracks))
+
+    def on_distance(self, interval_m: float, origin_m: float) -> "Header":
+        """Return the header on the distance axis."""
+        return replace(self, axis=Axis.DISTANCE, step=interval_m, origin=origin_m)
+
     def require(self, stage: str, *channels: ChannelId) -> None:
         """Raise InputError unless all ``channels`` are there for ``stage`` to use."""
         missing = [str(c) for c in channels if c not in self.channels]
@@ -88,4 +100,13 @@ class Block:
             array.flags.writeable = False
         return replace(
             self, values={**self.values, **values}, flags={**self.flags, **(flags or {})}
+        )
+
+    def without(self, *names: str) -> "Block":
+        """Return the block without the channels called ``names``, of any track."""
+        return replace(
+            self,
+            values={c: v for c, v in self.values.items() if c.name not in names},
+            fresh={c: v for c, v in self.fresh.items() if c.name not in names},
+            flags={c: v for c, v in self.flags.items() if c.name not in names},
         )

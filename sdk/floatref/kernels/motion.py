@@ -1,0 +1,101 @@
+"""Integration, compensated sums, and the search for profile points along the encoder."""
+
+from floatref.kernels.compiling import compiled
+from floatref.values.arrays import FloatArray
+
+MEMORY = 3
+"""Length of the memory of an integrator: started, the last input, the integral."""
+
+TIE = 1e-6
+"""A distance within this fraction of the interval of a point counts as having reached it.
+
+Encoder counts and points often fall on the same decimal; without it the rounding of either
+would decide which sample is taken.
+"""
+
+
+@compiled
+def integrate(x: FloatArray, y: FloatArray, memory: FloatArray, half_step: float) -> None:
+    """Trapezoidal integral of ``x`` in ``y`` at a constant step; ``half_step`` is half of it.
+
+    A missing (NaN) input is bridged by the one before it. The integral starts at
+    ``memory[2]``, which is its value at the first sample.
+    """
+    for i in range(x.size):
+        value = x[i]
+        if value != value:
+            value = memory[1] if memory[0] != 0.0 else 0.0
+        if memory[0] != 0.0:
+            memory[2] = memory[2] + half_step * (value + memory[1])
+        memory[0], memory[1] = 1.0, value
+        y[i] = memory[2]
+
+
+@compiled
+def integrate_steps(x: FloatArray, y: FloatArray, memory: FloatArray, steps: FloatArray) -> None:
+    """Trapezoidal integral of ``x`` in ``y``; ``steps[i]`` leads to sample i, see (5.5)."""
+    for i in range(x.size):
+        value = x[i]
+        if value != value:
+            value = memory[1] if memory[0] != 0.0 else 0.0
+        if memory[0] != 0.0:
+            memory[2] = memory[2] + 0.5 * steps[i] * (value + memory[1])
+        memory[0], memory[1] = 1.0, value
+        y[i] = memory[2]
+
+
+@compiled
+def add_up(x: FloatArray, memory: FloatArray) -> None:
+    """Add ``x`` to the compensated (Neumaier) sum ``memory[0] + memory[1]``; count in [2].
+
+    Missing (NaN) samples are passed over. The result does not depend on how x was split.
+    """
+    total, rest, count = memory[0], memory[1], memory[2]
+    for i in range(x.size):
+        value = x[i]
+        if value == value:
+            grown = total + value
+            if abs(total) >= abs(value):
+                rest += (total - grown) + value
+            else:
+                rest += (value - grown) + total
+            total = grown
+            count += 1.0
+    memory[0], memory[1], memory[2] = total, rest, count
+
+
+@compiled
+def find_points(
+    distance: FloatArray, origin: float, interval: float, first: int, position: FloatArray
+) -> int:
+    """Write where points ``first``, ``first + 1``, … lie among the samples; return how many.
+
+    Point k lies at ``origin + k * interval``. Its position is the index of the first sample
+    that has reached it; between samples more than an interval apart it is a fraction, linear
+    in distance. ``distance[0]`` is the last sample of the stretch before, already searched.
+    """
+    found = 0
+    slack = TIE * interval
+    for i in range(1, distance.size):
+        here = distance[i] + slack
+        while origin + (first + found) * interval <= here:
+            step = distance[i] - distance[i - 1]
+            where = float(i)
+            if step > interval + slack:
+                beyond = distance[i] - (origin + (first + found) * interval)
+                where = i - max(beyond, 0.0) / step
+            position[found] = where
+            found += 1
+    return found
+
+
+@compiled
+def read_at(x: FloatArray, position: FloatArray, y: FloatArray) -> None:
+    """Write ``x`` at the (fractional) positions to ``y``, linear between samples."""
+    for k in range(position.size):
+        after = int(position[k])
+        part = position[k] - after
+        if part > 0.0:
+            y[k] = x[after] + part * (x[after + 1] - x[after])
+        else:
+            y[k] = x[after]

@@ -1,0 +1,25 @@
+"""Flags of missing samples."""
+
+import numpy as np
+
+from floatref.values.arrays import Flag, FlagArray
+from floatref.values.block import Block
+from floatref.values.channels import ChannelId
+
+
+def flags_of(block: Block, *channels: ChannelId) -> FlagArray | None:
+    """Return the flags of all ``channels`` together, NaN as `Flag.MISSING`, or None."""
+    flags: FlagArray | None = None
+    for channel in channels:
+        for more in (block.flags.get(channel), _missing(block, channel)):
+            if more is not None:
+                flags = more if flags is None else flags | more
+    return flags
+
+
+def _missing(block: Block, channel: ChannelId) -> FlagArray | None:
+    values = block[channel]
+    # A sum is NaN if and only if a sample is; infinities never enter a recording.
+    if not np.isnan(values.sum()):
+        return None
+    return np.where(np.isnan(values), np.uint8(Flag.MISSING), np.uint8(0))

@@ -1,0 +1,142 @@
+"""From the time axis to the distance axis: projection of the profile, trigger of the samples."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.stages.marking import flags_of
+from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
+from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+MOST_POINTS = 10_000_000
+"""Points that one block may hold; more means a distance in another unit, or a leap."""
+
+
+class ToDistance(Stage):
+    """Takes one sample of every channel per ``interval_m`` of encoder distance.
+
+    Point k lies at ``origin_m + k * interval_m``. It takes the first time sample that has
+    reached it, so during a stop there is none (section 5.3); where time samples are further
+    apart than the interval, it is linear in distance between them. `distance` is dropped, and
+    so are samples at which the encoder is missing or behind where it has been.
+
+    With ``keep_time`` each point gets the channel `time` that an encoder-triggered engine
+    stores with its sample (section 5.8).
+    """
+
+    declared = Declared(shift_invariant=False)
+
+    def __init__(self, interval_m: float, origin_m: float, keep_time: bool = False) -> None:
+        """Sample at ``interval_m`` from ``origin_m`` on."""
+        super().__init__()
+        self.interval_m, self.origin_m, self.keep_time = interval_m, origin_m, keep_time
+        self._rate = 1.0
+
+    def open(self, header: Header) -> Header:
+        """Ask for the distance; change the axis."""
+        if header.axis is not Axis.TIME:
+            raise InputError(f"stage {self.name}: the stream is not on the time axis")
+        header.require(self.name, ChannelId(DISTANCE))
+        self._rate = float(header.rate)
+        self.memory = {"next": 0, "carry": None}
+        points = header.on_distance(self.interval_m, self.origin_m).without(DISTANCE)
+        return points.adding(ChannelId(TIME)) if self.keep_time else points
+
+    def advance(self, block: Block) -> Block:
+        """Take the points that lie within the block."""
+        if len(block) == 0:
+            none = {ChannelId(TIME): np.empty(0)} if self.keep_time else {}
+            return Block(self.memory["next"], {**block.without(DISTANCE).values, **none})
+        wide = self._after_carry(block)
+        distance = np.fmax.accumulate(wide[ChannelId(DISTANCE)])
+        position = self._positions(distance)
+        self.memory["carry"] = _sample(wide, -1, distance[-1])
+        first = self.memory["next"]
+        self.memory["next"] = first + position.size
+        points = _at(wide, position)
+        if not self.keep_time:
+            return Block(first, points.values, flags=points.flags)
+        times = (wide.first + position) / self._rate
+        return Block(first, {**points.values, ChannelId(TIME): times}, flags=points.flags)
+
+    def _after_carry(self, block: Block) -> Block:
+        carry = self.memory["carry"] or _sample(block, 0, block[ChannelId(DISTANCE)][0])
+        values = {c: np.concatenate((carry[0][c], x)) for c, x in block.values.items()}
+        marks = {c: flags_of(block, c) for c in block.values}
+        blank = np.zeros(len(block), np.uint8)
+        flags = {
+            c: np.concatenate((carry[1][c], blank if f is None else f))
+            for c, f in marks.items()
+            if f is not None or carry[1][c].any()
+        }
+        return Block(block.first - 1, values, flags=flags)
+
+    def _positions(self, distance: FloatArray) -> FloatArray:
+        from floatref.kernels import motion
+
+        first = self.memory["next"]
+        reach = (distance[-1] - self.origin_m) / self.interval_m - first
+        if not reach < MOST_POINTS:
+            raise InputError(
+                f"channel distance: leaps by {reach * self.interval_m:.0f} m; "
+                "it must be the encoder distance in m"
+            )
+        position = np.empty(max(0, int(reach)) + 2)
+        found = motion.find_points(distance, self.origin_m, self.interval_m, first, position)
+        return position[:found]
+
+
+class TimeStep(Stage):
+    """Adds `time_step`, the time from the trigger before to this one: (5.4)."""
+
+    declared = Declared(shift_invariant=False)
+
+    def open(self, header: Header) -> Header:
+        """Ask for the times of the triggers."""
+        header.require(self.name, ChannelId(TIME))
+        self.memory = {"last": None}
+        return header.adding(ChannelId(TIME_STEP))
+
+    def advance(self, block: Block) -> Block:
+        """Difference the times; the first trigger has a step of zero."""
+        times = block[ChannelId(TIME)]
+        if times.size == 0:
+            return block.setting({ChannelId(TIME_STEP): np.empty(0)})
+        before = times[0] if self.memory["last"] is None else self.memory["last"]
+        self.memory["last"] = float(times[-1])
+        return block.setting({ChannelId(TIME_STEP): np.diff(times, prepend=before)})
+
+
+Carry = tuple[Mapping[ChannelId, FloatArray], Mapping[ChannelId, FlagArray]]
+
+
+def _sample(block: Block, index: int, distance: float) -> Carry:
+    where = slice(index, None) if index == -1 else slice(index, index + 1)
+    values = {c: x[where].copy() for c, x in block.values.items()}
+    values[ChannelId(DISTANCE)] = np.array([distance])
+    blank = np.zeros(1, np.uint8)
+    flags = {c: block.flags[c][where].copy() if c in block.flags else blank for c in values}
+    return values, flags
+
+
+def _at(block: Block, position: FloatArray) -> Block:
+    from floatref.kernels import motion
+
+    before = position.astype(np.int64)
+    after = np.ceil(position).astype(np.int64)
+    late = block.flags.get(ChannelId(DISTANCE))
+    values, flags = {}, {}
+    for channel in block.values:
+        if channel.name == DISTANCE:
+            continue
+        y = np.empty(position.size)
+        motion.read_at(block[channel], position, y)
+        values[channel] = y
+        for marks in (block.flags.get(channel), late):
+            if marks is not None:
+                flags[channel] = flags.get(channel, np.uint8(0)) | marks[before] | marks[after]
+    return Block(0, values, flags=flags)

@@ -1,0 +1,83 @@
+"""Looking through long channels a piece at a time, so that memory stays bounded."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.values.arrays import BoolArray, FloatArray
+
+CHUNK = 1 << 18
+"""Samples looked at together (2 MiB)."""
+
+
+def chunks(values: FloatArray, overlap: int = 0) -> Iterator[tuple[int, FloatArray]]:
+    """Yield stretches of ``values``, shape (N,), with the index of their first sample.
+
+    Each stretch goes on for ``overlap`` samples into the next one.
+    """
+    for first in range(0, values.size, CHUNK):
+        yield first, values[first : first + CHUNK + overlap]
+
+
+def first_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray) -> int | None:
+    """Return the index of the first sample that meets ``condition``, or None."""
+    for first, chunk in chunks(values):
+        met = condition(chunk)
+        if met.any():
+            return first + int(np.argmax(met))
+    return None
+
+
+def first_step_where(
+    condition: Callable[[FloatArray], BoolArray], values: FloatArray
+) -> int | None:
+    """Return the index of the first sample whose step from the one before meets ``condition``."""
+    for first, chunk in chunks(values, overlap=1):
+        met = condition(np.diff(chunk))
+        if met.any():
+            return first + int(np.argmax(met)) + 1
+    return None
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What the valid samples of a channel amount to; NaN where there are none."""
+
+    count: int
+    missing: int
+    mean: float
+    least: float
+    greatest: float
+
+    @classmethod
+    def of(cls, values: FloatArray) -> "Summary":
+        """Return the summary of ``values``, shape (N,), NaN being a missing sample."""
+        missing, total, least, greatest = 0, 0.0, np.inf, -np.inf
+        for _, chunk in chunks(values):
+            valid = chunk[~np.isnan(chunk)]
+            missing += chunk.size - valid.size
+            if valid.size:
+                with np.errstate(over="ignore"):
+                    total += float(np.sum(valid))
+                least = min(least, float(valid.min()))
+                greatest = max(greatest, float(valid.max()))
+        if missing == values.size:
+            return cls(values.size, missing, np.nan, np.nan, np.nan)
+        return cls(values.size, missing, total / (values.size - missing), least, greatest)
+
+
+def longest_gap(values: FloatArray) -> tuple[int, int]:
+    """Return first index and length of the longest stretch of missing (NaN) samples."""
+    best, open_at = (0, 0), -1
+    for first, chunk in chunks(values):
+        edges = first + np.flatnonzero(np.diff(np.isnan(chunk), prepend=open_at >= 0))
+        if open_at >= 0:
+            edges = np.insert(edges, 0, open_at)
+        open_at = int(edges[-1]) if edges.size % 2 else -1
+        starts, stops = edges[: edges.size // 2 * 2].reshape(-1, 2).T
+        if starts.size:
+            at = int(np.argmax(stops - starts))
+            best = max(best, (int(starts[at]), int(stops[at] - starts[at])), key=lambda gap: gap[1])
+    last = (open_at, values.size - open_at) if open_at >= 0 else (0, 0)
+    return max(best, last, key=lambda gap: gap[1])
