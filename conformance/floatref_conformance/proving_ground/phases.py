@@ -1,0 +1,128 @@
+"""The phases a drive is made of, each a few constant-jerk segments.
+
+A driver builds the brake force up over a moment and lifts the foot off at once; at standstill
+the deceleration ends at once too, whatever the foot does. Throttle comes and goes gently.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.optimize import brentq
+
+from floatref.errors import InputError
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.proving_ground.drive import Drive, Segment
+
+BRAKE_JERK = 0.5 * STANDARD_GRAVITY
+"""Rate at which a driver builds the deceleration up, in m/s³, unless the brake is too short."""
+THROTTLE_JERK = 0.2 * STANDARD_GRAVITY
+"""Rate at which the acceleration comes and goes with the throttle, in m/s³."""
+ONSET_SHARE = 0.25
+"""Longest onset of a brake as a share of the brake's duration."""
+STOP_BAND_MPS = (1.5 / 3.6, 0.5 / 3.6)
+"""A stop's average deceleration is taken from this far below cruise to this speed (5.2)."""
+
+
+def extent(speed: float, segments: Sequence[Segment]) -> tuple[float, float]:
+    """Return the distance in m and the final speed in m/s of segments entered at ``speed``."""
+    drive = Drive(speed, tuple(segments))
+    return drive.length_m, drive.final_speed
+
+
+def cruise(speed: float, distance_m: float, what: str) -> Segment:
+    """Return a stretch of constant speed over ``distance_m``.
+
+    InputError naming ``what`` if the distance is negative or the vehicle stands.
+    """
+    if distance_m < 0:
+        raise InputError(f"{what} lies {-distance_m:.1f} m too early; move it farther along")
+    if speed <= 0:
+        raise InputError(f"{what} cannot be reached at {speed} m/s; the speed must be above zero")
+    return Segment(distance_m / speed)
+
+
+def speed_change(
+    from_speed: float, to_speed: float, acceleration: float, jerk: float = THROTTLE_JERK
+) -> tuple[Segment, ...]:
+    """Return the segments from one speed to another, acceleration coming and going by jerk.
+
+    Args:
+        from_speed: in m/s.
+        to_speed: in m/s, above or below.
+        acceleration: largest magnitude in m/s²; a small change of speed does not reach it.
+        jerk: magnitude in m/s³.
+    """
+    if not (acceleration > 0 and jerk > 0):
+        raise InputError(f"acceleration {acceleration} m/s² and jerk {jerk} m/s³ must be positive")
+    change = abs(to_speed - from_speed)
+    sign = 1.0 if to_speed > from_speed else -1.0
+    peak = min(acceleration, float(np.sqrt(change * jerk)))
+    ramp_s = peak / jerk
+    held = Segment(change / peak - ramp_s, sign * peak) if change > 0 else Segment(0.0)
+    return (
+        Segment(ramp_s, 0.0, sign * jerk),
+        Segment(max(held.duration_s, 0.0), held.acceleration),
+        Segment(ramp_s, sign * peak, -sign * jerk),
+    )
+
+
+def brake(from_speed: float, to_speed: float, mean_deceleration: float) -> tuple[Segment, ...]:
+    """Return onset and hold of a brake of the given mean from application to release.
+
+    Speeds in m/s, deceleration in m/s² and positive. The onset is by `BRAKE_JERK`, but takes
+    at most `ONSET_SHARE` of the time; the release is abrupt.
+    """
+    _check_brake(from_speed, to_speed, mean_deceleration)
+    change = from_speed - to_speed
+    duration_s = change / mean_deceleration
+    onset_s = ONSET_SHARE * duration_s
+    if change / (duration_s - onset_s / 2) / onset_s > BRAKE_JERK:
+        return _onset_and_hold(change, change / (duration_s - onset_s / 2), onset_s)
+    held = BRAKE_JERK * (duration_s - np.sqrt(duration_s**2 - 2 * change / BRAKE_JERK))
+    return _onset_and_hold(change, float(held), float(held) / BRAKE_JERK)
+
+
+def brake_to_stop(from_speed: float, mean_deceleration: float) -> tuple[Segment, ...]:
+    """Return onset and hold of a brake to standstill, where the deceleration ends at once.
+
+    The mean holds between `STOP_BAND_MPS` below ``from_speed`` and the band's lower speed, as
+    the paper's 70.5 and 0.5 km/h from 72 km/h. Speed in m/s, deceleration in m/s², positive.
+    """
+    _check_brake(from_speed, 0.0, mean_deceleration)
+    upper, lower = from_speed - STOP_BAND_MPS[0], STOP_BAND_MPS[1]
+    if upper <= lower:
+        raise InputError(f"{from_speed} m/s is too slow for the average deceleration of a stop")
+
+    def excess(held: float) -> float:
+        segments = _stopping(from_speed, held)
+        elapsed = _time_to(from_speed, segments, lower) - _time_to(from_speed, segments, upper)
+        return (upper - lower) / elapsed - mean_deceleration
+
+    return _stopping(from_speed, brentq(excess, mean_deceleration / 2, 4 * mean_deceleration))
+
+
+def _stopping(from_speed: float, held: float) -> tuple[Segment, ...]:
+    onset_s = min(held / BRAKE_JERK, ONSET_SHARE * from_speed / held)
+    return _onset_and_hold(from_speed, held, onset_s)
+
+
+def _onset_and_hold(change: float, held: float, onset_s: float) -> tuple[Segment, ...]:
+    hold_s = change / held - onset_s / 2
+    return Segment(onset_s, 0.0, -held / onset_s), Segment(hold_s, -held)
+
+
+def _time_to(from_speed: float, segments: tuple[Segment, ...], speed: float) -> float:
+    """Return when onset and hold have slowed the vehicle to ``speed``, in s."""
+    onset, hold = segments
+    lost = from_speed - speed
+    in_onset = -onset.speed_gain(onset.duration_s)
+    if lost <= in_onset:
+        return float(np.sqrt(-2 * lost / onset.jerk))
+    return onset.duration_s - (lost - in_onset) / hold.acceleration
+
+
+def _check_brake(from_speed: float, to_speed: float, mean_deceleration: float) -> None:
+    if not (mean_deceleration > 0 and np.isfinite(mean_deceleration)):
+        raise InputError(f"mean deceleration is {mean_deceleration} m/s²; it must be above zero")
+    if not 0 <= to_speed < from_speed:
+        raise InputError(f"cannot brake from {from_speed} m/s to {to_speed} m/s")
