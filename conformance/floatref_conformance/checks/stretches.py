@@ -1,0 +1,29 @@
+"""Cutting from a profile the points that count."""
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
+from floatref_conformance.errors import DeviceError
+
+
+def points(profile: Profile, start_m: float, end_m: float) -> slice:
+    """Return the indices of the points from ``start_m`` to ``end_m``, both included."""
+    first = int(np.ceil((start_m - profile.start_m) / profile.interval_m - 1e-6))
+    last = int(np.floor((end_m - profile.start_m) / profile.interval_m + 1e-6))
+    return slice(max(first, 0), max(last + 1, 0))
+
+
+def stretch(profile: Profile, track: str, start_m: float, end_m: float) -> FloatArray:
+    """Return the elevations in m of ``track`` from ``start_m`` to ``end_m``.
+
+    Valid or not, every point counts: raises DeviceError if one has no elevation.
+    """
+    elevation = profile.track(track).elevation[points(profile, start_m, end_m)]
+    missing = int(np.isnan(elevation).sum())
+    if missing or elevation.size == 0:
+        raise DeviceError(
+            f"track {track}: {missing} of {elevation.size} points without elevation from "
+            f"{start_m:.1f} m to {end_m:.1f} m, where every point counts"
+        )
+    return elevation

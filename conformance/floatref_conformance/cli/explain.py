@@ -1,0 +1,36 @@
+"""`conformance explain`: what a check asks, how much is allowed, and why."""
+
+import textwrap
+
+import click
+
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.plugins import load_registry
+
+
+@click.command()
+@click.argument("id_", metavar="ID")
+def explain(id_: str) -> None:
+    """Say what check ID asks, how much it allows, and why."""
+    registry = load_registry()
+    check = registry.check(id_)
+    click.echo("\n".join(explanation(check, registry.killers(id_))))
+
+
+def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
+    """Return the lines that explain ``check``; ``killers`` are the devices it must fail."""
+    lines = [f"{check.id}: {check.title}", "", f"Clause: {check.clause}", "", "Limits"]
+    for quantity, limits in check.limits.items():
+        row = ", ".join(f"{c.value} {limits[c]}" for c in DeviceClass)
+        lines.append(f"  {quantity}: {row}")
+    lines += ["", "Derivation", *_wrapped(check.derivation), "", "Floor", *_wrapped(check.floor)]
+    cases = ", ".join(f"{len(check.cases(0, effort))} at effort {effort}" for effort in Effort)
+    lines += ["", f"Cases: {cases}"]
+    if check.needs:
+        lines.append(f"Needs: {', '.join(sorted(check.needs))}")
+    return [*lines, f"Must fail: {', '.join(killers) or 'no device yet'}"]
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, 88, initial_indent="  ", subsequent_indent="  ")

@@ -1,0 +1,19 @@
+"""Entry point of the `conformance` command."""
+
+import click
+
+from floatref import __version__
+from floatref.cli.lazy import LazyGroup
+
+COMMANDS = {
+    "run": ("floatref_conformance.cli.run:run", "judge a device"),
+    "list": ("floatref_conformance.cli.list:list_", "list the checks and the devices"),
+    "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
+    "explain": ("floatref_conformance.cli.explain:explain", "say what a check asks, and why"),
+}
+
+
+@click.group(cls=LazyGroup, lazy=COMMANDS)
+@click.version_option(__version__, prog_name="conformance")
+def main() -> None:
+    """Judge the software of an inertial profiler on simulated recordings with known truth."""

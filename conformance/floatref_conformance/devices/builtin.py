@@ -1,0 +1,48 @@
+"""Built-in devices: the pipelines of floatref, run in this process."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import floatref
+from floatref.errors import InputError
+from floatref.files import read_recording, write_profile
+from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
+
+
+@dataclass(frozen=True)
+class BuiltinDevice:
+    """Pipeline ``pipeline`` of floatref with its own settings and nominal channels alone."""
+
+    pipeline: str
+
+    def describe(self) -> Mapping[str, Any]:
+        """Return what the pipeline is; its name begins with its architecture."""
+        architecture = self.pipeline.split("-")[0]
+        return {
+            "name": self.pipeline,
+            "version": floatref.__version__,
+            "architecture": architecture if architecture in ARCHITECTURES else "temporal",
+            "capabilities": [],
+        }
+
+    def run(self, recording: Path, profile: Path) -> None:
+        """Process ``recording`` and write the profile directory ``profile``."""
+        write_profile(floatref.process(read_recording(recording), self.pipeline), profile)
+
+
+def make(pipeline: str) -> BuiltinDevice:
+    """Return the device of ``pipeline``; InputError if floatref has no such pipeline."""
+    names = tuple(floatref.pipelines())
+    if pipeline not in names:
+        raise InputError(f"device builtin:{pipeline}: unknown pipeline; known: {', '.join(names)}")
+    return BuiltinDevice(pipeline)
+
+
+def entries() -> tuple[DeviceEntry, ...]:
+    """Return one entry per pipeline."""
+    return tuple(DeviceEntry(name, "pipeline of floatref") for name in floatref.pipelines())
+
+
+BUILTIN = DeviceKind("builtin", "PIPELINE", make, entries)

@@ -1,0 +1,100 @@
+"""One run of a device: what it is given, where, and what it must have delivered."""
+
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TypeVar
+
+import numpy as np
+
+from floatref.files import read_profile, write_recording
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Recording
+from floatref_conformance.devices.interface import Description, Device, visible
+from floatref_conformance.errors import DeviceError
+
+MAX_INTERVAL_M = 0.25
+"""Widest profile interval that still carries the IRI, in m."""
+MAX_ELEVATION_M = 1e6
+"""An elevation beyond this, in m, is garbage and not drift."""
+
+Answer = TypeVar("Answer")
+
+
+def describe(device: Device) -> Description:
+    """Return what ``device`` says of itself; DeviceError if it fails to."""
+    return Description.of(_asked(device.describe))
+
+
+def exercise(device: Device, description: Description, recording: Recording) -> Profile:
+    """Return the profile that ``device`` makes of ``recording``; DeviceError if unusable.
+
+    The device sees a fresh folder of neutral name with the channels that it may have.
+    """
+    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
+        folder = Path(name).resolve()
+        given = visible(recording, description.channels)
+        write_recording(given, folder / "recording")
+        target = folder / "profile"
+        try:
+            _asked(lambda: device.run(folder / "recording" / "recording.json", target))
+            profile = _read(target)
+            _check_tracks(profile, given)
+            _check_axis(profile, given)
+        except DeviceError as fault:
+            raise DeviceError(str(fault).replace(str(folder), "…")) from fault
+    return profile
+
+
+def _asked(question: Callable[[], Answer]) -> Answer:
+    """Return the device's answer; DeviceError for whatever it raises, sys.exit included."""
+    try:
+        return question()
+    except (Exception, SystemExit) as error:
+        text = " ".join(str(error).split())
+        raise DeviceError(f"raised {type(error).__name__}: {text}") from error
+
+
+def _read(target: Path) -> Profile:
+    """Return the profile in ``target``, its arrays in memory, since the folder goes away."""
+    if not target.is_dir():
+        raise DeviceError("delivered no profile directory")
+    try:
+        profile = read_profile(target)
+    except Exception as error:
+        text = " ".join(str(error).split())
+        raise DeviceError(f"delivered an unusable profile: {text}") from error
+    tracks = tuple(
+        ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid)) for t in profile.tracks
+    )
+    return Profile(profile.interval_m, tracks, profile.start_m)
+
+
+def _check_tracks(profile: Profile, recording: Recording) -> None:
+    """Raise DeviceError unless every wheel path with a height came back, within reason."""
+    here = {track.name: track for track in profile.tracks}
+    for name in recording.tracks:
+        if recording.find("height", name) is None:
+            continue
+        if name not in here:
+            raise DeviceError(f"track {name}: not delivered, though it has a height")
+        finite = here[name].elevation[np.isfinite(here[name].elevation)]
+        if finite.size and float(np.abs(finite).max()) > MAX_ELEVATION_M:
+            raise DeviceError(f"track {name}: an elevation beyond {MAX_ELEVATION_M:g} m")
+
+
+def _check_axis(profile: Profile, recording: Recording) -> None:
+    """Raise DeviceError unless the points cover the recorded distance, and no more."""
+    if profile.interval_m > MAX_INTERVAL_M:
+        raise DeviceError(
+            f"interval_m is {profile.interval_m:g}; an IRI needs {MAX_INTERVAL_M} m or less"
+        )
+    distance = recording.channel("distance").values
+    slack = 2.0 * max(profile.interval_m, recording.setup.profile_interval_m)
+    ends = ((profile.start_m, distance[0]), (profile.start_m + profile.length_m, distance[-1]))
+    for delivered, recorded in ends:
+        if abs(delivered - recorded) > slack:
+            raise DeviceError(
+                f"profile from {profile.start_m:.3f} m over {profile.length_m:.3f} m; "
+                f"the recording goes from {distance[0]:.3f} m to {distance[-1]:.3f} m"
+            )

@@ -1,0 +1,56 @@
+"""Kinds of devices and checks by name, as the plug-ins registered them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from floatref.errors import InputError
+from floatref_conformance.checks.catalogue import IDS, LeftOut, not_built
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.devices.interface import Device, DeviceKind
+
+
+@dataclass(frozen=True)
+class Registry:
+    """What can be run: kinds of devices by prefix, checks by id, and plug-ins left out.
+
+    ``broken`` says of each plug-in that was skipped, in one line, why.
+    """
+
+    kinds: Mapping[str, DeviceKind]
+    checks: Mapping[str, Check]
+    broken: tuple[str, ...] = ()
+
+    def device(self, spec: str) -> Device:
+        """Return the device that ``spec`` names; InputError if its kind or name is unknown."""
+        prefix, colon, argument = spec.partition(":")
+        if not colon or not argument or prefix not in self.kinds:
+            usages = ", ".join(kind.usage for kind in self.kinds.values())
+            raise InputError(f"device {spec}: not a kind that works here; these do: {usages}")
+        return self.kinds[prefix].make(argument)
+
+    def check(self, id_: str) -> Check:
+        """Return check ``id_``; InputError if there is none, or it is not built yet."""
+        if id_ in self.checks:
+            return self.checks[id_]
+        state = "not built yet" if id_ in IDS else "unknown check"
+        raise InputError(f"check {id_}: {state}; these can be run: {', '.join(self.checks)}")
+
+    def select(self, ids: Sequence[str]) -> tuple[tuple[Check, ...], tuple[LeftOut, ...]]:
+        """Return the checks to run, and every other with the reason why it is not run.
+
+        Without ``ids`` every check runs. Raises InputError for an id that cannot be run.
+        """
+        wanted = {id_: self.check(id_) for id_ in (ids or self.checks)}
+        chosen = tuple(check for check in self.checks.values() if check.id in wanted)
+        others = [check for check in self.checks.values() if check.id not in wanted]
+        unselected = tuple(LeftOut(c.id, "not selected", c.clause) for c in others)
+        return chosen, unselected + not_built(self.checks)
+
+    def killers(self, id_: str) -> tuple[str, ...]:
+        """Return the SPECs of the devices that check ``id_`` must fail."""
+        return tuple(
+            f"{kind.prefix}:{entry.name}"
+            for kind in self.kinds.values()
+            for entry in kind.entries()
+            if id_ in entry.fails
+        )

@@ -1,0 +1,99 @@
+"""`report.json`: the result for other programs."""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from floatref_conformance import EDITION
+from floatref_conformance.classes import DeviceClass
+from floatref_conformance.events import Event, RunFinished
+from floatref_conformance.schemas import enforce
+from floatref_conformance.verdict import CheckResult, RunResult
+
+NAME = "report.json"
+
+
+@dataclass(frozen=True)
+class JsonReport:
+    """Writes ``report.json`` into ``folder`` when the verdict is there."""
+
+    folder: Path
+
+    @classmethod
+    def into(cls, folder: Path) -> "JsonReport":
+        """Return a writer into ``folder``, made if need be; OSError if it cannot be.
+
+        The report of an earlier run goes away now, so that it is never taken for this one's.
+        """
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / NAME).unlink(missing_ok=True)
+        return cls(folder)
+
+    def handle(self, event: Event) -> None:
+        """Write the report once the run has finished."""
+        if isinstance(event, RunFinished):
+            write(as_json(event.result), self.folder / NAME)
+
+
+def as_json(result: RunResult) -> dict[str, Any]:
+    """Return ``result`` as the object of format conformance-report/1; NaN becomes null."""
+    return {
+        "format": "conformance-report/1",
+        "edition": EDITION,
+        "device": _plain(result.device),
+        "class": result.device_class.value,
+        "class_reached": _name(result.class_reached),
+        "seed": result.seed,
+        "effort": result.effort,
+        "verdict": result.verdict.value,
+        "checks": [_check(check, result.device_class) for check in result.checks],
+        "replayed": [_plain(replayed) for replayed in result.replayed],
+    }
+
+
+def write(document: dict[str, Any], path: Path) -> None:
+    """Write ``document`` beside ``path`` and rename it; SuiteError if it breaks the schema."""
+    enforce("conformance-report-1", document)
+    text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
+    worst = check.worst
+    return {
+        "id": check.id,
+        "outcome": check.outcome.value,
+        "class_reached": _name(check.class_reached),
+        "cases": check.cases,
+        "worst": worst
+        and {
+            "value": _plain(worst.value),
+            "limit": worst.limits[device_class],
+            "unit": worst.unit,
+        },
+        "clause": check.clause,
+        "counterexample": _plain(check.counterexample),
+    }
+
+
+def _name(device_class: DeviceClass | None) -> str | None:
+    return None if device_class is None else device_class.value
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, float) and not isfinite(value):
+        return None
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    return value

@@ -1,0 +1,140 @@
+"""The plug-in mechanism: the suite's own plug-in, others, and broken ones."""
+
+import inspect
+import sys
+from importlib.metadata import EntryPoint, EntryPoints
+from types import ModuleType, SimpleNamespace
+
+import pluggy
+import pytest
+
+from floatref.errors import InputError
+from floatref_conformance import defaults, hookspecs, plugins
+from floatref_conformance.devices.interface import DeviceEntry, DeviceKind
+from floatref_conformance.hookspecs import hookimpl
+
+
+def plugin(devices=None, checks=None):
+    hooks = {}
+    if devices:
+        hooks["conformance_register_devices"] = hookimpl(devices)
+    if checks:
+        hooks["conformance_register_checks"] = hookimpl(checks)
+    return SimpleNamespace(**hooks)
+
+
+def collected(**others):
+    manager = pluggy.PluginManager(hookspecs.GROUP)
+    manager.add_hookspecs(hookspecs)
+    manager.register(defaults, plugins.OWN)
+    for name, other in others.items():
+        manager.register(other, name)
+    return plugins.collect(manager)
+
+
+@pytest.fixture
+def kind(fake_device):
+    entries = (DeviceEntry("one", "a fake", ("bounce",)),)
+    return DeviceKind("fake", "NAME", lambda name: fake_device(), lambda: entries)
+
+
+def test_the_suites_own_devices_and_checks_come_from_a_plugin():
+    registry = collected()
+    assert set(registry.kinds) == {"builtin", "mutant"}
+    assert list(registry.checks) == ["quiescent", "bounce"]
+    assert registry.broken == ()
+
+
+def test_a_plugin_adds_devices_and_checks(kind, toy_check, fake_device):
+    def devices(register):
+        register(kind)
+
+    def checks(register):
+        register(toy_check())
+
+    registry = collected(vendor=plugin(devices, checks))
+    assert isinstance(registry.device("fake:one"), fake_device)
+    assert "toy" in registry.checks
+    assert "fake:one" in registry.killers("bounce")
+
+
+def test_a_plugin_that_raises_is_left_out_wholly_and_reported(kind, toy_check):
+    def devices(register):
+        register(kind)
+        raise RuntimeError("no\nlicence")
+
+    def checks(register):
+        register(toy_check())
+
+    registry = collected(bad=plugin(devices), good=plugin(None, checks))
+    assert registry.broken == ("plug-in bad: RuntimeError: no licence; it is left out",)
+    assert "fake" not in registry.kinds
+    assert "toy" in registry.checks
+
+
+def test_a_name_that_is_taken_leaves_the_second_plugin_out_and_names_both(toy_check):
+    def checks(register):
+        register(toy_check(id="bounce"))
+
+    registry = collected(vendor=plugin(None, checks))
+    assert registry.checks["bounce"].clause != "Toy 1.2"
+    assert "vendor" in registry.broken[0]
+    assert plugins.OWN in registry.broken[0]
+
+
+def test_what_is_no_check_or_kind_is_reported(kind):
+    registry = collected(vendor=plugin(lambda register: register("a device")))
+    assert len(registry.broken) == 1
+
+
+def test_entry_points_are_loaded_one_at_a_time(monkeypatch, toy_check):
+    good = ModuleType("good_conformance_plugin")
+
+    def checks(register):
+        register(toy_check())
+
+    good.conformance_register_checks = hookimpl(checks)
+    monkeypatch.setitem(sys.modules, "good_conformance_plugin", good)
+    points = EntryPoints(
+        EntryPoint(name, module, hookspecs.GROUP)
+        for name, module in (("a-bad", "no_such_module_here"), ("z", "good_conformance_plugin"))
+    )
+    monkeypatch.setattr(plugins, "entry_points", lambda group: points.select(group=group))
+    registry = plugins.load_registry()
+    assert "toy" in registry.checks
+    assert len(registry.broken) == 1
+    assert "plug-in a-bad: ModuleNotFoundError" in registry.broken[0]
+
+
+def test_every_hook_is_documented_fits_one_screen_and_is_never_firstresult():
+    hooks = [f for n, f in vars(hookspecs).items() if n.startswith("conformance_register_")]
+    assert len(hooks) == 2
+    assert all("register" in hook.__doc__ for hook in hooks)
+    assert "firstresult" not in inspect.getsource(hookspecs)
+    assert len(inspect.getsource(hookspecs).splitlines()) <= 50
+
+
+@pytest.mark.parametrize("spec", ["exec:./mine", "python:a:b", "files:x", "mutant", "", "builtin:"])
+def test_a_kind_that_does_not_work_is_refused_with_those_that_do(spec):
+    with pytest.raises(InputError, match=r"builtin:PIPELINE, mutant:NAME"):
+        collected().device(spec)
+
+
+def test_an_unknown_mutant_or_check_is_refused_with_the_known_ones():
+    with pytest.raises(InputError, match=r"mutant:nobody: unknown mutant; known: all-zeros"):
+        collected().device("mutant:nobody")
+    with pytest.raises(InputError, match=r"stop: not built yet; .* quiescent, bounce"):
+        collected().check("stop")
+    with pytest.raises(InputError, match=r"jumping: unknown check"):
+        collected().check("jumping")
+
+
+def test_a_selection_keeps_the_suites_order_and_names_every_check_left_out():
+    chosen, left_out = collected().select(["bounce", "quiescent", "bounce"])
+    assert [check.id for check in chosen] == ["quiescent", "bounce"]
+    assert {left.id for left in left_out} >= {"stop", "waveband"}
+    chosen, left_out = collected().select(["bounce"])
+    reasons = {left.id: left.reason for left in left_out}
+    assert reasons["quiescent"] == "not selected"
+    assert reasons["stop"] == "not built yet"
+    assert len(reasons) == 14
