@@ -46,8 +46,8 @@ def cross_correlation(
     Source: (2.12) to (2.16), (2.14) with the factor 1/N that it needs.
     """
     p, q = _checked(p, q)
-    if not max_offset_m >= 0:
-        raise InputError(f"the largest offset is {max_offset_m} m; it cannot be negative")
+    if not 0.0 <= max_offset_m < math.inf:
+        raise InputError(f"the largest offset is {max_offset_m} m; give 0 m or more")
     # A grid of 5.08 mm must reach 1.016 m as its 200th lag, whatever the rounding.
     largest = math.floor(max_offset_m / interval_m + 1e-9)
     if p.size < max(4 * largest, 2):

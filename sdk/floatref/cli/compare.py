@@ -1,0 +1,137 @@
+"""`floatref compare`: the agreement of a profile with a reference, wheel path by wheel path."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.errors import InputError
+from floatref.files import read_profile
+from floatref.files.sources import naming
+from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
+from floatref.values.profile import Profile
+
+
+@click.command("compare")
+@click.argument("reference", type=click.Path(path_type=Path))
+@click.argument("profile", type=click.Path(path_type=Path))
+@click.option(
+    "--max-offset",
+    "max_offset_m",
+    type=float,
+    default=1.0,
+    show_default=True,
+    metavar="METRES",
+    help="Largest offset searched.",
+)
+@click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw both.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def compare(
+    reference: Path, profile: Path, max_offset_m: float, plot: Path | None, as_json: bool
+) -> None:
+    """Print how well PROFILE agrees with REFERENCE, by cross correlation and by IRI.
+
+    Wheel paths are matched by name; PROFILE may have others. It is taken on the points of
+    REFERENCE, linearly between its own, where both overlap. An offset above zero says that
+    PROFILE lies farther along.
+    """
+    expected, found = read_profile(reference), read_profile(profile)
+    with naming(f"{reference} and {profile}"):
+        _check_tracks(expected, found)
+        expected, found = on_common_grid(expected, found)
+        report = compare_report(expected, found, max_offset_m)
+    if plot is not None:
+        from floatref.plots import draw_comparison
+
+        draw_comparison(expected, found, plot, max_offset_m)
+    if as_json:
+        print_json(report)
+    else:
+        _print_tables(report)
+
+
+def compare_report(reference: Profile, profile: Profile, max_offset_m: float) -> dict[str, Any]:
+    """Return what `floatref compare --json` prints, for two profiles on the same points."""
+    interval = reference.interval_m
+    settings = IriSettings().as_dict(interval) | {
+        "max_offset_m": max_offset_m,
+        "start_m": reference.start_m,
+        "length_m": reference.length_m,
+        "grid": "points of REFERENCE, PROFILE linear between its own",
+    }
+    tracks = [
+        _track_report(reference, profile, track.name, max_offset_m) for track in reference.tracks
+    ]
+    names = {track.name for track in reference.tracks}
+    extra = [track.name for track in profile.tracks if track.name not in names]
+    return {"settings": settings, "tracks": tracks, "not_compared": extra}
+
+
+def _check_tracks(reference: Profile, profile: Profile) -> None:
+    """Raise InputError unless ``profile`` has every wheel path of ``reference``."""
+    names = [track.name for track in profile.tracks]
+    missing = [track.name for track in reference.tracks if track.name not in names]
+    if missing:
+        raise InputError(
+            f"track {', '.join(missing)} of the reference is missing in the profile, which holds "
+            f"{', '.join(names)}; give both the same names"
+        )
+
+
+def _track_report(
+    reference: Profile, profile: Profile, name: str, max_offset_m: float
+) -> dict[str, Any]:
+    """Return agreement and IRI of the wheel path ``name``."""
+    interval = reference.interval_m
+    p, q = reference.track(name).elevation, profile.track(name).elevation
+    with naming(f"track {name}"):
+        found = agreement(p, q, interval, "iri", max_offset_m)
+        bands = {
+            band: agreement(p, q, interval, band, max_offset_m).cross_correlation
+            for band, limits in WAVEBANDS.items()
+            if limits.long_m > 2 * interval
+        }
+        return {
+            "name": name,
+            "cross_correlation": found.cross_correlation,
+            "offset_m": found.offset_m,
+            "iri_m_per_km": iri(q, interval),
+            "iri_reference_m_per_km": iri(p, interval),
+            "correlation": found.correlation,
+            "amplitude_factor": found.amplitude_factor,
+            "wavebands": bands,
+        }
+
+
+def _print_tables(report: dict[str, Any]) -> None:
+    """Print the agreement of every wheel path, then the settings."""
+    columns = ("track", "cross correlation", "offset m", "IRI m/km", "reference m/km", "difference")
+    rows = [
+        [
+            track["name"],
+            number(track["cross_correlation"], 4),
+            number(track["offset_m"], 4),
+            number(track["iri_m_per_km"]),
+            number(track["iri_reference_m_per_km"]),
+            _difference(track["iri_m_per_km"], track["iri_reference_m_per_km"]),
+        ]
+        for track in report["tracks"]
+    ]
+    print_table("Agreement of the IRI filter's output", columns, rows)
+    bands = [
+        [
+            track["name"],
+            *(number(track["wavebands"].get(band, float("nan")), 4) for band in WAVEBANDS),
+        ]
+        for track in report["tracks"]
+    ]
+    print_table("Cross correlation of slope by waveband", ("track", *WAVEBANDS), bands)
+    if report["not_compared"]:
+        click.echo(f"Not in the reference: {', '.join(report['not_compared'])}\n")
+    print_settings(report["settings"])
+
+
+def _difference(value: float, expected: float) -> str:
+    """Return the difference of an IRI from the expected one, in per cent."""
+    return f"{100.0 * (value / expected - 1.0):+.2f} %" if expected else "–"

@@ -1,0 +1,52 @@
+"""What commands print: one JSON object, or tables that are plain when piped."""
+
+import json
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import click
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from floatref.files.document import plain
+
+PIPED_WIDTH = 240
+"""Columns of a table that no terminal limits."""
+
+
+def print_json(report: Mapping[str, Any]) -> None:
+    """Print ``report`` as one JSON object, NaN as null."""
+    click.echo(json.dumps(plain(report, "report"), indent=2, allow_nan=False))
+
+
+def print_settings(settings: Mapping[str, Any]) -> None:
+    """Print one line for each setting; None is "none"."""
+    lines = [[name, "none" if value is None else str(value)] for name, value in settings.items()]
+    print_table("Settings", ("setting", "value"), lines, numbers=False)
+
+
+def print_table(
+    title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], numbers: bool = True
+) -> None:
+    """Print ``rows`` under ``title``; with ``numbers`` all but the first column align right."""
+    terminal = sys.stdout.isatty()
+    console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH)
+    style = box.SIMPLE_HEAD if terminal else None
+    table = Table(box=style)
+    for index, name in enumerate(columns):
+        table.add_column(Text(name), justify="right" if numbers and index else "left")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    with console.capture() as printed:
+        console.print(Text(title, style="bold"))
+        console.print(table)
+    lines = [line.rstrip() for line in printed.get().splitlines()]
+    click.echo("\n".join(line for line in lines if line) + "\n")
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Return ``value`` with ``digits`` decimals, a dash for NaN."""
+    return f"{value:.{digits}f}" if value == value else "–"
