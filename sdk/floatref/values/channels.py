@@ -60,7 +60,23 @@ CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
     }
 )
 
-DIMENSIONLESS = frozenset({"1", "-", "–", ""})
+SPELLINGS: Mapping[str, str] = MappingProxyType({"m/s²": "m/s^2", "-": "1", "–": "1", "": "1"})
+"""Other ways to write the units of the channels."""
+
+FACTORS: Mapping[tuple[str, str], str] = MappingProxyType(
+    {
+        ("g", "m/s^2"): "9.80665",
+        ("mm", "m"): "0.001",
+        ("cm", "m"): "0.01",
+        ("km", "m"): "1000",
+        ("in", "m"): "0.0254",
+        ("ft", "m"): "0.3048",
+        ("deg", "rad"): "0.017453292519943295",
+        ("deg/s", "rad/s"): "0.017453292519943295",
+        ("km/h", "m/s"): "1/3.6",
+    }
+)
+"""By what to multiply samples in a common other unit."""
 
 
 def channel_spec(name: str) -> ChannelSpec:
@@ -75,8 +91,8 @@ def channel_spec(name: str) -> ChannelSpec:
 def check_unit(channel: ChannelId, unit: str) -> None:
     """Raise InputError unless ``unit`` is the one that ``channel`` is defined in."""
     expected = channel_spec(channel.name).unit
-    if unit == expected or (expected == "1" and unit in DIMENSIONLESS):
+    if SPELLINGS.get(unit, unit) == expected:
         return
-    raise InputError(
-        f"channel {channel}: unit {unit!r}, expected {expected!r}; convert the samples"
-    )
+    factor = FACTORS.get((unit, expected))
+    advice = "convert the samples" + (f", multiply them by {factor}" if factor else "")
+    raise InputError(f"channel {channel}: unit {unit!r}, expected {expected!r}; {advice}")

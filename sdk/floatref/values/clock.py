@@ -11,6 +11,10 @@ from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
+from floatref.values.scanning import first_step_where, first_where
+
+LOWEST_RATE_HZ = Fraction(1, 1000)
+HIGHEST_RATE_HZ = Fraction(10_000_000)
 
 
 def rational(rate: float | Fraction) -> Fraction:
@@ -29,9 +33,12 @@ class UniformClock:
     start_s: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse a rate or start that is not a positive, finite number."""
-        if self.rate <= 0:
-            raise InputError(f"rate_hz is {float(self.rate):g}; it must be above zero")
+        """Refuse a rate that no sensor has and a start that is not finite."""
+        if not LOWEST_RATE_HZ <= self.rate <= HIGHEST_RATE_HZ:
+            raise InputError(
+                f"rate_hz is {float(self.rate):g}; "
+                "give the sampling rate in Hz, between 0.001 and 10000000"
+            )
         if not np.isfinite(self.start_s):
             raise InputError(f"start_s is {self.start_s}; it must be finite")
 
@@ -42,9 +49,9 @@ class UniformClock:
             raise InputError(f"rate_hz is {rate_hz}; it must be a finite number above zero")
         return cls(rational(rate_hz), float(start_s))
 
-    def times(self, count: int, first: int = 0) -> FloatArray:
-        """Return the times in s of samples ``first`` to ``first + count - 1``."""
-        index = np.arange(first, first + count, dtype=np.float64)
+    def times(self, count: int, first: int = 0, step: int = 1) -> FloatArray:
+        """Return the times in s of ``count`` samples, every ``step``-th from ``first`` on."""
+        index = first + step * np.arange(count, dtype=np.float64)
         return self.start_s + index * self.rate.denominator / self.rate.numerator
 
 
@@ -61,21 +68,20 @@ class StampedClock:
 
     def __post_init__(self) -> None:
         """Refuse times that are missing or do not increase."""
-        if not np.isfinite(self.times_s).all():
-            bad = int(np.flatnonzero(~np.isfinite(self.times_s))[0])
+        bad = first_where(lambda times: ~np.isfinite(times), self.times_s)
+        if bad is not None:
             raise InputError(f"time stamp {bad} is {self.times_s[bad]}; every sample needs a time")
-        steps = np.diff(self.times_s)
-        if (steps <= 0).any():
-            bad = int(np.flatnonzero(steps <= 0)[0]) + 1
+        bad = first_step_where(lambda steps: steps <= 0, self.times_s)
+        if bad is not None:
             raise InputError(
                 f"time stamp {bad} is {self.times_s[bad]:.9g} s, not after "
                 f"{self.times_s[bad - 1]:.9g} s; "
                 "times must increase, so sort the samples or drop the repeated ones"
             )
 
-    def times(self, count: int, first: int = 0) -> FloatArray:
-        """Return the times in s of samples ``first`` to ``first + count - 1``."""
-        return self.times_s[first : first + count]
+    def times(self, count: int, first: int = 0, step: int = 1) -> FloatArray:
+        """Return the times in s of ``count`` samples, every ``step``-th from ``first`` on."""
+        return self.times_s[first::step][:count]
 
 
 Clock = UniformClock | StampedClock

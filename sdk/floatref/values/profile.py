@@ -49,6 +49,10 @@ class ProfileTrack:
             raise InputError(f"track {self.name}: infinite elevation; mark missing points as NaN")
         if self.valid.size != n or (self.sigma is not None and self.sigma.size != n):
             raise InputError(f"track {self.name}: elevation, valid and sigma differ in length")
+        if (self.valid & np.isnan(self.elevation)).any():
+            raise InputError(f"track {self.name}: a point without elevation is marked valid")
+        if self.sigma is not None and (self.sigma < 0).any():
+            raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
 
 
 @dataclass(frozen=True, eq=False)

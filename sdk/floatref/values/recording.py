@@ -11,6 +11,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
+from floatref.values.scanning import first_where
 
 Vector = tuple[float, float, float]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
@@ -76,8 +77,8 @@ class Channel:
                 f"channel {self.id}: {self.values.size} samples "
                 f"but {self.clock.times_s.size} time stamps"
             )
-        if np.isinf(self.values).any():
-            bad = int(np.flatnonzero(np.isinf(self.values))[0])
+        bad = first_where(np.isinf, self.values)
+        if bad is not None:
             raise InputError(
                 f"channel {self.id}: sample {bad} is infinite; mark missing samples as NaN"
             )

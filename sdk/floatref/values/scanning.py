@@ -34,7 +34,8 @@ def first_step_where(
 ) -> int | None:
     """Return the index of the first sample whose step from the one before meets ``condition``."""
     for first, chunk in chunks(values, overlap=1):
-        met = condition(np.diff(chunk))
+        with np.errstate(over="ignore"):
+            met = condition(np.diff(chunk))
         if met.any():
             return first + int(np.argmax(met)) + 1
     return None
@@ -58,7 +59,7 @@ class Summary:
             valid = chunk[~np.isnan(chunk)]
             missing += chunk.size - valid.size
             if valid.size:
-                with np.errstate(over="ignore"):
+                with np.errstate(over="ignore", invalid="ignore"):
                     total += float(np.sum(valid))
                 least = min(least, float(valid.min()))
                 greatest = max(greatest, float(valid.max()))

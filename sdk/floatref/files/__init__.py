@@ -1,0 +1,21 @@
+"""Recordings and profiles on disk: `floatref-recording/1`, `floatref-profile/1` and CSV.
+
+A directory holds one JSON file and raw little-endian float64 files beside it. Schemas are
+enforced on reading and on writing; what is written appears complete or not at all.
+"""
+
+from floatref.files.fingerprint import fingerprint
+from floatref.files.profile import read_profile, write_profile
+from floatref.files.profile_csv import write_profile_csv
+from floatref.files.recording import read_recording, write_recording
+from floatref.files.schema import read_schema
+
+__all__ = [
+    "fingerprint",
+    "read_profile",
+    "read_recording",
+    "read_schema",
+    "write_profile",
+    "write_profile_csv",
+    "write_recording",
+]

@@ -1,0 +1,138 @@
+"""Writing that is complete or not at all: made beside the target, then renamed onto it."""
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from floatref.errors import InputError
+
+SAMPLE_SUFFIXES = (".f64", ".u8")
+"""Suffixes of the sample files of a directory, which go when it is replaced."""
+
+
+@contextmanager
+def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
+    """Yield a path beside ``path``, with its suffix, to write to; rename it when all went well.
+
+    After any exception, KeyboardInterrupt included, the new file is gone and ``path`` is as
+    before. Raises InputError if ``path`` exists and ``overwrite`` is false, is not a file, or
+    cannot be written.
+    """
+    target = _target(path, overwrite)
+    if target.exists() and not target.is_file():
+        raise InputError(f"{path}: is not a file; give the name of a file to write")
+    beside = _beside(target)
+    with _explained(path):
+        try:
+            yield beside
+            _refuse_existing(target, overwrite)
+            if target.exists():
+                _settle(beside)
+            os.replace(beside, target)
+        finally:
+            beside.unlink(missing_ok=True)
+
+
+@contextmanager
+def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[Path]:
+    """Yield a new, empty folder beside ``path``; give it that name when all went well.
+
+    With ``overwrite`` an old folder is replaced if it is empty or holds the JSON file
+    ``document``; files in it that no directory of samples has are kept. After any exception,
+    KeyboardInterrupt included, the new folder is gone and ``path`` is as before. Raises
+    InputError if ``path`` exists and may not be replaced, or cannot be written.
+    """
+    target = _target(path, overwrite)
+    _check_replaceable(target, path, document)
+    beside = _beside(target)
+    with _explained(path):
+        try:
+            beside.mkdir()
+            yield beside
+            _refuse_existing(target, overwrite)
+            _exchange(beside, target, document)
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+
+
+def _target(path: Path, overwrite: bool) -> Path:
+    """Return where ``path`` really leads, so that a link stays a link."""
+    target = Path(os.path.realpath(path))
+    _refuse_existing(target, overwrite)
+    if not os.path.isdir(target.parent):
+        raise InputError(f"{path}: its folder does not exist; make {target.parent} first")
+    return target
+
+
+def _refuse_existing(target: Path, overwrite: bool) -> None:
+    if not overwrite and os.path.lexists(target):
+        raise InputError(f"{target}: exists; choose another name, or overwrite it on purpose")
+
+
+def _beside(target: Path) -> Path:
+    return target.with_name(f".floatref-{secrets.token_hex(6)}{target.suffix}")
+
+
+def _check_replaceable(target: Path, path: Path, document: str) -> None:
+    if not os.path.lexists(target):
+        return
+    if not target.is_dir():
+        raise InputError(f"{path}: is not a folder; give the name of a folder to write")
+    try:
+        names = os.listdir(target)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be replaced ({error.strerror})") from error
+    if names and document not in names:
+        raise InputError(f"{path}: holds other files and no {document}; choose another folder")
+
+
+@contextmanager
+def _explained(path: Path) -> Iterator[None]:
+    """Turn the operating system's refusal to write into one line that names ``path``."""
+    try:
+        yield
+    except OSError as error:
+        where = str(error.filename or "")
+        if where and ".floatref-" not in where:
+            raise
+        reason = error.strerror or str(error)
+        raise InputError(
+            f"{path}: cannot be written ({reason}); free space there or choose another folder"
+        ) from error
+
+
+def _settle(path: Path) -> None:
+    """Have the content on the disk before a name points to it."""
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _exchange(new: Path, target: Path, document: str) -> None:
+    """Give ``new`` the name ``target``; the old folder comes back if that fails."""
+    if not target.exists():
+        os.rename(new, target)
+        return
+    for entry in new.iterdir():
+        _settle(entry)
+    old = new.with_name(f"{new.name}-old")
+    try:
+        os.rename(target, old)
+        os.rename(new, target)
+    except BaseException:
+        if old.exists() and not target.exists():
+            os.rename(old, target)
+        raise
+    _keep_others(old, target, document)
+    shutil.rmtree(old, ignore_errors=True)
+
+
+def _keep_others(old: Path, target: Path, document: str) -> None:
+    for entry in old.iterdir():
+        if entry.name != document and not entry.name.endswith(SAMPLE_SUFFIXES):
+            os.rename(entry, target / entry.name)

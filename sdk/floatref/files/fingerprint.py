@@ -1,0 +1,23 @@
+"""Fingerprints of a recording's files, for the provenance of a profile."""
+
+import hashlib
+from pathlib import Path
+
+from floatref.files.recording import DOCUMENT, sample_files
+from floatref.files.sources import document_path, opened
+
+
+def fingerprint(path: Path) -> dict[str, str]:
+    """Return the SHA-256 of every file of the recording at ``path``, by file name.
+
+    ``path`` is the directory or its recording.json. Raises InputError where `read_recording`
+    would because of the JSON file, or for a sample file that cannot be read.
+    """
+    document = document_path(path, DOCUMENT)
+    names = (document.name, *sample_files(document))
+    return {name: _sha256(document.with_name(name)) for name in names}
+
+
+def _sha256(path: Path) -> str:
+    with opened(path) as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -1,0 +1,112 @@
+"""The profile directory, `floatref-profile/1`, and which kind of profile a path holds."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.files.atomic import replacing_directory
+from floatref.files.document import plain, read_document, write_document
+from floatref.files.profile_csv import read_profile_csv
+from floatref.files.samples import (
+    free_name,
+    read_flags,
+    read_samples,
+    write_flags,
+    write_samples,
+)
+from floatref.files.schema import enforce
+from floatref.files.sources import document_path, naming
+from floatref.values.profile import Profile, ProfileTrack
+
+DOCUMENT = "profile.json"
+"""Name of the JSON file of a profile directory."""
+FORMAT = "floatref-profile/1"
+SCHEMA = "floatref-profile-1"
+
+
+def read_profile(path: Path) -> Profile:
+    """Return the profile at ``path``: a directory, its profile.json, or a CSV of ours.
+
+    Elevation stays in its files, mapped read-only. Raises InputError with one line naming the
+    file, the track and the value for anything that breaks the format.
+    """
+    source = document_path(path, DOCUMENT)
+    if source.suffix.lower() != ".json":
+        return read_profile_csv(source)
+    document = read_document(source)
+    enforce(document, SCHEMA, source)
+    tracks = tuple(_track(entry, source) for entry in document["tracks"])
+    with naming(source):
+        return Profile(
+            interval_m=float(document["interval_m"]),
+            tracks=tracks,
+            start_m=float(document.get("start_m", 0.0)),
+            pipeline=document.get("pipeline", ""),
+            settings=document.get("settings", {}),
+            provenance=document.get("provenance", {}),
+        )
+
+
+def write_profile(profile: Profile, directory: Path, overwrite: bool = False) -> None:
+    """Write ``profile`` as a new ``directory``, complete or not at all.
+
+    NaN in settings and provenance is written as null. Raises InputError if ``directory`` exists
+    and ``overwrite`` is false, cannot be written, or if the profile breaks the format.
+    """
+    document = _described(profile)
+    enforce(document, SCHEMA, directory)
+    with replacing_directory(directory, overwrite, DOCUMENT) as folder:
+        for track, entry in zip(profile.tracks, document["tracks"], strict=True):
+            write_samples(track.elevation, folder / entry["elevation_file"])
+            write_flags(track.valid, folder / entry["valid_file"])
+            if track.sigma is not None:
+                write_samples(track.sigma, folder / entry["sigma_file"])
+        write_document(document, folder / DOCUMENT)
+
+
+def _track(entry: Mapping[str, Any], source: Path) -> ProfileTrack:
+    with naming(f"track {entry['name']}"):
+        elevation = read_samples(source.with_name(entry["elevation_file"]))
+        valid = sigma = None
+        if "valid_file" in entry:
+            valid = read_flags(source.with_name(entry["valid_file"]))
+            _check_length(source, entry["valid_file"], valid.size, elevation.size)
+        if "sigma_file" in entry:
+            sigma = read_samples(source.with_name(entry["sigma_file"]))
+            _check_length(source, entry["sigma_file"], sigma.size, elevation.size)
+    with naming(source):
+        return ProfileTrack.of(entry["name"], elevation, valid, sigma)
+
+
+def _check_length(source: Path, name: str, found: int, expected: int) -> None:
+    if found != expected:
+        raise InputError(
+            f"{source.with_name(name)}: {found} points, but the elevation has {expected}; "
+            "one of the files is truncated, copy both again"
+        )
+
+
+def _described(profile: Profile) -> dict[str, Any]:
+    taken: set[str] = set()
+    tracks = []
+    for track in profile.tracks:
+        entry = {
+            "name": track.name,
+            "elevation_file": free_name(track.name, ".f64", taken),
+            "valid_file": free_name(f"{track.name}.valid", ".u8", taken),
+        }
+        if track.sigma is not None:
+            entry["sigma_file"] = free_name(f"{track.name}.sigma", ".f64", taken)
+        tracks.append(entry)
+    document = {
+        "format": FORMAT,
+        "interval_m": profile.interval_m,
+        "start_m": profile.start_m,
+        "pipeline": profile.pipeline,
+        "settings": profile.settings,
+        "provenance": profile.provenance,
+        "tracks": tracks,
+    }
+    described: dict[str, Any] = plain(document, "profile")
+    return described

@@ -1,0 +1,145 @@
+"""The recording directory, `floatref-recording/1`."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from floatref.files.atomic import replacing_directory
+from floatref.files.document import plain, read_document, write_document
+from floatref.files.samples import free_name, read_samples, write_samples
+from floatref.files.schema import enforce
+from floatref.files.sources import document_path, naming
+from floatref.values.arrays import FloatArray
+from floatref.values.channels import ChannelId, check_unit
+from floatref.values.clock import Clock, StampedClock, UniformClock
+from floatref.values.recording import Channel, Recording, Setup, TrackSetup
+
+DOCUMENT = "recording.json"
+"""Name of the JSON file of a recording directory."""
+FORMAT = "floatref-recording/1"
+SCHEMA = "floatref-recording-1"
+
+
+def read_recording(path: Path) -> Recording:
+    """Return the recording at ``path``, a directory or its recording.json.
+
+    Samples stay in their files, mapped read-only. Raises InputError with one line naming the
+    file, the channel and the value for anything that breaks the format.
+    """
+    source = document_path(path, DOCUMENT)
+    document = _enforced(source)
+    clocks: dict[str, StampedClock] = {}
+    channels = tuple(_channel(entry, source, clocks) for entry in document["channels"])
+    device = document.get("device", {})
+    with naming(source):
+        setup = _setup(document.get("setup", {}))
+        return Recording(channels, setup, device.get("vendor", ""), device.get("model", ""))
+
+
+def write_recording(recording: Recording, directory: Path, overwrite: bool = False) -> None:
+    """Write ``recording`` as a new ``directory``, complete or not at all.
+
+    A track's name becomes part of file names. Raises InputError if ``directory`` exists and
+    ``overwrite`` is false, cannot be written, or if the recording breaks the format.
+    """
+    document, samples = _described(recording)
+    enforce(document, SCHEMA, directory)
+    with replacing_directory(directory, overwrite, DOCUMENT) as folder:
+        for name, values in samples.items():
+            write_samples(values, folder / name)
+        write_document(document, folder / DOCUMENT)
+
+
+def sample_files(document: Path) -> tuple[str, ...]:
+    """Return the names of the sample files that the recording.json at ``document`` lists."""
+    entries = _enforced(document)["channels"]
+    names = [entry[key] for entry in entries for key in ("file", "time_file") if key in entry]
+    return tuple(dict.fromkeys(names))
+
+
+def _enforced(source: Path) -> dict[str, Any]:
+    document = read_document(source)
+    enforce(document, SCHEMA, source)
+    checked: dict[str, Any] = document
+    return checked
+
+
+def _channel(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedClock]) -> Channel:
+    channel = ChannelId(entry["name"], entry.get("track"))
+    with naming(source):
+        check_unit(channel, entry["unit"])
+    with naming(f"channel {channel}"):
+        samples = read_samples(source.with_name(entry["file"]))
+        clock = _clock(entry, source, clocks)
+    with naming(source.with_name(entry["file"])):
+        return Channel(channel, samples, clock)
+
+
+def _clock(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedClock]) -> Clock:
+    name = entry.get("time_file")
+    if name is None:
+        return UniformClock.of(entry["rate_hz"], entry["start_s"])
+    if name not in clocks:
+        path = source.with_name(name)
+        times = read_samples(path)
+        with naming(path):
+            clocks[name] = StampedClock(times)
+    return clocks[name]
+
+
+def _setup(entry: Mapping[str, Any]) -> Setup:
+    tracks = {
+        name: TrackSetup(**_known(track, "reference_point_m", "laser_offset_m"))
+        for name, track in entry.get("tracks", {}).items()
+    }
+    return Setup(**_known(entry, "profile_interval_m", "gnss_antenna_offset_m"), tracks=tracks)
+
+
+def _known(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
+    """Return those of ``keys`` that ``entry`` has, vectors as tuples of floats."""
+    found = {key: entry[key] for key in keys if key in entry}
+    return {
+        key: tuple(map(float, value)) if isinstance(value, list) else float(value)
+        for key, value in found.items()
+    }
+
+
+def _described(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArray]]:
+    """Return the JSON document of ``recording`` and the samples of every file it names."""
+    samples: dict[str, FloatArray] = {}
+    entries = _entries(recording, samples)
+    setup = recording.setup
+    document = {
+        "format": FORMAT,
+        "device": {"vendor": recording.vendor, "model": recording.model},
+        "setup": {
+            "profile_interval_m": setup.profile_interval_m,
+            "gnss_antenna_offset_m": setup.gnss_antenna_offset_m,
+            "tracks": {name: vars(track) for name, track in setup.tracks.items()},
+        },
+        "channels": entries,
+    }
+    return plain(document, "recording"), samples
+
+
+def _entries(recording: Recording, samples: dict[str, FloatArray]) -> list[dict[str, Any]]:
+    """Return what the document says of each channel; channels on one clock share its file."""
+    taken: set[str] = set()
+    time_files: dict[int, str] = {}
+    entries = []
+    for channel in recording.channels:
+        entry: dict[str, Any] = {"name": channel.id.name, "unit": channel.unit}
+        if channel.id.track is not None:
+            entry["track"] = channel.id.track
+        entry["file"] = free_name(str(channel.id), ".f64", taken)
+        samples[entry["file"]] = channel.values
+        if isinstance(channel.clock, UniformClock):
+            entry |= {"rate_hz": float(channel.clock.rate), "start_s": channel.clock.start_s}
+        else:
+            times = channel.clock.times_s
+            if id(times) not in time_files:
+                time_files[id(times)] = free_name(f"{channel.id}.time", ".f64", taken)
+            entry["time_file"] = time_files[id(times)]
+            samples[entry["time_file"]] = times
+        entries.append(entry)
+    return entries

@@ -1,0 +1,68 @@
+"""Sample files: raw little-endian float64, and one byte per point for validity."""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.files.sources import opened
+from floatref.values.arrays import BoolArray, FloatArray, frozen
+from floatref.values.scanning import chunks
+
+SAMPLE = np.dtype("<f8")
+"""A sample as it lies in the file: little-endian float64, NaN = missing."""
+
+
+def read_samples(path: Path) -> FloatArray:
+    """Return the samples of ``path``, mapped from the file and read-only, shape (N,).
+
+    Raises InputError for a file that cannot be read, is empty or is cut within a sample.
+    """
+    return frozen(_mapped(path, SAMPLE.itemsize).view(SAMPLE))
+
+
+def read_flags(path: Path) -> BoolArray:
+    """Return the bytes of ``path`` as truth values, shape (N,); InputError unless 0 or 1."""
+    flags = _mapped(path, 1)
+    bad = np.flatnonzero(flags > 1)
+    if bad.size:
+        raise InputError(
+            f"{path}: byte {bad[0]} is {flags[bad[0]]}; write one byte per point, 0 or 1"
+        )
+    return flags.astype(np.bool_)
+
+
+def write_samples(values: FloatArray, path: Path) -> None:
+    """Write ``values``, shape (N,), to ``path`` in bounded memory."""
+    with path.open("wb") as stream:
+        for _, chunk in chunks(values):
+            stream.write(np.ascontiguousarray(chunk, SAMPLE).tobytes())
+
+
+def write_flags(flags: BoolArray, path: Path) -> None:
+    """Write ``flags``, shape (N,), to ``path``, one byte 0 or 1 each."""
+    path.write_bytes(flags.astype(np.uint8).tobytes())
+
+
+def free_name(stem: str, suffix: str, taken: set[str]) -> str:
+    """Return ``stem + suffix``, numbered if ``taken`` has it apart from case, and take it."""
+    name, number = f"{stem}{suffix}", 1
+    while name.casefold() in taken:
+        number += 1
+        name = f"{stem}.{number}{suffix}"
+    taken.add(name.casefold())
+    return name
+
+
+def _mapped(path: Path, item_bytes: int) -> NDArray[np.uint8]:
+    with opened(path) as stream:
+        size = stream.seek(0, 2)
+        if size == 0:
+            raise InputError(f"{path}: empty; copy the complete file")
+        if size % item_bytes:
+            raise InputError(
+                f"{path}: {size} bytes are no whole number of float64 samples; "
+                "the file is truncated or of another type, copy or convert it again"
+            )
+        return np.memmap(stream, dtype=np.uint8, mode="r")

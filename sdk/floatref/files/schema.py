@@ -1,0 +1,85 @@
+"""The JSON Schemas of the directories, and their errors as one line that says what to do."""
+
+import json
+from collections.abc import Iterable
+from difflib import get_close_matches
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any, cast
+
+from floatref.errors import InputError
+from floatref.files.document import shown
+
+if TYPE_CHECKING:
+    from jsonschema import Draft202012Validator, ValidationError
+
+SCHEMAS = ("floatref-recording-1", "floatref-profile-1")
+"""Names of the schemas in the package."""
+
+
+def read_schema(name: str) -> dict[str, Any]:
+    """Return the JSON Schema (draft 2020-12) called ``name``; InputError if there is none."""
+    if name not in SCHEMAS:
+        raise InputError(f"schema {name}: unknown; known: {', '.join(SCHEMAS)}")
+    text = (files("floatref.files") / "schemas" / f"{name}.json").read_text(encoding="utf-8")
+    return cast(dict[str, Any], json.loads(text))
+
+
+def enforce(document: Any, name: str, source: object) -> None:
+    """Raise InputError unless ``document`` obeys schema ``name``.
+
+    The line names ``source``, the JSON path, the value found there and what is expected.
+    """
+    error = next(_validator(name).iter_errors(document), None)
+    if error is not None:
+        place = _place(document, error.absolute_path)
+        raise InputError(f"{source}: {place}{_complaint(error)}; {_expected(error)}")
+
+
+@cache
+def _validator(name: str) -> "Draft202012Validator":
+    from jsonschema import Draft202012Validator
+
+    return Draft202012Validator(read_schema(name))
+
+
+def _place(document: Any, path: Iterable[str | int]) -> str:
+    text, label, node = "", "", document
+    for step in path:
+        node = node[step]
+        text += f"[{step}]" if isinstance(step, int) else f".{shown(step)[1:-1]}"
+        if isinstance(step, int) and isinstance(node, dict):
+            label = _label(node)
+    return f"{text.lstrip('.')}{label} " if text else ""
+
+
+def _label(node: dict[str, Any]) -> str:
+    known = (node.get("track"), node.get("name"))
+    parts = [shown(part)[1:-1] for part in known if isinstance(part, str)]
+    return f" ({'.'.join(parts)})" if parts else ""
+
+
+def _complaint(error: "ValidationError") -> str:
+    if error.validator == "required":
+        required = cast(list[str], error.validator_value)
+        missing = [key for key in required if key not in cast(dict[str, Any], error.instance)]
+        return f"lacks {', '.join(missing)}"
+    if error.validator == "oneOf":
+        options = cast(list[dict[str, Any]], error.validator_value)
+        keys = [key for option in options for key in option["required"]]
+        found = [key for key in keys if key in cast(dict[str, Any], error.instance)]
+        return f"has {' and '.join(found) or 'none'} of {', '.join(keys)}"
+    if "propertyNames" in error.absolute_schema_path:
+        return f"holds the name {shown(error.instance)}"
+    if isinstance(error.instance, list) and error.validator in ("minItems", "maxItems"):
+        return f"is a list of {len(error.instance)}"
+    return f"is {shown(error.instance)}"
+
+
+def _expected(error: "ValidationError") -> str:
+    schema = cast(dict[str, Any], error.schema)
+    if error.validator == "enum" and isinstance(error.instance, str):
+        known = cast(list[str], error.validator_value)
+        near = get_close_matches(error.instance[:64], known, n=1)
+        return f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+    return f"expected {schema['description']}"
