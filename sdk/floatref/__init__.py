@@ -14,4 +14,60 @@ a constant interval. Arrays of values are one-dimensional, float64 and read-only
 missing. IRI is in m/km.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from floatref.architectures.processing import FloatrefWarning as FloatrefWarning
+    from floatref.architectures.processing import process as process
+    from floatref.errors import FloatrefError as FloatrefError
+    from floatref.errors import InputError as InputError
+    from floatref.files import read_profile as read_profile
+    from floatref.files import read_recording as read_recording
+    from floatref.files import write_profile as write_profile
+    from floatref.files import write_profile_csv as write_profile_csv
+    from floatref.files import write_recording as write_recording
+    from floatref.values.clock import StampedClock as StampedClock
+    from floatref.values.clock import UniformClock as UniformClock
+    from floatref.values.profile import Profile as Profile
+    from floatref.values.profile import ProfileTrack as ProfileTrack
+    from floatref.values.recording import Channel as Channel
+    from floatref.values.recording import Recording as Recording
+    from floatref.values.recording import Setup as Setup
+    from floatref.values.recording import TrackSetup as TrackSetup
+
 __version__ = "0.1.0"
+
+# Imported on first use, so that `import floatref` loads neither numba nor scipy.
+_PUBLIC = {
+    "Channel": "values.recording",
+    "FloatrefError": "errors",
+    "FloatrefWarning": "architectures.processing",
+    "InputError": "errors",
+    "Profile": "values.profile",
+    "ProfileTrack": "values.profile",
+    "Recording": "values.recording",
+    "Setup": "values.recording",
+    "StampedClock": "values.clock",
+    "TrackSetup": "values.recording",
+    "UniformClock": "values.clock",
+    "process": "architectures.processing",
+    "read_profile": "files",
+    "read_recording": "files",
+    "write_profile": "files",
+    "write_profile_csv": "files",
+    "write_recording": "files",
+}
+__all__ = ["__version__", *_PUBLIC]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the public name ``name``."""
+    if name not in _PUBLIC:
+        raise AttributeError(f"module floatref has no attribute {name!r}")
+    return getattr(import_module(f"floatref.{_PUBLIC[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names."""
+    return sorted(__all__)

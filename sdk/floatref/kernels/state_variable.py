@@ -24,7 +24,7 @@ MEMORY = 4
 @compiled
 def _first_good(x: FloatArray, backward: bool) -> float:
     for j in range(x.size):
-        value = x[x.size - 1 - j] if backward else x[j]
+        value: float = x[x.size - 1 - j] if backward else x[j]
         if value == value:
             return value
     return 0.0

@@ -129,7 +129,8 @@ def _at(block: Block, position: FloatArray) -> Block:
     before = position.astype(np.int64)
     after = np.ceil(position).astype(np.int64)
     late = block.flags.get(ChannelId(DISTANCE))
-    values, flags = {}, {}
+    values: dict[ChannelId, FloatArray] = {}
+    flags: dict[ChannelId, FlagArray] = {}
     for channel in block.values:
         if channel.name == DISTANCE:
             continue

@@ -1,0 +1,1 @@
+"""Architectures: signal flows with named points, and the plug-ins that fill them."""

@@ -1,0 +1,139 @@
+"""One channel on another clock: passed through, or linear between its samples."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.stages.signals import DISTANCE
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.clock import Clock, StampedClock, UniformClock
+from floatref.values.recording import Channel
+
+JITTER = 0.01
+"""Largest deviation of time stamps from a constant rate, and of two clocks, in steps."""
+GAP = 5.0
+"""Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
+LOOK = 4096
+"""Samples looked at in one go for the end of a gap."""
+
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """Samples of a channel on the clock of the blocks, and which of them are what."""
+
+    values: FloatArray
+    fresh: BoolArray | None = None
+    missing: BoolArray | None = None
+
+
+def steady_clock(channel: Channel) -> UniformClock:
+    """Return the channel's clock; time stamps of a constant rate become that rate.
+
+    Raises InputError if they are not: an integration needs a constant step.
+    """
+    if isinstance(channel.clock, UniformClock):
+        return channel.clock
+    times = channel.clock.times_s
+    steps = (times[-1] - times[0]) / max(times.size - 1, 1)
+    if not steps > 0:
+        raise InputError(f"channel {channel.id}: one sample is no stretch of time")
+    off = np.abs(times - times[0] - steps * np.arange(times.size))
+    if off.max() > JITTER * steps:
+        bad = int(off.argmax())
+        raise InputError(
+            f"channel {channel.id}: time stamp {bad} is {off[bad]:.3g} s off a constant rate of "
+            f"{1 / steps:.6g} Hz; fill gaps with NaN samples at a constant rate"
+        )
+    return UniformClock.of(1.0 / steps, float(times[0]))
+
+
+class AlignedChannel:
+    """A channel seen from ``clock``; ``first`` is the clock's sample that counts as 0."""
+
+    def __init__(self, channel: Channel, clock: UniformClock, first: int) -> None:
+        """Find out whether the two clocks agree."""
+        self.channel = channel
+        self._clock, self._first = clock, first
+        self._offset = _common_grid(channel.clock, clock)
+        self._gap_s = _gap(channel)
+
+    def take(self, begin: int, end: int) -> Stretch:
+        """Return samples ``begin`` to ``end - 1``, which lie within the channel's span."""
+        if self._offset is not None:
+            low = begin + self._first + self._offset
+            values, missing = bridged(self.channel.values, low, low + end - begin)
+            return Stretch(values, missing=missing)
+        before = max(begin - 1, 0)
+        place = self._places(self._clock.times(end - before, self._first + before))
+        low = int(place[0])
+        high = min(math.ceil(place[-1]) + 1, self.channel.values.size)
+        samples, missing = bridged(self.channel.values, low, high)
+        values = np.interp(place, np.arange(low, high), samples)
+        fresh = np.diff(np.floor(place), prepend=-1.0 if begin == before else np.nan) > 0
+        lost = self._lost(place, low, missing)
+        skip = begin - before
+        return Stretch(values[skip:], fresh[skip:], None if lost is None else lost[skip:])
+
+    def _places(self, times: FloatArray) -> FloatArray:
+        clock, last = self.channel.clock, self.channel.values.size - 1
+        if isinstance(clock, UniformClock):
+            return np.clip((times - clock.start_s) * float(clock.rate), 0.0, last)
+        low = max(int(np.searchsorted(clock.times_s, times[0], "right")) - 1, 0)
+        high = min(int(np.searchsorted(clock.times_s, times[-1])) + 1, last + 1)
+        return np.interp(times, clock.times_s[low:high], np.arange(low, high, dtype=np.float64))
+
+    def _lost(self, place: FloatArray, low: int, missing: BoolArray | None) -> BoolArray | None:
+        before, after = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
+        lost = None if missing is None else missing[before - low] | missing[after - low]
+        if self._gap_s is None or not isinstance(self.channel.clock, StampedClock):
+            return lost
+        times = self.channel.clock.times_s
+        wide: BoolArray = times[after] - times[before] > self._gap_s
+        return wide if lost is None else np.logical_or(lost, wide)
+
+
+def bridged(values: FloatArray, low: int, high: int) -> tuple[FloatArray, BoolArray | None]:
+    """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which those were."""
+    part = values[low:high]
+    if not np.isnan(part.sum()):
+        return part, None
+    missing = np.isnan(part)
+    known = np.flatnonzero(~missing) + low
+    left, right = _good_before(values, low), _good_after(values, high)
+    known = np.concatenate((left, known, right))
+    where = np.arange(low, high)
+    return np.interp(where, known, values[known]), missing
+
+
+def _good_before(values: FloatArray, low: int) -> Indices:
+    for end in range(low, 0, -LOOK):
+        good = np.flatnonzero(~np.isnan(values[max(end - LOOK, 0) : end]))
+        if good.size:
+            return good[-1:] + max(end - LOOK, 0)
+    return np.empty(0, np.int64)
+
+
+def _good_after(values: FloatArray, high: int) -> Indices:
+    for begin in range(high, values.size, LOOK):
+        good = np.flatnonzero(~np.isnan(values[begin : begin + LOOK]))
+        if good.size:
+            return good[:1] + begin
+    return np.empty(0, np.int64)
+
+
+def _common_grid(clock: Clock, other: UniformClock) -> int | None:
+    if not isinstance(clock, UniformClock) or clock.rate != other.rate:
+        return None
+    offset = (other.start_s - clock.start_s) * float(clock.rate)
+    return round(offset) if abs(offset - round(offset)) < JITTER else None
+
+
+def _gap(channel: Channel) -> float | None:
+    if channel.id.name == DISTANCE or not isinstance(channel.clock, StampedClock):
+        return None
+    return GAP * float(np.median(np.diff(channel.clock.times_s)))

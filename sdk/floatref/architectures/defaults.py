@@ -1,0 +1,84 @@
+"""The built-in plug-in: our adapter, stages and pipelines, and the default answers."""
+
+from collections.abc import Callable, Sequence
+
+from floatref.architectures import spatial, steps, temporal
+from floatref.architectures.adapter import Adapter, RecordingDirectory
+from floatref.architectures.hookspecs import hookimpl
+from floatref.architectures.question import Answer, Pipeline, Question
+from floatref.stages import (
+    butterworth,
+    combining,
+    conditioning,
+    integration,
+    mean_removal,
+    resampling,
+)
+from floatref.stages.protocol import Stage
+
+SETTINGS = {"interval_m": None, "anti_alias_hz": 1000.0, "cutoff_wavelength_m": 105.91}
+STAGES: tuple[type[Stage], ...] = (
+    butterworth.HighPassB3S1,
+    butterworth.HighPassB3S2,
+    butterworth.HighPassB3S1R,
+    butterworth.HighPassB3S2R,
+    butterworth.LowPassB3S1,
+    butterworth.LowPassB3S2,
+    butterworth.LowPassB3S1R,
+    butterworth.LowPassB3S2R,
+    combining.Combine,
+    conditioning.RemoveGravity,
+    integration.Integrate,
+    mean_removal.RemoveMean,
+    resampling.TimeStep,
+    resampling.ToDistance,
+)
+PIPELINES = (
+    Pipeline("temporal-basic", "temporal", "no error suppression (section 5.3)", SETTINGS),
+    Pipeline(
+        "temporal-mean-removal",
+        "temporal",
+        "the run's mean removed before each integration (section 5.4)",
+        SETTINGS,
+        {
+            "temporal_first_integration": steps.first_integration_without_mean,
+            "temporal_second_integration": steps.second_integration_without_mean,
+        },
+    ),
+    Pipeline("spatial-basic", "spatial", "no error suppression (section 5.8)", SETTINGS),
+)
+
+
+class Defaults:
+    """Registers what is built in, and answers every point of both architectures."""
+
+    def __init__(self) -> None:
+        """Answer each point with the pipeline's own stages, else the architecture's."""
+        for point, answer in {**temporal.DEFAULTS, **spatial.DEFAULTS}.items():
+            setattr(self, point, _answering(point, answer))
+
+    @hookimpl
+    def floatref_register_adapters(self, register: Callable[[Adapter], None]) -> None:
+        """Register our recording directory."""
+        register(RecordingDirectory())
+
+    @hookimpl
+    def floatref_register_stages(
+        self, register: Callable[[str, Callable[..., Stage]], None]
+    ) -> None:
+        """Register the stages by their class names."""
+        for stage in STAGES:
+            register(stage.__name__, stage)
+
+    @hookimpl
+    def floatref_register_pipelines(self, register: Callable[[Pipeline], None]) -> None:
+        """Register the pipelines."""
+        for pipeline in PIPELINES:
+            register(pipeline)
+
+
+def _answering(point: str, default: Answer) -> Answer:
+    def answer(context: Question) -> Sequence[Stage]:
+        return context.pipeline.answers.get(point, default)(context)
+
+    return hookimpl(answer)

@@ -1,0 +1,148 @@
+"""Loading plug-ins one at a time, and asking them one at a time."""
+
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+import pluggy
+
+from floatref.architectures import hookspecs
+from floatref.architectures.adapter import Adapter
+from floatref.architectures.question import Pipeline, Question
+from floatref.errors import InputError, PluginError
+from floatref.stages.protocol import Stage
+
+BUILT_IN = "floatref"
+"""Name of the plug-in that holds the defaults."""
+
+
+class Plugins:
+    """All plug-ins of a process, and what they registered.
+
+    ``reports`` lists in one line each what was broken and skipped.
+    """
+
+    def __init__(self) -> None:
+        """Load the defaults; `load` adds others."""
+        from floatref.architectures import defaults
+
+        self.reports: list[str] = []
+        self._manager = pluggy.PluginManager(hookspecs.PROJECT)
+        self._manager.add_hookspecs(hookspecs)
+        self.add(defaults.Defaults(), BUILT_IN)
+
+    def add(self, plugin: object, name: str) -> None:
+        """Add ``plugin`` under ``name``; one that does not fit the hooks is reported."""
+        try:
+            self._manager.register(plugin, name)
+            self._manager.check_pending()
+        except Exception as error:
+            self._skip(name, error)
+            if self._manager.has_plugin(name):
+                self._manager.unregister(name=name)
+
+    def load(self, points: Sequence[EntryPoint]) -> None:
+        """Load each entry point; one that fails is reported and skipped."""
+        for point in points:
+            try:
+                plugin = point.load()
+            except Exception as error:
+                self._skip(point.name, error)
+            else:
+                self.add(plugin, point.name)
+
+    def registered(self, hook: str) -> dict[str, Any]:
+        """Return what all plug-ins registered through ``hook``, by name.
+
+        Raises PluginError if two plug-ins registered the same name.
+        """
+        found: dict[str, Any] = {}
+        owner: dict[str, str] = {}
+
+        def keep(plugin: str) -> Callable[..., None]:
+            def register(*item: Any) -> None:
+                name = item[0] if len(item) == 2 else item[0].name
+                if name in found:
+                    raise PluginError(
+                        f"plug-ins {owner[name]} and {plugin} both register {name}; remove one"
+                    )
+                found[name], owner[name] = item[-1], plugin
+
+            return register
+
+        for plugin, call in self._callers(hook):
+            self._guarded(plugin, partial(call, register=keep(plugin)))
+        return found
+
+    def pipelines(self) -> dict[str, Pipeline]:
+        """Return every pipeline by name."""
+        return self.registered("floatref_register_pipelines")
+
+    def stages(self) -> dict[str, Callable[..., Stage]]:
+        """Return every stage's class by name."""
+        return self.registered("floatref_register_stages")
+
+    def adapters(self) -> dict[str, Adapter]:
+        """Return every adapter by name."""
+        return self.registered("floatref_register_adapters")
+
+    def pipeline(self, name: str) -> Pipeline:
+        """Return the pipeline called ``name``; InputError if there is none."""
+        known = self.pipelines()
+        if name not in known:
+            raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
+        return known[name]
+
+    def ask(self, question: Question) -> Sequence[Stage]:
+        """Return the stages for ``question``: a third party's if one answers, else the default.
+
+        Raises PluginError, with both names, if two third parties answer.
+        """
+        answers: dict[str, Sequence[Stage]] = {}
+        for plugin, call in self._callers(question.point):
+            answer = self._guarded(plugin, partial(call, context=question))
+            if answer:
+                answers[plugin] = answer[0]
+        default = answers.pop(BUILT_IN, ())
+        if len(answers) > 1:
+            both = " and ".join(answers)
+            raise PluginError(f"plug-ins {both} both answer {question.point}; remove one")
+        return next(iter(answers.values()), default)
+
+    def _callers(self, hook: str) -> list[tuple[str, pluggy.HookCaller]]:
+        everyone = dict(self._manager.list_name_plugin())
+        names = [impl.plugin_name for impl in getattr(self._manager.hook, hook).get_hookimpls()]
+        return [
+            (
+                name,
+                self._manager.subset_hook_caller(
+                    hook, [p for n, p in everyone.items() if n != name and p is not None]
+                ),
+            )
+            for name in reversed(names)
+        ]
+
+    def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
+        if plugin == BUILT_IN:
+            return call()
+        try:
+            return call()
+        except PluginError:
+            raise
+        except Exception as error:
+            self._skip(plugin, error)
+            return None
+
+    def _skip(self, name: str, error: Exception) -> None:
+        line = f"plug-in {name} skipped: {type(error).__name__}: {' '.join(str(error).split())}"
+        if line not in self.reports:
+            self.reports.append(line)
+
+
+@cache
+def plugins() -> Plugins:
+    """Return the plug-ins of this process, loaded once from their entry points."""
+    loaded = Plugins()
+    loaded.load(tuple(entry_points(group=hookspecs.PROJECT)))
+    return loaded

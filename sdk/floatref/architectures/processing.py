@@ -1,0 +1,133 @@
+"""The main job: a recording through a pipeline to a profile."""
+
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from floatref import __version__
+from floatref.architectures import flow, spatial, temporal
+from floatref.architectures.plugins import Plugins, plugins
+from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.source import Source
+from floatref.architectures.validity import valid_points
+from floatref.errors import InputError
+from floatref.stages.signals import ELEVATION
+from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+from floatref.values.plausibility import examine
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Recording
+
+SIGNAL_FLOWS = {"temporal": temporal.signal_flow, "spatial": spatial.signal_flow}
+Progress = Callable[[float], None]
+
+
+class FloatrefWarning(UserWarning):
+    """Something in a recording or a plug-in that the result does not silently hide."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A profile, and one line for each thing its user should know."""
+
+    profile: Profile
+    warnings: tuple[str, ...]
+
+
+def process(
+    recording: Recording,
+    pipeline: str = "temporal-basic",
+    settings: Mapping[str, Any] | None = None,
+) -> Profile:
+    """Return the profile of ``recording`` by ``pipeline``.
+
+    ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`, raises
+    InputError for a recording, pipeline or setting that cannot be used and PluginError if two
+    plug-ins answer the same question.
+    """
+    result = run(recording, pipeline, settings)
+    for line in result.warnings:
+        warnings.warn(line, FloatrefWarning, stacklevel=2)
+    return result.profile
+
+
+def run(
+    recording: Recording,
+    pipeline: str,
+    settings: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> Result:
+    """Return the profile and the warnings; ``progress`` is called with the fraction read."""
+    loaded = plugins()
+    chosen = loaded.pipeline(pipeline)
+    resolved = chosen.resolve(settings or {})
+    cautions = examine(recording)
+    source = Source(recording)
+    if resolved.get("interval_m", 0.0) is None:
+        resolved["interval_m"] = recording.setup.profile_interval_m
+    stages = _stages(loaded, chosen, resolved, source)
+    header, blocks = flow.run(stages, source.header, _counted(source, progress))
+    profile = _collect(header, blocks, chosen, resolved)
+    return Result(profile, (*cautions, *loaded.reports))
+
+
+def _stages(
+    loaded: Plugins, chosen: Pipeline, resolved: Mapping[str, float | None], source: Source
+) -> list[Any]:
+    question = partial(
+        Question,
+        pipeline=chosen,
+        settings=resolved,
+        header=source.header,
+        origin_m=source.origin_m,
+    )
+    return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(question(point=point)))
+
+
+def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:
+    for block in source.blocks():
+        yield block
+        if progress is not None:
+            progress((block.first + len(block)) / source.length)
+
+
+def _collect(
+    header: Header, blocks: Iterable[Block], chosen: Pipeline, resolved: Mapping[str, Any]
+) -> Profile:
+    if header.axis is not Axis.DISTANCE:
+        raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
+    kept = list(blocks)
+    tracks = tuple(_track(header, kept, name, resolved) for name in header.tracks)
+    return Profile(
+        interval_m=header.step,
+        tracks=tracks,
+        start_m=header.origin,
+        pipeline=chosen.name,
+        settings={"architecture": chosen.architecture, **resolved},
+        provenance={"floatref": __version__, "numpy": version("numpy")},
+    )
+
+
+def _track(
+    header: Header, blocks: list[Block], name: str, resolved: Mapping[str, Any]
+) -> ProfileTrack:
+    channel = ChannelId(ELEVATION, name)
+    elevation = _joined([block[channel] for block in blocks])
+    flags = _flags(blocks, channel)
+    reach = (resolved.get("cutoff_wavelength_m") or 0.0) / header.step
+    return ProfileTrack.of(name, elevation, valid_points(flags, round(reach)))
+
+
+def _joined(parts: list[FloatArray]) -> FloatArray:
+    return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _flags(blocks: list[Block], channel: ChannelId) -> FlagArray:
+    parts = [b.flags.get(channel, np.zeros(len(b), np.uint8)) for b in blocks]
+    return np.concatenate(parts) if parts else np.empty(0, np.uint8)

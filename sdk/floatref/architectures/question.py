@@ -1,0 +1,66 @@
+"""What a pipeline is, and the question an architecture asks at each of its points."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.stages.protocol import Stage
+from floatref.values.block import Header
+
+Answer = Callable[["Question"], Sequence[Stage]]
+Ask = Callable[[str], Sequence[Stage]]
+Defaults = Mapping[str, Answer]
+
+
+@dataclass(frozen=True)
+class Pipeline:
+    """A named way through an architecture.
+
+    ``answers`` replaces the architecture's own stages at the points it names; ``settings`` are
+    the pipeline's numbers with their defaults, all above zero. None is a number that the
+    recording decides.
+    """
+
+    name: str
+    architecture: str
+    summary: str
+    settings: Mapping[str, float | None] = field(default_factory=dict)
+    answers: Defaults = field(default_factory=dict)
+
+    def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
+        """Return the settings with those ``given`` in place; InputError if one cannot be."""
+        for name, value in given.items():
+            if name not in self.settings:
+                known = ", ".join(self.settings) or "none"
+                raise InputError(
+                    f"setting {name}: pipeline {self.name} has none such; it has {known}"
+                )
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise InputError(f"setting {name}: {value!r} is not a number")
+            if not (isfinite(value) and value > 0):
+                raise InputError(f"setting {name}: {value} must be finite and above zero")
+        return {**self.settings, **{name: float(value) for name, value in given.items()}}
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a point of the signal flow needs to know to choose its stages.
+
+    ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
+    encoder distance of its first sample.
+    """
+
+    point: str
+    pipeline: Pipeline
+    settings: Mapping[str, float | None]
+    header: Header
+    origin_m: float
+
+    def setting(self, name: str) -> float:
+        """Return setting ``name``; InputError if nothing has decided it."""
+        value = self.settings.get(name)
+        if value is None:
+            raise InputError(f"setting {name}: pipeline {self.pipeline.name} needs it")
+        return value

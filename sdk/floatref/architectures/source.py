@@ -1,0 +1,91 @@
+"""From a recording to blocks: all channels of a run on the accelerometer's clock.
+
+A channel on that clock is passed through. Another is linear between its samples, which is
+what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
+missing sample is bridged by the line between its neighbours and flagged; one of the
+accelerometer disturbs the floating reference height, and is flagged as that too.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from floatref.architectures.aligned import AlignedChannel, steady_clock
+from floatref.errors import InputError
+from floatref.stages.conditioning import SPECIFIC_FORCE
+from floatref.stages.signals import DISTANCE, HEIGHT
+from floatref.values.arrays import BoolArray, Flag, FlagArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+from floatref.values.clock import UniformClock
+from floatref.values.plausibility import profiled_tracks
+from floatref.values.recording import Channel, Recording
+
+BLOCK = 65_536
+"""Samples per block: 4 s at 16 kHz, small enough for the cache."""
+
+
+class Source:
+    """The nominal channels of a recording as a stream of blocks.
+
+    `header` is that of the stream; `origin_m` the distance at its first sample; `length` the
+    number of samples that all channels cover.
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        """Find the wheel paths that have a height, and the time that all channels cover."""
+        self._tracks = profiled_tracks(recording)
+        found = dict(_nominal(recording, self._tracks))
+        clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
+        first, self.length = _common_span(list(found.values()), clock)
+        self._aligned = {name: AlignedChannel(c, clock, first) for name, c in found.items()}
+        self.header = Header(
+            axis=Axis.TIME,
+            step=float(1 / clock.rate),
+            origin=float(clock.times(1, first)[0]),
+            rate=clock.rate,
+            channels=frozenset(self._aligned),
+            tracks=self._tracks,
+            setup=recording.setup,
+        )
+        self.origin_m = float(self._aligned[ChannelId(DISTANCE)].take(0, 1).values[0])
+
+    def blocks(self, size: int = BLOCK) -> Iterator[Block]:
+        """Yield the run in blocks of ``size`` samples."""
+        for begin in range(0, self.length, size):
+            yield self._block(begin, min(begin + size, self.length))
+
+    def _block(self, begin: int, end: int) -> Block:
+        taken = {name: channel.take(begin, end) for name, channel in self._aligned.items()}
+        return Block(
+            begin,
+            {name: stretch.values for name, stretch in taken.items()},
+            {name: s.fresh for name, s in taken.items() if s.fresh is not None},
+            {name: _flags(name, s.missing) for name, s in taken.items() if s.missing is not None},
+        )
+
+
+def _nominal(recording: Recording, tracks: tuple[str, ...]) -> Iterator[tuple[ChannelId, Channel]]:
+    yield ChannelId(DISTANCE), recording.channel(DISTANCE, tracks[0])
+    for track in tracks:
+        for name in (SPECIFIC_FORCE, HEIGHT):
+            yield ChannelId(name, track), recording.channel(name, track)
+
+
+def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int]:
+    begin = max(channel.span_s[0] for channel in channels)
+    end = min(channel.span_s[1] for channel in channels)
+    rate = float(clock.rate)
+    # A thousandth of a step: the channels' own start times are rounded decimals.
+    first = max(0, math.ceil((begin - clock.start_s) * rate - 1e-3))
+    last = math.floor((end - clock.start_s) * rate + 1e-3)
+    if last <= first:
+        names = ", ".join(str(channel.id) for channel in channels)
+        raise InputError(f"channels {names} have no stretch of time in common; check start_s")
+    return first, last - first + 1
+
+
+def _flags(name: ChannelId, missing: BoolArray) -> FlagArray:
+    kind = Flag.MISSING | Flag.DRIFT if name.name == SPECIFIC_FORCE else Flag.MISSING
+    return np.where(missing, np.uint8(kind), np.uint8(0)).astype(np.uint8)

@@ -1,0 +1,25 @@
+"""The spatial architecture: the encoder triggers one sample per profile interval.
+
+Trigger → time step → first integration → second integration → combine → finish. Before the
+trigger the signals exist in analog form only, which `spatial_condition` stands for. The
+defaults are those of section 5.8.
+"""
+
+from floatref.architectures import steps
+from floatref.architectures.question import Ask, Defaults
+from floatref.stages.protocol import Stage
+
+DEFAULTS: Defaults = {
+    "spatial_condition": steps.condition,
+    "spatial_trigger": steps.trigger,
+    "spatial_time_step": steps.time_step,
+    "spatial_first_integration": steps.first_integration,
+    "spatial_second_integration": steps.second_integration,
+    "spatial_combine": steps.combine,
+    "spatial_finish": steps.finish,
+}
+
+
+def signal_flow(ask: Ask) -> list[Stage]:
+    """Return all stages in order, from what ``ask`` answers at each point."""
+    return [stage for point in DEFAULTS for stage in ask(point)]

@@ -1,0 +1,76 @@
+"""The stages that the basic algorithms (5.3, 5.4, 5.8) put at the points of a signal flow."""
+
+from collections.abc import Sequence
+
+from floatref.architectures.question import Question
+from floatref.stages.butterworth import high_pass_b3x2, low_pass_b3
+from floatref.stages.combining import Combine
+from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.integration import Integrate
+from floatref.stages.mean_removal import RemoveMean
+from floatref.stages.protocol import Stage
+from floatref.stages.resampling import TimeStep, ToDistance
+from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, REFERENCE_HEIGHT, VELOCITY
+
+LEAST_RATE_HZ = 4000.0
+"""Up to this sampling rate the sensors' own bandwidth has to be the anti-alias filter."""
+
+
+def nothing(question: Question) -> Sequence[Stage]:
+    """Leave the point empty."""
+    return ()
+
+
+def condition(question: Question) -> Sequence[Stage]:
+    """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it (5.3)."""
+    stages: list[Stage] = [RemoveGravity()]
+    if question.header.rate > LEAST_RATE_HZ:
+        cutoff = question.setting("anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        stages += low_pass_b3(HEIGHT, cutoff)
+    return stages
+
+
+def first_integration(question: Question) -> Sequence[Stage]:
+    """Trapezoidal, from zero velocity."""
+    return (Integrate(ACCELERATION, VELOCITY),)
+
+
+def second_integration(question: Question) -> Sequence[Stage]:
+    """Trapezoidal, from the first height: the datum is arbitrary, so elevation starts at 0."""
+    return (Integrate(VELOCITY, REFERENCE_HEIGHT, starts_at=HEIGHT),)
+
+
+def first_integration_without_mean(question: Question) -> Sequence[Stage]:
+    """Remove the mean acceleration of the run before the first integration (5.4)."""
+    return (RemoveMean(ACCELERATION), *first_integration(question))
+
+
+def second_integration_without_mean(question: Question) -> Sequence[Stage]:
+    """Remove the mean velocity of the run before the second integration (5.4)."""
+    return (RemoveMean(VELOCITY), *second_integration(question))
+
+
+def combine(question: Question) -> Sequence[Stage]:
+    """Floating reference height minus height (1.2)."""
+    return (Combine(),)
+
+
+def project(question: Question) -> Sequence[Stage]:
+    """Decimate by encoder distance (5.3)."""
+    return (ToDistance(question.setting("interval_m"), question.origin_m),)
+
+
+def trigger(question: Question) -> Sequence[Stage]:
+    """Capture all channels, and the time, at each profile interval (5.8)."""
+    return (ToDistance(question.setting("interval_m"), question.origin_m, keep_time=True),)
+
+
+def time_step(question: Question) -> Sequence[Stage]:
+    """Elapsed time between triggers (5.4)."""
+    return (TimeStep(),)
+
+
+def finish(question: Question) -> Sequence[Stage]:
+    """HPF_B3x2 over distance (5.3)."""
+    return high_pass_b3x2(ELEVATION, 1.0 / question.setting("cutoff_wavelength_m"))
