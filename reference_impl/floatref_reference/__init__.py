@@ -1,0 +1,17 @@
+"""The dissertation's equations, one by one, for checking everything else against.
+
+Source: S. M. Karamihas, "Improvement of Inertial Profiler Measurements of Urban and
+Low-Speed Roadways", PhD dissertation, University of Michigan, 2021. The tree is its table of
+contents:
+
+- `appendix_a`: the digital filters (A.1 to A.22).
+- `chapter_2`: the measures, the kinematics and the inverted pendulum (2.1 to 2.26).
+- `chapter_5`: the profile pipelines that use no inertial platform (sections 5.3, 5.4, 5.8).
+
+Correct and readable come before fast. Loops are plain, symbols carry the names of the paper,
+filters and sums run in `numpy.longdouble`, and numpy is the only import. Where the print holds
+a slip, the docstring says what is printed and what is computed.
+
+Units are SI; the accelerometer has 1 g removed, so it reads 0 at rest and level. Indices start
+at 0 in the code and at 1 in the paper. Pitch is positive nose down, roll positive left side up.
+"""

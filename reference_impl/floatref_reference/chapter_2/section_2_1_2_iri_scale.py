@@ -1,0 +1,70 @@
+"""2.1.2 The IRI Scale: segments, units and ratings."""
+
+import numpy as np
+import numpy.typing as npt
+
+from floatref_reference.chapter_2.section_2_1_1_iri import iri_trace
+from floatref_reference.signals import Real, mean
+
+SEGMENT_LENGTH = 160.9
+INCHES_PER_MILE = np.longdouble(63360)
+
+
+def segment_iri(
+    z: npt.ArrayLike, dx: float, length: float = SEGMENT_LENGTH
+) -> list[tuple[float, float, np.longdouble]]:
+    """Compute the IRI of consecutive segments.
+
+    Equation:
+        Step 4 of section 2.1.1 over each segment of one pass of the car over the whole
+        profile. Segment m ends at the point nearest to m times the length; the last one may
+        be shorter.
+
+    Args:
+        z: elevation, m, shape (N,), N ≥ 2.
+        dx: constant interval Δx, m.
+        length: nominal segment length, m.
+
+    Returns:
+        Start, m from the first point, length, m, and IRI, m/km, of each segment.
+    """
+    trace = np.abs(iri_trace(z, dx))
+    segments: list[tuple[float, float, np.longdouble]] = []
+    begin = 0
+    while begin < len(trace):
+        end = min(max(round((len(segments) + 1) * length / dx), begin + 1), len(trace))
+        segments.append((begin * dx, (end - begin) * dx, mean(trace[begin:end])))
+        begin = end
+    return segments
+
+
+def inches_per_mile(iri_m_per_km: Real) -> np.longdouble:
+    """Convert an IRI to the unit used in the United States.
+
+    Equation:
+        Section 2.1.2: 1 m/km = 63360 in/mi / 1000.
+
+    Args:
+        iri_m_per_km: IRI, m/km.
+
+    Returns:
+        IRI, in/mi.
+    """
+    return np.longdouble(iri_m_per_km) * INCHES_PER_MILE / 1000
+
+
+def tpm_rating(iri_m_per_km: Real) -> str:
+    """Rate a pavement section.
+
+    Equation:
+        Table 2.1, TPM range: good below 1.50 m/km, fair up to 2.68 m/km, poor above.
+
+    Args:
+        iri_m_per_km: IRI, m/km.
+
+    Returns:
+        "good", "fair" or "poor".
+    """
+    if iri_m_per_km < 1.5:
+        return "good"
+    return "fair" if iri_m_per_km <= 2.68 else "poor"
