@@ -2,7 +2,6 @@
 
 import zlib
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
 from tempfile import SpooledTemporaryFile
 from types import TracebackType
 from typing import TypeVar
@@ -25,7 +24,6 @@ class Tape:
 
     def __init__(self) -> None:
         """Begin with an empty tape."""
-        self._open = ExitStack()
         self._spools: dict[ChannelId, SpooledTemporaryFile[bytes]] = {}
         self._index: list[tuple[int, int, int]] = []
         self._masks: list[tuple[Packed, Packed, tuple[Event, ...]]] = []
@@ -42,7 +40,8 @@ class Tape:
         at: TracebackType | None,
     ) -> None:
         """Remove the files."""
-        self._open.close()
+        for spool in self._spools.values():
+            spool.close()
 
     def __len__(self) -> int:
         """Return the number of blocks."""
@@ -62,9 +61,7 @@ class Tape:
             raise ValueError(f"block {number} holds {length} samples, not {len(block)}")
         for channel, values in block.values.items():
             if channel not in self._spools:
-                self._spools[channel] = self._open.enter_context(
-                    SpooledTemporaryFile(max_size=IN_MEMORY)
-                )
+                self._spools[channel] = _spool()
             self._spools[channel].seek(8 * start)
             self._spools[channel].write(np.ascontiguousarray(values).data)
         self._masks[number] = (_pack(block.fresh), _pack(block.flags), block.events)
@@ -83,6 +80,10 @@ class Tape:
         """Yield all blocks, the first one first."""
         for number in range(len(self)):
             yield self.read(number)
+
+
+def _spool() -> SpooledTemporaryFile[bytes]:
+    return SpooledTemporaryFile(max_size=IN_MEMORY)
 
 
 def _pack(masks: Mapping[ChannelId, NDArray[M]]) -> Packed:

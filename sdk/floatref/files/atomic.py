@@ -22,10 +22,10 @@ def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
     cannot be written.
     """
     target = _target(path, overwrite)
-    if target.exists() and not target.is_file():
-        raise InputError(f"{path}: is not a file; give the name of a file to write")
     beside = _beside(target)
-    with _explained(path):
+    with _explained(path, target):
+        if target.exists() and not target.is_file():
+            raise InputError(f"{path}: is not a file; give the name of a file to write")
         try:
             yield beside
             _refuse_existing(target, overwrite)
@@ -46,9 +46,9 @@ def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[
     InputError if ``path`` exists and may not be replaced, or cannot be written.
     """
     target = _target(path, overwrite)
-    _check_replaceable(target, path, document)
     beside = _beside(target)
-    with _explained(path):
+    with _explained(path, target):
+        _check_replaceable(target, path, document)
         try:
             beside.mkdir()
             yield beside
@@ -58,9 +58,17 @@ def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[
             shutil.rmtree(beside, ignore_errors=True)
 
 
+def check_target(path: Path, overwrite: bool = False) -> None:
+    """Raise InputError now for a target that writing would be refused later."""
+    _target(path, overwrite)
+
+
 def _target(path: Path, overwrite: bool) -> Path:
     """Return where ``path`` really leads, so that a link stays a link."""
-    target = Path(os.path.realpath(path))
+    try:
+        target = Path(os.path.realpath(path))
+    except ValueError as error:
+        raise InputError(f"{ascii(str(path))}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
     if not os.path.isdir(target.parent):
         raise InputError(f"{path}: its folder does not exist; make {target.parent} first")
@@ -81,22 +89,19 @@ def _check_replaceable(target: Path, path: Path, document: str) -> None:
         return
     if not target.is_dir():
         raise InputError(f"{path}: is not a folder; give the name of a folder to write")
-    try:
-        names = os.listdir(target)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be replaced ({error.strerror})") from error
+    names = os.listdir(target)
     if names and document not in names:
         raise InputError(f"{path}: holds other files and no {document}; choose another folder")
 
 
 @contextmanager
-def _explained(path: Path) -> Iterator[None]:
+def _explained(path: Path, target: Path) -> Iterator[None]:
     """Turn the operating system's refusal to write into one line that names ``path``."""
     try:
         yield
     except OSError as error:
-        where = str(error.filename or "")
-        if where and ".floatref-" not in where:
+        where = str(error.filename or target)
+        if where != str(target) and ".floatref-" not in where:
             raise
         reason = error.strerror or str(error)
         raise InputError(

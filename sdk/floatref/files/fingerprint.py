@@ -10,10 +10,12 @@ from floatref.files.sources import document_path, opened
 def fingerprint(path: Path) -> dict[str, str]:
     """Return the SHA-256 of every file of the recording at ``path``, by file name.
 
-    ``path`` is the directory or its recording.json. Raises InputError where `read_recording`
+    ``path`` is the directory or its recording.json; another file is one of itself. Raises InputError where `read_recording`
     would because of the JSON file, or for a sample file that cannot be read.
     """
     document = document_path(path, DOCUMENT)
+    if document.name != DOCUMENT:
+        return {path.name: _sha256(path)}
     names = (document.name, *sample_files(document))
     return {name: _sha256(document.with_name(name)) for name in names}
 

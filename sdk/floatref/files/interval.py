@@ -33,11 +33,11 @@ def _tolerance(distance_m: FloatArray, decimals: int, interval_m: float) -> floa
     """Return how far rounding may move a distance from the line through the first one, in m.
 
     Each of the two is off by half a unit of the last decimal, or of the last bit. A unit above
-    a quarter of the interval would hide a lost row, so such distances have to be exact.
+    two fifths of the interval would hide a lost row, so such distances have to be exact.
     """
     bits = 4 * float(np.spacing(np.abs(distance_m).max()))
     unit = 1.001 * 10.0 ** -min(max(decimals, 0), 300)
-    return bits if unit > interval_m / 4 else max(unit, bits)
+    return bits if unit > 0.4 * interval_m else max(unit, bits)
 
 
 def _deviation(distance_m: FloatArray, interval: float) -> FloatArray:

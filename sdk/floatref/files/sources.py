@@ -46,8 +46,10 @@ def _refusals(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}; {_advice(error)}") from error
-    except UnicodeEncodeError as error:
-        raise InputError(f"{str(path)!r}: not a possible file name; rename the file") from error
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"{ascii(str(path))}: no possible file name; rename the file") from error
 
 
 def _check_kind(path: Path, mode: int) -> None:
