@@ -18,6 +18,7 @@ from scipy.special import k1
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.proving_ground.road import (
+    RUN_OUT_M,
     SPACING_M,
     START_M,
     Road,
@@ -54,7 +55,8 @@ def spectral_road(
     """
     sides = lateral_positions(tracks)
     points = points_of(length_m, spacing_m, start_m)
-    period_m = PERIOD_STEP_M * float(np.ceil(2 * points * spacing_m / PERIOD_STEP_M))
+    reach_m = length_m + RUN_OUT_M - start_m
+    period_m = PERIOD_STEP_M * float(np.ceil(2 * reach_m / PERIOD_STEP_M))
     periodic = round(period_m / spacing_m)
     wave_numbers = np.arange(1, (periodic + 1) // 2) / (periodic * spacing_m)
     size = np.sqrt(density(wave_numbers) / (periodic * spacing_m)) * periodic / 2
