@@ -1,0 +1,271 @@
+"""Compiled kernels: the vehicle's state update and the rigid-body kinematics of its sensors.
+
+The motion at the sensors has rows `F_X` to `ROAD` per track and `RATE_X` to `ROLL_ANGLE` shared.
+"""
+
+from math import asin, atan2, cos, sin
+
+import numpy as np
+
+from floatref.kernels.compiling import compiled
+from floatref.values.arrays import FloatArray
+
+Vector = tuple[float, float, float]
+Frame = tuple[Vector, Vector, Vector]
+
+STATES = 16
+"""Fourteen states padded to a whole number of vector lanes."""
+INPUTS = 6
+
+BODY_ROWS = 9
+"""Heave, pitch, roll; their first derivatives; their second derivatives."""
+F_X, F_Y, F_Z, RANGE, R_Z, V_Z, A_Z, ROAD = range(8)
+TRACK_ROWS = 8
+RATE_X, RATE_Y, RATE_Z, PITCH_ANGLE, ROLL_ANGLE = range(5)
+SHARED_ROWS = 5
+
+
+@compiled
+def elevation_at(row: FloatArray, position: float) -> float:
+    """Return ``row`` at a fractional index: linear between points, constant beyond the ends."""
+    if position <= 0.0:
+        return float(row[0])
+    index = int(position)
+    if index >= row.size - 1:
+        return float(row[row.size - 1])
+    below = row[index]
+    return float(below + (position - index) * (row[index + 1] - below))
+
+
+@compiled
+def combine(matrix: FloatArray, vector: FloatArray, result: FloatArray) -> None:
+    """Write Σⱼ ``matrix[j]``·``vector[j]`` to ``result``, four sums in one vector lane."""
+    for i in range(0, result.size, 4):
+        a = b = c = d = 0.0
+        for j in range(STATES + INPUTS):
+            a += matrix[j, i] * vector[j]
+            b += matrix[j, i + 1] * vector[j]
+            c += matrix[j, i + 2] * vector[j]
+            d += matrix[j, i + 3] * vector[j]
+        result[i], result[i + 1], result[i + 2], result[i + 3] = a, b, c, d
+
+
+@compiled
+def respond(
+    update: FloatArray,
+    outputs: FloatArray,
+    vector: FloatArray,
+    lanes: FloatArray,
+    grid: FloatArray,
+    wheel_x: FloatArray,
+    distance: FloatArray,
+    ground: FloatArray,
+    body: FloatArray,
+) -> None:
+    """Advance the vehicle over a stretch and write every q-th motion of its body.
+
+    Args:
+        update: next state from states and sums of old and new inputs, shape (22, 16).
+        outputs: second derivatives of the body from states and inputs, shape (22, 4).
+        vector: 16 states and 6 inputs of the sample before; left at those of the last.
+        lanes: enveloped road under each wheel, shape (4, m), in m.
+        grid: start in m and points per m of ``lanes``, shape (2,).
+        wheel_x: position of each wheel ahead of the vehicle point, shape (4,), in m.
+        distance: true distance at the internal rate, shape (n·q,), in m.
+        ground: longitudinal and lateral specific force of the ground on the body, shape
+            (2, n·q), in m/s².
+        body: written, shape (9, n), in m, rad and s; q = distance.size // n.
+    """
+    every = distance.size // body.shape[1]
+    sums = np.empty(STATES + INPUTS)
+    fresh, second = np.empty(STATES), np.empty(4)
+    for k in range(distance.size):
+        for i in range(STATES):
+            sums[i] = vector[i]
+        for w in range(INPUTS):
+            if w < 4:
+                now = elevation_at(lanes[w], (distance[k] + wheel_x[w] - grid[0]) * grid[1])
+            else:
+                now = ground[w - 4, k]
+            sums[STATES + w] = vector[STATES + w] + now
+            vector[STATES + w] = now
+        combine(update, sums, fresh)
+        for i in range(STATES):
+            vector[i] = fresh[i]
+        if k % every == 0:
+            combine(outputs, vector, second)
+            for i in range(3):
+                body[i, k // every] = vector[i]
+                body[3 + i, k // every] = vector[7 + i]
+                body[6 + i, k // every] = second[i]
+
+
+@compiled
+def footprint(
+    paths: FloatArray,
+    grid: FloatArray,
+    pair: FloatArray,
+    x: float,
+    y: float,
+    z: float,
+    beam: Vector,
+    guess: float,
+) -> float:
+    """Return the range in m from (x, y, z) against the ``beam`` (body Z) down to the road.
+
+    Fixed-point iteration of (2.18) over the road under the footprint; it converges as the
+    road's slope times the body's tilt. ``pair`` holds the rows of the wheel paths to the right
+    and left of the track, the lateral position of the first in m and 1 / their distance.
+    """
+    for _ in range(50):
+        position = (x - guess * beam[0] - grid[0]) * grid[1]
+        right = elevation_at(paths[int(pair[0])], position)
+        left = elevation_at(paths[int(pair[1])], position)
+        weight = (y - guess * beam[1] - pair[2]) * pair[3]
+        better = (z - right - weight * (left - right)) / beam[2]
+        change = abs(better - guess)
+        guess = better
+        if change < 1e-11:
+            break
+    return guess
+
+
+@compiled
+def at_points(
+    body: FloatArray,
+    travel: FloatArray,
+    course: FloatArray,
+    points: FloatArray,
+    paths: FloatArray,
+    grid: FloatArray,
+    pairs: FloatArray,
+    tracks: FloatArray,
+    shared: FloatArray,
+) -> None:
+    """Carry the body's motion to the reference points and lasers, in exact sines.
+
+    The course's frame (x along the lane, z normal to it) turns about the vertical with
+    curvature × speed. (2.17) is specific force = Rᵀ(a + g·up), (2.18) the footprint.
+
+    Args:
+        body: heave, pitch, roll and their derivatives in that frame, shape (9, n).
+        travel: distance, speed, acceleration of the vehicle point on the course, shape (3, n).
+        course: curvature in 1/m, components of `up` in the course's frame, g in m/s², height of
+            the centre of gravity in m, shape (6,).
+        points: per track, reference point from the centre of gravity (x, y, z), then
+            laser offset (x, y) from it, in m, shape (tracks, 5).
+        paths: elevation of the wheel paths from right to left, shape (paths, m), in m.
+        grid: start in m and points per m of ``paths``, shape (2,).
+        pairs: see `footprint`, shape (tracks, 4).
+        tracks: written, shape (tracks, 8, n).
+        shared: written, shape (5, n).
+    """
+    guess = np.zeros(points.shape[0])
+    for k in range(body.shape[1]):
+        distance, speed, acceleration = travel[0, k], travel[1, k], travel[2, k]
+        frame = axes(body[1, k], body[2, k])
+        turn, turning = curved(course, speed), curved(course, acceleration)
+        rate, rate_change = rates(frame, body, k, turn, turning)
+        force, velocity = at_centre(course, body, k, speed, acceleration, turn, turning)
+        force = into_body(frame, force)
+        up = (course[1], course[2], course[3])
+        down_beam = (frame[0][2], frame[1][2], frame[2][2])
+        zeta = course[5] + body[0, k]
+        vertical = into_body(frame, up)
+        shared[RATE_X, k], shared[RATE_Y, k], shared[RATE_Z, k] = rate
+        shared[PITCH_ANGLE, k] = -asin(vertical[0])
+        shared[ROLL_ANGLE, k] = atan2(vertical[1], vertical[2])
+        for t in range(points.shape[0]):
+            r = (points[t, 0], points[t, 1], points[t, 2])
+            whirl = cross(rate, r)
+            f = added(force, added(cross(rate_change, r), cross(rate, whirl)))
+            tracks[t, F_X, k], tracks[t, F_Y, k], tracks[t, F_Z, k] = f
+            tracks[t, A_Z, k] = dot(vertical, f) - course[4]
+            tracks[t, V_Z, k] = dot(up, velocity) + dot(vertical, whirl)
+            tracks[t, R_Z, k] = up[0] * distance + up[2] * zeta + dot(vertical, r)
+            lens = (r[0] + points[t, 3], r[1] + points[t, 4], r[2])
+            x, y = distance + dot(frame[0], lens), dot(frame[1], lens)
+            z = zeta + dot(frame[2], lens)
+            h = footprint(paths, grid, pairs[t], x, y, z, down_beam, guess[t])
+            landed = (x - h * down_beam[0], y - h * down_beam[1], z - h * down_beam[2])
+            tracks[t, RANGE, k], tracks[t, ROAD, k] = h, dot(up, landed)
+            guess[t] = h
+
+
+@compiled
+def axes(pitch: float, roll: float) -> Frame:
+    """Return the rows of (6.23) without yaw: the course's axes in body components."""
+    st, ct, sp, cp = sin(pitch), cos(pitch), sin(roll), cos(roll)
+    return (ct, st * sp, st * cp), (0.0, cp, -sp), (-st, ct * sp, ct * cp)
+
+
+@compiled
+def curved(course: FloatArray, speed: float) -> Vector:
+    """Return the course's turn rate about the vertical, in its own frame, at a speed."""
+    pace = course[0] * speed
+    return pace * course[1], pace * course[2], pace * course[3]
+
+
+@compiled
+def rates(
+    frame: Frame, body: FloatArray, k: int, turn: Vector, turning: Vector
+) -> tuple[Vector, Vector]:
+    """Return the body's angular rate and acceleration in body axes, the inverse of (6.27-28)."""
+    cp, sp = frame[1][1], -frame[1][2]
+    own = (body[5, k], body[4, k] * cp, -body[4, k] * sp)
+    twist = body[4, k] * body[5, k]
+    own_change = (body[8, k], body[7, k] * cp - twist * sp, -body[7, k] * sp - twist * cp)
+    carried = into_body(frame, turn)
+    change = added(added(into_body(frame, turning), own_change), cross(carried, own))
+    return added(carried, own), change
+
+
+@compiled
+def at_centre(
+    course: FloatArray,
+    body: FloatArray,
+    k: int,
+    speed: float,
+    acceleration: float,
+    turn: Vector,
+    turning: Vector,
+) -> tuple[Vector, Vector]:
+    """Return specific force and velocity of the centre of gravity in the course's frame."""
+    lift = (0.0, 0.0, course[5] + body[0, k])
+    swept = cross(turn, lift)
+    own = (acceleration, 0.0, body[6, k])
+    coriolis = cross(turn, (speed, 0.0, 2.0 * body[3, k]))
+    frame_made = added(cross(turning, lift), cross(turn, swept))
+    weight = (course[4] * course[1], course[4] * course[2], course[4] * course[3])
+    force = added(added(own, weight), added(coriolis, frame_made))
+    return force, added((speed, 0.0, body[3, k]), swept)
+
+
+@compiled
+def into_body(frame: Frame, vector: Vector) -> Vector:
+    """Return ``vector`` of the course's frame in body axes, (6.24)."""
+    a, b, c = frame
+    x, y, z = vector
+    return (
+        a[0] * x + b[0] * y + c[0] * z,
+        a[1] * x + b[1] * y + c[1] * z,
+        a[2] * x + b[2] * y + c[2] * z,
+    )
+
+
+@compiled
+def cross(a: Vector, b: Vector) -> Vector:
+    """Return the vector product of ``a`` and ``b``."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@compiled
+def added(a: Vector, b: Vector) -> Vector:
+    """Return the sum of ``a`` and ``b``."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@compiled
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product of ``a`` and ``b``."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

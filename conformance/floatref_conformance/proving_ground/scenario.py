@@ -1,0 +1,198 @@
+"""A scenario: a few rounded numbers and a seed from which a whole recording follows."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from difflib import get_close_matches
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref_conformance.proving_ground.iso8608 import CLASSES
+from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.sayers import CASES
+from floatref_conformance.proving_ground.vehicles import vehicle_called
+
+FORMAT = "floatref-scenario/1"
+STATIONARY = ("quiescent", "bounce")
+MANOEUVRES = (
+    *("constant", "coasting", "throttle", "braking", "near-stop", "stop", "dead-start"),
+    *("creeping", *STATIONARY, *RUNS),
+)
+"""Kinds of drive, stationary tests, and the published runs by name."""
+ROADS = ("flat", *(f"sayers-{name}" for name in CASES), *(f"iso-{name}" for name in CLASSES))
+LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "seed": (0, 2**63 - 1),
+        "iri_m_per_km": (0.0, 30.0),
+        "bump_mm": (-100.0, 100.0),
+        "bump_at_m": (0.0, 1e5),
+        "speed_kmh": (0.0, 150.0),
+        "event_speed_kmh": (0.0, 150.0),
+        "deceleration_g": (0.01, 1.0),
+        "dwell_s": (0.0, 600.0),
+        "event_at_m": (0.0, 1e5),
+        "final_speed_kmh": (0.0, 150.0),
+        "length_m": (10.0, 1e5),
+        "grade_percent": (-20.0, 20.0),
+        "cross_slope_percent": (-15.0, 15.0),
+        "curvature_per_km": (-50.0, 50.0),
+        "sensors": (0.0, 100.0),
+        "rate_hz": (1000.0, 64000.0),
+        "profile_interval_m": (0.001, 1.0),
+    }
+)
+"""Smallest and largest value of every number."""
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One recording to be simulated; InputError for values that make none.
+
+    Attributes:
+        seed: draws the road and every sensor's errors.
+        road: one of `ROADS`: flat, of Sayers' spectrum, or of an ISO 8608 class.
+        iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
+        bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
+        vehicle: a name of `vehicles.VEHICLES`.
+        manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
+        speed_kmh: initial speed; simulated speed of a stationary test.
+        event_speed_kmh: at the end of a brake; the fastest of a creep.
+        deceleration_g: of brakes; of coasting and throttle the (de)celeration.
+        dwell_s: at a standstill, or coasting after a near stop.
+        event_at_m: where the brake is released, the stop lies, or coast and throttle begin.
+        final_speed_kmh: after the event.
+        length_m: true distance driven.
+        grade_percent: uphill positive.
+        cross_slope_percent: left side up positive.
+        curvature_per_km: of the course, left turn positive, in 1/km.
+        sensors: factor on all errors of `SensorSuite`; 0 is ideal.
+        imu, gnss: whether those channels are recorded.
+        tracks: wheel paths.
+        rate_hz: of the accelerometers.
+        profile_interval_m: of the truth, and what the recording asks for.
+    """
+
+    seed: int = 0
+    road: str = "sayers-normal"
+    iri_m_per_km: float = 1.8
+    bump_mm: float = 0.0
+    bump_at_m: float = 0.0
+    vehicle: str = "loaded-van"
+    manoeuvre: str = "constant"
+    speed_kmh: float = 72.0
+    event_speed_kmh: float = 0.0
+    deceleration_g: float = 0.2
+    dwell_s: float = 5.0
+    event_at_m: float = 316.0
+    final_speed_kmh: float = 58.0
+    length_m: float = 500.0
+    grade_percent: float = 0.0
+    cross_slope_percent: float = 0.0
+    curvature_per_km: float = 0.0
+    sensors: float = 1.0
+    imu: bool = True
+    gnss: bool = True
+    tracks: tuple[str, ...] = ("left", "right")
+    rate_hz: float = 16000.0
+    profile_interval_m: float = 0.00508
+
+    def __post_init__(self) -> None:
+        """Refuse wrong types, names and numbers; InputError names the field."""
+        for field in fields(self):
+            value = _typed(field.name, getattr(self, field.name), field.default)
+            object.__setattr__(self, field.name, value)
+        _one_of("road", self.road, ROADS)
+        _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
+        vehicle_called(self.vehicle)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the plain JSON object of this scenario."""
+        return {"format": FORMAT, **asdict(self), "tracks": list(self.tracks)}
+
+    @classmethod
+    def from_dict(cls, document: object) -> "Scenario":
+        """Return the scenario of a JSON object; unknown keys are ignored.
+
+        Raises InputError for an unknown format or a value that makes no scenario.
+        """
+        if not isinstance(document, Mapping):
+            raise InputError("a scenario is a JSON object of its numbers")
+        if document.get("format", FORMAT) != FORMAT:
+            raise InputError(f"format {document['format']!r}: unknown, expected {FORMAT!r}")
+        known = {field.name for field in fields(cls)}
+        return cls(**{name: value for name, value in document.items() if name in known})
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the scenario's canonical JSON, in hexadecimal."""
+        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()
+
+
+def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
+    """Return the scenario of a published run or `ref_72`; InputError if there is none."""
+    if name not in RUNS:
+        near = get_close_matches(name, RUNS, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(RUNS)}"
+        raise InputError(f"run {name}: unknown; {hint}")
+    return replace(Scenario(seed=seed, manoeuvre=name), **changes)
+
+
+def read_scenario(path: Path) -> Scenario:
+    """Return the scenario in a JSON file; InputError with one line naming the file."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; give a run or a scenario file") from error
+    except ValueError as error:
+        raise InputError(f"{path}: not JSON ({error}); write one object") from error
+    try:
+        return Scenario.from_dict(document)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
+    """Raise InputError unless ``value`` is among ``known``."""
+    if value not in known:
+        near = get_close_matches(value, known, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
+        raise InputError(f"{name} {value!r}: unknown; {hint}")
+
+
+def _typed(name: str, value: Any, default: Any) -> Any:
+    """Return ``value`` in the type of ``default``, or raise InputError naming the field."""
+    if isinstance(default, tuple):
+        return _track_names(value)
+    if isinstance(default, bool | str):
+        if type(value) is not type(default):
+            raise InputError(f"{name} is {value!r}; give {_kind(default)}")
+        return value
+    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+        raise InputError(f"{name} is {value!r}; give a number")
+    low, high = LIMITS[name]
+    if not low <= value <= high:
+        raise InputError(f"{name} is {value:g}; it must lie between {low:g} and {high:g}")
+    if isinstance(default, int):
+        if value != int(value):
+            raise InputError(f"{name} is {value}; give a whole number")
+        return int(value)
+    return float(value)
+
+
+def _track_names(value: Any) -> tuple[str, ...]:
+    """Return distinct, non-empty names of wheel paths."""
+    names = tuple(value) if isinstance(value, list | tuple) else ()
+    named = all(isinstance(name, str) and name for name in names)
+    if not (names and named and len(set(names)) == len(names)):
+        raise InputError(f"tracks is {value!r}; give a list of different names of wheel paths")
+    return names
+
+
+def _kind(default: bool | str) -> str:
+    return "true or false" if isinstance(default, bool) else "a name in quotes"

@@ -1,0 +1,97 @@
+"""How large each sensor's errors are, and how often each sensor speaks.
+
+Defaults follow Karamihas 2021, section 4.3 and Table 6.1. A noise density is two-sided: white
+noise of density S sampled at f has the standard deviation S·√f, so that results do not depend
+on the rate. 6·10⁻⁴ g of a 16-kHz accelerometer sample and 0.0077 °/s of a 100-Hz gyro sample
+(Table 6.1) map to the densities below; the walks of that table have ambiguous units, so the
+gyros' is K_A of (6.55) and the accelerometers' 10 µg after one second.
+"""
+
+from dataclasses import dataclass, replace
+from math import radians
+
+from floatref.values.channels import STANDARD_GRAVITY
+
+UNSCALED = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz", "gnss_drift_s", "idle_hz"})
+"""Fields that are rates and times, not errors."""
+
+
+@dataclass(frozen=True)
+class SensorSuite:
+    """The errors of all sensors; zero of an error is a perfect sensor.
+
+    Attributes:
+        force_noise: accelerometers, in m/s²/√Hz.
+        force_bias: their bias in m/s²; a run draws 0.5 to 1.5 times it, of either sign.
+        force_walk: random walk of the bias, in m/s²/√s.
+        force_resolution: in m/s² (4 g in 16 bits; the paper's 12-bit converter had 1.08 mg).
+        force_scale: scale error, relative; a run draws up to it, of either sign.
+        misalignment_rad: tilt of the vertical accelerometers' axis; drawn as the bias is.
+        vibration: of the accelerometers' mount by the engine, amplitude in m/s².
+        idle_hz: the engine's speed at standstill (820 rpm).
+        revving_hz_per_mps: its rise with speed, in Hz per m/s.
+        range_noise_m: of a laser sample, in m.
+        range_resolution_m: in m.
+        range_scale: scale error, relative; drawn as the accelerometers' is.
+        range_rate_hz: of the laser; samples are held in between. 0: as the accelerometers'.
+        encoder_step_m: travel per count, in m.
+        encoder_scale: scale error, relative; drawn up to it.
+        slip_per_g: relative error of the encoder's speed per g of longitudinal acceleration.
+        gyro_noise: in rad/s/√Hz.
+        gyro_bias: in rad/s; drawn as the accelerometers' is.
+        gyro_walk: in rad/s/√s.
+        gyro_rate_hz: of the gyros' own clock.
+        gnss_rate_hz: of the receiver's own clock.
+        gnss_drift_s: time constant of the correlated drifts.
+        gnss_height_noise_m, gnss_height_drift_m: standard deviations, in m.
+        gnss_velocity_noise: in m/s.
+        gnss_pitch_noise, gnss_pitch_drift, gnss_roll_noise, gnss_roll_drift: in rad.
+        gnss_position_drift_m: of latitude and longitude, in m.
+    """
+
+    force_noise: float = 6e-4 * STANDARD_GRAVITY / 16000**0.5
+    force_bias: float = 0.5e-3 * STANDARD_GRAVITY
+    force_walk: float = 1e-5 * STANDARD_GRAVITY
+    force_resolution: float = 4 * STANDARD_GRAVITY / 2**16
+    force_scale: float = 5e-4
+    misalignment_rad: float = radians(0.2)
+    vibration: float = 0.015
+    idle_hz: float = 820 / 60
+    revving_hz_per_mps: float = 1.0
+    range_noise_m: float = 0.03e-3
+    range_resolution_m: float = 0.004e-3
+    range_scale: float = 5e-4
+    range_rate_hz: float = 3240.0
+    encoder_step_m: float = 0.3e-3
+    encoder_scale: float = 3e-4
+    slip_per_g: float = 3e-3
+    gyro_noise: float = radians(7.7e-3) / 100**0.5
+    gyro_bias: float = radians(0.01)
+    gyro_walk: float = radians(1.38e-6)
+    gyro_rate_hz: float = 100.0
+    gnss_rate_hz: float = 20.0
+    gnss_drift_s: float = 60.0
+    gnss_height_noise_m: float = 4e-3
+    gnss_height_drift_m: float = 0.011
+    gnss_velocity_noise: float = 0.03
+    gnss_pitch_noise: float = radians(0.06)
+    gnss_pitch_drift: float = radians(0.1)
+    gnss_roll_noise: float = radians(0.1)
+    gnss_roll_drift: float = radians(0.17)
+    gnss_position_drift_m: float = 0.01
+
+    @classmethod
+    def ideal(cls) -> "SensorSuite":
+        """Return the suite without any error, its range as fast as its accelerometers."""
+        return replace(cls().scaled(0.0), range_rate_hz=0.0)
+
+    def scaled(self, factor: float) -> "SensorSuite":
+        """Return the suite with every error ``factor`` times as large, at the same rates."""
+        larger = {
+            name: factor * value for name, value in vars(self).items() if name not in UNSCALED
+        }
+        return replace(self, **larger)
+
+    def idling(self) -> "SensorSuite":
+        """Return the suite of a parked vehicle whose encoder is a signal generator."""
+        return replace(self, revving_hz_per_mps=0.0, encoder_scale=0.0, slip_per_g=0.0)

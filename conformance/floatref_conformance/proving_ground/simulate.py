@@ -1,0 +1,128 @@
+"""From a scenario to a recording and the truth behind it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref import __version__
+from floatref.errors import InputError
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Recording, Setup
+from floatref_conformance.proving_ground.chain import Chain, VerticalError
+from floatref_conformance.proving_ground.motion import BodyMotion, drive_over
+from floatref_conformance.proving_ground.parked import parked
+from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.proving_ground.satellite import gnss_channels
+from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
+from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.staging import (
+    course_of,
+    drive_of,
+    road_of,
+    setup_of,
+    suite_of,
+)
+from floatref_conformance.proving_ground.vehicles import vehicle_called
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """A recording and what it should have measured.
+
+    Attributes:
+        recording: what the sensors delivered.
+        truth: unfiltered elevation along the laser's footprint against true distance, at the
+            setup's profile interval.
+        motion: the true motion.
+        errors: the slow errors of the vertical accelerometers, by wheel path.
+    """
+
+    recording: Recording
+    truth: Profile
+    motion: BodyMotion
+    errors: Mapping[str, VerticalError]
+
+
+def simulate(
+    scenario: Scenario, road: Road | None = None, suite: SensorSuite | None = None
+) -> Simulation:
+    """Simulate a scenario, on ``road`` and with ``suite`` in place of its own if given.
+
+    Raises InputError for numbers that do not make a drive, or a road without the scenario's
+    wheel paths or too short for the drive.
+    """
+    suite = suite_of(scenario) if suite is None else suite
+    if scenario.manoeuvre in STATIONARY:
+        motion, setup = parked(scenario)
+        return _recorded(scenario, suite.idling(), motion, setup)
+    drive, course = drive_of(scenario), course_of(scenario)
+    vehicle = vehicle_called(scenario.vehicle)
+    road = road_of(scenario, drive.length_m) if road is None else road
+    _check_road(scenario, road, drive.length_m)
+    setup = setup_of(scenario, vehicle, road.lateral_m)
+    motion = drive_over(vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup)
+    return _recorded(scenario, suite, motion, setup)
+
+
+def stationary(
+    kind: str = "quiescent", seed: int = 0, rate_hz: float = 16000.0, speed_kmh: float = 72.0
+) -> Simulation:
+    """Simulate a parked vehicle with an artificial encoder and a 5-mm plate under the laser.
+
+    ``kind`` is "quiescent" or "bounce"; the truth is flat but for the plate.
+    """
+    if kind not in STATIONARY:
+        raise InputError(f"stationary test {kind!r}: unknown; choose from {', '.join(STATIONARY)}")
+    return simulate(Scenario(seed=seed, manoeuvre=kind, rate_hz=rate_hz, speed_kmh=speed_kmh))
+
+
+def truth_of(motion: BodyMotion, interval_m: float) -> Profile:
+    """Return the road under every laser at ``k * interval_m`` of true distance.
+
+    Point k takes the first sample at or beyond it; where samples are wider apart than the
+    interval, it lies between them, linear in distance.
+    """
+    distance = motion.distance
+    points = interval_m * np.arange(int(distance[-1] / interval_m) + 1)
+    points = points[points <= distance[-1]]
+    after = np.searchsorted(distance, points)
+    before = np.maximum(after - 1, 0)
+    step = distance[after] - distance[before]
+    wide = step > interval_m
+    back = np.where(wide, (distance[after] - points) / np.where(wide, step, 1.0), 0.0)
+    tracks = []
+    for name, track in motion.tracks.items():
+        z = track.road_m
+        tracks.append(ProfileTrack.of(name, z[after] - back * (z[after] - z[before])))
+    return Profile(interval_m, tuple(tracks), pipeline="truth")
+
+
+def _recorded(
+    scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: Setup
+) -> Simulation:
+    """Return what the sensors make of a motion, and the truth."""
+    chain = Chain(suite, scenario.seed, motion)
+    channels, errors = [chain.distance()], {}
+    shake = chain.shaking()
+    for track in scenario.tracks:
+        vertical, errors[track] = chain.vertical(track, shake)
+        channels += [vertical, chain.height(track)]
+        if scenario.imu:
+            channels.append(chain.horizontal("longitudinal_specific_force", track))
+            channels.append(chain.horizontal("lateral_specific_force", track))
+    if scenario.imu:
+        channels += chain.gyros()
+    if scenario.gnss:
+        channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m)
+    recording = Recording(tuple(channels), setup, "floatref", f"proving ground {__version__}")
+    return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)
+
+
+def _check_road(scenario: Scenario, road: Road, length_m: float) -> None:
+    """Raise InputError unless the road has the wheel paths and the length."""
+    missing = [name for name in scenario.tracks if name not in road.elevation]
+    if missing:
+        raise InputError(f"track {missing[0]}: the road has no such wheel path")
+    if road.end_m < length_m:
+        raise InputError(f"the road ends at {road.end_m:g} m, the drive at {length_m:g} m")
