@@ -8,6 +8,7 @@ from floatref_reference.signals import Real, Samples, Signal, mean, samples, sig
 
 F_C_ANTI_ALIAS = 1000.0
 LAMBDA_C = 105.91
+TIE = 1e-6
 
 
 def anti_alias(x: npt.ArrayLike, f_s: Real) -> Signal:
@@ -57,7 +58,8 @@ def trigger(r_xp: npt.ArrayLike, dx: float) -> list[tuple[int, np.longdouble]]:
         Section 5.3, decimation by encoder progress: x_k = r_xp(t_1) + k Δx for k = 0, 1, …
         while x_k ≤ r_xp(t_N). Point k takes the first sample i with r_xp(t_i) ≥ x_k. A step
         r_xp(t_i) - r_xp(t_{i-1}) above Δx skips points, so there the fraction of the step at x_k
-        is taken. The points are double-precision numbers, which decides exact ties.
+        is taken. A distance within 1e-6 Δx of a point has reached it: encoder counts and points
+        are often the same decimal number, which rounding must not tell apart.
 
     Args:
         r_xp: travel distance, m, shape (N,), non-decreasing.
@@ -77,11 +79,12 @@ def trigger(r_xp: npt.ArrayLike, dx: float) -> list[tuple[int, np.longdouble]]:
         raise ValueError("the travel distance decreases")
     points: list[tuple[int, np.longdouble]] = []
     i = 0
-    while (x_k := x[0] + len(points) * dx) <= x[-1]:
-        while x[i] < x_k:
+    tie = TIE * dx
+    while (x_k := x[0] + len(points) * dx) <= x[-1] + tie:
+        while x[i] + tie < x_k:
             i += 1
         fraction = np.longdouble(1)
-        if i > 0 and x[i] - x[i - 1] > dx:
+        if i > 0 and x[i] - x[i - 1] > dx + tie and x_k < x[i]:
             fraction = (np.longdouble(x_k) - x[i - 1]) / (np.longdouble(x[i]) - x[i - 1])
         points.append((i, fraction))
     return points
