@@ -167,7 +167,7 @@ class Plate:
         inside = self.length_m / 2 - np.abs(distance - self.start_m - self.length_m / 2)
         if self.edge_m == 0:
             return np.where(inside >= 0, self.height_m, 0.0)
-        return self.height_m * cosine_rise(inside / self.edge_m)
+        return self.height_m * cosine_rise(np.clip(inside, 0.0, self.edge_m) / self.edge_m)
 
 
 def artificial_drive(speed: float = SIMULATED_SPEED, duration_s: float = DURATION_S) -> Drive:
