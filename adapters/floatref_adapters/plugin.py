@@ -1,0 +1,15 @@
+"""The plug-in through which `floatref` finds these adapters."""
+
+from collections.abc import Callable
+
+import pluggy
+
+from floatref_adapters.csv_recording import CsvRecording
+
+hookimpl = pluggy.HookimplMarker("floatref")
+
+
+@hookimpl
+def floatref_register_adapters(register: Callable[[CsvRecording], None]) -> None:
+    """Register every adapter of this package."""
+    register(CsvRecording())

@@ -1,0 +1,48 @@
+"""Time stamps as text: the clock that they were rounded from."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref import StampedClock, UniformClock
+
+MOST_DIGITS = 12
+"""Significant digits of a rate or a step that is looked for."""
+
+
+def decimals_of(text: str) -> int:
+    """Return with how many decimals the number ``text`` is written, its exponent included."""
+    mantissa, _, exponent = text.strip().lower().partition("e")
+    return len(mantissa.partition(".")[2]) - int(exponent or 0)
+
+
+def clock_of(times_s: NDArray[np.float64], decimals: int) -> UniformClock | StampedClock:
+    """Return the clock of ``times_s`` in s, which were rounded to ``decimals`` decimals.
+
+    A constant rate within one unit of the last decimal of every stamp is a uniform clock: the
+    line through the first and the last stamp of one is never farther off. Of all such rates
+    the roundest, in Hz or as a step in s, is taken. Other stamps are kept as they are;
+    InputError if they do not increase.
+    """
+    span = float(times_s[-1] - times_s[0])
+    if not span > 0:
+        return StampedClock.of(times_s)
+    step = span / (times_s.size - 1)
+    unit = 10.0**-decimals + 4 * float(np.spacing(np.abs(times_s).max()))
+    for digits in range(1, MOST_DIGITS + 1):
+        for candidate in (1 / _rounded(1 / step, digits), _rounded(step, digits)):
+            if _keeps(times_s, candidate, unit):
+                return UniformClock.of(1 / candidate, float(times_s[0]))
+    if _keeps(times_s, step, unit):
+        return UniformClock.of(1 / step, float(times_s[0]))
+    return StampedClock.of(times_s)
+
+
+def _rounded(value: float, digits: int) -> float:
+    return float(f"{value:.{digits - 1}e}")
+
+
+def _keeps(times_s: NDArray[np.float64], step: float, unit: float) -> bool:
+    if abs(times_s[-1] - times_s[0] - step * (times_s.size - 1)) > unit:
+        return False
+    off = times_s - times_s[0] - step * np.arange(times_s.size)
+    return bool(np.abs(off).max() <= unit)
