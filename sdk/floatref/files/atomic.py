@@ -68,7 +68,7 @@ def _target(path: Path, overwrite: bool) -> Path:
     try:
         target = Path(os.path.realpath(path))
     except ValueError as error:
-        raise InputError(f"{ascii(str(path))}: no possible file name; choose another") from error
+        raise InputError(f"{str(path)!a}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
     if not os.path.isdir(target.parent):
         raise InputError(f"{path}: its folder does not exist; make {target.parent} first")

@@ -10,8 +10,9 @@ from floatref.files.sources import document_path, opened
 def fingerprint(path: Path) -> dict[str, str]:
     """Return the SHA-256 of every file of the recording at ``path``, by file name.
 
-    ``path`` is the directory or its recording.json; another file is one of itself. Raises InputError where `read_recording`
-    would because of the JSON file, or for a sample file that cannot be read.
+    ``path`` is the directory or its recording.json; any other file stands for itself. Raises
+    InputError where `read_recording` would because of the JSON file, or for a sample file that
+    cannot be read.
     """
     document = document_path(path, DOCUMENT)
     if document.name != DOCUMENT:

@@ -21,23 +21,31 @@ def constant_interval(distance_m: FloatArray, decimals: int) -> tuple[float, flo
     if backward.any():
         raise InputError(f"row {_row(backward)}: distance_m does not increase; sort the rows")
     mean = float((distance_m[-1] - distance_m[0]) / (distance_m.size - 1))
-    tolerance = _tolerance(distance_m, decimals, mean)
+    bits = 4 * float(np.spacing(np.abs(distance_m).max()))
+    unit = _unit(decimals, mean)
+    for tolerance in (bits, max(bits, unit)):
+        interval = _shortest(distance_m, mean, tolerance)
+        if interval is not None:
+            return float(distance_m[0]), interval
+    raise InputError(_complaint(distance_m, mean, max(bits, unit)))
+
+
+def _unit(decimals: int, interval_m: float) -> float:
+    """Return how far ``decimals`` may move a distance from the line through the first, in m.
+
+    Each of the two is off by half a unit. A unit above two fifths of the interval would hide a
+    lost row, so such distances have to be exact.
+    """
+    unit = 1.001 * 10.0 ** -min(max(decimals, 0), 300)
+    return unit if unit <= 0.4 * interval_m else 0.0
+
+
+def _shortest(distance_m: FloatArray, mean: float, tolerance: float) -> float | None:
     for digits in range(1, 18):
         interval = float(f"{mean:.{digits - 1}e}")
         if interval > 0 and _deviation(distance_m, interval).max() <= tolerance:
-            return float(distance_m[0]), interval
-    raise InputError(_complaint(distance_m, mean, tolerance))
-
-
-def _tolerance(distance_m: FloatArray, decimals: int, interval_m: float) -> float:
-    """Return how far rounding may move a distance from the line through the first one, in m.
-
-    Each of the two is off by half a unit of the last decimal, or of the last bit. A unit above
-    two fifths of the interval would hide a lost row, so such distances have to be exact.
-    """
-    bits = 4 * float(np.spacing(np.abs(distance_m).max()))
-    unit = 1.001 * 10.0 ** -min(max(decimals, 0), 300)
-    return bits if unit > 0.4 * interval_m else max(unit, bits)
+            return interval
+    return None
 
 
 def _deviation(distance_m: FloatArray, interval: float) -> FloatArray:

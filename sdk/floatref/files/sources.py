@@ -49,7 +49,7 @@ def _refusals(path: Path) -> Iterator[None]:
     except InputError:
         raise
     except ValueError as error:
-        raise InputError(f"{ascii(str(path))}: no possible file name; rename the file") from error
+        raise InputError(f"{str(path)!a}: no possible file name; rename the file") from error
 
 
 def _check_kind(path: Path, mode: int) -> None:
