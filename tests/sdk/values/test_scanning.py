@@ -1,0 +1,62 @@
+"""Looking a piece at a time finds what looking at the whole finds."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as npst
+
+from floatref.values import scanning
+from floatref.values.scanning import Summary, chunks, first_step_where, first_where, longest_gap
+
+SAMPLES = npst.arrays(
+    np.float64,
+    st.integers(1, 40),
+    elements=st.sampled_from([np.nan, 0.0, 1.0, -2.5, 7.0]),
+)
+PIECES = settings(deadline=None, max_examples=80)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def small_chunks() -> object:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scanning, "CHUNK", 4)
+        yield
+
+
+@given(SAMPLES)
+@PIECES
+def test_the_chunks_in_turn_are_the_whole(values: np.ndarray) -> None:
+    whole = np.concatenate([chunk for _, chunk in chunks(values)])
+    np.testing.assert_array_equal(whole, values)
+    for first, chunk in chunks(values, overlap=1):
+        np.testing.assert_array_equal(chunk, values[first : first + 5])
+
+
+@given(SAMPLES)
+@PIECES
+def test_the_first_sample_and_step_are_those_of_the_whole(values: np.ndarray) -> None:
+    places = [k for k in range(values.size) if np.isnan(values[k])]
+    assert first_where(np.isnan, values) == (places[0] if places else None)
+    falls = [k for k in range(1, values.size) if values[k] < values[k - 1]]
+    assert first_step_where(lambda steps: steps < 0, values) == (falls[0] if falls else None)
+
+
+@given(SAMPLES)
+@PIECES
+def test_the_summary_is_that_of_the_whole(values: np.ndarray) -> None:
+    found, valid = Summary.of(values), values[~np.isnan(values)]
+    assert (found.count, found.missing) == (values.size, values.size - valid.size)
+    if valid.size:
+        assert found.mean == pytest.approx(valid.mean(), abs=1e-12)
+        assert (found.least, found.greatest) == (valid.min(), valid.max())
+    else:
+        assert np.isnan([found.mean, found.least, found.greatest]).all()
+
+
+@given(SAMPLES)
+@PIECES
+def test_the_longest_gap_is_that_of_the_text(values: np.ndarray) -> None:
+    text = "".join("x" if np.isnan(value) else " " for value in values)
+    longest = max(text.split(" "), key=len)
+    assert longest_gap(values) == (text.index(longest) if longest else 0, len(longest))
