@@ -5,10 +5,10 @@ have been tuned, would otherwise pass on both sides.
 """
 
 import numpy as np
-from floatref_reference.chapter_2.section_2_1_1_iri import iri
 
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.verdict import Measurement
+from floatref_reference.chapter_2.section_2_1_1_iri import iri
 
 TOLERANCE = 1e-3
 """Largest relative difference between the two values."""

@@ -1,7 +1,8 @@
 """Finding the plug-ins: one at a time, so that a broken one is reported and left out."""
 
+from collections.abc import Callable, Mapping
 from importlib.metadata import entry_points
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import pluggy
 
@@ -19,57 +20,56 @@ def load_registry() -> Registry:
     """Return everything that the suite itself and the installed plug-ins register."""
     from floatref_conformance import defaults
 
-    manager = pluggy.PluginManager(hookspecs.GROUP)
-    manager.add_hookspecs(hookspecs)
-    manager.register(defaults, OWN)
-    broken = _load_entry_points(manager)
-    return collect(manager, broken)
+    plugins: dict[str, Callable[[], object]] = {OWN: lambda: defaults}
+    for point in sorted(entry_points(group=hookspecs.GROUP), key=lambda p: p.name):
+        plugins[point.name] = point.load
+    return collect(plugins)
 
 
-def collect(manager: pluggy.PluginManager, broken: tuple[str, ...] = ()) -> Registry:
-    """Return what the plug-ins of ``manager`` register, each either wholly or not at all."""
+def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
+    """Return what each of ``plugins`` registers, wholly or not at all.
+
+    Each is given as the function that loads it. One that raises, or takes a name that an earlier
+    one has, is left out and reported.
+    """
     kinds: dict[str, DeviceKind] = {}
     checks: dict[str, Check] = {}
     owners: dict[str, str] = {}
-    for name, plugin in manager.list_name_plugin():
-        new_kinds: list[DeviceKind] = []
-        new_checks: list[Check] = []
+    broken: list[str] = []
+    for name, load in plugins.items():
         try:
-            _call(manager, plugin, "conformance_register_devices", new_kinds)
-            _call(manager, plugin, "conformance_register_checks", new_checks)
-            added_kinds = _added(name, owners, kinds, {k.prefix: k for k in new_kinds})
-            added_checks = _added(name, owners, checks, {c.id: c for c in new_checks})
+            new_kinds, new_checks = _registered(name, load())
+            _refuse_taken(owners, (*new_kinds, *new_checks))
         except Exception as error:
-            broken += (_report(name, error),)
+            text = " ".join(str(error).split())
+            broken.append(f"plug-in {name}: {type(error).__name__}: {text}; it is left out")
             continue
-        kinds, checks = added_kinds, added_checks
-        owners |= dict.fromkeys([k.prefix for k in new_kinds] + [c.id for c in new_checks], name)
-    return Registry(kinds, checks, broken)
+        kinds |= new_kinds
+        checks |= new_checks
+        owners |= dict.fromkeys((*new_kinds, *new_checks), name)
+    return Registry(kinds, checks, tuple(broken))
 
 
-def _load_entry_points(manager: pluggy.PluginManager) -> tuple[str, ...]:
-    broken: tuple[str, ...] = ()
-    for point in sorted(entry_points(group=hookspecs.GROUP), key=lambda p: p.name):
-        try:
-            manager.register(point.load(), point.name)
-        except Exception as error:
-            broken += (_report(point.name, error),)
-    return broken
+def _registered(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[str, Check]]:
+    """Return what ``plugin`` registers; it has a manager of its own, so it breaks alone."""
+    manager = pluggy.PluginManager(hookspecs.GROUP)
+    manager.add_hookspecs(hookspecs)
+    manager.register(plugin, name)
+    kinds: list[DeviceKind] = []
+    checks: list[Check] = []
+    manager.hook.conformance_register_devices(register=kinds.append)
+    manager.hook.conformance_register_checks(register=checks.append)
+    _refuse_repeated([*(kind.prefix for kind in kinds), *(check.id for check in checks)])
+    return {kind.prefix: kind for kind in kinds}, {check.id: check for check in checks}
 
 
-def _call(manager: pluggy.PluginManager, plugin: Any, hook: str, into: list[Any]) -> None:
-    others = [other for other in manager.get_plugins() if other is not plugin]
-    manager.subset_hook_caller(hook, others)(register=into.append)
+def _refuse_repeated(names: list[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"registers {name} twice")
 
 
-def _added(
-    plugin: str, owners: dict[str, str], old: dict[str, Named], new: dict[str, Named]
-) -> dict[str, Named]:
-    for name in new.keys() & old.keys():
-        raise ValueError(f"registers {name} again, which {owners[name]} registered")
-    return {**old, **new}
-
-
-def _report(plugin: str, error: Exception) -> str:
-    text = " ".join(str(error).split())
-    return f"plug-in {plugin}: {type(error).__name__}: {text}; it is left out"
+def _refuse_taken(owners: Mapping[str, str], names: tuple[str, ...]) -> None:
+    for name in names:
+        if name in owners:
+            raise ValueError(f"registers {name} again, which {owners[name]} registered")

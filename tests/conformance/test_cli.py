@@ -15,7 +15,6 @@ from floatref_conformance.cli import list as list_command
 from floatref_conformance.cli import run as run_command
 from floatref_conformance.cli.main import main
 from floatref_conformance.devices.interface import DeviceEntry, DeviceKind
-from floatref_conformance.errors import SuiteError
 from floatref_conformance.registry import Registry
 from floatref_conformance.schemas import read_schema
 
@@ -84,9 +83,7 @@ def test_wrong_usage_is_exit_2_in_one_clear_line_without_a_traceback(call, words
 
 
 def test_a_fault_of_the_suite_is_exit_3_without_verdict_or_report(call, tmp_path):
-    answer = call(
-        "run", "--device", "fake:good", "--check", "skewed", "--report", str(tmp_path)
-    )
+    answer = call("run", "--device", "fake:good", "--check", "skewed", "--report", str(tmp_path))
     assert answer.exit_code == 3
     assert "the suite itself is at fault, no verdict" in answer.stderr
     assert not any(word in answer.output for word in ("PASS", "FAIL", "INCOMPLETE"))

@@ -5,7 +5,6 @@ import sys
 from importlib.metadata import EntryPoint, EntryPoints
 from types import ModuleType, SimpleNamespace
 
-import pluggy
 import pytest
 
 from floatref.errors import InputError
@@ -24,12 +23,8 @@ def plugin(devices=None, checks=None):
 
 
 def collected(**others):
-    manager = pluggy.PluginManager(hookspecs.GROUP)
-    manager.add_hookspecs(hookspecs)
-    manager.register(defaults, plugins.OWN)
-    for name, other in others.items():
-        manager.register(other, name)
-    return plugins.collect(manager)
+    loaders = {plugins.OWN: defaults, **others}
+    return plugins.collect({name: lambda p=p: p for name, p in loaders.items()})
 
 
 @pytest.fixture
@@ -80,6 +75,15 @@ def test_a_name_that_is_taken_leaves_the_second_plugin_out_and_names_both(toy_ch
     assert registry.checks["bounce"].clause != "Toy 1.2"
     assert "vendor" in registry.broken[0]
     assert plugins.OWN in registry.broken[0]
+
+
+def test_a_plugin_that_takes_a_name_twice_is_left_out(kind):
+    def devices(register):
+        register(kind)
+        register(kind)
+
+    registry = collected(vendor=plugin(devices))
+    assert registry.broken == ("plug-in vendor: ValueError: registers fake twice; it is left out",)
 
 
 def test_what_is_no_check_or_kind_is_reported(kind):

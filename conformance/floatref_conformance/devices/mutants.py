@@ -18,7 +18,6 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.interface import DeviceEntry, DeviceKind
 
-
 T = TypeVar("T")
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
+from rich.text import Text
 
 from floatref_conformance.events import (
     CaseFinished,
@@ -19,7 +20,8 @@ from floatref_conformance.events import (
 from floatref_conformance.verdict import CheckResult, Outcome, RunResult, Verdict
 
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
-PLAIN_WIDTH = 120
+COLUMNS = ("check", "outcome", "class reached", "cases", "measured", "worst", "limit", "margin")
+PLAIN_WIDTH = 140
 """Columns of the table when nobody says how wide the output is."""
 
 
@@ -28,7 +30,7 @@ class TerminalRenderer:
 
     def __init__(self, console: Console | None = None) -> None:
         """Write to ``console``, or else to standard output."""
-        self.console = console or Console(highlight=False)
+        self.console = console or Console()
         if not self.console.is_terminal:
             self.console.width = max(self.console.width, PLAIN_WIDTH)
         self._progress: Progress | None = None
@@ -85,7 +87,7 @@ class TerminalRenderer:
             self._print(f"Reproduce with: {reproduction(result)}")
 
     def _print(self, text: str) -> None:
-        self.console.print(text, markup=False, soft_wrap=True)
+        self.console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
 def not_run_lines(result: RunResult) -> list[str]:
@@ -123,23 +125,24 @@ def _in_words(result: CheckResult) -> str:
 
 
 def _table(result: RunResult) -> Table:
-    table = Table(title=None)
-    for name in ("check", "outcome", "class reached", "cases", "worst", "limit", "margin"):
+    table = Table()
+    for name in COLUMNS:
         table.add_column(name, no_wrap=True)
     table.add_column("clause", overflow="fold")
     for check in result.checks:
         if check.outcome is not Outcome.SKIP:
-            colour = COLOURS.get(check.outcome, "yellow")
-            cells = [check.id, f"[{colour}]{check.outcome}[/]", check.class_reached or "none"]
-            table.add_row(*cells, str(check.cases), *_numbers(check, result), check.clause)
+            cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
+            outcome = Text(check.outcome, COLOURS.get(check.outcome, "yellow"))
+            table.add_row(Text(check.id), outcome, *map(Text, cells), Text(check.clause))
     return table
 
 
-def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
+def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str, str]:
     worst = check.worst
     if worst is None:
-        return "", "", ""
+        return "", "", "", ""
     limit = worst.limits[result.device_class]
     ratio = worst.ratio(result.device_class)
     margin = f"{1.0 - ratio:.0%}" if isfinite(ratio) else "none"
-    return f"{worst.value:.3g} {worst.unit}", f"{limit:.3g} {worst.unit}", margin
+    measured = f"{worst.quantity}, {worst.track}"
+    return measured, f"{worst.value:.3g} {worst.unit}", f"{limit:.3g} {worst.unit}", margin

@@ -1,0 +1,25 @@
+"""The suite's own devices and checks: a plug-in like any other."""
+
+from collections.abc import Callable
+
+from floatref_conformance.checks.bounce import BOUNCE
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.quiescent import QUIESCENT
+from floatref_conformance.devices.builtin import BUILTIN
+from floatref_conformance.devices.interface import DeviceKind
+from floatref_conformance.devices.mutants import MUTANT
+from floatref_conformance.hookspecs import hookimpl
+
+
+@hookimpl
+def conformance_register_devices(register: Callable[[DeviceKind], None]) -> None:
+    """Register the kinds `builtin` and `mutant`."""
+    register(BUILTIN)
+    register(MUTANT)
+
+
+@hookimpl
+def conformance_register_checks(register: Callable[[Check], None]) -> None:
+    """Register the checks that are built, in the order of the suite's list."""
+    register(QUIESCENT)
+    register(BOUNCE)

@@ -1,0 +1,166 @@
+"""`quiescent` and `bounce` on simulated recordings: what must pass and what must fail."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from jsonschema import Draft202012Validator
+
+from floatref.measures import high_pass
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.bounce import BOUNCE
+from floatref_conformance.checks.plate import Plate, measure_plate
+from floatref_conformance.checks.quiescent import QUIESCENT
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.cli.main import main
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.schemas import read_schema
+
+TRACKS = ("left", "right")
+BOTH = ["--check", "quiescent", "--check", "bounce"]
+
+
+@pytest.fixture(scope="module")
+def bounced():
+    """One bounce case and its simulation."""
+    case = BOUNCE.cases(0, Effort.QUICK)[1]
+    return case, case.simulate()
+
+
+@pytest.fixture(scope="module")
+def reported(tmp_path_factory):
+    """The report of the first command of the README, from a process of its own."""
+    folder = tmp_path_factory.mktemp("report")
+    command = [sys.executable, "-m", "floatref_conformance", "run", *BOTH, "--report", str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done, (folder / "report.json").read_bytes()
+
+
+def on_truths_grid(simulated, change):
+    """Return the profile of a device that knows the truth, and gets ``change`` of it wrong."""
+    interval = simulated.truth.interval_m
+    tracks = tuple(
+        ProfileTrack.of(t.name, change(high_pass(t.elevation, interval), simulated))
+        for t in simulated.truth.tracks
+    )
+    return Profile(interval, tracks)
+
+
+def failing(check, case, simulated, change):
+    measured = check.judge(case, on_truths_grid(simulated, change), simulated)
+    return {m.quantity for m in measured if not m.within(DeviceClass.NOMINAL)}
+
+
+def test_the_truth_itself_keeps_every_limit_of_the_strictest_class(bounced):
+    case, simulated = bounced
+    profile = on_truths_grid(simulated, lambda z, _: z)
+    assert all(m.within(DeviceClass.REFERENCE) for m in BOUNCE.judge(case, profile, simulated))
+
+
+def test_a_flat_profile_fails_by_the_plate_alone(bounced):
+    assert failing(BOUNCE, *bounced, lambda z, _: 0.0 * z) == {"plate height error"}
+
+
+def test_a_profile_that_lets_the_bodys_motion_through_fails_by_the_iri_alone(bounced):
+    def leaky(z, simulated):
+        points = simulated.truth.distance_m
+        bounce = np.sin(2 * np.pi * points / 10.0) * ((points > 200) & (points < 330))
+        return z + 0.4e-3 * bounce
+
+    assert failing(BOUNCE, *bounced, leaky) == {"IRI"}
+
+
+def test_smoothing_the_plate_away_fails_by_the_plate(bounced):
+    def smooth(z, simulated):
+        window = round(10.0 / simulated.truth.interval_m)
+        return np.convolve(z, np.full(window, 1.0 / window), mode="same")
+
+    assert failing(BOUNCE, *bounced, smooth) == {"plate height error"}
+
+
+def test_the_plate_lies_outside_the_stretch_whose_iri_is_limited(bounced):
+    _, simulated = bounced
+    for track in simulated.truth.tracks:
+        plate = Plate.found(simulated.truth, track.name)
+        for check in (QUIESCENT, BOUNCE):
+            assert plate.before[0] - 91.44 > check.end_m
+
+
+def test_the_body_moves_to_its_full_extent_in_the_limited_stretch(bounced):
+    _, simulated = bounced
+    distance = simulated.recording.channel("distance").values
+    height = np.mean([simulated.recording.channel("height", t).values for t in TRACKS], axis=0)
+    inside = (distance > BOUNCE.start_m) & (distance < BOUNCE.end_m)
+    still = np.median(height[distance < 190.0])
+    assert height[inside].min() - still == pytest.approx(-0.056, abs=2e-3)
+    assert height[inside].max() - still == pytest.approx(0.030, abs=2e-3)
+
+
+def test_a_left_over_acceleration_bends_the_rise_as_published(bounced):
+    _, simulated = bounced
+    acceleration, speed = 0.0074, 20.0
+
+    def bent(z, simulated):
+        return z + acceleration / 2 * ((simulated.truth.distance_m - 480.0) / speed) ** 2
+
+    measured = measure_plate(on_truths_grid(simulated, bent), simulated.truth, "left")
+    assert measured.value == pytest.approx(1000 * 0.0133 * acceleration, rel=0.02)
+
+
+def test_cases_follow_from_the_seed_and_differ_between_seeds_checks_and_each_other():
+    def seeds(check, seed):
+        return [case.parameters["seed"] for case in check.cases(seed, Effort.QUICK)]
+
+    assert seeds(QUIESCENT, 7) == seeds(QUIESCENT, 7)
+    drawn = [*seeds(QUIESCENT, 7), *seeds(QUIESCENT, 8), *seeds(BOUNCE, 7)]
+    assert len(set(drawn)) == len(drawn)
+    assert len({case.rate_hz for case in BOUNCE.cases(0, Effort.QUICK)}) == 2
+
+
+def test_every_check_names_clause_derivation_floor_and_a_limit_per_class():
+    for check in load_registry().checks.values():
+        for text in (check.title, check.clause, check.derivation, check.floor):
+            assert text
+        assert check.limits
+        assert all(set(limits) == set(DeviceClass) for limits in check.limits.values())
+        words = CliRunner().invoke(main, ["explain", check.id]).output
+        assert f"Clause: {check.clause}" in words
+
+
+def test_the_limits_are_those_of_r_57_and_half_of_them_for_class_reference():
+    for check, limit in ((QUIESCENT, 0.047), (BOUNCE, 0.126)):
+        assert check.iri_limits[DeviceClass.NOMINAL] == limit
+        assert check.iri_limits[DeviceClass.ADEQUATE] == limit
+        assert check.iri_limits[DeviceClass.REFERENCE] == pytest.approx(limit / 2)
+
+
+def test_the_basic_pipeline_passes_both_and_the_run_is_incomplete(reported):
+    done, report = reported
+    assert done.returncode == 4, done.stderr
+    assert "INCOMPLETE: 2 of 2 checks that ran passed; 13 were not run" in done.stdout
+    document = json.loads(report)
+    Draft202012Validator(read_schema("conformance-report-1")).validate(document)
+    outcomes = {c["id"]: c["outcome"] for c in document["checks"]}
+    assert (outcomes.pop("quiescent"), outcomes.pop("bounce")) == ("pass", "pass")
+    assert set(outcomes.values()) == {"skip"}
+
+
+def test_another_process_with_the_same_seed_writes_the_same_bytes(reported, tmp_path):
+    CliRunner().invoke(main, ["run", *BOTH, "--report", str(tmp_path)])
+    assert (tmp_path / "report.json").read_bytes() == reported[1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "entry"), [(k, e) for k in ("mutant",) for e in load_registry().kinds[k].entries()]
+)
+def test_each_mutant_fails_the_checks_that_it_names(kind, entry, tmp_path):
+    words = ["run", "--device", f"{kind}:{entry.name}", "--report", str(tmp_path)]
+    answer = CliRunner().invoke(main, words)
+    assert answer.exit_code == 1
+    report = json.loads((tmp_path / "report.json").read_text())
+    failed = {c["id"] for c in report["checks"] if c["outcome"] == "fail"}
+    assert failed == set(entry.fails)
+    assert entry.fails

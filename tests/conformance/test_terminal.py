@@ -1,0 +1,57 @@
+"""The terminal: what is shown while a run goes on, and after."""
+
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.render.terminal import TerminalRenderer
+from floatref_conformance.runner import run
+
+
+def shown(plan, terminal):
+    file = StringIO()
+    renderer = TerminalRenderer(Console(file=file, force_terminal=terminal, width=150))
+    for event in run(plan):
+        renderer.handle(event)
+    return file.getvalue()
+
+
+def test_a_terminal_gets_a_progress_bar_and_then_the_table(plan, fake_device):
+    text = shown(plan(fake_device()), terminal=True)
+    assert "\x1b[" in text
+    assert "PASS: 1 of 1 checks that ran passed" in text
+
+
+def test_a_pipe_gets_the_table_whole_with_worst_limit_margin_and_clause(plan, fake_device):
+    text = shown(plan(fake_device(lambda t: {n: 0.5 * z for n, z in t.items()})), terminal=False)
+    row = next(line for line in text.splitlines() if "Toy 1.2" in line)
+    assert [cell.strip() for cell in row.split("│")][1:6] == [
+        "toy", "fail", "none", "2", "IRI error, left",
+    ]  # fmt: skip
+    assert "0.1 m/km" in row
+    assert "%" in row
+
+
+def test_brackets_in_a_plugins_clause_are_text(plan, fake_device, toy_check):
+    assert "[red] 5" in shown(plan(fake_device(), toy_check(clause="[red] 5")), terminal=False)
+
+
+def test_the_progress_bar_goes_away_after_an_error(plan, fake_device, toy_check):
+    console = Console(file=StringIO(), force_terminal=True)
+    renderer = TerminalRenderer(console)
+    events = run(plan(fake_device(), toy_check(skew=1.0)))
+    with pytest.raises(SuiteError):
+        list(map(renderer.handle, events))
+    assert len(console._live_stack) == 1
+    renderer.close()
+    renderer.close()
+    assert console._live_stack == []
+
+
+def test_a_check_that_is_not_applicable_says_what_it_needs(plan, fake_device, toy_check):
+    needy = toy_check(id="needy", needs=frozenset({"gnss"}))
+    text = shown(plan(fake_device(), toy_check(), needy), terminal=False)
+    assert "needy: needs gnss, which the device does not declare" in text
+    assert "PASS: 1 of 1" in text
