@@ -1,1 +1,29 @@
-"""Roads, drives, vehicles and sensors whose truth is known."""
+"""Roads, drives, vehicles and sensors whose truth is known.
+
+A `Scenario` is a few numbers and a seed; `simulate` makes of it a recording, the truth along
+the laser's path, and the true motion. Nothing here imports a compiler until it is called.
+"""
+
+from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
+from floatref_conformance.proving_ground.motion import BodyMotion, TrackMotion
+from floatref_conformance.proving_ground.scenario import (
+    Scenario,
+    read_scenario,
+    scenario_of_run,
+)
+from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary
+
+__all__ = [
+    "BodyMotion",
+    "CachedSimulation",
+    "Scenario",
+    "SensorSuite",
+    "Simulation",
+    "TrackMotion",
+    "read_scenario",
+    "scenario_of_run",
+    "simulate",
+    "simulate_cached",
+    "stationary",
+]

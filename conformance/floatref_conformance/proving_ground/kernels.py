@@ -1,7 +1,4 @@
-"""Compiled kernels: the vehicle's state update and the rigid-body kinematics of its sensors.
-
-The motion at the sensors has rows `F_X` to `ROAD` per track and `RATE_X` to `ROLL_ANGLE` shared.
-"""
+"""Compiled kernels: the vehicle's state update and the kinematics of its sensors."""
 
 from math import asin, atan2, cos, sin
 
@@ -13,10 +10,8 @@ from floatref.values.arrays import FloatArray
 Vector = tuple[float, float, float]
 Frame = tuple[Vector, Vector, Vector]
 
-STATES = 16
-"""Fourteen states padded to a whole number of vector lanes."""
-INPUTS = 6
-
+STATES, INPUTS = 16, 6
+"""Fourteen states padded to whole vector lanes; four wheels' roads and two accelerations."""
 BODY_ROWS = 9
 """Heave, pitch, roll; their first derivatives; their second derivatives."""
 F_X, F_Y, F_Z, RANGE, R_Z, V_Z, A_Z, ROAD = range(8)
@@ -83,10 +78,9 @@ def respond(
         for i in range(STATES):
             sums[i] = vector[i]
         for w in range(INPUTS):
+            now = ground[max(w - 4, 0), k]
             if w < 4:
                 now = elevation_at(lanes[w], (distance[k] + wheel_x[w] - grid[0]) * grid[1])
-            else:
-                now = ground[w - 4, k]
             sums[STATES + w] = vector[STATES + w] + now
             vector[STATES + w] = now
         combine(update, sums, fresh)
@@ -105,18 +99,17 @@ def footprint(
     paths: FloatArray,
     grid: FloatArray,
     pair: FloatArray,
-    x: float,
-    y: float,
-    z: float,
+    lens: Vector,
     beam: Vector,
     guess: float,
 ) -> float:
-    """Return the range in m from (x, y, z) against the ``beam`` (body Z) down to the road.
+    """Return the range in m from the ``lens`` against the ``beam`` (body Z) down to the road.
 
     Fixed-point iteration of (2.18) over the road under the footprint; it converges as the
     road's slope times the body's tilt. ``pair`` holds the rows of the wheel paths to the right
     and left of the track, the lateral position of the first in m and 1 / their distance.
     """
+    x, y, z = lens
     for _ in range(50):
         position = (x - guess * beam[0] - grid[0]) * grid[1]
         right = elevation_at(paths[int(pair[0])], position)
@@ -162,19 +155,21 @@ def at_points(
     """
     guess = np.zeros(points.shape[0])
     for k in range(body.shape[1]):
-        distance, speed, acceleration = travel[0, k], travel[1, k], travel[2, k]
         frame = axes(body[1, k], body[2, k])
-        turn, turning = curved(course, speed), curved(course, acceleration)
+        turn, turning = curved(course, travel[1, k]), curved(course, travel[2, k])
         rate, rate_change = rates(frame, body, k, turn, turning)
-        force, velocity = at_centre(course, body, k, speed, acceleration, turn, turning)
+        force, velocity = at_centre(course, body, travel, k, turn, turning)
         force = into_body(frame, force)
         up = (course[1], course[2], course[3])
-        down_beam = (frame[0][2], frame[1][2], frame[2][2])
+        beam = (frame[0][2], frame[1][2], frame[2][2])
         zeta = course[5] + body[0, k]
         vertical = into_body(frame, up)
         shared[RATE_X, k], shared[RATE_Y, k], shared[RATE_Z, k] = rate
-        shared[PITCH_ANGLE, k] = -asin(vertical[0])
-        shared[ROLL_ANGLE, k] = atan2(vertical[1], vertical[2])
+        if up[0] == 0.0 and up[1] == 0.0:
+            shared[PITCH_ANGLE, k], shared[ROLL_ANGLE, k] = body[1, k], body[2, k]
+        else:
+            shared[PITCH_ANGLE, k] = -asin(vertical[0])
+            shared[ROLL_ANGLE, k] = atan2(vertical[1], vertical[2])
         for t in range(points.shape[0]):
             r = (points[t, 0], points[t, 1], points[t, 2])
             whirl = cross(rate, r)
@@ -182,14 +177,11 @@ def at_points(
             tracks[t, F_X, k], tracks[t, F_Y, k], tracks[t, F_Z, k] = f
             tracks[t, A_Z, k] = dot(vertical, f) - course[4]
             tracks[t, V_Z, k] = dot(up, velocity) + dot(vertical, whirl)
-            tracks[t, R_Z, k] = up[0] * distance + up[2] * zeta + dot(vertical, r)
-            lens = (r[0] + points[t, 3], r[1] + points[t, 4], r[2])
-            x, y = distance + dot(frame[0], lens), dot(frame[1], lens)
-            z = zeta + dot(frame[2], lens)
-            h = footprint(paths, grid, pairs[t], x, y, z, down_beam, guess[t])
-            landed = (x - h * down_beam[0], y - h * down_beam[1], z - h * down_beam[2])
-            tracks[t, RANGE, k], tracks[t, ROAD, k] = h, dot(up, landed)
-            guess[t] = h
+            tracks[t, R_Z, k] = up[0] * travel[0, k] + up[2] * zeta + dot(vertical, r)
+            p = (r[0] + points[t, 3], r[1] + points[t, 4], r[2])
+            lens = (travel[0, k] + dot(frame[0], p), dot(frame[1], p), zeta + dot(frame[2], p))
+            h = guess[t] = footprint(paths, grid, pairs[t], lens, beam, guess[t])
+            tracks[t, RANGE, k], tracks[t, ROAD, k] = h, dot(up, lens) - h * dot(up, beam)
 
 
 @compiled
@@ -222,23 +214,17 @@ def rates(
 
 @compiled
 def at_centre(
-    course: FloatArray,
-    body: FloatArray,
-    k: int,
-    speed: float,
-    acceleration: float,
-    turn: Vector,
-    turning: Vector,
+    course: FloatArray, body: FloatArray, travel: FloatArray, k: int, turn: Vector, turning: Vector
 ) -> tuple[Vector, Vector]:
     """Return specific force and velocity of the centre of gravity in the course's frame."""
     lift = (0.0, 0.0, course[5] + body[0, k])
     swept = cross(turn, lift)
-    own = (acceleration, 0.0, body[6, k])
-    coriolis = cross(turn, (speed, 0.0, 2.0 * body[3, k]))
+    own = (travel[2, k], 0.0, body[6, k])
+    coriolis = cross(turn, (travel[1, k], 0.0, 2.0 * body[3, k]))
     frame_made = added(cross(turning, lift), cross(turn, swept))
     weight = (course[4] * course[1], course[4] * course[2], course[4] * course[3])
     force = added(added(own, weight), added(coriolis, frame_made))
-    return force, added((speed, 0.0, body[3, k]), swept)
+    return force, added((travel[1, k], 0.0, body[3, k]), swept)
 
 
 @compiled
