@@ -87,7 +87,7 @@ def _correlate(p: FloatArray, q: FloatArray, largest: int) -> _Overlap:
     shaped = (p_sigma > 0) & (q_sigma > 0)
     rho = np.divide(covariance, p_sigma * q_sigma, out=np.zeros(counts.size), where=shaped)
     low, high = np.minimum(p_sigma, q_sigma), np.maximum(p_sigma, q_sigma)
-    gamma = np.divide(low, high, out=np.zeros(counts.size), where=high > 0)
+    gamma = np.divide(low, high, out=np.ones(counts.size), where=high > 0)
     return _Overlap(np.clip(rho, -1.0, 1.0), gamma)
 
 

@@ -1,5 +1,6 @@
 """Filters that bring out the content to compare, and the agreement in a band (2.1.5.2)."""
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import NamedTuple
@@ -39,9 +40,10 @@ BANDS = ("iri", *WAVEBANDS)
 def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91.44) -> FloatArray:
     """Return HPF_B3x2 of ``elevation``, −3 dB at ``wavelength_m``, without phase shift.
 
-    Same length; NaN before the first and after the last measured point and, after the bridge
-    has been filtered, in gaps again. Raises InputError for a wavelength of two intervals or
-    less. Source: appendix A.1, A.5 and (A.22).
+    Elevation counts from the first measured point, as a floating reference height does, so the
+    datum has no part in the filter's run-in. Same length; NaN before the first and after the
+    last measured point and, after the bridge has been filtered, in gaps again. Raises InputError
+    for a wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
     from floatref.kernels.zero_phase import high_pass_b3x2
 
@@ -50,7 +52,8 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
     cutoff = wavelength_m * TWO_PASS_HIGH_PASS
-    filtered[stretch] = high_pass_b3x2(bridged(values[stretch]), interval_m, cutoff)
+    rise = bridged(values[stretch]) - values[stretch.start]
+    filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan
     return filtered
 
@@ -58,12 +61,12 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
 def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
     """Return the slope in m/m of ``elevation`` in ``band``, one value fewer than points.
 
-    Gaps are bridged; ends without elevation are refused. The low-pass is left out where its
-    cut-off is not above two intervals: the profile holds nothing shorter. Raises InputError for
-    an unknown band or one whose long end is not above two intervals. Source: 2.1.5.2.
+    The slope less its mean is continued at both ends by its mirror image, as far as the band's
+    longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
+    without elevation are refused. The low-pass is left out where its cut-off is not above two
+    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one
+    whose long end is not above two intervals. Source: 2.1.5.2.
     """
-    from floatref.kernels.zero_phase import high_pass_b3x2, low_pass_b3x2
-
     if band not in WAVEBANDS:
         raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
     limits = WAVEBANDS[band]
@@ -71,10 +74,10 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     values = checked_elevation(elevation, interval_m)
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
-    slope = high_pass_b3x2(np.diff(bridged(values)) / interval_m, interval_m, limits.long_m)
-    if limits.short_m <= 2 * interval_m:
-        return slope
-    return low_pass_b3x2(slope, interval_m, limits.short_m)
+    slope = np.diff(bridged(values)) / interval_m
+    margin = math.ceil(limits.long_m / interval_m)
+    continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
+    return _band_passed(continued, interval_m, limits)[margin : margin + slope.size]
 
 
 def agreement(
@@ -97,6 +100,16 @@ def agreement(
     common = _common_stretch(p, q)
     p_band, q_band = (_filtered(z[common], interval_m, band) for z in (p, q))
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
+
+
+def _band_passed(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
+    """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
+    from floatref.kernels.zero_phase import high_pass_b3x2, low_pass_b3x2
+
+    passed = high_pass_b3x2(slope, interval_m, limits.long_m)
+    if limits.short_m <= 2 * interval_m:
+        return passed
+    return low_pass_b3x2(passed, interval_m, limits.short_m)
 
 
 def _filtered(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:

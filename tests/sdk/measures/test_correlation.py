@@ -1,0 +1,121 @@
+"""Cross correlation: shifted copies, amplitudes, bounds, and the literal sums."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import InputError
+from floatref.measures import cross_correlation
+
+FEW = settings(deadline=None, max_examples=25)
+seeds = st.integers(0, 2**32 - 1)
+
+
+def noise(seed: int, count: int) -> np.ndarray:
+    return np.random.default_rng(seed).normal(0.3, 1.0, count)
+
+
+@given(seed=seeds, lag=st.integers(-40, 40), count=st.integers(200, 900))
+@FEW
+def test_shifted_copy_is_found_and_scores_one(seed: int, lag: int, count: int) -> None:
+    longer = noise(seed, count + 80)
+    p, q = longer[40 : 40 + count], longer[40 - lag : 40 - lag + count]
+    found = cross_correlation(p, q, 0.05, max_offset_m=2.0)
+    # q(x) = p(x − s): the second signal lies farther along by s.
+    assert found.offset_m == pytest.approx(lag * 0.05, abs=1e-12)
+    assert found.cross_correlation == pytest.approx(1.0, abs=1e-9)
+
+
+@given(seed=seeds, factor=st.floats(0.01, 100.0), datum=st.floats(-10.0, 10.0))
+@FEW
+def test_amplitude_lowers_the_score_and_the_mean_does_not(
+    seed: int, factor: float, datum: float
+) -> None:
+    p = noise(seed, 300)
+    found = cross_correlation(p, factor * p + datum, 0.1)
+    assert found.correlation == pytest.approx(1.0, abs=1e-9)
+    assert found.amplitude_factor == pytest.approx(min(factor, 1 / factor), rel=1e-9)
+    assert found.cross_correlation == found.correlation * found.amplitude_factor
+
+
+@given(seed=seeds, other=seeds, count=st.integers(8, 200), lags=st.integers(0, 2))
+@FEW
+def test_lies_between_minus_one_and_one(seed: int, other: int, count: int, lags: int) -> None:
+    found = cross_correlation(noise(seed, count), noise(other, count), 1.0, float(lags))
+    assert -1.0 <= found.cross_correlation <= 1.0
+    assert 0.0 <= found.amplitude_factor <= 1.0
+
+
+@given(seed=seeds, other=seeds, count=st.integers(50, 400), lags=st.integers(0, 12))
+@FEW
+def test_is_the_best_of_the_correlations_of_the_overlaps(
+    seed: int, other: int, count: int, lags: int
+) -> None:
+    p, q = noise(seed, count), noise(other, count)
+    rho = {}
+    for i in range(-lags, lags + 1):
+        first, second = p[max(-i, 0) : count - max(i, 0)], q[max(i, 0) : count + min(i, 0)]
+        rho[i] = float(np.corrcoef(first, second)[0, 1])
+    best = max(rho, key=rho.__getitem__)
+    first, second = p[max(-best, 0) : count - max(best, 0)], q[max(best, 0) : count + min(best, 0)]
+    found = cross_correlation(p, q, 0.5, 0.5 * lags)
+    assert found.correlation == pytest.approx(rho[best], abs=1e-10)
+    assert found.offset_m == pytest.approx(0.5 * best)
+    sigmas = sorted((first.std(), second.std()))
+    assert found.amplitude_factor == pytest.approx(sigmas[0] / sigmas[1], rel=1e-9)
+
+
+@given(seed=seeds, other=seeds)
+@FEW
+def test_exchanging_the_signals_turns_the_offset_round(seed: int, other: int) -> None:
+    p, q = noise(seed, 300), noise(other, 300)
+    there, back = cross_correlation(p, q, 0.1), cross_correlation(q, p, 0.1)
+    assert back.offset_m == pytest.approx(-there.offset_m)
+    assert back.cross_correlation == pytest.approx(there.cross_correlation, abs=1e-10)
+
+
+def test_opposite_signal_scores_minus_one_without_a_search() -> None:
+    p = noise(4, 300)
+    assert cross_correlation(p, -p, 0.1, 0.0).cross_correlation == pytest.approx(-1.0)
+
+
+@pytest.mark.parametrize("level", [0.0, 0.1, -583.0])
+def test_constant_signal_agrees_with_nothing(level: float) -> None:
+    flat, rough = np.full(300, level), noise(1, 300)
+    for pair in ((flat, rough), (rough, flat), (flat, flat)):
+        found = cross_correlation(*pair, 0.1)
+        assert found.cross_correlation == 0.0
+        assert found.offset_m == 0.0
+
+
+def test_largest_offset_is_within_reach_despite_rounding() -> None:
+    longer = noise(9, 1600)
+    found = cross_correlation(longer[200:1400], longer[:1200], 0.00508, max_offset_m=1.016)
+    assert found.offset_m == pytest.approx(1.016)
+    assert found.cross_correlation == pytest.approx(1.0)
+
+
+def test_periodic_signal_takes_the_offset_nearest_to_zero() -> None:
+    p = np.tile([0.0, 1.0, 0.0, -1.0], 50)
+    assert cross_correlation(p, p, 0.1).offset_m == 0.0
+
+
+@pytest.mark.parametrize(
+    ("p", "q", "max_offset", "text"),
+    [
+        (np.zeros(100), np.zeros(99), 1.0, "same points"),
+        (np.zeros((10, 10)), np.zeros((10, 10)), 1.0, "same points"),
+        (np.full(100, np.nan), np.zeros(100), 1.0, "NaN"),
+        (np.zeros(100), np.zeros(100), 2.6, "too short for offsets of up to 2.6 m"),
+        (np.zeros(1), np.zeros(1), 0.0, "too short"),
+        (np.zeros(100), np.zeros(100), -1.0, "give 0 m or more"),
+        (np.zeros(100), np.zeros(100), float("nan"), "give 0 m or more"),
+        (np.zeros(100), np.zeros(100), float("inf"), "give 0 m or more"),
+    ],
+)
+def test_unusable_signals_are_refused(
+    p: np.ndarray, q: np.ndarray, max_offset: float, text: str
+) -> None:
+    with pytest.raises(InputError, match=text):
+        cross_correlation(p, q, 0.1, max_offset)
