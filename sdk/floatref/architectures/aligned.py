@@ -4,11 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.stages.signals import DISTANCE
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel
 
@@ -18,8 +17,6 @@ GAP = 5.0
 """Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
 LOOK = 4096
 """Samples looked at in one go for the end of a gap."""
-
-Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +107,7 @@ def bridged(values: FloatArray, low: int, high: int) -> tuple[FloatArray, BoolAr
     return np.interp(where, known, values[known]), missing
 
 
-def _good_before(values: FloatArray, low: int) -> Indices:
+def _good_before(values: FloatArray, low: int) -> IndexArray:
     for end in range(low, 0, -LOOK):
         good = np.flatnonzero(~np.isnan(values[max(end - LOOK, 0) : end]))
         if good.size:
@@ -118,7 +115,7 @@ def _good_before(values: FloatArray, low: int) -> Indices:
     return np.empty(0, np.int64)
 
 
-def _good_after(values: FloatArray, high: int) -> Indices:
+def _good_after(values: FloatArray, high: int) -> IndexArray:
     for begin in range(high, values.size, LOOK):
         good = np.flatnonzero(~np.isnan(values[begin : begin + LOOK]))
         if good.size:

@@ -1,7 +1,7 @@
 """Integration, compensated sums, and the search for profile points along the encoder."""
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 
 MEMORY = 3
 """Length of the memory of an integrator: started, the last input, the integral."""
@@ -66,36 +66,40 @@ def add_up(x: FloatArray, memory: FloatArray) -> None:
 
 @compiled
 def find_points(
-    distance: FloatArray, origin: float, interval: float, first: int, position: FloatArray
+    distance: FloatArray,
+    origin: float,
+    interval: float,
+    first: int,
+    sample: IndexArray,
+    part: FloatArray,
 ) -> int:
-    """Write where points ``first``, ``first + 1``, … lie among the samples; return how many.
+    """Find points ``first``, ``first + 1``, … among the samples; return how many there are.
 
-    Point k lies at ``origin + k * interval``. Its position is the index of the first sample
-    that has reached it; between samples more than an interval apart it is a fraction, linear
-    in distance. ``distance[0]`` is the last sample of the stretch before, already searched.
+    Point k lies at ``origin + k * interval``. ``sample`` gets the first sample that has reached
+    it, ``part`` 1; between samples more than an interval apart ``part`` is the fraction of the
+    way to it, linear in distance. ``distance[0]`` is the last sample of the stretch before,
+    already searched. (The two are kept apart: their sum would round after the split.)
     """
     found = 0
     slack = TIE * interval
     for i in range(1, distance.size):
-        here = distance[i] + slack
-        while origin + (first + found) * interval <= here:
-            step = distance[i] - distance[i - 1]
-            where = float(i)
-            if step > interval + slack:
-                beyond = distance[i] - (origin + (first + found) * interval)
-                where = i - max(beyond, 0.0) / step
-            position[found] = where
+        step = distance[i] - distance[i - 1]
+        while origin + (first + found) * interval <= distance[i] + slack:
+            point = origin + (first + found) * interval
+            sample[found] = i
+            part[found] = 1.0
+            if step > interval + slack and point < distance[i]:
+                part[found] = (point - distance[i - 1]) / step
             found += 1
     return found
 
 
 @compiled
-def read_at(x: FloatArray, position: FloatArray, y: FloatArray) -> None:
-    """Write ``x`` at the (fractional) positions to ``y``, linear between samples."""
-    for k in range(position.size):
-        after = int(position[k])
-        part = position[k] - after
-        if part > 0.0:
-            y[k] = x[after] + part * (x[after + 1] - x[after])
+def read_at(x: FloatArray, sample: IndexArray, part: FloatArray, y: FloatArray) -> None:
+    """Write ``x`` at each ``sample``, or ``part`` of the way to it, to ``y``."""
+    for k in range(sample.size):
+        i = sample[k]
+        if part[k] < 1.0:
+            y[k] = x[i - 1] + part[k] * (x[i] - x[i - 1])
         else:
-            y[k] = x[after]
+            y[k] = x[i]

@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
-from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.arrays import FlagArray, FloatArray, IndexArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -53,14 +53,14 @@ class ToDistance(Stage):
             return Block(self.memory["next"], {**block.without(DISTANCE).values, **none})
         wide = self._after_carry(block)
         distance = np.fmax.accumulate(wide[ChannelId(DISTANCE)])
-        position = self._positions(distance)
+        sample, part = self._points(distance)
         self.memory["carry"] = _sample(wide, -1, distance[-1])
         first = self.memory["next"]
-        self.memory["next"] = first + position.size
-        points = _at(wide, position)
+        self.memory["next"] = first + sample.size
+        points = _at(wide, sample, part)
         if not self.keep_time:
             return Block(first, points.values, flags=points.flags)
-        times = (wide.first + position) / self._rate
+        times = ((wide.first + sample - 1) + part) / self._rate
         return Block(first, {**points.values, ChannelId(TIME): times}, flags=points.flags)
 
     def _after_carry(self, block: Block) -> Block:
@@ -75,7 +75,7 @@ class ToDistance(Stage):
         }
         return Block(block.first - 1, values, flags=flags)
 
-    def _positions(self, distance: FloatArray) -> FloatArray:
+    def _points(self, distance: FloatArray) -> tuple[IndexArray, FloatArray]:
         from floatref.kernels import motion
 
         first = self.memory["next"]
@@ -85,9 +85,10 @@ class ToDistance(Stage):
                 f"channel distance: leaps by {reach * self.interval_m:.0f} m; "
                 "it must be the encoder distance in m"
             )
-        position = np.empty(max(0, int(reach)) + 2)
-        found = motion.find_points(distance, self.origin_m, self.interval_m, first, position)
-        return position[:found]
+        room = max(0, int(reach)) + 2
+        sample, part = np.empty(room, np.int64), np.empty(room)
+        found = motion.find_points(distance, self.origin_m, self.interval_m, first, sample, part)
+        return sample[:found], part[:found]
 
 
 class TimeStep(Stage):
@@ -123,21 +124,20 @@ def _sample(block: Block, index: int, distance: float) -> Carry:
     return values, flags
 
 
-def _at(block: Block, position: FloatArray) -> Block:
+def _at(block: Block, sample: IndexArray, part: FloatArray) -> Block:
     from floatref.kernels import motion
 
-    before = position.astype(np.int64)
-    after = np.ceil(position).astype(np.int64)
+    before = sample - (part < 1.0)
     late = block.flags.get(ChannelId(DISTANCE))
     values: dict[ChannelId, FloatArray] = {}
     flags: dict[ChannelId, FlagArray] = {}
     for channel in block.values:
         if channel.name == DISTANCE:
             continue
-        y = np.empty(position.size)
-        motion.read_at(block[channel], position, y)
+        y = np.empty(sample.size)
+        motion.read_at(block[channel], sample, part, y)
         values[channel] = y
         for marks in (block.flags.get(channel), late):
             if marks is not None:
-                flags[channel] = flags.get(channel, np.uint8(0)) | marks[before] | marks[after]
+                flags[channel] = flags.get(channel, np.uint8(0)) | marks[before] | marks[sample]
     return Block(0, values, flags=flags)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 FlagArray = NDArray[np.uint8]
 

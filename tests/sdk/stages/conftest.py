@@ -1,0 +1,135 @@
+"""Streams for every stage, and the ways to run one."""
+
+import itertools
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from floatref.stages import (
+    butterworth,
+    combining,
+    conditioning,
+    integration,
+    mean_removal,
+    resampling,
+)
+from floatref.stages.protocol import Direction
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+TRACKS = ("left", "right")
+MAKERS = {
+    "Combine": combining.Combine,
+    "RemoveGravity": conditioning.RemoveGravity,
+    "Integrate": lambda: integration.Integrate("vertical_acceleration", "vertical_velocity"),
+    "RemoveMean": lambda: mean_removal.RemoveMean("vertical_acceleration"),
+    "TimeStep": resampling.TimeStep,
+    "ToDistance": lambda: resampling.ToDistance(0.02, 0.0, keep_time=True),
+    **{
+        name: lambda name=name: getattr(butterworth, name)("elevation", 3.0)
+        for name in dir(butterworth)
+        if name.startswith(("HighPassB3S", "LowPassB3S"))
+    },
+}
+PER_TRACK = (
+    "vertical_specific_force",
+    "vertical_acceleration",
+    "elevation",
+    "floating_reference_height",
+    "height",
+)
+
+
+class Bench:
+    """A stage's stream: its header, its samples, and how to push them."""
+
+    def __init__(self, name, seed=0, length=240):
+        self.make = MAKERS[name]
+        self.name = name
+        self.values = self._samples(np.random.default_rng(seed), length)
+        self.header = Header(
+            axis=Axis.DISTANCE if name == "TimeStep" else Axis.TIME,
+            step=0.01,
+            origin=0.0,
+            rate=Fraction(100),
+            channels=frozenset(self.values),
+            tracks=TRACKS,
+        )
+
+    def _samples(self, rng, length):
+        values = {
+            ChannelId(name, track): rng.standard_normal(length)
+            for name in PER_TRACK
+            for track in TRACKS
+        }
+        steps = rng.choice([0.0, 0.004, 0.02, 0.07], length)
+        values[ChannelId("distance")] = np.cumsum(steps) - steps[0]
+        values[ChannelId("time")] = np.cumsum(rng.uniform(0.0, 1.0, length))
+        return values
+
+    @property
+    def backward(self):
+        return self.make().direction is Direction.BACKWARD
+
+    def blocks(self, cuts=(), values=None, flags=None, first=0):
+        values = self.values if values is None else values
+        edges = [0, *sorted(set(cuts)), next(iter(values.values())).size]
+        return [
+            Block(
+                first + a,
+                {c: x[a:b] for c, x in values.items()},
+                flags={c: f[a:b] for c, f in (flags or {}).items()},
+            )
+            for a, b in itertools.pairwise(edges)
+        ]
+
+    def begin(self, blocks):
+        stage = self.make()
+        self.out_header = stage.start(self.header)
+        for block in blocks if stage.surveys else ():
+            stage.survey(block)
+        return stage
+
+    def run(self, blocks):
+        """Return what comes out, joined, in the order of the index."""
+        stage = self.begin(blocks)
+        out = [stage.push(b) for b in (reversed(blocks) if self.backward else blocks)]
+        return joined([*out, *stage.finish()])
+
+
+def joined(blocks):
+    blocks = sorted((b for b in blocks if len(b)), key=lambda b: b.first)
+    channels = blocks[0].values
+    flagged = {c for b in blocks for c in b.flags}
+    return replace(
+        blocks[0],
+        values={c: np.concatenate([b[c] for b in blocks]) for c in channels},
+        flags={
+            c: np.concatenate([b.flags.get(c, np.zeros(len(b), np.uint8)) for b in blocks])
+            for c in flagged
+        },
+    )
+
+
+def same(one, two):
+    assert one.first == two.first
+    assert one.values.keys() == two.values.keys()
+    for channel, values in one.values.items():
+        np.testing.assert_array_equal(values, two[channel], err_msg=str(channel))
+
+
+@pytest.fixture
+def bench():
+    return Bench
+
+
+@pytest.fixture
+def identical():
+    return same
+
+
+@pytest.fixture
+def join():
+    return joined
