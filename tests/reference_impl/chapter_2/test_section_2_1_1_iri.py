@@ -76,8 +76,8 @@ def test_moving_average_is_off_at_coarse_intervals(dx: float) -> None:
 
 
 def test_car_starts_on_the_mean_slope_of_11_m() -> None:
-    z = np.concatenate([0.02 * 0.25 * np.arange(45), np.full(100, 7.0)])
-    assert section.start_slope(z, 0.25) == pytest.approx(0.02)
+    z = (0.25 * np.arange(100)) ** 2
+    assert section.start_slope(z, 0.25) == pytest.approx(11.0)
     assert section.start_slope([0.0, 0.1, 0.3], 0.25) == pytest.approx(0.6)
 
 

@@ -60,6 +60,15 @@ def test_each_point_takes_the_first_sample_that_reaches_it(
         assert 0 < fraction <= 1
 
 
+@pytest.mark.parametrize("first", [0.0, 100.3, -7.7])
+def test_encoder_counts_on_the_points_are_taken_though_they_round_differently(
+    first: float,
+) -> None:
+    d = first + np.arange(5001) * 0.04
+    points = section_5_3.trigger(d, 0.2)
+    assert points == [(5 * k, 1) for k in range(1001)]
+
+
 def test_a_stop_yields_no_points() -> None:
     d = np.concatenate([np.arange(10), np.full(50, 9.0), np.arange(10, 20)])
     points = section_5_3.trigger(d, 1.0)
