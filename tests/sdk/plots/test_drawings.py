@@ -1,0 +1,137 @@
+"""Drawings: complete files with the right content, or one clear error and no file."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.image import imread
+
+from floatref.errors import InputError
+from floatref.plots import draw_comparison, draw_profile
+from floatref.plots.traces import COLOURS, SHADE
+from floatref.values.profile import Profile, ProfileTrack
+
+INTERVAL = 0.05
+
+
+def road(seed: int, count: int = 4000) -> np.ndarray:
+    return np.cumsum(np.random.default_rng(seed).normal(0.0, 4e-4, count))
+
+
+def profile(*names: str, invalid: slice = slice(0, 0), start: float = 100.0) -> Profile:
+    tracks = []
+    for seed, name in enumerate(names):
+        z = road(seed)
+        valid = np.ones(z.size, dtype=bool)
+        valid[invalid] = False
+        tracks.append(ProfileTrack.of(name, z, valid))
+    return Profile(INTERVAL, tuple(tracks), start_m=start, pipeline="temporal-basic")
+
+
+def colour_share(path: Path, colour: str) -> float:
+    """Share of the picture's columns with a pixel of ``colour``."""
+    pixels = imread(path)[:, :, :3]
+    same = np.abs(pixels - np.array(to_rgb(colour))).max(axis=2) < 0.02
+    return float(same.any(axis=0).mean())
+
+
+def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path) -> None:
+    draw_profile(profile("left", "right"), tmp_path / "p.png")
+    for colour in COLOURS[:2]:
+        assert colour_share(tmp_path / "p.png", colour) > 0.8
+    for colour in (COLOURS[2], SHADE):
+        assert colour_share(tmp_path / "p.png", colour) == 0.0
+    assert [entry.name for entry in tmp_path.iterdir()] == ["p.png"]
+
+
+def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path) -> None:
+    shares = []
+    for end in (1000, 3000):
+        target = tmp_path / f"{end}.png"
+        draw_profile(profile("left", invalid=slice(0, end)), target)
+        shares.append(colour_share(target, SHADE))
+    assert np.diff(shares) == pytest.approx(0.46, abs=0.05)
+
+
+def test_speed_adds_a_panel(tmp_path: Path) -> None:
+    run = profile("left")
+    draw_profile(run, tmp_path / "without.png")
+    draw_profile(run, tmp_path / "with.png", (run.distance_m, np.full(4000, 20.0)))
+    heights = [imread(tmp_path / f"{name}.png").shape[0] for name in ("without", "with")]
+    assert heights[1] > heights[0] + 100
+
+
+def test_comparison_has_a_column_for_each_wheel_path(tmp_path: Path) -> None:
+    run = profile("left", "right")
+    draw_comparison(profile("left"), run, tmp_path / "one.png")
+    draw_comparison(run, run, tmp_path / "two.svg")
+    assert colour_share(tmp_path / "one.png", COLOURS[0]) > 0.5
+    assert (tmp_path / "two.svg").read_text(encoding="utf-8").count('<g id="axes_') == 6
+
+
+def test_gaps_and_short_profiles_are_drawn_all_the_same(tmp_path: Path) -> None:
+    z = road(1)
+    z[:100] = z[2000:2500] = np.nan
+    gappy = Profile(INTERVAL, (ProfileTrack.of("left", z),), start_m=100.0)
+    draw_profile(gappy, tmp_path / "gaps.png")
+    draw_comparison(profile("left"), gappy, tmp_path / "comparison.png")
+    short = Profile(INTERVAL, (ProfileTrack.of("left", z[100:150]),))
+    draw_comparison(short, short, tmp_path / "short.png")
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+def test_old_drawing_is_replaced(tmp_path: Path) -> None:
+    target = tmp_path / "p.png"
+    target.write_bytes(b"old")
+    draw_profile(profile("left"), target)
+    assert target.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("nowhere/p.png", "its folder does not exist"),
+        ("p.json", "not the name of a drawing; end it with .png"),
+        ("folder.png", "is not a file"),
+    ],
+)
+def test_unwritable_target_is_one_line_and_no_file(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / "folder.png").mkdir()
+    before = sorted(tmp_path.rglob("*"))
+    for draw in (
+        lambda: draw_profile(profile("left"), tmp_path / name),
+        lambda: draw_comparison(profile("left"), profile("left"), tmp_path / name),
+    ):
+        with pytest.raises(InputError, match=text):
+            draw()
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_missing_matplotlib_says_how_to_get_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(InputError, match=r"pip install 'floatref\[plot\]'"):
+        draw_profile(profile("left"), tmp_path / "p.png")
+
+
+def test_wheel_path_missing_in_the_profile_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="track right: missing"):
+        draw_comparison(profile("left", "right"), profile("left"), tmp_path / "p.png")
+    assert not list(tmp_path.iterdir())
+
+
+def test_importing_loads_no_matplotlib_and_drawing_no_pyplot(tmp_path: Path) -> None:
+    code = (
+        "import sys, numpy as np, floatref.plots as plots\n"
+        "from floatref.values.profile import Profile, ProfileTrack\n"
+        "assert not any(name.startswith('matplotlib') for name in sys.modules)\n"
+        "z = np.zeros(500)\n"
+        "plots.draw_profile(Profile(0.05, (ProfileTrack.of('main', z),)), sys.argv[1])\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code, str(tmp_path / "p.png")], check=True)
+    assert (tmp_path / "p.png").exists()
