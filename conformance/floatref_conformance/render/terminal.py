@@ -4,6 +4,7 @@ import shlex
 from math import isfinite
 from typing import Any
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
@@ -20,8 +21,8 @@ from floatref_conformance.events import (
 from floatref_conformance.verdict import CheckResult, Outcome, RunResult, Verdict
 
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
-COLUMNS = ("check", "outcome", "class reached", "cases", "measured", "worst", "limit", "margin")
-PLAIN_WIDTH = 140
+COLUMNS = ("check", "outcome", "class reached", "cases", "worst", "limit", "margin")
+PLAIN_WIDTH = 100
 """Columns of the table when nobody says how wide the output is."""
 
 
@@ -61,7 +62,9 @@ class TerminalRenderer:
         capabilities = ", ".join(said.capabilities) or "nominal sensors alone"
         self._print(f"device {event.spec}: {said.architecture}, {capabilities}")
         if self.console.is_terminal:
-            self._progress = Progress(console=self.console, transient=True)
+            self._progress = Progress(
+                console=self.console, transient=True, redirect_stdout=False, redirect_stderr=False
+            )
             self._progress.start()
 
     def _check(self, event: CheckStarted) -> None:
@@ -78,8 +81,8 @@ class TerminalRenderer:
         self.close()
         self.console.print(_table(result))
         for check in result.checks:
-            if check.outcome in (Outcome.FAIL, Outcome.ERROR, Outcome.NOT_APPLICABLE):
-                self._print(f"{check.id}: {check.reason}")
+            if check.outcome is not Outcome.SKIP:
+                self._print(f"{check.id}: {check.reason or measured(check)} [{check.clause}]")
         for line in not_run_lines(result):
             self._print(line)
         self._print(verdict_line(result))
@@ -120,29 +123,31 @@ def reproduction(result: RunResult) -> str:
     return shlex.join(words)
 
 
+def measured(check: CheckResult) -> str:
+    """Return what the worst value of a check is a value of."""
+    worst = check.worst
+    return "" if worst is None else f"worst is the {worst.quantity} of track {worst.track}"
+
+
 def _in_words(result: CheckResult) -> str:
     return f"{result.outcome}" + (f" ({result.reason})" if result.reason else "")
 
 
 def _table(result: RunResult) -> Table:
-    table = Table()
-    for name in COLUMNS:
-        table.add_column(name, no_wrap=True)
-    table.add_column("clause", overflow="fold")
+    table = Table(*COLUMNS, box=SIMPLE_HEAD)
     for check in result.checks:
         if check.outcome is not Outcome.SKIP:
             cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
             outcome = Text(check.outcome, COLOURS.get(check.outcome, "yellow"))
-            table.add_row(Text(check.id), outcome, *map(Text, cells), Text(check.clause))
+            table.add_row(Text(check.id), outcome, *map(Text, cells))
     return table
 
 
-def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str, str]:
+def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
     worst = check.worst
     if worst is None:
-        return "", "", "", ""
+        return "", "", ""
     limit = worst.limits[result.device_class]
     ratio = worst.ratio(result.device_class)
     margin = f"{1.0 - ratio:.0%}" if isfinite(ratio) else "none"
-    measured = f"{worst.quantity}, {worst.track}"
-    return measured, f"{worst.value:.3g} {worst.unit}", f"{limit:.3g} {worst.unit}", margin
+    return f"{worst.value:.3g} {worst.unit}", f"{limit:.3g} {worst.unit}", margin
