@@ -120,7 +120,7 @@ class Plugins:
                     hook, [p for n, p in everyone.items() if n != name and p is not None]
                 ),
             )
-            for name in reversed(names)
+            for name in names
         ]
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:

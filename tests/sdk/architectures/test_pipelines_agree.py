@@ -1,0 +1,51 @@
+"""Every pipeline against its reference, on drawn recordings that stop, crawl and restart."""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from floatref.architectures.plugins import plugins
+from floatref.architectures.processing import run
+from floatref_reference.chapter_5 import section_5_3, section_5_4, section_5_8
+
+G = 9.80665
+REFERENCES = {
+    "temporal-basic": section_5_3.basic_temporal,
+    "temporal-mean-removal": section_5_4.mean_removal,
+    "spatial-basic": section_5_8.basic_spatial,
+}
+
+
+def test_every_pipeline_has_a_reference():
+    assert set(plugins().pipelines()) == set(REFERENCES)
+
+
+def drift_range(recording, track):
+    """Range of the double integral, which carries the rounding of both."""
+    force = recording.channel("vertical_specific_force", track)
+    velocity = np.cumsum(force.values - G) / float(force.clock.rate)
+    height = np.cumsum(velocity) / float(force.clock.rate)
+    return np.ptp(height)
+
+
+@pytest.mark.parametrize("pipeline", REFERENCES)
+@settings(
+    deadline=None, max_examples=8, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(data=st.data())
+def test_sdk_and_reference_agree(drawn, pipeline, data):
+    rate = data.draw(st.sampled_from([1000.0, 4000.0, 5000.0, 8000.0]))
+    interval = data.draw(st.sampled_from([0.00508, 0.025]))
+    recording = data.draw(drawn(rate, interval))
+    profile = run(recording, pipeline).profile
+    distance = recording.channel("distance").values
+    for track in profile.tracks:
+        force = recording.channel("vertical_specific_force", track.name).values
+        height = recording.channel("height", track.name).values
+        start, expected = REFERENCES[pipeline](force - G, height, distance, rate, interval)
+        assert profile.start_m == start
+        assert track.elevation.size == expected.size
+        tolerance = 1e-9 + 1e-9 * drift_range(recording, track.name)
+        assert np.abs(track.elevation - expected).max() <= tolerance
+        assert track.valid.all()

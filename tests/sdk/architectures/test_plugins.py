@@ -1,0 +1,115 @@
+"""Plug-ins are asked one by one: who answers, who clashes, who is broken."""
+
+import pytest
+
+from floatref.architectures import hookspecs
+from floatref.architectures.plugins import Plugins
+from floatref.architectures.question import Pipeline, Question
+from floatref.errors import PluginError
+from floatref.stages.combining import Combine
+from floatref.stages.mean_removal import RemoveMean
+
+HOOKS = [
+    name for name in vars(hookspecs) if name.startswith(("floatref_", "temporal_", "spatial_"))
+]
+
+
+class Answering:
+    def __init__(self, *stages):
+        self._stages = stages
+
+    @hookspecs.hookimpl
+    def temporal_combine(self, context):
+        return self._stages or None
+
+
+class Broken:
+    @hookspecs.hookimpl
+    def temporal_combine(self, context):
+        raise ZeroDivisionError("by a plug-in")
+
+
+class Registering:
+    def __init__(self, name):
+        self._name = name
+
+    @hookspecs.hookimpl
+    def floatref_register_pipelines(self, register):
+        register(Pipeline(self._name, "temporal", "of a plug-in"))
+
+
+class Point:
+    def __init__(self, name, plugin):
+        self.name, self._plugin = name, plugin
+
+    def load(self):
+        if isinstance(self._plugin, Exception):
+            raise self._plugin
+        return self._plugin
+
+
+@pytest.fixture
+def question():
+    pipeline = Plugins().pipeline("temporal-basic")
+    return Question("temporal_combine", pipeline, pipeline.settings, None, 0.0)
+
+
+def test_without_others_the_default_answers(question):
+    (stage,) = Plugins().ask(question)
+    assert isinstance(stage, Combine)
+
+
+def test_one_third_party_replaces_the_default(question):
+    loaded = Plugins()
+    mine = RemoveMean("elevation")
+    loaded.add(Answering(mine), "vendor")
+    loaded.add(Answering(), "silent")
+    assert list(loaded.ask(question)) == [mine]
+
+
+def test_two_answers_stop_with_both_names(question):
+    loaded = Plugins()
+    loaded.add(Answering(Combine()), "one")
+    loaded.add(Answering(Combine()), "two")
+    with pytest.raises(PluginError, match="one and two both answer temporal_combine"):
+        loaded.ask(question)
+
+
+def test_a_raising_plugin_is_reported_and_the_default_answers(question):
+    loaded = Plugins()
+    loaded.add(Broken(), "cracked")
+    (stage,) = loaded.ask(question)
+    assert isinstance(stage, Combine)
+    assert loaded.reports == ["plug-in cracked skipped: ZeroDivisionError: by a plug-in"]
+
+
+def test_one_broken_entry_point_does_not_hide_the_others():
+    loaded = Plugins()
+    loaded.load([Point("cracked", ImportError("no\nmodule")), Point("whole", Registering("mine"))])
+    assert "mine" in loaded.pipelines()
+    assert loaded.reports == ["plug-in cracked skipped: ImportError: no module"]
+
+
+def test_a_plugin_with_a_wrong_argument_is_reported():
+    class Misfit:
+        @hookspecs.hookimpl
+        def temporal_combine(self, context, colour):
+            return None
+
+    loaded = Plugins()
+    loaded.add(Misfit(), "misfit")
+    assert len(loaded.reports) == 1
+    assert "plug-in misfit skipped" in loaded.reports[0]
+    assert "colour" in loaded.reports[0]
+
+
+def test_the_same_name_twice_stops_with_both_names():
+    loaded = Plugins()
+    loaded.add(Registering("temporal-basic"), "vendor")
+    with pytest.raises(PluginError, match=r"both register temporal-basic; remove one"):
+        loaded.pipelines()
+
+
+@pytest.mark.parametrize("hook", HOOKS)
+def test_every_hook_says_what_it_is_for(hook):
+    assert len(getattr(hookspecs, hook).__doc__) > 20

@@ -1,0 +1,125 @@
+"""The main job from end to end: settings, warnings, validity, plug-ins."""
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.architectures import hookspecs, plugins, processing
+from floatref.errors import InputError
+from floatref.measures import iri
+from floatref.stages.conditioning import RemoveGravity
+from floatref.values.clock import UniformClock
+from floatref.values.recording import Channel
+
+RATE = UniformClock.of(1000.0)
+
+
+def with_gap(steady, name, begin, end):
+    values = steady(seconds=30.0).channel(name).values.copy()
+    values[begin:end] = np.nan
+    return steady(seconds=30.0, **{name: Channel.of(name, values, RATE)})
+
+
+def test_a_smooth_bouncing_drive_over_a_flat_road_is_flat(steady):
+    times = np.arange(30_000) / 1000.0
+    bounce = 0.02 * (1.0 - np.cos(2.0 * np.pi * 1.5 * times))
+    force = 9.80665 + 0.02 * (2.0 * np.pi * 1.5) ** 2 * np.cos(2.0 * np.pi * 1.5 * times)
+    recording = steady(
+        seconds=30.0,
+        vertical_specific_force=Channel.of("vertical_specific_force", force, RATE),
+        height=Channel.of("height", 0.3 + bounce, RATE),
+    )
+    for pipeline in ("temporal-basic", "temporal-mean-removal", "spatial-basic"):
+        profile = floatref.process(recording, pipeline)
+        assert iri(profile.tracks[0].elevation, profile.interval_m) < 0.01
+
+
+def test_the_profile_records_how_it_was_made(steady):
+    profile = floatref.process(steady(), "spatial-basic", {"cutoff_wavelength_m": 50})
+    assert profile.pipeline == "spatial-basic"
+    assert dict(profile.settings) == {
+        "architecture": "spatial",
+        "interval_m": 0.05,
+        "anti_alias_hz": 1000.0,
+        "cutoff_wavelength_m": 50.0,
+    }
+    assert profile.provenance["floatref"] == floatref.__version__
+
+
+def test_the_interval_can_be_set(steady):
+    assert floatref.process(steady(), settings={"interval_m": 0.1}).interval_m == 0.1
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"cut_off": 91.44}, "setting cut_off: pipeline temporal-basic has none such; it has int"),
+        ({"interval_m": "5 mm"}, "setting interval_m: '5 mm' is not a number"),
+        ({"interval_m": True}, "setting interval_m: True is not a number"),
+        ({"cutoff_wavelength_m": -1}, "setting cutoff_wavelength_m: -1 must be finite and above"),
+        ({"cutoff_wavelength_m": float("nan")}, "setting cutoff_wavelength_m: nan must be finite"),
+        ({"cutoff_wavelength_m": 0.08}, "cut-off 12.5 cycles per unit of distance is outside"),
+    ],
+)
+def test_a_setting_that_cannot_be_is_named(steady, settings, message):
+    with pytest.raises(InputError) as error:
+        floatref.process(steady(), settings=settings)
+    assert message in str(error.value)
+
+
+def test_an_unknown_pipeline_is_named(steady):
+    with pytest.raises(InputError, match="pipeline spatial-basics: unknown; there are temporal"):
+        floatref.process(steady(), "spatial-basics")
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "temporal-mean-removal", "spatial-basic"])
+def test_a_laser_drop_out_is_flagged_where_it_is(steady, pipeline):
+    recording = with_gap(steady, "height", 15_000, 15_500)
+    with pytest.warns(floatref.FloatrefWarning, match=r"height: 500 of 30000 samples missing"):
+        profile = floatref.process(recording, pipeline)
+    lost = profile.distance_m[~profile.tracks[0].valid]
+    assert 299.9 <= lost.min() <= 300.1
+    assert 309.8 <= lost.max() <= 310.1
+    assert np.isfinite(profile.tracks[0].elevation).all()
+
+
+def test_an_accelerometer_drop_out_is_flagged_a_cut_off_wavelength_to_either_side(steady):
+    with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
+        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_010))
+    lost = profile.distance_m[~profile.tracks[0].valid]
+    assert lost.min() == pytest.approx(300.0 - 105.91, abs=0.2)
+    assert lost.max() == pytest.approx(300.2 + 105.91, abs=0.2)
+
+
+def test_progress_ends_at_one(steady):
+    done = []
+    processing.run(steady(seconds=200.0), "temporal-basic", progress=done.append)
+    assert done == sorted(done)
+    assert len(done) > 1
+    assert done[-1] == 1.0
+
+
+class Doubling(RemoveGravity):
+    """Reads twice the acceleration."""
+
+    def advance(self, block):
+        out = super().advance(block)
+        return out.setting({c: 2.0 * x for c, x in out.values.items() if c.name.endswith("ion")})
+
+
+class Vendor:
+    @hookspecs.hookimpl
+    def temporal_condition(self, context):
+        return (Doubling(),)
+
+
+def test_a_plugged_in_stage_takes_the_place_of_ours(steady, monkeypatch):
+    recording = steady(height=Channel.of("height", np.full(4000, 0.3), RATE))
+    plain = floatref.process(recording)
+    loaded = plugins.Plugins()
+    loaded.add(Vendor(), "vendor")
+    monkeypatch.setattr(processing, "plugins", lambda: loaded)
+    doubled = floatref.process(recording)
+    np.testing.assert_allclose(
+        doubled.tracks[0].elevation, 2.0 * plain.tracks[0].elevation, atol=1e-12
+    )

@@ -1,0 +1,135 @@
+"""From channels of any clock to blocks on the accelerometer's."""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from floatref.architectures.source import Source
+from floatref.errors import InputError
+from floatref.values.arrays import Flag
+from floatref.values.channels import ChannelId
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.recording import Channel
+
+HEIGHT, FORCE = ChannelId("height", "main"), ChannelId("vertical_specific_force", "main")
+DISTANCE = ChannelId("distance")
+laws = settings(
+    deadline=None, max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+def whole(source, size=300):
+    blocks = list(source.blocks(size))
+    return {
+        name: np.concatenate([block[name] for block in blocks]) for name in blocks[0].values
+    }, blocks
+
+
+def test_channels_on_one_clock_pass_through(steady):
+    recording = steady()
+    values, blocks = whole(Source(recording))
+    np.testing.assert_array_equal(values[HEIGHT], recording.channel("height").values)
+    assert not any(block.flags or block.fresh for block in blocks)
+
+
+@laws
+@given(
+    rate=st.sampled_from([250.0, 333.0, 3240.0]),
+    start=st.integers(-100, 4000).map(lambda k: k / 10_000.0),
+)
+def test_another_clock_is_linear_in_between(steady, rate, start):
+    count = int(5.0 * rate)
+    times = start + np.arange(count) / rate
+    slow = Channel.of("distance", 3.0 + 20.0 * times, UniformClock.of(rate, start))
+    source = Source(steady(distance=slow))
+    values, blocks = whole(source)
+    at = source.header.origin + np.arange(source.length) / 1000.0
+    np.testing.assert_allclose(values[DISTANCE], 3.0 + 20.0 * at, atol=1e-9)
+    fresh = np.concatenate([block.fresh[DISTANCE] for block in blocks])
+    assert (
+        abs(fresh.sum() - min(source.length, source.length * rate / 1000.0)) <= 1.0 + 0.01 * count
+    )
+    assert source.origin_m == values[DISTANCE][0]
+
+
+@laws
+@given(seed=st.integers(0, 2**32 - 1), cut=st.integers(50, 900))
+def test_any_split_gives_the_same_samples(steady, seed, cut):
+    rng = np.random.default_rng(seed)
+    stamps = np.cumsum(rng.uniform(0.001, 0.01, 900))
+    heights = rng.standard_normal(900)
+    heights[rng.integers(1, 899, 60)] = np.nan
+    own = Channel.of("height", heights, StampedClock.of(stamps))
+    recording = steady(height=own)
+    one, two = whole(Source(recording), cut)[0], whole(Source(recording), 4000)[0]
+    np.testing.assert_array_equal(one[HEIGHT], two[HEIGHT])
+
+
+def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
+    recording = steady()
+    heights = recording.channel("height").values.copy()
+    heights[1000:1400] = np.nan
+    lost = steady(height=Channel.of("height", heights, UniformClock.of(1000.0)))
+    values, blocks = whole(Source(lost))
+    line = np.interp(np.arange(1000, 1400), [999, 1400], heights[[999, 1400]])
+    np.testing.assert_allclose(values[HEIGHT][1000:1400], line, atol=1e-15)
+    flags = np.concatenate(
+        [block.flags.get(HEIGHT, np.zeros(len(block), np.uint8)) for block in blocks]
+    )
+    np.testing.assert_array_equal(flags != 0, np.isnan(heights))
+    assert set(flags.tolist()) == {0, int(Flag.MISSING)}
+
+
+def test_a_gap_of_the_accelerometer_is_flagged_as_drift(steady):
+    forces = steady().channel("vertical_specific_force").values.copy()
+    forces[5] = np.nan
+    lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
+    (block, *_) = Source(steady(vertical_specific_force=lost)).blocks()
+    assert block.flags[FORCE][5] == Flag.MISSING | Flag.DRIFT
+
+
+def test_a_hole_between_time_stamps_of_a_laser_is_a_gap(steady):
+    stamps = np.concatenate((np.arange(0.0, 2.0, 0.002), np.arange(2.5, 4.1, 0.002)))
+    own = Channel.of("height", np.full(stamps.size, 0.3), StampedClock.of(stamps))
+    (block,) = Source(steady(height=own)).blocks(10_000)
+    at = np.arange(len(block)) / 1000.0
+    inside = (at > 1.9985) & (at < 2.4995)
+    np.testing.assert_array_equal(block.flags[HEIGHT] != 0, inside)
+
+
+def test_pulses_of_an_encoder_far_apart_are_no_gap(steady):
+    stamps = np.array([0.0, 0.1, 0.2, 3.0, 3.1, 4.5])
+    own = Channel.of("distance", np.arange(6) * 0.5, StampedClock.of(stamps))
+    (block,) = Source(steady(distance=own)).blocks(10_000)
+    assert not block.flags
+
+
+def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
+    stamps = 7.0 + np.arange(4000) / 1000.0
+    forces = np.full(4000, 9.8)
+    own = Channel.of("vertical_specific_force", forces, StampedClock.of(stamps))
+    shifted = {
+        name: Channel.of(name, steady().channel(name).values, UniformClock.of(1000.0, 7.0))
+        for name in ("height", "distance")
+    }
+    assert Source(steady(vertical_specific_force=own, **shifted)).length == 4000
+
+
+def test_an_accelerometer_of_changing_rate_is_refused(steady):
+    stamps = np.concatenate((np.arange(2000) / 1000.0, 2.5 + np.arange(2000) / 1000.0))
+    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    with pytest.raises(InputError, match=r"off a constant rate of .* Hz; fill gaps with NaN"):
+        Source(steady(vertical_specific_force=own))
+
+
+def test_only_the_time_that_all_channels_cover_is_used(steady):
+    late = Channel.of("height", np.full(3000, 0.3), UniformClock.of(1000.0, 0.5))
+    source = Source(steady(height=late))
+    assert (source.header.origin, source.length) == (0.5, 3000)
+
+
+def test_channels_that_never_meet_are_refused(steady):
+    late = Channel.of("height", np.full(100, 0.3), UniformClock.of(1000.0, 99.0))
+    with pytest.raises(InputError, match="no stretch of time in common; check start_s"):
+        Source(steady(height=late))

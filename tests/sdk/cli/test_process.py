@@ -1,0 +1,129 @@
+"""`floatref process` as a user calls it."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from floatref.cli.main import main
+from floatref.files import read_profile, write_recording
+from floatref.values.clock import UniformClock
+from floatref.values.recording import Channel, Recording, Setup
+
+G = 9.80665
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A recording directory of two wheel paths at 20 m/s, one with a short laser drop-out."""
+    clock = UniformClock.of(1000.0)
+    times = np.arange(8000) / 1000.0
+    channels = [Channel.of("distance", 20.0 * times, clock)]
+    for track, phase in (("left", 0.0), ("right", 1.0)):
+        height = 0.3 + 0.005 * np.sin(15.0 * times + phase)
+        if track == "right":
+            height[4000:4050] = np.nan
+        channels.append(Channel.of("height", height, clock, track))
+        force = np.full(times.size, G)
+        channels.append(Channel.of("vertical_specific_force", force, clock, track))
+    write_recording(Recording(tuple(channels), Setup(profile_interval_m=0.05)), tmp_path / "run")
+    return tmp_path
+
+
+def invoke(*args):
+    return CliRunner().invoke(main, [str(a) for a in args])
+
+
+def test_a_profile_directory_with_provenance(folder):
+    result = invoke("process", folder / "run", "--out", folder / "profile")
+    assert result.exit_code == 0, result.output
+    profile = read_profile(folder / "profile")
+    assert [track.name for track in profile.tracks] == ["left", "right"]
+    assert profile.provenance["adapter"] == "recording"
+    assert set(profile.provenance["sha256"]) == {p.name for p in (folder / "run").iterdir()}
+    assert "cutoff_wavelength_m  105.91" in result.output
+    assert "Warning: " in result.stderr
+
+
+def test_json_holds_what_the_contract_says(folder):
+    result = invoke(
+        "process", folder / "run" / "recording.json", "--out", folder / "p.csv", "--json"
+    )
+    report = json.loads(result.stdout)
+    assert list(report) == ["pipeline", "profile", "interval_m", "length_m", "tracks", "warnings"]
+    assert [sorted(track) for track in report["tracks"]] == [
+        ["invalid_m", "iri_m_per_km", "name"]
+    ] * 2
+    assert report["tracks"][0]["invalid_m"] == 0.0
+    assert report["tracks"][1]["invalid_m"] == pytest.approx(1.0, abs=0.11)
+    assert "right.height: 50 of 8000 samples missing" in report["warnings"][0]
+    assert read_profile(folder / "p.csv").tracks[0].elevation.size == 3200
+
+
+def test_settings_and_pipeline_from_outside(folder):
+    (folder / "mine.json").write_text('{"interval_m": 0.1}')
+    result = invoke(
+        *("process", folder / "run", "--out", folder / "profile", "--pipeline", "spatial-basic"),
+        *("--settings", folder / "mine.json"),
+    )
+    assert result.exit_code == 0, result.output
+    profile = read_profile(folder / "profile")
+    assert (profile.interval_m, profile.pipeline) == (0.1, "spatial-basic")
+
+
+def test_a_drawing_beside_it(folder):
+    plot = folder / "profile.png"
+    result = invoke("process", folder / "run", "--out", folder / "profile", "--plot", plot)
+    assert result.exit_code == 0, result.output
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_an_existing_target_needs_overwrite(folder):
+    (folder / "p.csv").write_text("mine")
+    refused = invoke("process", folder / "run", "--out", folder / "p.csv")
+    assert refused.exit_code == 2
+    assert (folder / "p.csv").read_text() == "mine"
+    assert (
+        invoke("process", folder / "run", "--out", folder / "p.csv", "--overwrite").exit_code == 0
+    )
+    assert (folder / "p.csv").read_text() != "mine"
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["missing", "--out", "o"], "missing: not found"),
+        (["run", "--out", "o", "--adapter", "mdf5"], "adapter mdf5: unknown; there are"),
+        (["run", "--out", "o", "--pipeline", "x"], "pipeline x: unknown; there are"),
+        (["run", "--out", "o.xls"], "suffix .xls is no format"),
+        (["run", "--out", "o", "--settings", "no.json"], "no.json"),
+        (["run", "--out", "o", "--settings", "list.json"], "expected one JSON object"),
+        (["run", "--out", "nowhere/o"], "its folder does not exist"),
+        (["run", "--out", "o", "--plot", "o.txt"], "not the name of a drawing"),
+        (["unknown.bin", "--out", "o"], "no adapter recognises it"),
+    ],
+)
+def test_what_cannot_be_done_is_one_line_and_leaves_nothing(folder, monkeypatch, args, message):
+    monkeypatch.chdir(folder)
+    (folder / "list.json").write_text("[1]")
+    (folder / "unknown.bin").write_bytes(b"\0")
+    before = sorted(folder.iterdir())
+    result = invoke("process", *args)
+    assert result.exit_code == 2
+    assert message in result.stderr
+    assert result.stderr.strip().count("\n") == 0
+    assert "Traceback" not in result.output
+    assert sorted(folder.iterdir()) == before
+
+
+def test_listings(folder):
+    pipelines = json.loads(invoke("pipelines", "--json").stdout)["pipelines"]
+    assert [p["name"] for p in pipelines][:3] == [
+        "temporal-basic",
+        "temporal-mean-removal",
+        "spatial-basic",
+    ]
+    assert "recording" in invoke("adapters").output
+    assert "temporal-mean-removal  temporal" in invoke("pipelines").output
+    assert json.loads(invoke("adapters", "--json").stdout)["adapters"][0]["name"] == "recording"
