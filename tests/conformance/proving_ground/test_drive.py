@@ -72,8 +72,12 @@ def test_before_and_after_the_drive_the_speed_is_held() -> None:
     assert not motion.acceleration.any()
 
 
-def test_a_standstill_is_exact() -> None:
-    drive = Drive(0.7, (Segment(0.1, 0.0, -3.0), Segment((0.7 - 0.015) / 0.3, -0.3), Segment(50.0)))
+@given(st.floats(0.5, 30.0), st.floats(0.3, 9.0), st.floats(0.05, 0.5))
+@settings(deadline=None, max_examples=60)
+def test_a_standstill_is_exact(speed: float, deceleration: float, onset_s: float) -> None:
+    onset = Segment(onset_s, 0.0, -min(deceleration, speed) / onset_s)
+    held_s = (speed - min(deceleration, speed) * onset_s / 2) / deceleration
+    drive = Drive(speed, (onset, Segment(held_s, -deceleration), Segment(50.0)))
     standing = drive.motion(np.linspace(drive.knot_times_s[2], drive.duration_s, 100))
     assert not standing.speed.any()
     assert np.ptp(standing.distance) == 0.0
