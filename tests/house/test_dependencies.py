@@ -1,0 +1,47 @@
+"""What each package may import from outside: nothing that is not listed here."""
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OURS = {"floatref", "floatref_adapters", "floatref_conformance", "floatref_reference"}
+ALLOWED = {
+    "sdk": {"click", "jsonschema", "numba", "numpy", "pluggy", "rich", "scipy"},
+    "sdk/floatref/plots": {"matplotlib"},
+    "adapters": {"numpy", "pluggy"},
+    "reference_impl": {"numpy"},
+    "conformance": {
+        "click",
+        "hypothesis",
+        "jsonschema",
+        "numba",
+        "numpy",
+        "platformdirs",
+        "pluggy",
+        "rich",
+        "scipy",
+    },
+}
+"""Distributions that a folder may use beside those of the folder around it."""
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Yield the top name of every absolute import in ``path``."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name.partition(".")[0] for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            yield node.module.partition(".")[0]
+
+
+@pytest.mark.parametrize("room", ["sdk", "adapters", "reference_impl", "conformance"])
+def test_a_package_imports_what_it_may(room: str) -> None:
+    for path in (ROOT / room).rglob("*.py"):
+        name = path.relative_to(ROOT).as_posix()
+        allowed = OURS | set(sys.stdlib_module_names)
+        allowed |= set().union(*(v for k, v in ALLOWED.items() if name.startswith(f"{k}/")))
+        assert set(imported(path)) <= allowed, name
