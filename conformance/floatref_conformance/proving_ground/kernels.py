@@ -57,7 +57,7 @@ def respond(
     ground: FloatArray,
     body: FloatArray,
 ) -> None:
-    """Advance the vehicle over a stretch and write every q-th motion of its body.
+    """Advance the vehicle over a stretch and write the motion of its body.
 
     Args:
         update: next state from states and sums of old and new inputs, shape (22, 16).
@@ -66,12 +66,11 @@ def respond(
         lanes: enveloped road under each wheel, shape (4, m), in m.
         grid: start in m and points per m of ``lanes``, shape (2,).
         wheel_x: position of each wheel ahead of the vehicle point, shape (4,), in m.
-        distance: true distance at the internal rate, shape (n·q,), in m.
+        distance: true distance, shape (n,), in m.
         ground: longitudinal and lateral specific force of the ground on the body, shape
-            (2, n·q), in m/s².
-        body: written, shape (9, n), in m, rad and s; q = distance.size // n.
+            (2, n), in m/s².
+        body: written, shape (9, n), in m, rad and s.
     """
-    every = distance.size // body.shape[1]
     sums = np.empty(STATES + INPUTS)
     fresh, second = np.empty(STATES), np.empty(4)
     for k in range(distance.size):
@@ -86,12 +85,11 @@ def respond(
         combine(update, sums, fresh)
         for i in range(STATES):
             vector[i] = fresh[i]
-        if k % every == 0:
-            combine(outputs, vector, second)
-            for i in range(3):
-                body[i, k // every] = vector[i]
-                body[3 + i, k // every] = vector[7 + i]
-                body[6 + i, k // every] = second[i]
+        combine(outputs, vector, second)
+        for i in range(3):
+            body[i, k] = vector[i]
+            body[3 + i, k] = vector[7 + i]
+            body[6 + i, k] = second[i]
 
 
 @compiled

@@ -107,24 +107,45 @@ def drive_over(
         setup: where the reference points and lasers of each wheel path sit.
     """
     clock = UniformClock.of(rate_hz)
-    count = int(duration_s * rate_hz) + 1
     every = oversampling(rate_hz)
     inner = UniformClock(clock.rate * every)
     seen = Sighted.of(course, road, list(setup.tracks.values()), vehicle.cg_height_m)
+    count = int(duration_s * rate_hz) * every + 1
     travel, shared, tracks = empty_rows(len(setup.tracks), count)
     start = drive.motion(np.zeros(1))
     ground = course.ground_force(start.speed, start.acceleration)[:, 0]
     response = Response.of(vehicle, road, 1.0 / float(inner.rate), ground)
     for first, last in stretches(count):
-        times = inner.times((last - first) * every, first * every)
-        motion = drive.motion(times)
-        ground = course.ground_force(motion.speed, motion.acceleration)
-        body = response.advance(motion.distance, ground, last - first)
-        for row, values in enumerate((motion.distance, motion.speed, motion.acceleration)):
-            travel[row, first:last] = values[::every]
         part = slice(first, last)
+        motion = drive.motion(inner.times(last - first, first))
+        travel[:, part] = motion.distance, motion.speed, motion.acceleration
+        ground = course.ground_force(motion.speed, motion.acceleration)
+        body = response.advance(motion.distance, ground)
         seen.carry(body, travel[:, part], tracks[:, :, part], shared[:, part])
+    if every > 1:
+        tracks = _decimated(tracks, every)
+        travel, shared = travel[:, ::every].copy(), shared[:, ::every].copy()
     return BodyMotion.of(clock, travel, shared, dict(zip(setup.tracks, tracks, strict=True)))
+
+
+def _decimated(tracks: FloatArray, every: int) -> FloatArray:
+    """Return every q-th sample, accelerations averaged over the interval around it.
+
+    An accelerometer is band-limited to its recording: a sudden change between two samples
+    keeps its integral.
+    """
+    from floatref_conformance.proving_ground.kernels import A_Z, F_X, F_Y, F_Z
+
+    fewer = tracks[:, :, ::every].copy()
+    weights = np.concatenate([[0.5], np.ones(every - 1), [0.5]]) / every
+    offsets = np.arange(every + 1) - every // 2
+    centres = np.arange(fewer.shape[2]) * every
+    for row in (F_X, F_Y, F_Z, A_Z):
+        fewer[:, row] = 0.0
+        for weight, offset in zip(weights, offsets, strict=True):
+            index = np.clip(centres + offset, 0, tracks.shape[2] - 1)
+            fewer[:, row] += weight * tracks[:, row, index]
+    return fewer
 
 
 def stretches(count: int) -> Iterator[tuple[int, int]]:
@@ -134,7 +155,7 @@ def stretches(count: int) -> Iterator[tuple[int, int]]:
 
 
 def empty_rows(tracks: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return arrays for travel, shared and per-track rows of ``count`` samples."""
+    """Return arrays for travel, shared and per-track rows of ``count`` samples, unset."""
     from floatref_conformance.proving_ground.kernels import SHARED_ROWS, TRACK_ROWS
 
     shared = np.empty((SHARED_ROWS, count))

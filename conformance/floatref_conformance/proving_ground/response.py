@@ -14,7 +14,7 @@ from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.vehicle import FREEDOMS, Vehicle
 
 LOWEST_RATE_HZ = 8000.0
-"""The model is stepped at least this often, at a multiple of the recording's rate."""
+"""The model is stepped at least this often, at a whole multiple of the recording's rate."""
 ENVELOPE_M = 0.25
 """Length over which a tyre averages the road, in m."""
 STATES, INPUTS = 16, 6
@@ -64,20 +64,19 @@ class Response:
         vector[STATES:] = inputs
         return cls(update, outputs, vector, lanes, grid_of(road), wheel_x)
 
-    def advance(self, distance: FloatArray, ground: FloatArray, samples: int) -> FloatArray:
-        """Return the body's motion at every q-th step of the next stretch.
+    def advance(self, distance: FloatArray, ground: FloatArray) -> FloatArray:
+        """Return the body's motion at every step of the next stretch.
 
         Args:
-            distance: at every step, shape (samples·q,), in m.
-            ground: specific force of the ground, shape (2, samples·q), in m/s².
-            samples: length of the result.
+            distance: at every step, shape (n,), in m.
+            ground: specific force of the ground, shape (2, n), in m/s².
 
         Returns:
-            Heave, pitch, roll and their first and second derivatives, shape (9, samples).
+            Heave, pitch, roll and their first and second derivatives, shape (9, n).
         """
         from floatref_conformance.proving_ground.kernels import BODY_ROWS, respond
 
-        body = np.empty((BODY_ROWS, samples))
+        body = np.empty((BODY_ROWS, distance.size))
         respond(
             self.update,
             self.outputs,

@@ -15,10 +15,10 @@ from floatref_conformance.proving_ground.vehicle import Axle, Vehicle
 
 LOADED_VAN = Vehicle(
     name="loaded-van",
-    sprung_kg=2860.0,
+    sprung_kg=3000.0,
     pitch_inertia=6200.0,
     roll_inertia=1300.0,
-    cg_height_m=0.95,
+    cg_height_m=0.92,
     front=Axle(1.72, 0.86, 75.0, 42e3, 3300.0, 320e3, 14e3),
     rear=Axle(-1.71, 0.86, 100.0, 48e3, 3700.0, 340e3, 6e3),
     anti_dive=0.1,
