@@ -49,6 +49,8 @@ class LazyGroup(click.Group):
             return super().invoke(ctx)
         except FloatrefError as error:
             raise UnusableInput(" ".join(str(error).split())) from error
+        except BrokenPipeError:
+            raise
         except OSError as error:
             where = f"{error.filename}: " if error.filename else ""
             raise UnusableInput(f"{where}{error.strerror or error}") from error

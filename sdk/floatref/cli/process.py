@@ -66,11 +66,11 @@ def process(
 
 
 def _form(out: Path) -> str:
-    if out.suffix not in SUFFIXES:
-        raise InputError(
-            f"{out}: suffix {out.suffix} is no format; use .csv, no suffix, or --format"
-        )
-    return SUFFIXES[out.suffix]
+    # A suffix has letters only: names of runs hold numbers, as in stop_0.20g.
+    suffix = out.suffix if out.suffix[1:].isalpha() else ""
+    if suffix not in SUFFIXES:
+        raise InputError(f"{out}: suffix {suffix} is no format; use .csv, no suffix, or --format")
+    return SUFFIXES[suffix]
 
 
 def _reader(source: Path, name: str | None) -> Adapter:

@@ -1,0 +1,96 @@
+"""The main job on simulated sensors: adequate at speed, and the failure at a stop."""
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.architectures import flow
+from floatref.architectures.source import Source
+from floatref.measures import agreement, high_pass, iri, short_interval_roughness
+from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.integration import Integrate
+from floatref.values.channels import ChannelId
+from floatref_conformance.proving_ground.measured import measured_road
+from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
+from floatref_conformance.proving_ground.simulate import simulate
+
+PIPELINES = ("temporal-basic", "spatial-basic")
+SECTION_M, PEAK_M = (220.0, 380.9), (280.0, 328.0)
+
+
+@pytest.fixture(scope="module")
+def synthetic():
+    """The reference run at 72 km/h over a synthetic road, all sensor errors on."""
+    return simulate(scenario_of_run("ref_72", 3))
+
+
+@pytest.fixture(scope="module")
+def measured(request):
+    """72 km/h over a measured road, all sensor errors on."""
+    path = request.config.rootpath / "tests" / "data" / "sroubek-iri" / "profile_1.txt"
+    elevation = np.loadtxt(path)[:, 1]
+    return simulate(Scenario(seed=4, length_m=480.0), measured_road(elevation, 0.25))
+
+
+@pytest.fixture(scope="module")
+def stop():
+    """The run with the 10.7-s stop."""
+    return simulate(scenario_of_run("sg_10.7s_0.20g", 0))
+
+
+def within(profile, z, limits):
+    low, high = ((limit - profile.start_m) / profile.interval_m for limit in limits)
+    return z[round(low) : round(high)]
+
+
+def judged(simulation, pipeline, track):
+    """Cross correlation, IRI and IRI of the truth over the section, filtered alike."""
+    profile, truth = floatref.process(simulation.recording, pipeline), simulation.truth
+    interval = profile.interval_m
+    filtered = high_pass(truth.track(track).elevation, interval)
+    p = within(truth, filtered, SECTION_M)
+    q = within(profile, profile.track(track).elevation, SECTION_M)
+    return agreement(p, q, interval).cross_correlation, iri(q, interval), iri(p, interval)
+
+
+@pytest.mark.parametrize("pipeline", PIPELINES)
+@pytest.mark.parametrize("track", ["left", "right"])
+@pytest.mark.parametrize("road", ["synthetic", "measured"])
+def test_at_speed_the_truth_comes_back(request, road, pipeline, track):
+    simulation = request.getfixturevalue(road)
+    correlation, found, expected = judged(simulation, pipeline, track)
+    assert correlation >= 0.995
+    assert found == pytest.approx(expected, rel=0.005)
+    if road == "synthetic":
+        assert 1.5 <= expected <= 2.0
+
+
+@pytest.mark.parametrize("pipeline", PIPELINES)
+@pytest.mark.parametrize("track", ["left", "right"])
+def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
+    correlation, *_ = judged(stop, pipeline, track)
+    assert correlation < 0.2
+    profile = floatref.process(stop.recording, pipeline)
+    roughness = short_interval_roughness(profile.track(track).elevation, profile.interval_m)
+    assert within(profile, roughness, PEAK_M).max() > 200.0
+
+
+def velocity_error(simulation, track, at):
+    """Error of the SDK's integrated velocity at sample ``at``, in m/s."""
+    source = Source(simulation.recording)
+    stages = [RemoveGravity(), Integrate("vertical_acceleration", "vertical_velocity")]
+    _, blocks = flow.run(stages, source.header, source.blocks())
+    channel = ChannelId("vertical_velocity", track)
+    velocity = np.concatenate([block[channel] for block in blocks])
+    true = simulation.motion.tracks[track].velocity
+    return velocity[at] - (true[at] - true[0])
+
+
+@pytest.mark.parametrize("track", ["left", "right"])
+def test_the_velocity_error_at_the_stop_is_tilt_and_bias_integrated(stop, track):
+    motion, error = stop.motion, stop.errors[track]
+    at = int(np.flatnonzero(motion.speed < 1e-6)[0])
+    tilt = motion.acceleration * np.sin(motion.pitch + error.pitch_rad)
+    expected = np.sum((tilt + error.bias)[:at]) / float(motion.clock.rate)
+    assert abs(expected) > 0.05
+    assert 0.5 <= velocity_error(stop, track, at) / expected <= 2.0
