@@ -1,6 +1,7 @@
 """What cannot be is refused by name; what can be bridged is a warning."""
 
 import re
+import tracemalloc
 from collections.abc import Callable
 from typing import Any
 
@@ -77,6 +78,7 @@ REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (DISTANCE, put((slice(690, 700), np.nan), (700, 68.5)), "sample 700 goes back by 0.4 m to"),
     (DISTANCE, lambda d: d * 0 + 7, "never leaves 7 m, less than the profile interval of 0.00508"),
     (DISTANCE, lambda d: d * 1e-6, "moves 0.0004 m, less than the profile interval of 0.00508 m"),
+    (DISTANCE, put((slice(2000), -1.7e308), (slice(2000, None), 1.7e308)), "inf m at an interval"),
     *(
         (name, put((slice(None), np.nan)), "4000 of 4000 samples are missing (100 %); record it")
         for name in (FORCE, HEIGHT, DISTANCE)
@@ -151,6 +153,19 @@ def test_whatever_the_chunk_the_verdict_is_the_same(monkeypatch: pytest.MonkeyPa
     assert verdicts() == whole
 
 
+@given(st.integers(50, 900), st.integers(1, 4), st.integers(-1, 1), st.integers(0, 40))
+@settings(deadline=None, max_examples=40)
+def test_a_step_back_is_found_wherever_the_chunks_end(
+    chunk: int, number: int, beyond: int, gap: int
+) -> None:
+    at = chunk * number + beyond
+    recording = spoilt(DISTANCE, lambda d: put((slice(at - gap, at), np.nan), (at, -1.0))(d))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scanning, "CHUNK", chunk)
+        with pytest.raises(InputError, match=f"channel distance: sample {at} goes back by"):
+            examine(recording)
+
+
 @pytest.mark.parametrize("name", [FORCE, HEIGHT, DISTANCE])
 def test_a_missing_channel_is_named_with_those_that_are_there(name: str) -> None:
     values = good()
@@ -198,6 +213,9 @@ def test_an_encoder_with_time_stamps_is_held_to_the_same_speed() -> None:
     times = np.array([100.0, 101.0, 102.5, 110.0, 119.9])
     steady = Channel.of(DISTANCE, 20 * times, StampedClock.of(times))
     assert examine(Recording((*whole, steady))) == ()
+    burst = np.array([100.0, 110.0, 110.0001, 119.9])
+    counts = Channel.of(DISTANCE, [0.0, 200.0, 200.1, 398.0], StampedClock.of(burst))
+    assert examine(Recording((*whole, counts))) == ()
     jump = Channel.of(DISTANCE, [0, 20, 2000, 2100, 2300], StampedClock.of(times))
     with pytest.raises(InputError, match=r"distance: 1980 m in 1.5 s from 101 s is 1320 m/s"):
         examine(Recording((*whole, jump)))
@@ -218,13 +236,21 @@ def test_a_distance_in_km_and_unused_geometry_are_warnings() -> None:
 
 
 def test_more_points_than_memory_holds_are_refused() -> None:
-    values = good()
-    values[DISTANCE] *= 4
-    clock = UniformClock.of(RATE, 0.0)
-    long = {name: np.resize(array, 50 * COUNT) for name, array in values.items()}
-    long[DISTANCE] = np.linspace(0, 80 * SECONDS * 50, 50 * COUNT)
-    channels = tuple(Channel.of(name, array, clock) for name, array in long.items())
-    with pytest.raises(
-        InputError, match=r"too many points; choose a longer setup.profile_interval"
-    ):
-        examine(Recording(channels, Setup(1e-5)))
+    values = {name: np.tile(array, 50) for name, array in good().items()}
+    values[DISTANCE] = np.linspace(0, 80 * SECONDS * 50, 50 * COUNT)
+    with pytest.raises(InputError, match=r"too many points; choose a longer setup.profile_interv"):
+        examine(recorded(values, setup=Setup(1e-5)))
+
+
+def test_memory_is_bounded_whatever_the_length() -> None:
+    k = np.arange(3 << 20, dtype=float)
+    values = {FORCE: 9.8 + 0 * k, HEIGHT: 0.3 + 0 * k, DISTANCE: 1e-3 * k}
+    values[HEIGHT][5000:900000] = np.nan
+    recording = recorded(values, rate=16000.0)
+    tracemalloc.start()
+    try:
+        assert len(examine(recording)) == 1
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < values[HEIGHT].nbytes / 2
