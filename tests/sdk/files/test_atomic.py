@@ -16,7 +16,7 @@ from floatref.files import (
     write_profile_csv,
     write_recording,
 )
-from floatref.files.atomic import replacing_directory, replacing_file
+from floatref.files.atomic import check_target, replacing_directory, replacing_file
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -208,3 +208,14 @@ def test_a_target_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="f: exists"):
         fill()
     assert listing(tmp_path) == {"f": b"theirs"}
+
+
+def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match="file: exists; choose another name, or overwrite it"):
+        check_target(tmp_path / "file")
+    with pytest.raises(InputError, match="its folder does not exist; make .*none first"):
+        check_target(tmp_path / "none" / "p")
+    check_target(tmp_path / "file", overwrite=True)
+    check_target(tmp_path / "new")
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]

@@ -156,3 +156,9 @@ def test_the_fingerprint_is_the_sha256_of_every_file(folder: Path) -> None:
     for name, digest in found.items():
         assert digest == hashlib.sha256((folder / name).read_bytes()).hexdigest()
     assert fingerprint(folder / "recording.json") == found
+
+
+def test_the_fingerprint_of_a_native_file_is_its_own(tmp_path: Path) -> None:
+    (tmp_path / "run.bin").write_bytes(b"abc")
+    known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+    assert fingerprint(tmp_path / "run.bin") == {"run.bin": known}
