@@ -214,7 +214,7 @@ def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
     with pytest.raises(InputError, match="file: exists; choose another name, or overwrite it"):
         check_target(tmp_path / "file")
-    with pytest.raises(InputError, match="its folder does not exist; make .*none first"):
+    with pytest.raises(InputError, match=r"its folder does not exist; make .*none first"):
         check_target(tmp_path / "none" / "p")
     check_target(tmp_path / "file", overwrite=True)
     check_target(tmp_path / "new")
