@@ -57,6 +57,11 @@ def process(
     return result.profile
 
 
+def pipelines() -> tuple[str, ...]:
+    """Return the names of the pipelines that `process` knows."""
+    return tuple(plugins().pipelines())
+
+
 def run(
     recording: Recording,
     pipeline: str,

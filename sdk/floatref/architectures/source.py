@@ -3,7 +3,8 @@
 A channel on that clock is passed through. Another is linear between its samples, which is
 what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
 missing sample is bridged by the line between its neighbours and flagged; one of the
-accelerometer disturbs the floating reference height, and is flagged as that too.
+accelerometer disturbs the floating reference height, and is flagged as that too. GNSS samples
+keep their own times, as events.
 """
 
 import math
@@ -12,6 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from floatref.architectures.aligned import AlignedChannel, steady_clock
+from floatref.architectures.events import GnssEvents
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -49,6 +51,7 @@ class Source:
             tracks=self._tracks,
             setup=recording.setup,
         )
+        self._events = GnssEvents(recording)
         self.origin_m = float(self._aligned[ChannelId(DISTANCE)].take(0, 1).values[0])
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
@@ -63,7 +66,13 @@ class Source:
             {name: stretch.values for name, stretch in taken.items()},
             {name: s.fresh for name, s in taken.items() if s.fresh is not None},
             {name: _flags(name, s.missing) for name, s in taken.items() if s.missing is not None},
+            self._events.between(
+                *(self.header.origin + k * self.header.step for k in (begin, end))
+            ),
         )
+
+    def _time(self, index: int) -> float:
+        return self.header.origin + index * self.header.step
 
 
 def _nominal(recording: Recording, tracks: tuple[str, ...]) -> Iterator[tuple[ChannelId, Channel]]:

@@ -133,3 +133,15 @@ def test_channels_that_never_meet_are_refused(steady):
     late = Channel.of("height", np.full(100, 0.3), UniformClock.of(1000.0, 99.0))
     with pytest.raises(InputError, match="no stretch of time in common; check start_s"):
         Source(steady(height=late))
+
+
+def test_gnss_samples_are_events_at_their_own_times(steady):
+    stamps = StampedClock.of([-1.0, 0.0, 0.05, 0.3004, 3.9, 9.0])
+    height = Channel.of("gnss_height", [0, 1, np.nan, 3, 4, 5], stamps)
+    quality = Channel.of("gnss_quality", [4, 4, 0, 5, 4, 4], stamps)
+    blocks = list(Source(steady(gnss_height=height, gnss_quality=quality)).blocks(300))
+    events = [event for block in blocks for event in block.events]
+    assert [event.time_s for event in events] == [0.0, 0.05, 0.3004, 3.9]
+    assert events[1].values == {ChannelId("gnss_quality"): 0.0}
+    assert events[2].values == {ChannelId("gnss_height"): 3.0, ChannelId("gnss_quality"): 5.0}
+    assert len(blocks[1].events) == 1

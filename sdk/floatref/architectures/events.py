@@ -1,0 +1,33 @@
+"""GNSS samples as events that keep their own time, at whatever rate they came."""
+
+from floatref.values.block import Event
+from floatref.values.channels import ChannelId
+from floatref.values.recording import Channel, Recording
+
+PREFIX = "gnss_"
+
+
+class GnssEvents:
+    """The GNSS samples of a recording, in the order of their times."""
+
+    def __init__(self, recording: Recording) -> None:
+        """Keep the channels whose names begin with ``gnss_``."""
+        self._channels = [c for c in recording.channels if c.id.name.startswith(PREFIX)]
+
+    def between(self, begin_s: float, end_s: float) -> tuple[Event, ...]:
+        """Return the events from ``begin_s`` up to, but without, ``end_s``.
+
+        Samples of several channels at one time are one event; a missing sample is left out.
+        """
+        found: dict[float, dict[ChannelId, float]] = {}
+        for channel in self._channels:
+            for time, value in _samples(channel, begin_s, end_s):
+                found.setdefault(time, {})[channel.id] = value
+        return tuple(Event(time, values) for time, values in sorted(found.items()))
+
+
+def _samples(channel: Channel, begin_s: float, end_s: float) -> list[tuple[float, float]]:
+    times = channel.times_s
+    low, high = times.searchsorted((begin_s, end_s))
+    pairs = zip(times[low:high].tolist(), channel.values[low:high].tolist(), strict=True)
+    return [(time, value) for time, value in pairs if value == value]
