@@ -121,8 +121,6 @@ class RunResult:
     @property
     def class_reached(self) -> DeviceClass | None:
         """The class that every check reached; None while a check is left out."""
-        if self.verdict is Verdict.INCOMPLETE:
-            return None
         judged = [c for c in self.checks if c.outcome is not Outcome.NOT_APPLICABLE]
         return lowest([c.class_reached for c in judged])
 

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from floatref.architectures.processing import FloatrefWarning as FloatrefWarning
+    from floatref.architectures.processing import pipelines as pipelines
     from floatref.architectures.processing import process as process
     from floatref.errors import FloatrefError as FloatrefError
     from floatref.errors import InputError as InputError
@@ -51,6 +52,7 @@ _PUBLIC = {
     "StampedClock": "values.clock",
     "TrackSetup": "values.recording",
     "UniformClock": "values.clock",
+    "pipelines": "architectures.processing",
     "process": "architectures.processing",
     "read_profile": "files",
     "read_recording": "files",

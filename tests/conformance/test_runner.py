@@ -1,12 +1,13 @@
 """The run: its events, and what the outcomes of its checks make together."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.events import RunFinished
+from floatref_conformance.events import CaseFinished, RunFinished
 from floatref_conformance.render.report import as_json
 from floatref_conformance.runner import run
 from floatref_conformance.verdict import Outcome, Verdict
@@ -82,6 +83,21 @@ def test_the_oracle_overrules_a_wrong_measure(plan, fake_device, toy_check):
     with pytest.raises(SuiteError, match=r"IRI is .* by the reference"):
         list(run(plan(fake_device(), toy_check(skew=0.01))))
     assert result_of(plan(fake_device(), toy_check(skew=1e-5))).verdict is Verdict.PASS
+
+
+def test_it_is_the_worst_case_that_the_oracle_measures_again(plan, fake_device, toy_check):
+    class SkewedAbove(toy_check):
+        def judge(self, case, profile, simulated):
+            measured = super().judge(case, profile, simulated)
+            return [replace(m, value=m.value * (1.01 if m.value > 0.95 else 1)) for m in measured]
+
+    values = []
+    for event in run(plan(fake_device(), toy_check(count=4))):
+        if isinstance(event, CaseFinished):
+            values.append(event.result.measurements[1].value)
+    assert sum(value > 0.95 for value in values) == 1
+    with pytest.raises(SuiteError):
+        list(run(plan(fake_device(), SkewedAbove(count=4))))
 
 
 def test_an_error_of_the_suite_is_not_blamed_on_the_device(plan, fake_device, toy_check):

@@ -134,7 +134,7 @@ def _in_words(result: CheckResult) -> str:
 
 
 def _table(result: RunResult) -> Table:
-    table = Table(*COLUMNS, box=SIMPLE_HEAD)
+    table = Table(*COLUMNS, box=SIMPLE_HEAD, pad_edge=False)
     for check in result.checks:
         if check.outcome is not Outcome.SKIP:
             cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
