@@ -14,7 +14,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.stretches import stretch
-from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.runner import Plan
 from floatref_conformance.verdict import Evidence, Measurement
 
@@ -144,8 +144,3 @@ def plan():
         return Plan("fake:device", device, checks or (ToyCheck(),), names, **settings)
 
     return make
-
-
-@pytest.fixture
-def quick():
-    return Effort.QUICK
