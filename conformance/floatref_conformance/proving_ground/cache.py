@@ -13,10 +13,10 @@ import zlib
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
+from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 
-from floatref import __version__
 from floatref.files import read_profile, read_recording, write_profile, write_recording
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -98,7 +98,7 @@ def source_digest() -> str:
 
 def _key(scenario: Scenario) -> str:
     """Return the name of the scenario's entry."""
-    parts = (scenario.hash, __version__, source_digest())
+    parts = (scenario.hash, version("floatref"), source_digest())
     return sha256("\n".join(parts).encode()).hexdigest()[:32]
 
 

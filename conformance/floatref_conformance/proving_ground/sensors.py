@@ -12,7 +12,8 @@ from math import radians
 
 from floatref.values.channels import STANDARD_GRAVITY
 
-UNSCALED = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz", "gnss_drift_s", "idle_hz"})
+RATES = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz"})
+UNSCALED = RATES | {"gnss_drift_s", "idle_hz", "revving_hz_per_mps"}
 """Fields that are rates and times, not errors."""
 
 
@@ -54,7 +55,7 @@ class SensorSuite:
     force_walk: float = 1e-5 * STANDARD_GRAVITY
     force_resolution: float = 4 * STANDARD_GRAVITY / 2**16
     force_scale: float = 5e-4
-    misalignment_rad: float = radians(0.2)
+    misalignment_rad: float = radians(0.1)
     vibration: float = 0.015
     idle_hz: float = 820 / 60
     revving_hz_per_mps: float = 1.0

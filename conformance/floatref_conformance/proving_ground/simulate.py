@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.metadata import version
 
 import numpy as np
 
-from floatref import __version__
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, Setup
@@ -115,7 +115,8 @@ def _recorded(
         channels += chain.gyros()
     if scenario.gnss:
         channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m)
-    recording = Recording(tuple(channels), setup, "floatref", f"proving ground {__version__}")
+    model = f"proving ground {version('floatref')}"
+    recording = Recording(tuple(channels), setup, "floatref", model)
     return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)
 
 

@@ -10,7 +10,7 @@ from floatref_conformance.proving_ground import manoeuvres
 from floatref_conformance.proving_ground.drive import Drive
 from floatref_conformance.proving_ground.iso8608 import iso8608_road
 from floatref_conformance.proving_ground.kinematics import Course
-from floatref_conformance.proving_ground.road import Road, flat_road
+from floatref_conformance.proving_ground.road import FULL_FROM_M, Road, flat_road
 from floatref_conformance.proving_ground.runs import KMH, RUNS, run_drive
 from floatref_conformance.proving_ground.sayers import sayers_road
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -19,10 +19,13 @@ from floatref_conformance.proving_ground.shaping import scaled_to, with_bump
 from floatref_conformance.proving_ground.vehicle import Vehicle
 
 BUMP_LENGTH_M = 3.0
+SCALED_OVER_M = 100.0
+"""A road is made long enough to have an IRI over this length, however short the drive."""
 
 
 def road_of(scenario: Scenario, length_m: float) -> Road:
-    """Return the scenario's road, usable up to ``length_m``, scaled and with its bump."""
+    """Return the scenario's road, usable up to ``length_m`` or more, scaled and with its bump."""
+    length_m = max(length_m, FULL_FROM_M + SCALED_OVER_M)
     kind, _, which = scenario.road.partition("-")
     if kind == "flat":
         road = flat_road(length_m, tracks=scenario.tracks)

@@ -1,0 +1,170 @@
+"""Laws of a scenario: it survives JSON, is told apart by its hash, and refuses nonsense."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import InputError
+from floatref.measures import iri
+from floatref_conformance.proving_ground.runs import RECORDING_LENGTH_M, RUNS
+from floatref_conformance.proving_ground.scenario import (
+    MANOEUVRES,
+    ROADS,
+    STATIONARY,
+    Scenario,
+    read_scenario,
+    scenario_of_run,
+)
+from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.staging import (
+    course_of,
+    drive_of,
+    road_of,
+    setup_of,
+    suite_of,
+)
+from floatref_conformance.proving_ground.vehicles import LOADED_VAN, VEHICLES
+
+scenarios = st.builds(
+    Scenario,
+    seed=st.integers(0, 2**63 - 1),
+    road=st.sampled_from(ROADS),
+    vehicle=st.sampled_from(sorted(VEHICLES)),
+    manoeuvre=st.sampled_from(MANOEUVRES),
+    speed_kmh=st.floats(0, 150),
+    sensors=st.floats(0, 2),
+    imu=st.booleans(),
+    tracks=st.sampled_from([("main",), ("left", "right"), ("right",)]),
+)
+
+
+@settings(deadline=None, max_examples=50)
+@given(scenario=scenarios)
+def test_scenario_survives_json(scenario: Scenario) -> None:
+    text = json.dumps(scenario.to_dict(), allow_nan=False)
+    again = Scenario.from_dict(json.loads(text))
+    assert again == scenario
+    assert again.hash == scenario.hash
+
+
+def test_every_field_changes_the_hash() -> None:
+    changes: dict[str, Any] = {
+        "road": "flat",
+        "vehicle": "pickup",
+        "manoeuvre": "stop",
+        "tracks": ("left",),
+        "imu": False,
+        "gnss": False,
+    }
+    plain = Scenario()
+    hashes = {plain.hash}
+    for name, value in vars(plain).items():
+        hashes.add(replace(plain, **{name: changes.get(name) or _other(value)}).hash)
+    assert len(hashes) == 1 + len(vars(plain))
+
+
+def _other(value: Any) -> Any:
+    return not value if isinstance(value, bool) else value + (1 if value in (0, 72) else value / 8)
+
+
+def test_equal_numbers_have_one_hash() -> None:
+    assert Scenario(rate_hz=16000).hash == Scenario(rate_hz=16000.0).hash
+
+
+def test_unknown_keys_are_ignored_and_an_unknown_format_is_refused() -> None:
+    document = Scenario(seed=4).to_dict() | {"remark": "kept by somebody else"}
+    assert Scenario.from_dict(document) == Scenario(seed=4)
+    with pytest.raises(InputError, match="format 'floatref-scenario/9': unknown"):
+        Scenario.from_dict({"format": "floatref-scenario/9"})
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        ({"seed": -1}, "seed is -1; it must lie between 0"),
+        ({"seed": 1.5}, "seed is 1.5; give a whole number"),
+        ({"seed": True}, "seed is True; give a number"),
+        ({"rate_hz": 500}, "rate_hz is 500; it must lie between 1000"),
+        ({"length_m": float("nan")}, "length_m is nan; give a number"),
+        ({"speed_kmh": "72"}, "speed_kmh is '72'; give a number"),
+        ({"imu": 1}, "imu is 1; give true or false"),
+        ({"road": "sayers-norml"}, "did you mean sayers-normal"),
+        ({"manoeuvre": "sg_10.7s_0.2g"}, "did you mean sg_10.7s_0.20g"),
+        ({"vehicle": "tank"}, "vehicle tank: unknown"),
+        ({"tracks": []}, "give a list of different names"),
+        ({"tracks": ["left", "left"]}, "give a list of different names"),
+        ([], "a scenario is a JSON object"),
+    ],
+)
+def test_values_that_make_no_scenario_are_refused(fields: Any, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Scenario.from_dict(fields)
+
+
+def test_file_errors_name_the_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"none\.json: No such file"):
+        read_scenario(tmp_path / "none.json")
+    broken = tmp_path / "broken.json"
+    broken.write_text("{", encoding="utf-8")
+    with pytest.raises(InputError, match=r"broken\.json: not JSON"):
+        read_scenario(broken)
+    broken.write_text('{"rate_hz": 1}', encoding="utf-8")
+    with pytest.raises(InputError, match=r"broken\.json: rate_hz is 1"):
+        read_scenario(broken)
+
+
+@pytest.mark.parametrize("name", list(RUNS))
+def test_every_published_run_is_a_scenario(name: str) -> None:
+    scenario = scenario_of_run(name, seed=3, sensors=0.0)
+    assert (scenario.seed, scenario.sensors) == (3, 0.0)
+    assert drive_of(scenario).length_m >= RECORDING_LENGTH_M - 1e-6
+
+
+def test_unknown_run_is_refused_with_a_hint() -> None:
+    with pytest.raises(InputError, match="did you mean ref_72"):
+        scenario_of_run("ref_27")
+
+
+@pytest.mark.parametrize("kind", sorted(set(MANOEUVRES) - set(RUNS) - set(STATIONARY)))
+def test_every_manoeuvre_is_driven(kind: str) -> None:
+    fast = 90.0 if kind == "throttle" else 58.0
+    scenario = Scenario(manoeuvre=kind, final_speed_kmh=fast)
+    if kind == "creeping":
+        scenario = replace(scenario, speed_kmh=4.0, event_speed_kmh=6.0)
+    if kind in ("braking", "near-stop"):
+        scenario = replace(scenario, event_speed_kmh=12.0, dwell_s=1.0)
+    drive = drive_of(scenario)
+    assert drive.length_m >= scenario.length_m - 1e-6
+    slowest = drive.knot_speeds_mps.min()
+    assert (slowest == 0) == (kind in ("stop", "dead-start"))
+
+
+@pytest.mark.parametrize("kind", ROADS)
+def test_road_has_its_roughness_and_its_bump(kind: str) -> None:
+    plain = Scenario(seed=5, road=kind, iri_m_per_km=2.0)
+    road = road_of(plain, 120.0)
+    inside = (road.distance_m > 26.0) & (road.distance_m < 126.0)
+    values = [iri(z[inside], road.spacing_m) for z in road.elevation.values()]
+    expected = 0.0 if kind == "flat" else 2.0
+    assert np.mean(values) == pytest.approx(expected, rel=0.01, abs=1e-12)
+    bumped = road_of(replace(plain, bump_mm=20.0, bump_at_m=80.0), 120.0)
+    middle = np.array([80.0])
+    assert bumped.at("left", middle) - road.at("left", middle) == pytest.approx(0.02, rel=1e-6)
+
+
+def test_slopes_and_sensors_follow_the_numbers() -> None:
+    scenario = Scenario(grade_percent=4.0, cross_slope_percent=-2.0, curvature_per_km=5.0)
+    course = course_of(scenario)
+    assert np.tan(course.grade_rad) == pytest.approx(0.04)
+    assert np.tan(course.cross_slope_rad) == pytest.approx(-0.02)
+    assert course.curvature_per_m == pytest.approx(0.005)
+    assert suite_of(replace(scenario, sensors=0.0)) == SensorSuite.ideal()
+    assert suite_of(scenario) == SensorSuite()
+    setup = setup_of(scenario, LOADED_VAN, {"left": 0.86, "right": -0.86})
+    assert setup.tracks["right"].reference_point_m == (LOADED_VAN.sensor_x_m, -0.86, 0.282)

@@ -1,0 +1,200 @@
+"""Laws of whole simulations: known exactly where they can be, and the failure they exist for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.errors import InputError
+from floatref.measures import agreement, high_pass, iri, short_interval_roughness
+from floatref.values.channels import STANDARD_GRAVITY as G
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+from floatref_conformance.proving_ground.artificial import Plate
+from floatref_conformance.proving_ground.road import flat_road
+from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
+from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary
+
+SHORT = Scenario(seed=1, length_m=70.0, event_at_m=30.0, rate_hz=2000.0)
+
+
+def samples(recording: Recording) -> dict[str, np.ndarray]:
+    return {str(channel.id): channel.values for channel in recording.channels}
+
+
+@pytest.fixture(scope="module")
+def stopped() -> Simulation:
+    return simulate(scenario_of_run("sg_10.7s_0.20g"))
+
+
+def test_same_scenario_gives_the_same_recording() -> None:
+    first, second = samples(simulate(SHORT).recording), samples(simulate(SHORT).recording)
+    assert first.keys() == second.keys()
+    assert all(np.array_equal(first[name], second[name]) for name in first)
+
+
+def test_another_seed_gives_another_road_and_other_errors() -> None:
+    first, second = simulate(SHORT), simulate(replace(SHORT, seed=2))
+    assert not np.allclose(first.truth.tracks[0].elevation, second.truth.tracks[0].elevation)
+    assert first.errors["left"].bias[0] != second.errors["left"].bias[0]
+
+
+def test_channels_left_out_leave_the_others_alone() -> None:
+    whole = samples(simulate(SHORT).recording)
+    nominal = samples(simulate(replace(SHORT, imu=False, gnss=False)).recording)
+    assert {name.split(".")[-1] for name in nominal} == {
+        "vertical_specific_force",
+        "height",
+        "distance",
+    }
+    assert all(np.array_equal(whole[name], nominal[name]) for name in nominal)
+    assert {"pitch_rate", "gnss_height", "left.longitudinal_specific_force"} <= whole.keys()
+
+
+def test_flat_road_at_constant_speed_with_a_bias_is_known_exactly() -> None:
+    """Nothing moves: g plus the bias, the range at rest, the distance speed times time."""
+    bias_only = replace(SensorSuite.ideal(), force_bias=0.005)
+    scenario = replace(SHORT, road="flat", rate_hz=16000.0)
+    simulation = simulate(scenario, suite=bias_only)
+    recording = simulation.recording
+    for track in ("left", "right"):
+        bias = simulation.errors[track].bias
+        assert 0.0025 <= abs(bias[0]) <= 0.0075
+        assert np.all(bias == bias[0])
+        force = recording.channel("vertical_specific_force", track).values
+        assert force == pytest.approx(G + bias, abs=1e-13)
+        assert recording.channel("height", track).values == pytest.approx(
+            np.full(force.size, 0.282), abs=1e-15
+        )
+        assert np.all(simulation.truth.track(track).elevation == 0.0)
+    distance = recording.channel("distance")
+    assert distance.values == pytest.approx(20.0 * distance.times_s, abs=1e-12)
+
+
+def test_truth_takes_the_first_sample_at_or_beyond_each_point() -> None:
+    simulation = simulate(
+        replace(SHORT, manoeuvre="stop", rate_hz=16000.0, speed_kmh=30.0, final_speed_kmh=20.0)
+    )
+    truth, motion = simulation.truth.track("right"), simulation.motion
+    interval = simulation.truth.interval_m
+    assert truth.elevation.size == int(motion.distance[-1] / interval) + 1
+    for k in (1, 1000, truth.elevation.size - 1):
+        first = int(np.argmax(motion.distance >= k * interval))
+        assert truth.elevation[k] == motion.tracks["right"].road_m[first]
+
+
+def test_truth_is_linear_in_distance_where_samples_are_far_apart() -> None:
+    simulation = simulate(replace(SHORT, rate_hz=1000.0))
+    motion = simulation.motion
+    points = simulation.truth.distance_m
+    expected = np.interp(points, motion.distance, motion.tracks["left"].road_m)
+    assert simulation.truth.track("left").elevation == pytest.approx(expected, abs=1e-12)
+
+
+def test_truth_is_the_road_behind_the_vehicle_point() -> None:
+    """At constant speed the footprint trails by the sensors' place, tilt aside."""
+    simulation = simulate(replace(SHORT, sensors=0.0, rate_hz=16000.0, road="flat", bump_mm=20.0,
+                                  bump_at_m=25.0))  # fmt: skip
+    z = simulation.truth.track("left").elevation
+    middle = simulation.truth.interval_m * float(np.average(np.arange(z.size), weights=z))
+    assert z.max() == pytest.approx(0.020, abs=1e-5)
+    assert middle == pytest.approx(25.0 + 2.91, abs=0.02)
+
+
+def test_one_unnamed_wheel_path() -> None:
+    recording = simulate(replace(SHORT, tracks=("main",))).recording
+    assert recording.tracks == ("main",)
+    assert all(channel.id.track is None for channel in recording.channels)
+
+
+def test_own_road_has_to_fit_the_scenario() -> None:
+    with pytest.raises(InputError, match="track right: the road has no such wheel path"):
+        simulate(SHORT, flat_road(40.0, tracks=("left",)))
+    with pytest.raises(InputError, match="the road ends at"):
+        simulate(SHORT, flat_road(10.0))
+
+
+def filtered_alike(simulation: Simulation, pipeline: str) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return profile and truth of every track over 120.0 to 280.9 m of the section."""
+    profile: Profile = floatref.process(simulation.recording, pipeline)
+    pairs = []
+    for track in profile.tracks:
+        true = high_pass(simulation.truth.track(track.name).elevation, profile.interval_m)
+        part = slice(round(220.0 / profile.interval_m), round(380.9 / profile.interval_m))
+        pairs.append((track.elevation[part], true[part]))
+    return pairs
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
+def test_reference_pass_is_measured_well_with_all_errors_on(pipeline: str) -> None:
+    simulation = simulate(scenario_of_run("ref_72", seed=11))
+    interval = simulation.truth.interval_m
+    for measured, true in filtered_alike(simulation, pipeline):
+        assert agreement(true, measured, interval).cross_correlation > 0.995
+        assert iri(measured, interval) == pytest.approx(iri(true, interval), rel=0.005)
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
+def test_long_stop_ruins_the_basic_architectures(stopped: Simulation, pipeline: str) -> None:
+    interval = stopped.truth.interval_m
+    for measured, true in filtered_alike(stopped, pipeline):
+        assert agreement(true, measured, interval).cross_correlation < 0.2
+        assert short_interval_roughness(measured, interval).max() > 200.0
+
+
+def test_velocity_error_at_the_stop_is_tilt_bias_and_misalignment(stopped: Simulation) -> None:
+    """The integral of a_x·sin θ and bias explains it; the axis' own tilt adds to θ."""
+    motion, rate = stopped.motion, 16000.0
+    stop = int(np.argmax(motion.speed == 0.0))
+    for name, track in motion.tracks.items():
+        errors = stopped.errors[name]
+        read = stopped.recording.channel("vertical_specific_force", name).values
+        entering = np.sum((read - G - track.acceleration)[:stop]) / rate
+        tilted = motion.acceleration * np.sin(motion.pitch + errors.pitch_rad)
+        assert entering == pytest.approx(np.sum((tilted + errors.bias)[:stop]) / rate, rel=0.2)
+        untilted = motion.acceleration * np.sin(motion.pitch) + errors.bias
+        assert 0.5 < entering / (np.sum(untilted[:stop]) / rate) < 2.0
+
+
+@pytest.mark.parametrize("kind", ["quiescent", "bounce"])
+def test_stationary_truth_is_flat_but_for_the_plate(kind: str) -> None:
+    simulation = stationary(kind, seed=3, rate_hz=2000.0)
+    plate = Plate()
+    for track in simulation.truth.tracks:
+        x, z = simulation.truth.distance_m, track.elevation
+        outside = (x < plate.start_m - 0.1) | (x > plate.start_m + plate.length_m + 0.1)
+        assert np.abs(z[outside]).max() < 1e-12
+        assert z.max() == pytest.approx(0.005, abs=1e-12)
+    distance = simulation.recording.channel("distance")
+    assert np.abs(distance.values - 20.0 * distance.times_s).max() < 0.3e-3 + 1e-9
+
+
+@pytest.mark.parametrize("kind", ["quiescent", "bounce"])
+def test_ideal_sensors_see_the_parked_body_move(kind: str) -> None:
+    """Twice integrated force follows the range, which shrinks by the plate where it lies."""
+    scenario = Scenario(manoeuvre=kind, sensors=0.0)
+    simulation = simulate(scenario)
+    height = simulation.recording.channel("height", "left").values
+    before = slice(0, 20 * 16000)
+    travel = np.ptp(height[before])
+    assert travel == pytest.approx(0.086 if kind == "bounce" else 20e-6, rel=0.1)
+    motion = simulation.motion.tracks["left"]
+    upright = np.cos(simulation.motion.pitch) * np.cos(simulation.motion.roll)
+    fallen = motion.height_m - height * upright
+    assert fallen == pytest.approx(motion.road_m, abs=1e-12)
+
+
+@pytest.mark.parametrize(("kind", "limit"), [("quiescent", 0.047), ("bounce", 0.126)])
+def test_stationary_tests_pass_the_standards_limits(kind: str, limit: float) -> None:
+    """AASHTO R 57-14, with all sensor errors on, away from the plate."""
+    profile = floatref.process(stationary(kind, seed=2).recording, "temporal-basic")
+    for track in profile.tracks:
+        part = slice(round(150.0 / profile.interval_m), round(400.0 / profile.interval_m))
+        assert 0.0 < iri(track.elevation[part], profile.interval_m) < limit / 2
+
+
+def test_unknown_stationary_test_is_refused() -> None:
+    with pytest.raises(InputError, match="stationary test 'jump': unknown"):
+        stationary("jump")
