@@ -66,7 +66,7 @@ def _draw_roughness(ax: Axes, profile: Profile) -> None:
 def _draw_speed(ax: Axes, distance_m: FloatArray, speed_mps: FloatArray) -> None:
     line(ax, np.asarray(distance_m), KMH_PER_MPS * np.asarray(speed_mps), color="0.25")
     ax.set_ylabel("Speed (km/h)")
-    ax.set_ylim(bottom=0.0)
+    ax.set_ylim(0.0, 1.1 * max(1.0, KMH_PER_MPS * float(np.max(speed_mps))))
 
 
 def _colours(profile: Profile) -> list[str]:
