@@ -142,6 +142,37 @@ def test_footprint_lies_on_the_road_at_the_end_of_the_beam(
     assert road.across(x, y) == pytest.approx(z, abs=1e-9)
 
 
+def turned(about: str, angle: FloatArray) -> FloatArray:
+    """Return the matrices that rotate by ``angle`` about an axis, shape (n, 3, 3)."""
+    first, second = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[about]
+    matrix = np.zeros((angle.size, 3, 3)) + np.eye(3)
+    matrix[:, first, first] = matrix[:, second, second] = np.cos(angle)
+    matrix[:, first, second], matrix[:, second, first] = -np.sin(angle), np.sin(angle)
+    return matrix
+
+
+@settings(deadline=None, max_examples=10)
+@given(seed=seeds, course=courses)
+def test_specific_force_is_the_acceleration_in_space_less_gravity(
+    seed: int, course: Course
+) -> None:
+    """The point's path in a frame that does not turn, differenced twice, in body axes."""
+    body, travel = waving(seed), travelling(seed)
+    still = np.zeros(CLOCK_COUNT)
+    lane = turned("z", course.curvature_per_m * travel[0])
+    lane = (
+        lane @ turned("y", still - course.grade_rad) @ turned("x", still + course.cross_slope_rad)
+    )
+    attitude = lane @ turned("y", body[1]) @ turned("x", body[2])
+    arm = lane[:, :, 2] * (0.9 + body[0])[:, None] + attitude @ np.array([-2.9, 0.86, 0.28 - 0.9])
+    forward = lane[:, :, 0] * travel[1][:, None]
+    space = (forward[2:] - forward[:-2]) * RATE / 2 + np.diff(arm, 2, axis=0) * RATE**2
+    force = np.einsum("nij,ni->nj", attitude[1:-1], space + np.array([0.0, 0.0, G]))
+    point = carried(body, travel, course).tracks["left"]
+    felt = np.stack([point.longitudinal, point.lateral, point.vertical], axis=1)
+    assert np.abs(felt[1:-1] - force).max() < 4e-3
+
+
 def test_gravity_tilts_on_a_slope() -> None:
     """At rest uphill and left side up the body feels g along the slopes, and is so inclined."""
     course = Course(grade_rad=0.05, cross_slope_rad=0.03)

@@ -9,13 +9,15 @@ import floatref
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, iri, short_interval_roughness
 from floatref.values.channels import STANDARD_GRAVITY as G
+from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground.artificial import Plate
+from floatref_conformance.proving_ground.motion import BodyMotion, TrackMotion
 from floatref_conformance.proving_ground.road import flat_road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.sensors import SensorSuite
-from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary
+from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary, truth_of
 
 SHORT = Scenario(seed=1, length_m=70.0, event_at_m=30.0, rate_hz=2000.0)
 
@@ -83,6 +85,24 @@ def test_truth_takes_the_first_sample_at_or_beyond_each_point() -> None:
     for k in (1, 1000, truth.elevation.size - 1):
         first = int(np.argmax(motion.distance >= k * interval))
         assert truth.elevation[k] == motion.tracks["right"].road_m[first]
+
+
+def test_truth_at_a_standstill_is_what_lay_under_the_laser_on_arrival() -> None:
+    """Of samples at the same distance the first counts, though the footprint rocks on."""
+    count = np.array([0, 0, 1, 2, 2, 2, 3])
+    zero, index = np.zeros(7), np.arange(7.0)
+    track = TrackMotion(zero, zero, zero, zero, zero, zero, zero, index)
+    motion = BodyMotion(
+        UniformClock.of(1000.0),
+        0.25 * count,
+        zero,
+        zero,
+        np.zeros((3, 7)),
+        zero,
+        zero,
+        {"t": track},
+    )
+    assert list(truth_of(motion, 0.25).track("t").elevation) == [0.0, 2.0, 3.0, 6.0]
 
 
 def test_truth_is_linear_in_distance_where_samples_are_far_apart() -> None:
