@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.cli.main import main as conformance
+from floatref_conformance.plugins import load_registry
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -32,6 +34,12 @@ def test_the_first_command_runs_both_checks() -> None:
     context = run.make_context("run", asked[1:])
     assert context.params["ids"] == ("quiescent", "bounce")
     assert context.params["spec"] == "builtin:temporal-basic"
+
+
+def test_the_readme_counts_the_checks() -> None:
+    built = load_registry().checks
+    words = {2: "two", 15: "fifteen"}
+    assert f"{words[len(built)]} of\n{words[len(IDS)]}" in README
 
 
 def test_ci_runs_the_second_command() -> None:
