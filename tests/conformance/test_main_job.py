@@ -10,7 +10,6 @@ from floatref.measures import agreement, high_pass, iri, short_interval_roughnes
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.integration import Integrate
 from floatref.values.channels import ChannelId
-from floatref_conformance.proving_ground.measured import measured_road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -25,11 +24,9 @@ def synthetic():
 
 
 @pytest.fixture(scope="module")
-def measured(request):
-    """72 km/h over a measured road, all sensor errors on."""
-    path = request.config.rootpath / "tests" / "data" / "sroubek-iri" / "profile_1.txt"
-    elevation = np.loadtxt(path)[:, 1]
-    return simulate(Scenario(seed=4, length_m=480.0), measured_road(elevation, 0.25))
+def measured():
+    """72 km/h over a measured road as it is, all sensor errors on."""
+    return simulate(Scenario(seed=4, road="measured", iri_m_per_km=0.0, length_m=480.0))
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ elevation and slope continuous, so that it can be made to any length.
 """
 
 from collections.abc import Mapping, Sequence
+from importlib.resources import files
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -22,6 +23,19 @@ from floatref_conformance.proving_ground.road import (
 )
 from floatref_conformance.proving_ground.shaping import with_level_start
 from floatref_conformance.proving_ground.spectral import coherence
+
+SHIPPED_INTERVAL_M = 0.25
+"""Interval of the profile that `shipped_profile` returns, in m."""
+
+
+def shipped_profile() -> FloatArray:
+    """Return 544 m of a road measured by Sorel and Sroubek, elevation in m every 0.25 m.
+
+    Its IRI is 3.33 m/km; ``data/sroubek`` holds its source and licence (MIT).
+    """
+    data = files("floatref_conformance.proving_ground") / "data" / "sroubek" / "profile_1.txt"
+    rows = [line.split() for line in data.read_text().splitlines()]
+    return np.array([float(elevation) for _, elevation in rows])
 
 
 def measured_road(

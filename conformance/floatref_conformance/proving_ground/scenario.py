@@ -24,7 +24,12 @@ MANOEUVRES = (
     *("creeping", *STATIONARY, *RUNS),
 )
 """Kinds of drive, stationary tests, and the published runs by name."""
-ROADS = ("flat", *(f"sayers-{name}" for name in CASES), *(f"iso-{name}" for name in CLASSES))
+ROADS = (
+    "flat",
+    "measured",
+    *(f"sayers-{name}" for name in CASES),
+    *(f"iso-{name}" for name in CLASSES),
+)
 LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         "seed": (0, 2**63 - 1),
@@ -55,7 +60,8 @@ class Scenario:
 
     Attributes:
         seed: draws the road and every sensor's errors.
-        road: one of `ROADS`: flat, of Sayers' spectrum, or of an ISO 8608 class.
+        road: one of `ROADS`: flat, a measured profile, of Sayers' spectrum, or of an ISO 8608
+            class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
         bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
         vehicle: a name of `vehicles.VEHICLES`.

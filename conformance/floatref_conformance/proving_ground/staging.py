@@ -10,6 +10,11 @@ from floatref_conformance.proving_ground import manoeuvres
 from floatref_conformance.proving_ground.drive import Drive
 from floatref_conformance.proving_ground.iso8608 import iso8608_road
 from floatref_conformance.proving_ground.kinematics import Course
+from floatref_conformance.proving_ground.measured import (
+    SHIPPED_INTERVAL_M,
+    measured_road,
+    shipped_profile,
+)
 from floatref_conformance.proving_ground.road import FULL_FROM_M, Road, flat_road
 from floatref_conformance.proving_ground.runs import KMH, RUNS, run_drive
 from floatref_conformance.proving_ground.sayers import sayers_road
@@ -29,6 +34,10 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
     kind, _, which = scenario.road.partition("-")
     if kind == "flat":
         road = flat_road(length_m, tracks=scenario.tracks)
+    elif kind == "measured":
+        road = measured_road(
+            shipped_profile(), SHIPPED_INTERVAL_M, length_m, scenario.seed, tracks=scenario.tracks
+        )
     elif kind == "iso":
         road = iso8608_road(which, length_m, scenario.seed, tracks=scenario.tracks)
     else:

@@ -4,8 +4,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref.measures import iri
 from floatref.values.arrays import FloatArray
-from floatref_conformance.proving_ground.measured import measured_road
+from floatref_conformance.proving_ground.measured import (
+    SHIPPED_INTERVAL_M,
+    measured_road,
+    shipped_profile,
+)
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import road_of
 
 FIRST_M = 26.0
 
@@ -79,3 +86,18 @@ def test_unusable_profiles_are_refused() -> None:
         measured_road(good, 0.0)
     with pytest.raises(InputError, match="as many and as long"):
         measured_road({"left": good, "right": good[:-1]}, 0.25)
+
+
+def test_the_shipped_profile_has_its_published_roughness() -> None:
+    assert iri(shipped_profile(), SHIPPED_INTERVAL_M) == pytest.approx(3.334, rel=1e-3)
+
+
+def test_a_scenario_can_take_the_shipped_road_as_it_is_or_scaled() -> None:
+    asis = road_of(Scenario(road="measured", iri_m_per_km=0.0), 500.0)
+    scaled = road_of(Scenario(road="measured", iri_m_per_km=1.8), 500.0)
+    x = FIRST_M + SHIPPED_INTERVAL_M * np.arange(1600)
+    found = iri(asis.at("left", x), SHIPPED_INTERVAL_M)
+    assert found == pytest.approx(iri(shipped_profile()[:1600], SHIPPED_INTERVAL_M), rel=0.02)
+    ratio = scaled.at("left", x[100:]) / asis.at("left", x[100:])
+    assert np.ptp(ratio) < 1e-9
+    assert ratio[0] == pytest.approx(1.8 / 3.3, rel=0.1)

@@ -1,7 +1,7 @@
 """The Golden Car and the IRI."""
 
 import math
-from pathlib import Path
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from floatref_reference.chapter_2 import section_2_1_1_golden_car as golden_car
 from floatref_reference.chapter_2 import section_2_1_1_iri as section
 from floatref_reference.chapter_2.section_2_1_4_waveband import INDICES, h_suspension_stroke
 
-MEASURED = Path(__file__).parents[2] / "data" / "sroubek-iri" / "profile_1.txt"
+MEASURED = files("floatref_conformance.proving_ground") / "data/sroubek/profile_1.txt"
 
 
 def test_measured_road_has_its_published_iri() -> None:

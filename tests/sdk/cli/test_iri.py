@@ -1,6 +1,7 @@
 """`floatref iri`: its JSON, its tables, its units and its refusals."""
 
 import json
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from floatref.files import write_profile, write_profile_csv
 from floatref.measures import iri
 from floatref.values.profile import Profile, ProfileTrack
 
-MEASURED_ROAD = Path(__file__).parents[2] / "data/sroubek-iri/profile_1.txt"
+MEASURED_ROAD = files("floatref_conformance.proving_ground") / "data/sroubek/profile_1.txt"
 
 
 def measured_road() -> np.ndarray:

@@ -1,6 +1,6 @@
 """The IRI: laws of a linear car, its conventions, and a measured road."""
 
-from pathlib import Path
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from floatref.measures import (
 )
 from floatref.measures.quarter_car import moving_average_response
 
-MEASURED_ROAD = Path(__file__).parents[2] / "data/sroubek-iri/profile_1.txt"
+MEASURED_ROAD = files("floatref_conformance.proving_ground") / "data/sroubek/profile_1.txt"
 FEW = settings(deadline=None, max_examples=15)
 intervals = st.sampled_from([0.0005, 0.00508, 0.02, 0.05, 0.1, 0.1524, 0.25, 0.3, 1.0, 2.0])
 seeds = st.integers(0, 2**32 - 1)
