@@ -24,8 +24,14 @@ def print_json(report: Mapping[str, Any]) -> None:
 
 def print_settings(settings: Mapping[str, Any]) -> None:
     """Print one line for each setting; None is "none"."""
-    lines = [[name, "none" if value is None else str(value)] for name, value in settings.items()]
+    lines = [[name, _shown(value)] for name, value in settings.items()]
     print_table("Settings", ("setting", "value"), lines, numbers=False)
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "none"
+    return str(float(f"{value:.10g}") if isinstance(value, float) else value)
 
 
 def print_table(

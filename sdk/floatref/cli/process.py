@@ -55,8 +55,7 @@ def process(
     if plot is not None:
         check_target(plot, overwrite=True)
     reader = _reader(source, adapter)
-    with naming(source):
-        recording = reader.read(source)
+    recording = reader.read(source)
     profile, warnings = _processed(recording, pipeline, _settings(settings), source, as_json)
     profile = replace(profile, provenance={**profile.provenance, **_origin(source, reader)})
     if plot is not None:
