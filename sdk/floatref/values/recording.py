@@ -17,6 +17,16 @@ Vector = tuple[float, float, float]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 ONLY_TRACK = "main"
 """Name of the wheel path of a recording in which no channel names one."""
+SHORTEST_INTERVAL_M = 1e-5
+LONGEST_INTERVAL_M = 10.0
+
+
+def check_interval(interval_m: float, where: str) -> None:
+    """Raise InputError naming ``where`` unless a profile can be made at ``interval_m`` in m."""
+    if not SHORTEST_INTERVAL_M <= interval_m <= LONGEST_INTERVAL_M:
+        raise InputError(
+            f"{where} is {interval_m:g}; give the profile interval in m, between 0.00001 and 10"
+        )
 
 
 @dataclass(frozen=True)
@@ -37,11 +47,7 @@ class Setup:
 
     def __post_init__(self) -> None:
         """Refuse an interval that cannot be one; freeze the tracks."""
-        if not 1e-5 <= self.profile_interval_m <= 10.0:
-            raise InputError(
-                f"setup.profile_interval_m is {self.profile_interval_m:g}; "
-                "give the profile interval in m, between 0.00001 and 10"
-            )
+        check_interval(self.profile_interval_m, "setup.profile_interval_m")
         object.__setattr__(self, "tracks", MappingProxyType(dict(self.tracks)))
 
 
@@ -155,4 +161,5 @@ __all__ = [
     "StampedClock",
     "TrackSetup",
     "UniformClock",
+    "check_interval",
 ]

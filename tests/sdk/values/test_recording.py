@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording, Setup, TrackSetup
+from floatref.values.recording import Channel, Recording, Setup, TrackSetup, check_interval
 
 CLOCK = UniformClock.of(10.0, 2.0)
 
@@ -76,6 +76,14 @@ def test_no_channel_and_the_same_channel_twice_are_refused() -> None:
         Recording(())
     with pytest.raises(InputError, match=r"channel left.height: given twice"):
         Recording((height("left"), height("left")))
+
+
+@pytest.mark.parametrize("interval", [0.0, 9e-6, 10.1, np.nan])
+def test_a_refused_interval_is_named_as_the_caller_says(interval: float) -> None:
+    with pytest.raises(InputError, match=r"^settings.interval_m is .*, between 0.00001 and 10$"):
+        check_interval(interval, "settings.interval_m")
+    check_interval(1e-5, "")
+    check_interval(10.0, "")
 
 
 @pytest.mark.parametrize("interval", [0.0, -0.1, 1e-30, 11.0, np.nan, np.inf])
