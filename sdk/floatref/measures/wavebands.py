@@ -8,13 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.cut_off import high_pass_wavelength_setting
 from floatref.measures.correlation import Agreement, cross_correlation
 from floatref.measures.gaps import bridged, checked_elevation, measured_stretch
 from floatref.measures.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
-
-TWO_PASS_HIGH_PASS = (np.sqrt(2.0) - 1.0) ** (-1.0 / 6.0)
-"""λc of the third-order passes over the −3 dB wavelength of HPF_B3x2 (A.22)."""
 
 
 class Waveband(NamedTuple):
@@ -51,7 +49,7 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
-    cutoff = wavelength_m * TWO_PASS_HIGH_PASS
+    cutoff = high_pass_wavelength_setting(wavelength_m)
     rise = bridged(values[stretch]) - values[stretch.start]
     filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan

@@ -6,29 +6,14 @@ from typing import ClassVar
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.cut_off import high_pass_setting as high_pass_setting
+from floatref.kernels.cut_off import high_pass_wavelength_setting as high_pass_wavelength_setting
+from floatref.kernels.cut_off import low_pass_setting as low_pass_setting
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Direction, Stage
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
-
-SIXTH_ORDER = math.pow(math.sqrt(2.0) - 1.0, 1.0 / 6.0)
-"""Ratio of (A.20): cut-off of each third-order pass over the -3 dB frequency of both."""
-
-
-def high_pass_setting(frequency: float) -> float:
-    """Return f_c of each pass of HPF_B3x2 for -3 dB at ``frequency``: (A.20)."""
-    return SIXTH_ORDER * frequency
-
-
-def low_pass_setting(frequency: float) -> float:
-    """Return f_c of each pass of LPF_B3x2 for -3 dB at ``frequency``: (A.21)."""
-    return frequency / SIXTH_ORDER
-
-
-def high_pass_wavelength_setting(wavelength: float) -> float:
-    """Return λ_c of each pass of HPF_B3x2 for -3 dB at ``wavelength``: (A.22)."""
-    return wavelength / SIXTH_ORDER
 
 
 class ButterworthStage(Stage):
