@@ -1,7 +1,7 @@
 """Integration, compensated sums, and the search for profile points along the encoder."""
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FlagArray, FloatArray, IndexArray
 
 MEMORY = 3
 """Length of the memory of an integrator: started, the last input, the integral."""
@@ -78,13 +78,14 @@ def find_points(
     Point k lies at ``origin + k * interval``. ``sample`` gets the first sample that has reached
     it, ``part`` 1; between samples more than an interval apart ``part`` is the fraction of the
     way to it, linear in distance. ``distance[0]`` is the last sample of the stretch before,
-    already searched. (The two are kept apart: their sum would round after the split.)
+    already searched. (The two are kept apart: their sum would round after the split.) No more
+    points are found than ``sample`` has room for.
     """
     found = 0
     slack = TIE * interval
     for i in range(1, distance.size):
         step = distance[i] - distance[i - 1]
-        while origin + (first + found) * interval <= distance[i] + slack:
+        while found < sample.size and origin + (first + found) * interval <= distance[i] + slack:
             point = origin + (first + found) * interval
             sample[found] = i
             part[found] = 1.0
@@ -103,3 +104,33 @@ def read_at(x: FloatArray, sample: IndexArray, part: FloatArray, y: FloatArray) 
             y[k] = x[i - 1] + part[k] * (x[i] - x[i - 1])
         else:
             y[k] = x[i]
+
+
+@compiled
+def gather_flags(
+    flags: FlagArray,
+    sample: IndexArray,
+    part: FloatArray,
+    lasting: int,
+    pending: int,
+    gathered: FlagArray,
+) -> int:
+    """Write to ``gathered`` the flags of each point; return those still pending.
+
+    A point has the flags of the samples it is read from, and the ``lasting`` bits of all
+    samples since the point before: what happens between two points moves all that follow.
+    ``flags[0]`` is the last sample of the stretch before, whose lasting bits are ``pending``.
+    """
+    at = 1
+    for k in range(sample.size):
+        while at <= sample[k]:
+            pending |= flags[at] & lasting
+            at += 1
+        mark = flags[sample[k]] | pending
+        if part[k] < 1.0:
+            mark |= flags[sample[k] - 1]
+        gathered[k] = mark
+        pending = 0
+    for i in range(at, flags.size):
+        pending |= flags[i] & lasting
+    return pending

@@ -10,8 +10,9 @@ c = tan(pi f_c dt) (A.11), a first-order stage has one state s and a second-orde
 
 Each kernel reads ``x`` and writes ``y`` (they may be one array), from the last sample down if
 ``backward``. `memory` is float64: started (0 or 1), the last input, then the states. A missing
-(NaN) input is bridged by the one before it. The states are advanced by small products of
-themselves, the newest last, because the loop waits for nothing else.
+(NaN) input is bridged by the one before it, and gives 0 as long as there is none. The states
+are advanced by small products of themselves, the newest last, because the loop waits for
+nothing else.
 """
 
 from floatref.kernels.compiling import compiled
@@ -22,24 +23,36 @@ MEMORY = 4
 
 
 @compiled
-def _first_good(x: FloatArray, backward: bool) -> float:
+def _missing_lead(x: FloatArray, backward: bool) -> int:
     for j in range(x.size):
-        value: float = x[x.size - 1 - j] if backward else x[j]
-        if value == value:
-            return value
-    return 0.0
+        i = x.size - 1 - j if backward else j
+        if x[i] == x[i]:
+            return j
+    return int(x.size)
+
+
+@compiled
+def _begin(x: FloatArray, y: FloatArray, memory: FloatArray, backward: bool) -> int:
+    """Write 0 up to the first sample that is there and keep that one; return its number."""
+    lead = _missing_lead(x, backward)
+    for j in range(lead):
+        y[x.size - 1 - j if backward else j] = 0.0
+    if lead < x.size:
+        memory[0], memory[1] = 1.0, x[x.size - 1 - lead if backward else lead]
+    return lead
 
 
 @compiled
 def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
     """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
-    if memory[0] == 0.0 and x.size > 0:
-        memory[0], memory[1] = 1.0, _first_good(x, backward)
+    begin = 0
+    if memory[0] == 0.0:
+        begin = _begin(x, y, memory, backward)
         memory[2] = c * memory[1]
     held, s = memory[1], memory[2]
     gain = 1.0 / (1.0 + c)
     k = 2.0 * c * gain
-    for j in range(x.size):
+    for j in range(begin, x.size):
         i = x.size - 1 - j if backward else j
         value = x[i]
         if value != value:
@@ -53,13 +66,14 @@ def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
 @compiled
 def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
     """LPF_B3S1: (A.4), started by (A.12) or, backward, (A.16)."""
-    if memory[0] == 0.0 and x.size > 0:
-        memory[0], memory[1] = 1.0, _first_good(x, backward)
+    begin = 0
+    if memory[0] == 0.0:
+        begin = _begin(x, y, memory, backward)
         memory[2] = memory[1]
     held, s = memory[1], memory[2]
     gain = c / (1.0 + c)
     k = 2.0 * gain
-    for j in range(x.size):
+    for j in range(begin, x.size):
         i = x.size - 1 - j if backward else j
         value = x[i]
         if value != value:
@@ -74,19 +88,21 @@ def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backw
 def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
     """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
     d = 1.0 / (1.0 + c + c * c)
-    starting = memory[0] == 0.0 and x.size > 0
-    if starting:
-        memory[0], memory[1] = 1.0, _first_good(x, backward)
+    begin = 0
+    if memory[0] == 0.0:
+        begin = _begin(x, y, memory, backward)
         started = (1.0 + c - 3.0 * c * c) * d * memory[1]
         # The second sample of (A.15) sees (x1, y1) twice; these two states are that past.
         memory[2] = (2.0 * c - 1.0) * started
         memory[3] = memory[1] + (c * c - 2.0 * c) * started
-        y[x.size - 1 if backward else 0] = started
+        if begin < x.size:
+            y[x.size - 1 - begin if backward else begin] = started
+            begin += 1
     held, s1, s2 = memory[1], memory[2], memory[3]
     p = 1.0 + c
     k1 = 2.0 * c * d
     k2, k3 = k1 * p, k1 * c
-    for j in range(1 if starting else 0, x.size):
+    for j in range(begin, x.size):
         i = x.size - 1 - j if backward else j
         value = x[i]
         if value != value:
@@ -102,15 +118,16 @@ def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
 @compiled
 def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
     """LPF_B3S2: (A.5), started by (A.13) or, backward, (A.17)."""
-    if memory[0] == 0.0 and x.size > 0:
-        memory[0], memory[1] = 1.0, _first_good(x, backward)
+    begin = 0
+    if memory[0] == 0.0:
+        begin = _begin(x, y, memory, backward)
         memory[2], memory[3] = 0.0, memory[1]
     held, s1, s2 = memory[1], memory[2], memory[3]
     d = 1.0 / (1.0 + c + c * c)
     p = 1.0 + c
     k1 = 2.0 * c * d
     k2, k3 = k1 * p, k1 * c
-    for j in range(x.size):
+    for j in range(begin, x.size):
         i = x.size - 1 - j if backward else j
         value = x[i]
         if value != value:
@@ -133,12 +150,7 @@ def high_pass_21(
         return
     begin = 0
     if second[0] == 0.0:
-        begin = 1
-        while (
-            begin < n
-            and x[n - begin if backward else begin - 1] != x[n - begin if backward else begin - 1]
-        ):
-            begin += 1
+        begin = min(_missing_lead(x, backward) + 1, n)
         start = n - begin if backward else 0
         high_pass_2(x[start : start + begin], y[start : start + begin], second, c, backward)
         high_pass_1(y[start : start + begin], y[start : start + begin], first, c, backward)

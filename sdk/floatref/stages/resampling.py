@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
-from floatref.values.arrays import FlagArray, FloatArray, IndexArray
+from floatref.values.arrays import Flag, FlagArray, FloatArray, IndexArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -22,7 +22,9 @@ class ToDistance(Stage):
     Point k lies at ``origin_m + k * interval_m``. It takes the first time sample that has
     reached it, so during a stop there is none (section 5.3); where time samples are further
     apart than the interval, it is linear in distance between them. `distance` is dropped, and
-    so are samples at which the encoder is missing or behind where it has been.
+    so are samples at which the encoder is missing or behind where it has been. A point has the
+    flags of the samples it is read from; `Flag.DRIFT` of any sample since the point before
+    reaches it too, however long the vehicle stood.
 
     With ``keep_time`` each point gets the channel `time` that an encoder-triggered engine
     stores with its sample (section 5.8).
@@ -42,7 +44,7 @@ class ToDistance(Stage):
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         header.require(self.name, ChannelId(DISTANCE))
         self._rate = float(header.rate)
-        self.memory = {"next": 0, "carry": None}
+        self.memory = {"next": 0, "carry": None, "pending": {}}
         points = header.on_distance(self.interval_m, self.origin_m).without(DISTANCE)
         return points.adding(ChannelId(TIME)) if self.keep_time else points
 
@@ -57,23 +59,43 @@ class ToDistance(Stage):
         self.memory["carry"] = _sample(wide, -1, distance[-1])
         first = self.memory["next"]
         self.memory["next"] = first + sample.size
-        points = _at(wide, sample, part)
-        if not self.keep_time:
-            return Block(first, points.values, flags=points.flags)
-        times = ((wide.first + sample - 1) + part) / self._rate
-        return Block(first, {**points.values, ChannelId(TIME): times}, flags=points.flags)
+        values = {c: _at(x, sample, part) for c, x in wide.without(DISTANCE).values.items()}
+        if self.keep_time:
+            values[ChannelId(TIME)] = ((wide.first + sample - 1) + part) / self._rate
+        return Block(first, values, flags=self._flags(wide, sample, part))
 
     def _after_carry(self, block: Block) -> Block:
-        carry = self.memory["carry"] or _sample(block, 0, block[ChannelId(DISTANCE)][0])
-        values = {c: np.concatenate((carry[0][c], x)) for c, x in block.values.items()}
-        marks = {c: flags_of(block, c) for c in block.values}
+        values, flags = self.memory["carry"] or _sample(block, 0, block[ChannelId(DISTANCE)][0])
         blank = np.zeros(len(block), np.uint8)
-        flags = {
-            c: np.concatenate((carry[1][c], blank if f is None else f))
-            for c, f in marks.items()
-            if f is not None or carry[1][c].any()
-        }
-        return Block(block.first - 1, values, flags=flags)
+        marks = {c: flags_of(block, c) for c in block.values}
+        return Block(
+            block.first - 1,
+            {c: np.concatenate((values[c], x)) for c, x in block.values.items()},
+            flags={
+                c: np.concatenate((flags[c], blank if f is None else f))
+                for c, f in marks.items()
+                if f is not None or flags[c].any()
+            },
+        )
+
+    def _flags(
+        self, wide: Block, sample: IndexArray, part: FloatArray
+    ) -> dict[ChannelId, FlagArray]:
+        from floatref.kernels import motion
+
+        late = wide.flags.get(ChannelId(DISTANCE))
+        pending, found = self.memory["pending"], {}
+        for channel in wide.without(DISTANCE).values:
+            own = [f for f in (wide.flags.get(channel), late) if f is not None]
+            if not own and not pending.get(channel):
+                continue
+            marks = np.bitwise_or.reduce([np.zeros(len(wide), np.uint8), *own])
+            gathered = np.empty(sample.size, np.uint8)
+            pending[channel] = motion.gather_flags(
+                marks, sample, part, int(Flag.DRIFT), pending.get(channel, 0), gathered
+            )
+            found[channel] = gathered
+        return found
 
     def _points(self, distance: FloatArray) -> tuple[IndexArray, FloatArray]:
         from floatref.kernels import motion
@@ -124,20 +146,9 @@ def _sample(block: Block, index: int, distance: float) -> Carry:
     return values, flags
 
 
-def _at(block: Block, sample: IndexArray, part: FloatArray) -> Block:
+def _at(x: FloatArray, sample: IndexArray, part: FloatArray) -> FloatArray:
     from floatref.kernels import motion
 
-    before = sample - (part < 1.0)
-    late = block.flags.get(ChannelId(DISTANCE))
-    values: dict[ChannelId, FloatArray] = {}
-    flags: dict[ChannelId, FlagArray] = {}
-    for channel in block.values:
-        if channel.name == DISTANCE:
-            continue
-        y = np.empty(sample.size)
-        motion.read_at(block[channel], sample, part, y)
-        values[channel] = y
-        for marks in (block.flags.get(channel), late):
-            if marks is not None:
-                flags[channel] = flags.get(channel, np.uint8(0)) | marks[before] | marks[sample]
-    return Block(0, values, flags=flags)
+    y = np.empty(sample.size)
+    motion.read_at(x, sample, part, y)
+    return y

@@ -43,12 +43,15 @@ PER_TRACK = (
 
 
 class Bench:
-    """A stage's stream: its header, its samples, and how to push them."""
+    """A stage's stream: its header, its samples (``lost`` ones NaN), and how to push them."""
 
-    def __init__(self, name, seed=0, length=240):
+    def __init__(self, name, seed=0, length=240, lost=()):
         self.make = MAKERS[name]
         self.name = name
         self.values = self._samples(np.random.default_rng(seed), length)
+        for channel, samples in self.values.items():
+            for begin, count in lost if channel.track else ():
+                samples[begin : begin + count] = np.nan
         self.header = Header(
             axis=Axis.DISTANCE if name == "TimeStep" else Axis.TIME,
             step=0.01,
