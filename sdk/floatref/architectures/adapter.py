@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Protocol
 
 from floatref.files import read_recording
+from floatref.files.recording import DOCUMENT
 from floatref.values.recording import Recording
 
 
@@ -27,8 +28,8 @@ class RecordingDirectory:
     summary = "floatref-recording/1: recording.json and raw float64 files beside it"
 
     def recognises(self, source: Path) -> bool:
-        """Tell whether ``source`` is a directory or a recording.json."""
-        return source.is_dir() or source.name == "recording.json"
+        """Tell whether ``source`` is a recording.json or holds one."""
+        return source.name == DOCUMENT or (source / DOCUMENT).is_file()
 
     def read(self, source: Path) -> Recording:
         """Return the recording; InputError if ``source`` cannot be used."""

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.errors import InputError
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel
 
-JITTER = 0.01
-"""Largest deviation of time stamps from a constant rate, and of two clocks, in steps."""
+APART = 0.01
+"""Two clocks of one rate agree if their samples are no further apart than this, in steps."""
 GAP = 5.0
 """Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
 LOOK = 4096
@@ -26,27 +25,6 @@ class Stretch:
     values: FloatArray
     fresh: BoolArray | None = None
     missing: BoolArray | None = None
-
-
-def steady_clock(channel: Channel) -> UniformClock:
-    """Return the channel's clock; time stamps of a constant rate become that rate.
-
-    Raises InputError if they are not: an integration needs a constant step.
-    """
-    if isinstance(channel.clock, UniformClock):
-        return channel.clock
-    times = channel.clock.times_s
-    steps = (times[-1] - times[0]) / max(times.size - 1, 1)
-    if not steps > 0:
-        raise InputError(f"channel {channel.id}: one sample is no stretch of time")
-    off = np.abs(times - times[0] - steps * np.arange(times.size))
-    if off.max() > JITTER * steps:
-        bad = int(off.argmax())
-        raise InputError(
-            f"channel {channel.id}: time stamp {bad} is {off[bad]:.3g} s off a constant rate of "
-            f"{1 / steps:.6g} Hz; fill gaps with NaN samples at a constant rate"
-        )
-    return UniformClock.of(1.0 / steps, float(times[0]))
 
 
 class AlignedChannel:
@@ -127,7 +105,7 @@ def _common_grid(clock: Clock, other: UniformClock) -> int | None:
     if not isinstance(clock, UniformClock) or clock.rate != other.rate:
         return None
     offset = (other.start_s - clock.start_s) * float(clock.rate)
-    return round(offset) if abs(offset - round(offset)) < JITTER else None
+    return round(offset) if abs(offset - round(offset)) < APART else None
 
 
 def _gap(channel: Channel) -> float | None:

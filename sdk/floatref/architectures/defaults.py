@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Sequence
 
-from floatref.architectures import spatial, steps, temporal
+from floatref.architectures import steps
 from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.question import Answer, Pipeline, Question
+from floatref.architectures.registration import POINTS
+from floatref.errors import FloatrefError, PluginError
 from floatref.stages import (
     butterworth,
     combining,
@@ -54,7 +56,7 @@ class Defaults:
 
     def __init__(self) -> None:
         """Answer each point with the pipeline's own stages, else the architecture's."""
-        for point, answer in {**temporal.DEFAULTS, **spatial.DEFAULTS}.items():
+        for point, answer in POINTS.items():
             setattr(self, point, _answering(point, answer))
 
     @hookimpl
@@ -79,6 +81,12 @@ class Defaults:
 
 def _answering(point: str, default: Answer) -> Answer:
     def answer(context: Question) -> Sequence[Stage]:
-        return context.pipeline.answers.get(point, default)(context)
+        try:
+            return context.pipeline.answers.get(point, default)(context)
+        except FloatrefError:
+            raise
+        except Exception as error:
+            reason = f"{type(error).__name__}: {error}"
+            raise PluginError(f"pipeline {context.pipeline.name}: {point}: {reason}") from error
 
     return hookimpl(answer)

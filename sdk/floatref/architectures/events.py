@@ -1,7 +1,10 @@
 """GNSS samples as events that keep their own time, at whatever rate they came."""
 
+from math import ceil
+
 from floatref.values.block import Event
 from floatref.values.channels import ChannelId
+from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 
 PREFIX = "gnss_"
@@ -27,7 +30,16 @@ class GnssEvents:
 
 
 def _samples(channel: Channel, begin_s: float, end_s: float) -> list[tuple[float, float]]:
-    times = channel.times_s
-    low, high = times.searchsorted((begin_s, end_s))
-    pairs = zip(times[low:high].tolist(), channel.values[low:high].tolist(), strict=True)
+    low, high = _range(channel, begin_s, end_s)
+    times = channel.clock.times(high - low, low).tolist()
+    pairs = zip(times, channel.values[low:high].tolist(), strict=True)
     return [(time, value) for time, value in pairs if value == value]
+
+
+def _range(channel: Channel, begin_s: float, end_s: float) -> tuple[int, int]:
+    clock, count = channel.clock, channel.values.size
+    if isinstance(clock, StampedClock):
+        low, high = clock.times_s.searchsorted((begin_s, end_s))
+        return int(low), int(high)
+    low, high = (ceil((t - clock.start_s) * float(clock.rate)) for t in (begin_s, end_s))
+    return min(max(low, 0), count), min(max(high, 0), count)

@@ -1,12 +1,16 @@
 """The engine: blocks through stages, forward in one go, backward over the tape."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from itertools import groupby
+from typing import TypeVar
 
 from floatref.architectures.tape import Tape
-from floatref.errors import StageError
+from floatref.errors import FloatrefError, StageError
 from floatref.stages.protocol import Direction, Stage
 from floatref.values.block import Block, Header
+
+T = TypeVar("T")
 
 
 def run(
@@ -17,7 +21,7 @@ def run(
     Nothing flows until the blocks are taken. Backward stages next to each other share one pass.
     """
     for stage in stages:
-        header = stage.start(header)
+        header = _guarded(stage, partial(stage.start, header))
     stream = iter(blocks)
     for kind, group in groupby(stages, key=_kind):
         if kind == "forward":
@@ -39,16 +43,16 @@ def _kind(stage: Stage) -> str:
 
 def _forward(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     for block in blocks:
-        out = stage.push(block)
+        out = _guarded(stage, partial(stage.push, block))
         if len(out):
             yield out
-    yield from (block for block in stage.finish() if len(block))
+    yield from (block for block in _guarded(stage, stage.finish) if len(block))
 
 
 def _surveyed(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     with Tape() as tape:
         for block in blocks:
-            stage.survey(block)
+            _guarded(stage, partial(stage.survey, block))
             tape.append(block)
         yield from _forward(stage, tape.forward())
 
@@ -60,14 +64,25 @@ def _backward(stages: Sequence[Stage], blocks: Iterator[Block]) -> Iterator[Bloc
         for number in reversed(range(len(tape))):
             tape.rewrite(number, _through(stages, tape.read(number)))
         for stage in stages:
-            stage.finish()
+            _guarded(stage, stage.finish)
         yield from tape.forward()
 
 
 def _through(stages: Sequence[Stage], block: Block) -> Block:
     length = len(block)
     for stage in stages:
-        block = stage.push(block)
+        block = _guarded(stage, partial(stage.push, block))
         if len(block) != length:
             raise StageError(f"stage {stage.name}: a backward stage must keep its block's length")
     return block
+
+
+def _guarded(stage: Stage, call: Callable[[], T]) -> T:
+    """Name the stage in whatever goes wrong inside it, be it ours or a vendor's."""
+    try:
+        return call()
+    except FloatrefError:
+        raise
+    except Exception as error:
+        reason = f"{type(error).__name__}: {error}"
+        raise StageError(f"stage {stage.name}: {reason}") from error

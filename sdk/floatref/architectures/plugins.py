@@ -10,7 +10,13 @@ import pluggy
 from floatref.architectures import hookspecs
 from floatref.architectures.adapter import Adapter
 from floatref.architectures.question import Pipeline, Question
-from floatref.errors import InputError, PluginError
+from floatref.architectures.registration import (
+    Register,
+    check_adapter,
+    check_pipeline,
+    check_stage,
+)
+from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.stages.protocol import Stage
 
 BUILT_IN = "floatref"
@@ -34,6 +40,9 @@ class Plugins:
 
     def add(self, plugin: object, name: str) -> None:
         """Add ``plugin`` under ``name``; one that does not fit the hooks is reported."""
+        if self._manager.has_plugin(name):
+            self._skip(name, ValueError("another plug-in has this name"))
+            return
         try:
             self._manager.register(plugin, name)
             self._manager.check_pending()
@@ -47,45 +56,32 @@ class Plugins:
         for point in points:
             try:
                 plugin = point.load()
-            except Exception as error:
+            except (Exception, SystemExit) as error:
                 self._skip(point.name, error)
             else:
                 self.add(plugin, point.name)
 
-    def registered(self, hook: str) -> dict[str, Any]:
+    def registered(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
         """Return what all plug-ins registered through ``hook``, by name.
 
         Raises PluginError if two plug-ins registered the same name.
         """
-        found: dict[str, Any] = {}
-        owner: dict[str, str] = {}
-
-        def keep(plugin: str) -> Callable[..., None]:
-            def register(*item: Any) -> None:
-                name = item[0] if len(item) == 2 else item[0].name
-                if name in found:
-                    raise PluginError(
-                        f"plug-ins {owner[name]} and {plugin} both register {name}; remove one"
-                    )
-                found[name], owner[name] = item[-1], plugin
-
-            return register
-
+        register = Register(check)
         for plugin, call in self._callers(hook):
-            self._guarded(plugin, partial(call, register=keep(plugin)))
-        return found
+            self._guarded(plugin, partial(call, register=register.of(plugin)))
+        return register.found
 
     def pipelines(self) -> dict[str, Pipeline]:
         """Return every pipeline by name."""
-        return self.registered("floatref_register_pipelines")
+        return self.registered("floatref_register_pipelines", check_pipeline)
 
     def stages(self) -> dict[str, Callable[..., Stage]]:
         """Return every stage's class by name."""
-        return self.registered("floatref_register_stages")
+        return self.registered("floatref_register_stages", check_stage)
 
     def adapters(self) -> dict[str, Adapter]:
         """Return every adapter by name."""
-        return self.registered("floatref_register_adapters")
+        return self.registered("floatref_register_adapters", check_adapter)
 
     def pipeline(self, name: str) -> Pipeline:
         """Return the pipeline called ``name``; InputError if there is none."""
@@ -103,7 +99,7 @@ class Plugins:
         for plugin, call in self._callers(question.point):
             answer = self._guarded(plugin, partial(call, context=question))
             if answer:
-                answers[plugin] = answer[0]
+                answers[plugin] = _stages(answer[0], plugin, question)
         default = answers.pop(BUILT_IN, ())
         if len(answers) > 1:
             both = " and ".join(answers)
@@ -124,20 +120,25 @@ class Plugins:
         ]
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
-        if plugin == BUILT_IN:
-            return call()
         try:
             return call()
-        except PluginError:
+        except FloatrefError:
             raise
         except Exception as error:
             self._skip(plugin, error)
             return None
 
-    def _skip(self, name: str, error: Exception) -> None:
+    def _skip(self, name: str, error: BaseException) -> None:
         line = f"plug-in {name} skipped: {type(error).__name__}: {' '.join(str(error).split())}"
         if line not in self.reports:
             self.reports.append(line)
+
+
+def _stages(answer: Any, plugin: str, question: Question) -> Sequence[Stage]:
+    if isinstance(answer, Sequence) and all(isinstance(stage, Stage) for stage in answer):
+        return answer
+    who = f"pipeline {question.pipeline.name}" if plugin == BUILT_IN else f"plug-in {plugin}"
+    raise PluginError(f"{who}: answered {question.point} with {type(answer).__name__}, no stages")
 
 
 @cache

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.metadata import version
 from typing import Any
@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from floatref import __version__
-from floatref.architectures import flow, spatial, temporal
+from floatref.architectures import flow
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import valid_points
 from floatref.errors import InputError
@@ -22,9 +23,8 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Recording
+from floatref.values.recording import Recording, check_interval
 
-SIGNAL_FLOWS = {"temporal": temporal.signal_flow, "spatial": spatial.signal_flow}
 Progress = Callable[[float], None]
 
 
@@ -72,14 +72,23 @@ def run(
     loaded = plugins()
     chosen = loaded.pipeline(pipeline)
     resolved = chosen.resolve(settings or {})
+    recording = _at_interval(recording, resolved)
     cautions = examine(recording)
     source = Source(recording)
-    if resolved.get("interval_m", 0.0) is None:
-        resolved["interval_m"] = recording.setup.profile_interval_m
     stages = _stages(loaded, chosen, resolved, source)
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     profile = _collect(header, blocks, chosen, resolved)
     return Result(profile, (*cautions, *loaded.reports))
+
+
+def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Recording:
+    """Settle the interval of a pipeline that has one: the setting's, else the setup's."""
+    if "interval_m" not in resolved:
+        return recording
+    interval_m = resolved["interval_m"] or recording.setup.profile_interval_m
+    check_interval(interval_m, "setting interval_m")
+    resolved["interval_m"] = interval_m
+    return replace(recording, setup=replace(recording.setup, profile_interval_m=interval_m))
 
 
 def _stages(
@@ -114,8 +123,12 @@ def _collect(
         tracks=tracks,
         start_m=header.origin,
         pipeline=chosen.name,
-        settings={"architecture": chosen.architecture, **resolved},
-        provenance={"floatref": __version__, "numpy": version("numpy")},
+        settings=resolved,
+        provenance={
+            "architecture": chosen.architecture,
+            "floatref": __version__,
+            "numpy": version("numpy"),
+        },
     )
 
 
@@ -126,7 +139,7 @@ def _track(
     elevation = _joined([block[channel] for block in blocks])
     flags = _flags(blocks, channel)
     reach = (resolved.get("cutoff_wavelength_m") or 0.0) / header.step
-    return ProfileTrack.of(name, elevation, valid_points(flags, round(reach)))
+    return ProfileTrack.of(name, elevation, valid_points(flags, round(min(reach, flags.size))))
 
 
 def _joined(parts: list[FloatArray]) -> FloatArray:

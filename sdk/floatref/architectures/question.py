@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import isfinite
+from numbers import Real
 from typing import Any
 
 from floatref.errors import InputError
@@ -30,18 +31,18 @@ class Pipeline:
     answers: Defaults = field(default_factory=dict)
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
-        """Return the settings with those ``given`` in place; InputError if one cannot be."""
-        for name, value in given.items():
+        """Return the settings with those ``given`` in place; InputError if one cannot be.
+
+        A setting given as None keeps its default.
+        """
+        for name in given:
             if name not in self.settings:
                 known = ", ".join(self.settings) or "none"
                 raise InputError(
                     f"setting {name}: pipeline {self.name} has none such; it has {known}"
                 )
-            if isinstance(value, bool) or not isinstance(value, int | float):
-                raise InputError(f"setting {name}: {value!r} is not a number")
-            if not (isfinite(value) and value > 0):
-                raise InputError(f"setting {name}: {value} must be finite and above zero")
-        return {**self.settings, **{name: float(value) for name, value in given.items()}}
+        chosen = {name: _number(name, value) for name, value in given.items() if value is not None}
+        return {**self.settings, **chosen}
 
 
 @dataclass(frozen=True)
@@ -64,3 +65,15 @@ class Question:
         if value is None:
             raise InputError(f"setting {name}: pipeline {self.pipeline.name} needs it")
         return value
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError(f"setting {name}: {value!r} is not a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = float("inf")
+    if not (isfinite(number) and number > 0):
+        raise InputError(f"setting {name}: {number} must be finite and above zero")
+    return number

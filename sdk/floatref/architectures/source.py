@@ -12,8 +12,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from floatref.architectures.aligned import AlignedChannel, steady_clock
+from floatref.architectures.aligned import AlignedChannel
 from floatref.architectures.events import GnssEvents
+from floatref.architectures.steady import steady_clock
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -66,9 +67,7 @@ class Source:
             {name: stretch.values for name, stretch in taken.items()},
             {name: s.fresh for name, s in taken.items() if s.fresh is not None},
             {name: _flags(name, s.missing) for name, s in taken.items() if s.missing is not None},
-            self._events.between(
-                *(self.header.origin + k * self.header.step for k in (begin, end))
-            ),
+            self._events.between(self._time(begin), self._time(end)),
         )
 
     def _time(self, index: int) -> float:

@@ -3,8 +3,9 @@
 import numpy as np
 
 from floatref.stages.signals import DISTANCE
-from floatref.values.arrays import FloatArray
-from floatref.values.recording import Recording
+from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.clock import StampedClock
+from floatref.values.recording import Channel, Recording
 
 PROGRESS_S = 0.05
 """Encoder progress over this time gives the speed (5.6)."""
@@ -13,11 +14,26 @@ PROGRESS_S = 0.05
 def travel_speed(recording: Recording) -> tuple[FloatArray, FloatArray]:
     """Return distances in m and the speeds there in m/s, every 0.05 s of the run.
 
-    Speed is the encoder's progress over the 0.05 s before; missing samples are passed over.
+    Speed is the encoder's progress over the 0.05 s before; missing samples are passed over. Both
+    are empty for a run that short.
     """
     channel = recording.channel(DISTANCE, recording.tracks[0])
-    known = ~np.isnan(channel.values)
-    begin, end = channel.span_s
-    times = np.arange(begin, end, PROGRESS_S)
-    distance = np.interp(times, channel.times_s[known], channel.values[known])
+    index = _every_twentieth(channel)
+    known = index[~np.isnan(channel.values[index])]
+    times, distance = _times(channel, known), channel.values[known]
+    even = np.arange(times[0], times[-1], PROGRESS_S) if times.size else times
+    distance = np.interp(even, times, distance)
     return distance[1:], np.diff(distance) / PROGRESS_S
+
+
+def _every_twentieth(channel: Channel) -> IndexArray:
+    count = channel.values.size
+    if isinstance(channel.clock, StampedClock):
+        return np.arange(count)
+    return np.arange(0, count, max(1, round(PROGRESS_S * float(channel.clock.rate))))
+
+
+def _times(channel: Channel, index: IndexArray) -> FloatArray:
+    if isinstance(channel.clock, StampedClock):
+        return channel.clock.times_s[index]
+    return channel.clock.start_s + index / float(channel.clock.rate)

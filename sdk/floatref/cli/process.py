@@ -1,19 +1,19 @@
 """`floatref process`: a recording, or a native file, into a road profile."""
 
-from collections.abc import Mapping
-from contextlib import nullcontext
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
+from math import nan
 from pathlib import Path
 from typing import Any
 
 import click
 
-from floatref.architectures.adapter import Adapter
-from floatref.architectures.plugins import plugins
 from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.cli.sources import origin_of, read_source, reader_of
 from floatref.errors import InputError
-from floatref.files import fingerprint, write_profile, write_profile_csv
-from floatref.files.atomic import check_target
+from floatref.files import write_profile, write_profile_csv
+from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import read_document
 from floatref.files.sources import naming
 from floatref.values.profile import Profile, ProfileTrack
@@ -51,17 +51,44 @@ def process(
     OUT without a suffix is a profile directory, OUT.csv a table.
     """
     writer = WRITERS[form or _form(out)]
-    check_target(out, overwrite)
-    if plot is not None:
-        check_target(plot, overwrite=True)
-    reader = _reader(source, adapter)
-    recording = reader.read(source)
+    _check_targets(source, out, plot, overwrite)
+    reader = reader_of(source, adapter)
+    recording = read_source(reader, source)
     profile, warnings = _processed(recording, pipeline, _settings(settings), source, as_json)
-    profile = replace(profile, provenance={**profile.provenance, **_origin(source, reader)})
-    if plot is not None:
-        _draw(profile, recording, plot)
-    writer(profile, out, overwrite)
-    _report(profile, out, warnings, as_json)
+    profile = replace(profile, provenance={**profile.provenance, **origin_of(source, reader)})
+    report = _report(profile, out, warnings)
+    with _drawn(profile, recording, plot):
+        writer(profile, out, overwrite)
+    print_json(report) if as_json else _print_tables(report, profile)
+
+
+def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) -> None:
+    """Refuse before the work what would be refused after it."""
+    check_target(out, overwrite)
+    if out.resolve() == source.resolve() or source.resolve() in out.resolve().parents:
+        raise InputError(f"{out}: is, or is inside, the source; choose another place")
+    if plot is None:
+        return
+    if plot.resolve() == out.resolve():
+        raise InputError(f"{plot}: is the profile's own name; choose another for the drawing")
+    from floatref.plots import check_drawing
+
+    check_target(plot, overwrite=True)
+    check_drawing(plot)
+
+
+@contextmanager
+def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterator[None]:
+    """Draw beside ``plot``; the drawing gets its name once all else is written."""
+    if plot is None:
+        yield
+        return
+    from floatref.architectures.travel import travel_speed
+    from floatref.plots import draw_profile
+
+    with replacing_file(plot, overwrite=True) as beside:
+        draw_profile(profile, beside, travel_speed(recording))
+        yield
 
 
 def _form(out: Path) -> str:
@@ -70,20 +97,6 @@ def _form(out: Path) -> str:
     if suffix not in SUFFIXES:
         raise InputError(f"{out}: suffix {suffix} is no format; use .csv, no suffix, or --format")
     return SUFFIXES[suffix]
-
-
-def _reader(source: Path, name: str | None) -> Adapter:
-    known = plugins().adapters()
-    if name is not None and name not in known:
-        raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
-    if name is not None:
-        return known[name]
-    if not source.exists():
-        raise InputError(f"{source}: not found")
-    for adapter in known.values():
-        if adapter.recognises(source):
-            return adapter
-    raise InputError(f"{source}: no adapter recognises it; name one of {', '.join(known)}")
 
 
 def _settings(path: Path | None) -> Mapping[str, Any]:
@@ -119,50 +132,41 @@ def _processed(
     return result.profile, result.warnings
 
 
-def _origin(source: Path, reader: Adapter) -> dict[str, Any]:
-    return {"source": source.name, "adapter": reader.name, "sha256": fingerprint(source)}
-
-
-def _draw(profile: Profile, recording: Recording, plot: Path) -> None:
-    from floatref.architectures.travel import travel_speed
-    from floatref.plots import draw_profile
-
-    draw_profile(profile, plot, travel_speed(recording))
-
-
-def _report(profile: Profile, out: Path, warnings: tuple[str, ...], as_json: bool) -> None:
-    tracks = [_track_report(track, profile.interval_m) for track in profile.tracks]
-    report = {
+def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:
+    """Return what `floatref process --json` prints."""
+    lines = list(warnings)
+    return {
         "pipeline": profile.pipeline,
         "profile": str(out),
         "interval_m": profile.interval_m,
         "length_m": profile.length_m,
-        "tracks": tracks,
-        "warnings": list(warnings),
+        "tracks": [_track_report(t, profile.interval_m, lines) for t in profile.tracks],
+        "warnings": lines,
     }
-    if as_json:
-        print_json(report)
-        return
-    rows = [
-        [
-            t["name"],
-            number(profile.length_m, 2),
-            number(t["iri_m_per_km"]),
-            number(t["invalid_m"], 2),
-        ]
-        for t in tracks
-    ]
-    print_table(f"{out}", ("track", "length m", "IRI m/km", "invalid m"), rows)
-    for line in warnings:
-        click.echo(f"Warning: {line}", err=True)
-    print_settings({"pipeline": profile.pipeline, **profile.settings})
 
 
-def _track_report(track: ProfileTrack, interval_m: float) -> dict[str, Any]:
+def _track_report(track: ProfileTrack, interval_m: float, warnings: list[str]) -> dict[str, Any]:
     from floatref.measures import iri
 
-    return {
-        "name": track.name,
-        "iri_m_per_km": iri(track.elevation, interval_m),
-        "invalid_m": float((~track.valid).sum()) * interval_m,
-    }
+    try:
+        value = iri(track.elevation, interval_m)
+    except InputError as error:
+        # A profile too short or too coarse for the car is a profile all the same.
+        warnings.append(f"track {track.name}: no IRI: {error}")
+        value = nan
+    invalid_m = float((~track.valid).sum()) * interval_m
+    return {"name": track.name, "iri_m_per_km": value, "invalid_m": invalid_m}
+
+
+def _print_tables(report: dict[str, Any], profile: Profile) -> None:
+    length = number(report["length_m"], 2)
+    rows = [
+        [t["name"], length, number(t["iri_m_per_km"]), number(t["invalid_m"], 2)]
+        for t in report["tracks"]
+    ]
+    print_table(report["profile"], ("track", "length m", "IRI m/km", "invalid m"), rows)
+    for line in report["warnings"]:
+        click.echo(f"Warning: {line}", err=True)
+    architecture = profile.provenance["architecture"]
+    named = {"pipeline": profile.pipeline, "architecture": architecture}
+    print_settings({**named, **profile.settings})

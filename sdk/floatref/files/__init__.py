@@ -4,7 +4,7 @@ A directory holds one JSON file and raw little-endian float64 files beside it. S
 enforced on reading and on writing; what is written appears complete or not at all.
 """
 
-from floatref.files.fingerprint import fingerprint
+from floatref.files.fingerprint import fingerprint, fingerprint_native
 from floatref.files.profile import read_profile, write_profile
 from floatref.files.profile_csv import write_profile_csv
 from floatref.files.recording import read_recording, write_recording
@@ -12,6 +12,7 @@ from floatref.files.schema import read_schema
 
 __all__ = [
     "fingerprint",
+    "fingerprint_native",
     "read_profile",
     "read_recording",
     "read_schema",

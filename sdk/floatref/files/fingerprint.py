@@ -1,4 +1,4 @@
-"""Fingerprints of a recording's files, for the provenance of a profile."""
+"""Fingerprints of files, for the provenance of a profile."""
 
 import hashlib
 from pathlib import Path
@@ -10,15 +10,22 @@ from floatref.files.sources import document_path, opened
 def fingerprint(path: Path) -> dict[str, str]:
     """Return the SHA-256 of every file of the recording at ``path``, by file name.
 
-    ``path`` is the directory or its recording.json; any other file stands for itself. Raises
-    InputError where `read_recording` would because of the JSON file, or for a sample file that
-    cannot be read.
+    ``path`` is the directory or its recording.json. Raises InputError where `read_recording`
+    would because of the JSON file, or for a sample file that cannot be read.
     """
     document = document_path(path, DOCUMENT)
-    if document.name != DOCUMENT:
-        return {path.name: _sha256(path)}
     names = (document.name, *sample_files(document))
     return {name: _sha256(document.with_name(name)) for name in names}
+
+
+def fingerprint_native(path: Path) -> dict[str, str]:
+    """Return the SHA-256 of a native file, or of every file directly in a native folder.
+
+    Raises InputError for a file that cannot be read.
+    """
+    if not path.is_dir():
+        return {path.name: _sha256(path)}
+    return {item.name: _sha256(item) for item in sorted(path.iterdir()) if item.is_file()}
 
 
 def _sha256(path: Path) -> str:

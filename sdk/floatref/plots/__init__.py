@@ -1,6 +1,7 @@
 """Drawings of profiles, written as files; needs the extra ``floatref[plot]``."""
 
 from floatref.plots.comparison import draw_comparison
+from floatref.plots.figure import check_drawing
 from floatref.plots.profile import draw_profile
 
-__all__ = ["draw_comparison", "draw_profile"]
+__all__ = ["check_drawing", "draw_comparison", "draw_profile"]

@@ -25,6 +25,12 @@ def check_suffix(path: Path) -> None:
         raise InputError(f"{path}: not the name of a drawing; end it with {', '.join(SUFFIXES)}")
 
 
+def check_drawing(path: Path) -> None:
+    """Raise InputError now if a drawing to ``path`` would be refused later."""
+    check_suffix(path)
+    new_figure(1, 1, [1.0])
+
+
 def new_figure(
     rows: int, columns: int, heights: Sequence[float]
 ) -> tuple[Figure, np.ndarray[tuple[int, int], np.dtype[np.object_]]]:

@@ -43,7 +43,7 @@ class Point:
         self.name, self._plugin = name, plugin
 
     def load(self):
-        if isinstance(self._plugin, Exception):
+        if isinstance(self._plugin, BaseException):
             raise self._plugin
         return self._plugin
 
@@ -101,6 +101,81 @@ def test_a_plugin_with_a_wrong_argument_is_reported():
     assert len(loaded.reports) == 1
     assert "plug-in misfit skipped" in loaded.reports[0]
     assert "colour" in loaded.reports[0]
+
+
+@pytest.mark.parametrize("error", [SystemExit(3), ImportError("no module"), ValueError("x")])
+def test_a_plugin_cannot_end_the_program(error):
+    loaded = Plugins()
+    loaded.load([Point("cracked", error)])
+    assert type(error).__name__ in loaded.reports[0]
+
+
+@pytest.mark.parametrize("name", ["floatref", "vendor"])
+def test_a_name_that_is_taken_removes_nobody(name):
+    loaded = Plugins()
+    loaded.add(Registering("first"), "vendor")
+    loaded.add(Registering("second"), name)
+    assert {"temporal-basic", "first"} <= set(loaded.pipelines())
+    assert loaded.reports == [f"plug-in {name} skipped: ValueError: another plug-in has this name"]
+
+
+@pytest.mark.parametrize(
+    ("hook", "item", "message"),
+    [
+        ("floatref_register_pipelines", ["temporal"], "str is no Pipeline"),
+        (
+            "floatref_register_pipelines",
+            [Pipeline("x", "hybrid", "of a plug-in")],
+            "no architecture 'hybrid'",
+        ),
+        (
+            "floatref_register_pipelines",
+            [Pipeline("x", "temporal", None)],
+            "needs a name and a summary",
+        ),
+        (
+            "floatref_register_pipelines",
+            [Pipeline("x", "temporal", "", {}, {"temporal_finnish": None})],
+            "no point 'temporal_finnish'",
+        ),
+        ("floatref_register_adapters", [object()], "object has no method recognises"),
+        ("floatref_register_stages", [7, object], "7 is no name"),
+    ],
+)
+def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
+    def registering(register):
+        register(*item)
+
+    loaded = Plugins()
+    namespace = {hook: staticmethod(hookspecs.hookimpl(registering))}
+    loaded.add(type("Vendor", (), namespace)(), "vendor")
+    found = (loaded.pipelines(), loaded.adapters(), loaded.stages())
+    assert all(found)
+    assert len(loaded.reports) == 1
+    assert message in loaded.reports[0]
+
+
+@pytest.mark.parametrize("answer", ["text", 7, (1, 2)])
+def test_an_answer_that_is_no_stages_is_named(question, answer):
+    class Odd:
+        @hookspecs.hookimpl
+        def temporal_combine(self, context):
+            return answer
+
+    loaded = Plugins()
+    loaded.add(Odd(), "odd")
+    with pytest.raises(PluginError, match="plug-in odd: answered temporal_combine with"):
+        loaded.ask(question)
+
+
+def test_a_pipeline_whose_answer_raises_is_named(question):
+    def broken(context):
+        raise ZeroDivisionError("of a pipeline")
+
+    answers = {"temporal_combine": broken}
+    pipeline = Pipeline("mine", "temporal", "of a plug-in", {}, answers)
+    with pytest.raises(PluginError, match="pipeline mine: temporal_combine: ZeroDivisionError: of"):
+        Plugins().ask(Question("temporal_combine", pipeline, {}, None, 0.0))
 
 
 def test_the_same_name_twice_stops_with_both_names():

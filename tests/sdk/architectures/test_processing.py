@@ -38,12 +38,14 @@ def test_the_profile_records_how_it_was_made(steady):
     profile = floatref.process(steady(), "spatial-basic", {"cutoff_wavelength_m": 50})
     assert profile.pipeline == "spatial-basic"
     assert dict(profile.settings) == {
-        "architecture": "spatial",
         "interval_m": 0.05,
         "anti_alias_hz": 1000.0,
         "cutoff_wavelength_m": 50.0,
     }
+    assert profile.provenance["architecture"] == "spatial"
     assert profile.provenance["floatref"] == floatref.__version__
+    again = floatref.process(steady(), "spatial-basic", profile.settings)
+    np.testing.assert_array_equal(again.tracks[0].elevation, profile.tracks[0].elevation)
 
 
 def test_the_interval_can_be_set(steady):
@@ -56,8 +58,11 @@ def test_the_interval_can_be_set(steady):
         ({"cut_off": 91.44}, "setting cut_off: pipeline temporal-basic has none such; it has int"),
         ({"interval_m": "5 mm"}, "setting interval_m: '5 mm' is not a number"),
         ({"interval_m": True}, "setting interval_m: True is not a number"),
-        ({"cutoff_wavelength_m": -1}, "setting cutoff_wavelength_m: -1 must be finite and above"),
+        ({"cutoff_wavelength_m": -1}, "setting cutoff_wavelength_m: -1.0 must be finite and abo"),
         ({"cutoff_wavelength_m": float("nan")}, "setting cutoff_wavelength_m: nan must be finite"),
+        ({"interval_m": 10**400}, "setting interval_m: inf must be finite and above zero"),
+        ({"interval_m": 1e-320}, "setting interval_m is 9.99989e-321; give the profile interval"),
+        ({"interval_m": 1e-7}, "setting interval_m is 1e-07; give the profile interval in m"),
         ({"cutoff_wavelength_m": 0.08}, "cut-off 12.5 cycles per unit of distance is outside"),
     ],
 )
@@ -65,6 +70,20 @@ def test_a_setting_that_cannot_be_is_named(steady, settings, message):
     with pytest.raises(InputError) as error:
         floatref.process(steady(), settings=settings)
     assert message in str(error.value)
+
+
+def test_numpy_numbers_are_numbers_and_none_keeps_the_default(steady):
+    given = {"interval_m": np.float32(0.5), "cutoff_wavelength_m": None}
+    profile = floatref.process(steady(), settings=given)
+    assert profile.interval_m == 0.5
+    assert profile.settings["cutoff_wavelength_m"] == 105.91
+
+
+def test_a_huge_cut_off_is_no_more_than_the_whole_run(steady):
+    recording = with_gap(steady, "vertical_specific_force", 15_000, 15_010)
+    with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
+        profile = floatref.process(recording, settings={"cutoff_wavelength_m": 1e308})
+    assert not profile.tracks[0].valid.any()
 
 
 def test_an_unknown_pipeline_is_named(steady):
@@ -89,6 +108,25 @@ def test_an_accelerometer_drop_out_is_flagged_a_cut_off_wavelength_to_either_sid
     lost = profile.distance_m[~profile.tracks[0].valid]
     assert lost.min() == pytest.approx(300.0 - 105.91, abs=0.2)
     assert lost.max() == pytest.approx(300.2 + 105.91, abs=0.2)
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "temporal-mean-removal", "spatial-basic"])
+@pytest.mark.parametrize("lost", [slice(15_000, 16_250), slice(15_007, 15_008)])
+def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):
+    times = np.arange(30_000) / 1000.0
+    distance = 20.0 * np.clip(times, None, 14.0) + 20.0 * np.clip(times - 17.0, 0.0, None)
+    forces = steady(seconds=30.0).channel("vertical_specific_force").values.copy()
+    forces[lost] = np.nan
+    recording = steady(
+        seconds=30.0,
+        vertical_specific_force=Channel.of("vertical_specific_force", forces, RATE),
+        distance=Channel.of("distance", distance, RATE),
+    )
+    with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
+        profile = floatref.process(recording, pipeline)
+    invalid = profile.distance_m[~profile.tracks[0].valid]
+    assert invalid.min() == pytest.approx(280.0 - 105.91, abs=0.2)
+    assert invalid.max() == pytest.approx(280.0 + 105.91, abs=0.2)
 
 
 def test_progress_ends_at_one(steady):

@@ -6,6 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.architectures.source import Source
+from floatref.architectures.steady import steady_clock
 from floatref.errors import InputError
 from floatref.values.arrays import Flag
 from floatref.values.channels import ChannelId
@@ -119,8 +120,24 @@ def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
 def test_an_accelerometer_of_changing_rate_is_refused(steady):
     stamps = np.concatenate((np.arange(2000) / 1000.0, 2.5 + np.arange(2000) / 1000.0))
     own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
-    with pytest.raises(InputError, match=r"off a constant rate of .* Hz; fill gaps with NaN"):
+    message = r"0.501 s without a sample after time stamp 1999; fill gaps with NaN at .* 1000 Hz"
+    with pytest.raises(InputError, match=message):
         Source(steady(vertical_specific_force=own))
+
+
+def test_an_accelerometer_that_jitters_is_refused(steady):
+    stamps = np.arange(4000) / 1000.0
+    stamps[1::2] += 0.0001
+    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    with pytest.raises(InputError, match=r"999\.975 Hz; record it at a constant rate"):
+        Source(steady(vertical_specific_force=own))
+
+
+@pytest.mark.parametrize("rate", [1000.0, 3240.0, 4000.0, 16_000.0, 44_100.0, 48_000.0])
+def test_unix_stamps_in_microseconds_are_the_rate_they_were_made_at(rate):
+    stamps = np.round(1.7e9 + np.arange(5000) / rate, 6)
+    own = Channel.of("vertical_specific_force", np.full(5000, 9.8), StampedClock.of(stamps))
+    assert float(steady_clock(own).rate) == rate
 
 
 def test_only_the_time_that_all_channels_cover_is_used(steady):
@@ -145,3 +162,14 @@ def test_gnss_samples_are_events_at_their_own_times(steady):
     assert events[1].values == {ChannelId("gnss_quality"): 0.0}
     assert events[2].values == {ChannelId("gnss_height"): 3.0, ChannelId("gnss_quality"): 5.0}
     assert len(blocks[1].events) == 1
+
+
+@laws
+@given(rate=st.sampled_from([1.0, 20.0, 333.0]), start=st.integers(-500, 3000))
+def test_gnss_of_a_constant_rate_comes_once_each(steady, rate, start):
+    clock = UniformClock.of(rate, start / 1000.0)
+    height = Channel.of("gnss_height", np.arange(60.0), clock)
+    blocks = list(Source(steady(gnss_height=height)).blocks(170))
+    times = [event.time_s for block in blocks for event in block.events]
+    inside = [t for t in clock.times(60).tolist() if 0.0 <= t < 4.0 - 1e-12]
+    assert times == pytest.approx(inside)

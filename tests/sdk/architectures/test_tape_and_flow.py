@@ -79,3 +79,24 @@ def test_a_backward_stage_that_changes_the_length_is_refused():
     _, out = flow.run([Shortening()], HEADER, blocks_of(np.zeros(9), [4, 5]))
     with pytest.raises(StageError, match="Shortening: a backward stage must keep"):
         list(out)
+
+
+@pytest.mark.parametrize("where", ["open", "advance", "close"])
+def test_whatever_a_stage_raises_is_one_error_that_names_it(where):
+    class Cracked(Stage):
+        def open(self, header):
+            return self._maybe("open", header)
+
+        def advance(self, block):
+            return self._maybe("advance", block)
+
+        def close(self):
+            return self._maybe("close", ())
+
+        def _maybe(self, point, value):
+            if point == where:
+                raise KeyError("of a vendor")
+            return value
+
+    with pytest.raises(StageError, match="stage Cracked: KeyError: 'of a vendor'"):
+        list(flow.run([Cracked()], HEADER, blocks_of(np.zeros(9), [4, 5]))[1])

@@ -1,13 +1,18 @@
 """`floatref process` as a user calls it."""
 
 import json
+import re
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from floatref.architectures import hookspecs, plugins, processing
+from floatref.cli import process as process_module
+from floatref.cli import sources
 from floatref.cli.main import main
-from floatref.files import read_profile, write_recording
+from floatref.errors import InputError
+from floatref.files import read_profile, read_recording, write_recording
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
@@ -115,6 +120,134 @@ def test_what_cannot_be_done_is_one_line_and_leaves_nothing(folder, monkeypatch,
     assert result.stderr.strip().count("\n") == 0
     assert "Traceback" not in result.output
     assert sorted(folder.iterdir()) == before
+
+
+def test_the_settings_of_a_profile_can_be_given_again(folder):
+    invoke("process", folder / "run", "--out", folder / "one")
+    document = json.loads((folder / "one" / "profile.json").read_text())
+    (folder / "again.json").write_text(json.dumps(document["settings"]))
+    again = invoke(
+        *("process", folder / "run", "--out", folder / "two", "--settings", folder / "again.json")
+    )
+    assert again.exit_code == 0, again.output
+    assert (folder / "one" / "left.f64").read_bytes() == (folder / "two" / "left.f64").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "settings", ['{"interval_m": 3.0, "cutoff_wavelength_m": 1000.0}', '{"interval_m": 10}']
+)
+def test_a_profile_without_an_iri_is_written_with_a_warning(folder, settings):
+    (folder / "coarse.json").write_text(settings)
+    result = invoke(
+        *("process", folder / "run", "--out", folder / "coarse", "--json"),
+        *("--settings", folder / "coarse.json"),
+    )
+    assert result.exit_code == 0, result.output
+    report = json.loads(result.stdout)
+    assert report["tracks"][0]["iri_m_per_km"] is None
+    assert any("track left: no IRI: " in line for line in report["warnings"])
+    assert (folder / "coarse").is_dir()
+
+
+@pytest.mark.parametrize("out", ["run", "run/recording.json", "run/height.csv"])
+def test_the_source_is_never_written_over(folder, out):
+    before = {p.name: p.read_bytes() for p in (folder / "run").iterdir()}
+    result = invoke("process", folder / "run", "--out", folder / out, "--overwrite")
+    assert result.exit_code == 2
+    assert {p.name: p.read_bytes() for p in (folder / "run").iterdir()} == before
+
+
+def test_profile_and_drawing_need_names_of_their_own(folder):
+    same = folder / "o.png"
+    result = invoke(*("process", folder / "run", "--out", same, "--format", "csv", "--plot", same))
+    assert result.exit_code == 2
+    assert "choose another for the drawing" in result.stderr
+    assert not same.exists()
+
+
+def test_a_drawing_is_not_left_behind_when_the_profile_fails(folder, monkeypatch):
+    def refused(*args):
+        raise InputError("disk full")
+
+    monkeypatch.setitem(process_module.WRITERS, "profile", refused)
+    result = invoke(*("process", folder / "run", "--out", folder / "o", "--plot", folder / "o.png"))
+    assert result.exit_code == 2
+    assert not (folder / "o.png").exists()
+
+
+class Vendor:
+    """An adapter that fails, or reads, as it is told."""
+
+    name, summary = "vendor", "of a plug-in"
+
+    def __init__(self, recognises=True, recording=None):
+        self._recognises, self._recording = recognises, recording
+
+    def recognises(self, source):
+        if isinstance(self._recognises, Exception):
+            raise self._recognises
+        return self._recognises
+
+    def read(self, source):
+        if isinstance(self._recording, Exception):
+            raise self._recording
+        return self._recording
+
+
+@pytest.fixture
+def with_adapter(monkeypatch):
+    def use(adapter):
+        class Plugin:
+            @hookspecs.hookimpl
+            def floatref_register_adapters(self, register):
+                register(adapter)
+
+        loaded = plugins.Plugins()
+        loaded.add(Plugin(), "vendor")
+        for module in (sources, processing):
+            monkeypatch.setattr(module, "plugins", lambda: loaded)
+
+    return use
+
+
+def test_a_native_folder_is_read_by_its_adapter_and_fingerprinted(folder, with_adapter):
+    recording = read_recording(folder / "run")
+    with_adapter(Vendor(recording=recording))
+    native = folder / "native"
+    native.mkdir()
+    (native / "run.bin").write_bytes(b"abc")
+    result = invoke("process", native, "--out", folder / "o")
+    assert result.exit_code == 0, result.output
+    provenance = read_profile(folder / "o").provenance
+    assert provenance["adapter"] == "vendor"
+    assert list(provenance["sha256"]) == ["run.bin"]
+
+
+@pytest.mark.parametrize(
+    ("adapter", "message"),
+    [
+        (Vendor(), "adapters recording and vendor both recognise it; choose with --adapter"),
+        (Vendor(False, None), None),
+        (Vendor(ValueError("odd"), None), "Warning: adapter vendor: "),
+    ],
+)
+def test_who_recognises_a_source(folder, with_adapter, adapter, message):
+    with_adapter(adapter)
+    result = invoke("process", folder / "run", "--out", folder / "o")
+    assert result.exit_code == (2 if message and "both" in message else 0)
+    assert message is None or message in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [(KeyError("x"), "adapter vendor: .*: KeyError: 'x'"), (None, "gave no recording")],
+)
+def test_an_adapter_that_fails_is_named(folder, with_adapter, given, message):
+    with_adapter(Vendor(False, given))
+    result = invoke("process", folder / "run", "--out", folder / "o", "--adapter", "vendor")
+    assert result.exit_code == 2
+    assert re.search(message, result.stderr)
+    assert not (folder / "o").exists()
 
 
 def test_listings(folder):

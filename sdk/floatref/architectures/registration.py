@@ -1,0 +1,69 @@
+"""What a plug-in may register: checked when it does, so that nothing breaks later."""
+
+from collections.abc import Callable
+from typing import Any
+
+from floatref.architectures import spatial, temporal
+from floatref.architectures.question import Pipeline
+from floatref.errors import PluginError
+
+SIGNAL_FLOWS = {"temporal": temporal.signal_flow, "spatial": spatial.signal_flow}
+POINTS = {**temporal.DEFAULTS, **spatial.DEFAULTS}
+
+
+def check_pipeline(pipeline: Any) -> str:
+    """Return the name of ``pipeline``; TypeError if it is none or of no known architecture."""
+    if not isinstance(pipeline, Pipeline):
+        raise TypeError(f"{type(pipeline).__name__} is no Pipeline")
+    if pipeline.architecture not in SIGNAL_FLOWS:
+        raise TypeError(f"pipeline {pipeline.name}: no architecture {pipeline.architecture!r}")
+    unknown = [point for point in pipeline.answers if point not in POINTS]
+    if unknown:
+        raise TypeError(f"pipeline {pipeline.name}: no point {unknown[0]!r} to answer")
+    return _described(pipeline)
+
+
+def check_adapter(adapter: Any) -> str:
+    """Return the name of ``adapter``; TypeError if it cannot be one."""
+    for method in ("recognises", "read"):
+        if not callable(getattr(adapter, method, None)):
+            raise TypeError(f"{type(adapter).__name__} has no method {method}")
+    return _described(adapter)
+
+
+def check_stage(name: Any, stage: Any) -> str:
+    """Return ``name``; TypeError unless it is text and ``stage`` makes one."""
+    if not isinstance(name, str) or not callable(stage):
+        raise TypeError(f"{name!r} is no name of a stage's class")
+    return name
+
+
+class Register:
+    """What plug-ins registered through one hook, by name.
+
+    Raises PluginError, with both names, when two register the same.
+    """
+
+    def __init__(self, check: Callable[..., str]) -> None:
+        """Check every item with ``check``, which returns its name."""
+        self.found: dict[str, Any] = {}
+        self._check, self._owners = check, dict[str, str]()
+
+    def of(self, plugin: str) -> Callable[..., None]:
+        """Return what the hook of ``plugin`` is called with."""
+
+        def register(*item: Any) -> None:
+            name = self._check(*item)
+            if name in self.found:
+                both = f"{self._owners[name]} and {plugin}"
+                raise PluginError(f"plug-ins {both} both register {name}; remove one")
+            self.found[name], self._owners[name] = item[-1], plugin
+
+        return register
+
+
+def _described(item: Any) -> str:
+    name, summary = getattr(item, "name", None), getattr(item, "summary", None)
+    if not (isinstance(name, str) and name and isinstance(summary, str)):
+        raise TypeError(f"{type(item).__name__} needs a name and a summary")
+    return name
