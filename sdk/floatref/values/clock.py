@@ -15,6 +15,10 @@ from floatref.values.scanning import first_step_where, first_where
 
 LOWEST_RATE_HZ = Fraction(1, 1000)
 HIGHEST_RATE_HZ = Fraction(10_000_000)
+LATEST_S = 1e12
+"""Largest time from zero, in s: 32000 years, whatever the epoch."""
+
+_ADVICE = f"give times in s, within {LATEST_S:g} s of zero"
 
 
 def rational(rate: float | Fraction) -> Fraction:
@@ -33,7 +37,7 @@ class UniformClock:
     start_s: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse a rate that no sensor has and a start that is not finite."""
+        """Refuse a rate that no sensor has and a start that no epoch explains."""
         if not LOWEST_RATE_HZ <= self.rate <= HIGHEST_RATE_HZ:
             raise InputError(
                 f"rate_hz is {float(self.rate):g}; "
@@ -41,6 +45,8 @@ class UniformClock:
             )
         if not np.isfinite(self.start_s):
             raise InputError(f"start_s is {self.start_s}; it must be finite")
+        if abs(self.start_s) > LATEST_S:
+            raise InputError(f"start_s is {self.start_s:g}; {_ADVICE}")
 
     @classmethod
     def of(cls, rate_hz: float, start_s: float = 0.0) -> "UniformClock":
@@ -67,10 +73,13 @@ class StampedClock:
         return cls(frozen(times_s))
 
     def __post_init__(self) -> None:
-        """Refuse times that are missing or do not increase."""
+        """Refuse times that are missing, that no epoch explains, or that do not increase."""
         bad = first_where(lambda times: ~np.isfinite(times), self.times_s)
         if bad is not None:
             raise InputError(f"time stamp {bad} is {self.times_s[bad]}; every sample needs a time")
+        bad = first_where(lambda times: np.abs(times) > LATEST_S, self.times_s)
+        if bad is not None:
+            raise InputError(f"time stamp {bad} is {self.times_s[bad]:g} s; {_ADVICE}")
         bad = first_step_where(lambda steps: steps <= 0, self.times_s)
         if bad is not None:
             raise InputError(

@@ -7,22 +7,21 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
-from floatref.values.clock import UniformClock
+from floatref.values.encoder import check_distance
 from floatref.values.recording import Channel, Recording
-from floatref.values.scanning import Summary, chunks, longest_gap
+from floatref.values.scanning import Summary, first_where, longest_gap
 
 GRAVITY_TOLERANCE = 2.0
 """How far the mean of a vertical accelerometer may be from g, in m/s²: bias and tilt."""
+HIGHEST_FORCE = 1e4
+"""No sample of an accelerometer in a vehicle is beyond this, in m/s²."""
 LONGEST_RANGE_M = 10.0
 """No height sensor of a profiler looks farther than this, in m."""
-FASTEST_MPS = 90.0
-"""No profiler is faster, in m/s."""
-SLOWEST_MPS = 0.1
-"""A mean speed below this over more than ten seconds is worth a warning, in m/s."""
+LARGEST_HEIGHT_M = 100.0
+"""No sample of a height sensor that works is beyond this, in m."""
 TRUNCATION_S = 0.5
 """How much earlier than the others a channel may end, in s."""
 LOWEST_ACCELEROMETER_HZ = 20.0
-MOST_POINTS = 1e9
 
 MISREADINGS = (
     (1.0, 0.2, "looks like g, multiply by 9.80665"),
@@ -42,7 +41,8 @@ def examine(recording: Recording) -> tuple[str, ...]:
     Every wheel path that has a height needs an accelerometer and the distance. Raises
     InputError with one line naming the channel, the value and what to do for missing channels,
     channels without samples or with more than half of them missing, implausible units and
-    signs, a distance that goes backwards, jumps or stands still, and truncated channels.
+    signs, samples that no sensor gives, a distance that goes backwards, jumps or stands still,
+    and truncated channels.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         warnings = [
@@ -76,7 +76,7 @@ def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
     elif channel.id.name == "height":
         _check_height(channel, summary)
     else:
-        yield from _check_distance(channel, summary, interval_m)
+        yield from check_distance(channel, summary, interval_m)
 
 
 def _missing(channel: Channel, summary: Summary) -> Iterator[str]:
@@ -98,24 +98,35 @@ def _missing(channel: Channel, summary: Summary) -> Iterator[str]:
 
 
 def _check_accelerometer(channel: Channel, summary: Summary) -> None:
-    rate = _mean_rate(channel)
+    rate = channel.mean_rate_hz
     if rate < LOWEST_ACCELEROMETER_HZ:
         raise InputError(
             f"channel {channel.id}: {rate:.6g} samples per second are too few for an "
             "accelerometer; give rate_hz in Hz, not kHz"
         )
-    if abs(summary.mean - STANDARD_GRAVITY) <= GRAVITY_TOLERANCE:
-        return
+    which, level = "mean", summary.mean
+    if _wild(summary, HIGHEST_FORCE):
+        # A few wild samples move the mean, not the median.
+        which, level = "median", _median(channel.values)
+    meaning = _meaning(level)
+    if meaning is not None:
+        raise InputError(
+            f"channel {channel.id}: {which} is {level:.4g}, expected about 9.8 m/s^2; {meaning}"
+        )
+    _check_samples(channel, summary, HIGHEST_FORCE)
+
+
+def _meaning(level: float) -> str | None:
+    """Return what mean or median ``level`` of an accelerometer means, None if it is as it should.
+
+    A level beyond all sensors is left to the samples that are beyond them, too.
+    """
+    if abs(level - STANDARD_GRAVITY) <= GRAVITY_TOLERANCE:
+        return None
     for mean, tolerance, meaning in MISREADINGS:
-        if abs(summary.mean - mean) <= tolerance:
-            raise _implausible_force(channel, summary, meaning)
-    raise _implausible_force(channel, summary, "check unit, axis and offset")
-
-
-def _implausible_force(channel: Channel, summary: Summary, meaning: str) -> InputError:
-    return InputError(
-        f"channel {channel.id}: mean is {summary.mean:.4g}, expected about 9.8 m/s^2; {meaning}"
-    )
+        if abs(level - mean) <= tolerance:
+            return meaning
+    return "check unit, axis and offset" if abs(level) <= HIGHEST_FORCE else None
 
 
 def _check_height(channel: Channel, summary: Summary) -> None:
@@ -135,62 +146,22 @@ def _check_height(channel: Channel, summary: Summary) -> None:
             f"channel {channel.id}: median is {median:.4g}, expected a positive range in m; "
             "multiply by -1, or add the stand-off"
         )
+    _check_samples(channel, summary, LARGEST_HEIGHT_M)
 
 
-def _check_distance(channel: Channel, summary: Summary, interval_m: float) -> Iterator[str]:
-    _check_direction(channel)
-    length = summary.greatest - summary.least
-    if length < interval_m:
-        moved = f"never leaves {summary.least:.6g} m" if length == 0 else f"moves {length:.3g} m"
-        raise InputError(
-            f"channel {channel.id}: {moved}, less than the profile interval of {interval_m:g} m; "
-            "check the encoder, and whether the distance is in m"
-        )
-    if length > MOST_POINTS * interval_m:
-        raise InputError(
-            f"channel {channel.id}: {length:.4g} m at an interval of {interval_m:g} m are too many "
-            "points; choose a longer setup.profile_interval_m"
-        )
-    _check_speed(channel)
-    begin, end = channel.span_s
-    if end - begin > 10 and length < SLOWEST_MPS * (end - begin):
-        yield (
-            f"channel {channel.id}: {length:.4g} m in {end - begin:.4g} s; "
-            "if the distance is in km, multiply by 1000"
-        )
+def _wild(summary: Summary, limit: float) -> bool:
+    return summary.least < -limit or summary.greatest > limit
 
 
-def _check_direction(channel: Channel) -> None:
-    """Refuse a distance that decreases from one sample to the next that is there."""
-    last = -np.inf
-    for first, chunk in chunks(channel.values):
-        valid = np.flatnonzero(~np.isnan(chunk))
-        steps = np.diff(chunk[valid], prepend=last)
-        if (steps < 0).any():
-            at = int(np.argmax(steps < 0))
-            raise InputError(
-                f"channel {channel.id}: sample {first + valid[at]} goes back by {-steps[at]:.4g} m "
-                f"to {chunk[valid[at]]:.10g} m; invert the sign of a reversed encoder, "
-                "or cut the run where the vehicle rolled back"
-            )
-        last = float(chunk[valid[-1]]) if valid.size else last
-
-
-def _check_speed(channel: Channel) -> None:
-    """Refuse a distance that is faster than any profiler, averaged over half a second."""
-    stride = round(min(max(1, TRUNCATION_S * _mean_rate(channel)), channel.values.size))
-    distance = channel.values[::stride]
-    times = channel.clock.times(distance.size, step=stride)
-    valid = ~np.isnan(distance)
-    advance, elapsed = np.diff(distance[valid]), np.diff(times[valid])
-    speed = advance / np.maximum(elapsed, TRUNCATION_S)
-    if (speed > FASTEST_MPS).any():
-        at = int(np.argmax(speed))
-        raise InputError(
-            f"channel {channel.id}: {advance[at]:.4g} m in {elapsed[at]:.3g} s from "
-            f"{times[valid][at]:.6g} s is {speed[at]:.4g} m/s, faster than any profiler; "
-            "if the distance is in mm, multiply by 0.001, else cut the jump out"
-        )
+def _check_samples(channel: Channel, summary: Summary, limit: float) -> None:
+    """Refuse the first sample beyond ``limit``, in the channel's unit."""
+    if not _wild(summary, limit):
+        return
+    at = first_where(lambda values: np.abs(values) > limit, channel.values) or 0
+    raise InputError(
+        f"channel {channel.id}: sample {at} is {channel.values[at]:.4g} {channel.unit}, beyond "
+        f"{limit:g} {channel.unit}; mark lost samples as NaN, and check unit, axis and offset"
+    )
 
 
 def _check_spans(recording: Recording) -> None:
@@ -219,13 +190,6 @@ def _unused_setup(recording: Recording) -> Iterator[str]:
         if name not in recording.tracks:
             here = ", ".join(recording.tracks)
             yield f"setup.tracks.{name}: only {here} have channels; its offsets are not used"
-
-
-def _mean_rate(channel: Channel) -> float:
-    if isinstance(channel.clock, UniformClock):
-        return float(channel.clock.rate)
-    begin, end = channel.span_s
-    return (channel.values.size - 1) / (end - begin) if end > begin else np.inf
 
 
 def _median(values: FloatArray) -> float:

@@ -11,6 +11,11 @@ from numpy.typing import ArrayLike
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray, frozen
 
+SHORTEST_INTERVAL_M = 1e-5
+LONGEST_INTERVAL_M = 1000.0
+FARTHEST_M = 1e10
+"""Largest distance from the origin, in m: beyond, float64 does not hold a profile's interval."""
+
 
 @dataclass(frozen=True, eq=False)
 class ProfileTrack:
@@ -68,10 +73,14 @@ class Profile:
 
     def __post_init__(self) -> None:
         """Refuse an impossible interval, no tracks, or tracks that differ in length."""
-        if not (np.isfinite(self.interval_m) and self.interval_m > 0):
-            raise InputError(f"interval_m is {self.interval_m}; it must be above zero")
-        if not np.isfinite(self.start_m):
-            raise InputError(f"start_m is {self.start_m}; it must be finite")
+        if not SHORTEST_INTERVAL_M <= self.interval_m <= LONGEST_INTERVAL_M:
+            raise InputError(
+                f"interval_m is {self.interval_m:g}; give it in m, between 0.00001 and 1000"
+            )
+        if not abs(self.start_m) <= FARTHEST_M:
+            raise InputError(
+                f"start_m is {self.start_m:g}; give it in m, within {FARTHEST_M:.0f} of zero"
+            )
         if not self.tracks:
             raise InputError("the profile has no tracks")
         if len({t.elevation.size for t in self.tracks}) > 1:

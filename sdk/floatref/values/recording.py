@@ -105,6 +105,14 @@ class Channel:
         last = self.values.size - 1
         return float(self.clock.times(1)[0]), float(self.clock.times(1, last)[0])
 
+    @property
+    def mean_rate_hz(self) -> float:
+        """Samples per second over the whole channel; infinite for a single time stamp."""
+        if isinstance(self.clock, UniformClock):
+            return float(self.clock.rate)
+        begin, end = self.span_s
+        return (self.values.size - 1) / (end - begin) if end > begin else np.inf
+
 
 @dataclass(frozen=True, eq=False)
 class Recording:
@@ -146,9 +154,9 @@ class Recording:
         channel = self.find(name, track)
         if channel is None:
             here = ", ".join(str(c.id) for c in self.channels)
-            raise InputError(
-                f"channel {ChannelId(name, track)}: missing; the recording holds {here}"
-            )
+            named = any(c.id.track is not None for c in self.channels)
+            missing = ChannelId(name, track if named else None)
+            raise InputError(f"channel {missing}: missing; the recording holds {here}")
         return channel
 
 

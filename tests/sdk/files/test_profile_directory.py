@@ -94,8 +94,6 @@ def test_settings_are_written_as_plain_json_with_null_for_nan(tmp_path: Path) ->
     [
         ({"settings": {"a": [1.0, np.inf]}}, r"profile.settings.a\[1\] is inf; JSON holds finite"),
         ({"settings": {"a": Fraction(1, 3)}}, "profile.settings.a is a Fraction; give a number"),
-        ({"interval_m": 1e-30}, "interval_m is 1e-30; expected the profile interval in m"),
-        ({"start_m": 1e300}, r"start_m is 1e\+300; expected the distance of the first point"),
         ({"pipeline": "x" * 2000}, "expected the name of the pipeline"),
         ({"tracks": (ProfileTrack.of("a/b", [0.0]),)}, r'tracks\[0\].name .* is "a/b"; expected'),
     ],

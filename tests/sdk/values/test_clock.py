@@ -49,6 +49,11 @@ def test_a_start_that_is_not_finite_is_refused(start: float) -> None:
         UniformClock.of(1.0, start)
 
 
+def test_a_start_that_no_epoch_explains_is_refused() -> None:
+    with pytest.raises(InputError, match=r"start_s is -1e\+308; give times in s, within 1e\+12 s"):
+        UniformClock.of(1.0, -1e308)
+
+
 def test_stamped_times_are_those_given() -> None:
     clock = StampedClock.of([0.0, 0.5, 2.0, 3.0, 7.0])
     assert clock.times(2, 1, 2).tolist() == [0.5, 3.0]
@@ -62,6 +67,7 @@ def test_stamped_times_are_those_given() -> None:
         ([0.0, -1.0], "time stamp 1 is -1 s, not after 0 s"),
         ([0.0, np.nan], "time stamp 1 is nan; every sample needs a time"),
         ([np.inf, 1.0], "time stamp 0 is inf; every sample needs a time"),
+        ([0.0, 1e308], r"time stamp 1 is 1e\+308 s; give times in s, within 1e\+12 s of zero"),
     ],
 )
 def test_times_that_do_not_increase_are_refused(times: list[float], text: str) -> None:

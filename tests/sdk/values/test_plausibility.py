@@ -78,7 +78,13 @@ REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (DISTANCE, put((slice(690, 700), np.nan), (700, 68.5)), "sample 700 goes back by 0.4 m to"),
     (DISTANCE, lambda d: d * 0 + 7, "never leaves 7 m, less than the profile interval of 0.00508"),
     (DISTANCE, lambda d: d * 1e-6, "moves 0.0004 m, less than the profile interval of 0.00508 m"),
-    (DISTANCE, put((slice(2000), -1.7e308), (slice(2000, None), 1.7e308)), "inf m at an interval"),
+    (DISTANCE, put((slice(2000), -1.7e308)), "sample 0 is -1.7e+308 m, beyond 1e+10 m; subtract"),
+    (DISTANCE, lambda d: d + 2e10, "sample 0 is 2e+10 m, beyond 1e+10 m; subtract an origin, such"),
+    (HEIGHT, put((7, 100.5)), "sample 7 is 100.5 m, beyond 100 m; mark lost samples as NaN"),
+    (HEIGHT, put((9, -1.7e308)), "sample 9 is -1.7e+308 m, beyond 100 m; mark lost"),
+    (FORCE, put((7, 32768.0)), "sample 7 is 3.277e+04 m/s^2, beyond 10000 m/s^2; mark lost"),
+    (FORCE, put((7, -9e4)), "sample 7 is -9e+04 m/s^2, beyond 10000 m/s^2; mark lost samples"),
+    (FORCE, put((8, 1.7e308)), "sample 8 is 1.7e+308 m/s^2, beyond 10000 m/s^2; mark lost"),
     *(
         (name, put((slice(None), np.nan)), "4000 of 4000 samples are missing (100 %); record it")
         for name in (FORCE, HEIGHT, DISTANCE)
@@ -132,7 +138,7 @@ def test_bias_stand_off_speed_and_origin_are_free(
     values = good() | {
         FORCE: np.full(COUNT, 9.80665 + bias),
         HEIGHT: np.full(COUNT, range_m),
-        DISTANCE: start + np.floor(speed * k / RATE / 0.1) * 0.1,
+        DISTANCE: start + np.floor(speed * k / RATE / 0.005) * 0.005,
     }
     assert examine(recorded(values)) == ()
 
@@ -171,7 +177,7 @@ def test_a_missing_channel_is_named_with_those_that_are_there(name: str) -> None
     values = good()
     del values[name]
     here = ", ".join(values)
-    with pytest.raises(InputError, match=rf"channel .*{name}: missing; the recording holds {here}"):
+    with pytest.raises(InputError, match=rf"^channel {name}: missing; the recording holds {here}"):
         examine(recorded(values))
 
 

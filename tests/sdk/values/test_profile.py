@@ -62,9 +62,13 @@ def test_a_missing_point_cannot_be_valid() -> None:
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({"interval_m": 0.0}, "interval_m is 0.0; it must be above zero"),
-        ({"interval_m": np.nan}, "interval_m is nan; it must be above zero"),
-        ({"start_m": np.inf}, "start_m is inf; it must be finite"),
+        ({"interval_m": 0.0}, "interval_m is 0; give it in m, between 0.00001 and 1000"),
+        ({"interval_m": np.nan}, "interval_m is nan; give it in m"),
+        ({"interval_m": 1e-306}, "interval_m is 1e-306; give it in m"),
+        ({"interval_m": 1000.1}, "interval_m is 1000.1; give it in m"),
+        ({"start_m": np.inf}, "start_m is inf; give it in m, within 10000000000 of zero"),
+        ({"start_m": np.nan}, "start_m is nan; give it in m"),
+        ({"start_m": -1e308}, r"start_m is -1e\+308; give it in m"),
         ({"tracks": ()}, "the profile has no tracks"),
         ({"tracks": (FLAT, FLAT)}, "two tracks of the profile have the same name"),
         ({"tracks": (FLAT, ProfileTrack.of("right", [0.0]))}, "the profile's tracks differ in"),
