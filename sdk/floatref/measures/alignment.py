@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
+from floatref.measures.gaps import check_heights
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -18,8 +19,11 @@ def on_common_grid(reference: Profile, profile: Profile) -> tuple[Profile, Profi
 
     ``profile`` is interpolated linearly in distance between its points, without any filter
     against aliasing; a point is NaN next to a missing one, and valid between two valid ones.
-    1-σ is dropped from it. Raises InputError where the two overlap by less than two points.
+    1-σ is dropped from it. Raises InputError where the two overlap by less than two points, and
+    for an elevation beyond 1000 km.
     """
+    for track in (*reference.tracks, *profile.tracks):
+        _check_heights(track)
     step = reference.interval_m / profile.interval_m
     first = (reference.start_m - profile.start_m) / profile.interval_m
     index = first + step * np.arange(_size(reference), dtype=np.float64)
@@ -40,6 +44,14 @@ def on_common_grid(reference: Profile, profile: Profile) -> tuple[Profile, Profi
         replace(reference, tracks=kept, start_m=start),
         replace(profile, tracks=moved, start_m=start, interval_m=reference.interval_m),
     )
+
+
+def _check_heights(track: ProfileTrack) -> None:
+    """Raise InputError naming ``track`` for an elevation that no road reaches."""
+    try:
+        check_heights(track.elevation)
+    except InputError as error:
+        raise InputError(f"track {track.name}: {error}") from error
 
 
 def _size(profile: Profile) -> int:

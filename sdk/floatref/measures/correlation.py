@@ -49,7 +49,7 @@ def cross_correlation(
     if not 0.0 <= max_offset_m < math.inf:
         raise InputError(f"the largest offset is {max_offset_m} m; give 0 m or more")
     # A grid of 5.08 mm must reach 1.016 m as its 200th lag, whatever the rounding.
-    largest = math.floor(max_offset_m / interval_m + 1e-9)
+    largest = math.floor(min(max_offset_m, p.size * interval_m) / interval_m + 1e-9)
     if p.size < max(4 * largest, 2):
         raise InputError(
             f"{p.size * interval_m:g} m of signal are too short for offsets of up to "

@@ -5,24 +5,39 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 
+HIGHEST_M = 1e6
+"""No road lies higher or lower than this, in m, whatever the datum."""
+
+
+def check_heights(elevation: FloatArray) -> None:
+    """Raise InputError naming the first point of ``elevation``, in m, that no road reaches."""
+    beyond = np.abs(elevation) > HIGHEST_M
+    if beyond.any():
+        point = int(np.argmax(beyond))
+        raise InputError(
+            f"elevation of point {point} is {elevation[point]:.4g} m, beyond {HIGHEST_M:.0f} m; "
+            "give elevations in m, and mark missing points as NaN"
+        )
+
 
 def checked_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     """Return ``elevation`` in m as float64; InputError unless it and ``interval_m`` are usable.
 
-    Needs one dimension, no infinities, at least one finite point, and a positive interval.
+    Needs one dimension, no infinities, at least one finite point, none beyond 1000 km, and a
+    positive interval.
     """
     if not (np.isfinite(interval_m) and interval_m > 0):
         raise InputError(f"interval is {interval_m} m; it must be above zero")
     values = np.ascontiguousarray(elevation, dtype=np.float64)
     if values.ndim != 1:
         raise InputError(f"elevation has shape {values.shape}; give one wheel path at a time")
-    finite = np.isfinite(values)
-    if finite.all() and values.size:
+    if values.size and values.min() >= -HIGHEST_M and values.max() <= HIGHEST_M:
         return values
     if np.isinf(values).any():
         raise InputError("elevation is infinite in places; mark missing points as NaN")
-    if not finite.any():
+    if np.isnan(values).all():
         raise InputError(f"none of the {values.size} elevations is finite; nothing was measured")
+    check_heights(values)
     return values
 
 

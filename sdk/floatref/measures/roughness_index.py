@@ -86,8 +86,11 @@ def iri_segments(
 
 
 def segment_edges(count: int, interval_m: float, segment_m: float | None) -> NDArray[np.int64]:
-    """Return the first interval of every segment of ``count`` intervals, and ``count``."""
-    if segment_m is None:
+    """Return the first interval of every segment of ``count`` intervals, and ``count``.
+
+    A segment of the profile's length or longer is the whole profile.
+    """
+    if segment_m is None or segment_m >= count * interval_m > 0:
         return np.array([0, count], dtype=np.int64)
     if segment_m < interval_m:
         raise InputError(f"segment is {segment_m:g} m, less than the interval {interval_m:g} m")

@@ -6,7 +6,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.roughness_index import STANDARD, iri_trace
-from floatref.measures.settings import IriSettings
+from floatref.measures.settings import IriSettings, intervals_in
 from floatref.values.arrays import FloatArray
 
 BASE_M = 7.62
@@ -41,7 +41,7 @@ def short_interval_roughness(
     if not (np.isfinite(base_m) and base_m > 0):
         raise InputError(f"base length is {base_m} m; it must be above zero")
     rectified = np.abs(iri_trace(elevation, interval_m, settings))
-    return _moving_average(rectified, max(round(base_m / interval_m), 1))
+    return _moving_average(rectified, intervals_in(base_m, interval_m))
 
 
 def localized_roughness(

@@ -9,6 +9,13 @@ from floatref.errors import InputError
 
 LONGEST_INTERVAL_M = 2.0
 """At wider intervals a profile no longer holds what moves the car."""
+MOST_INTERVALS = 1e12
+"""No profile has more."""
+
+
+def intervals_in(length_m: float, interval_m: float) -> int:
+    """Return the whole intervals next to ``length_m``, ties to even, at least 1."""
+    return max(round(min(length_m / interval_m, MOST_INTERVALS)), 1)
 
 
 @dataclass(frozen=True)
@@ -49,11 +56,11 @@ class IriSettings:
             raise InputError(
                 f"interval is {interval_m:g} m; the IRI needs {LONGEST_INTERVAL_M:g} m or less"
             )
-        return max(round(self.moving_average_m / interval_m), 1)
+        return intervals_in(self.moving_average_m, interval_m)
 
     def start_count(self, interval_m: float) -> int:
         """Return the intervals in the start length."""
-        return max(round(self.start_length_m / interval_m), 1)
+        return intervals_in(self.start_length_m, interval_m)
 
     def as_dict(self, interval_m: float) -> dict[str, Any]:
         """Return the record printed with an IRI at ``interval_m``; lengths in m."""

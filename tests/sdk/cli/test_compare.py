@@ -107,7 +107,7 @@ def test_profiles_apart_are_exit_2(tmp_path: Path) -> None:
     assert "do not overlap" in result.stderr
 
 
-@pytest.mark.parametrize("offset", ["-1", "nan", "inf", "150"])
+@pytest.mark.parametrize("offset", ["-1", "nan", "inf", "150", "1e308"])
 def test_impossible_offset_is_exit_2(tmp_path: Path, offset: str) -> None:
     same = written(tmp_path / "a", main=road(1))
     result = run(same, same, "--max-offset", offset)

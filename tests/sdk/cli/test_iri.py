@@ -124,7 +124,9 @@ def test_table_is_plain_when_piped_and_prints_the_settings(two: Path) -> None:
     ("arguments", "text"),
     [
         (["--segment", "-5"], "segment_m is -5.0"),
+        (["--segment", "0"], "segment_m is 0.0"),
         (["--segment", "nan"], "segment_m is nan"),
+        (["--segment", "inf"], "segment_m is inf"),
         (["--segment", "0.1"], "segment is 0.1 m, less than the interval"),
         (["--units", "furlongs"], "furlongs"),
     ],
@@ -150,3 +152,19 @@ def test_missing_file_is_one_line(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert result.stderr.count("\n") == 1
     assert "nowhere" in result.stderr
+
+
+def test_segment_beyond_the_profile_is_all_of_it(one: Path) -> None:
+    (track,) = report(one, "--segment", "1e308")["tracks"]
+    assert track["segments"] == [
+        {"start_m": 478.0, "length_m": 544.0, "iri_m_per_km": track["iri_m_per_km"]}
+    ]
+
+
+def test_elevations_that_no_road_has_are_one_line(tmp_path: Path) -> None:
+    track = ProfileTrack.of("left", np.tile([1.7e308, -1.7e308], 500))
+    write_profile(Profile(0.25, (track,)), tmp_path / "p")
+    result = run(tmp_path / "p")
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert "track left: elevation of point 0 is 1.7e+308 m, beyond 1000000 m" in result.stderr

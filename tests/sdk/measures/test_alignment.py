@@ -79,3 +79,13 @@ def test_points_next_to_a_missing_or_untrusted_one_are_so_too() -> None:
 def test_profiles_apart_are_refused_with_both_spans(start: float) -> None:
     with pytest.raises(InputError, match=r"do not overlap: the reference covers 0 to 9.9 m"):
         on_common_grid(plane(0.0, 0.1, 100), plane(start, 0.1, 100))
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_elevations_that_no_road_has_are_refused_by_track_and_point(which: int) -> None:
+    z = np.zeros(100)
+    z[40:42] = -1.7e308, 1.7e308
+    pair = [plane(0.0, 0.1, 100), plane(0.0, 0.07, 100)]
+    pair[which] = Profile(pair[which].interval_m, (ProfileTrack.of("main", z),))
+    with pytest.raises(InputError, match=r"track main: elevation of point 40 is -1.7e\+308 m"):
+        on_common_grid(*pair)

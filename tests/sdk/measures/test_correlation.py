@@ -119,3 +119,8 @@ def test_unusable_signals_are_refused(
 ) -> None:
     with pytest.raises(InputError, match=text):
         cross_correlation(p, q, 0.1, max_offset)
+
+
+def test_an_offset_beyond_all_signals_is_refused() -> None:
+    with pytest.raises(InputError, match=r"too short for offsets of up to 1e\+308 m"):
+        cross_correlation(noise(1, 100), noise(2, 100), 0.05, 1e308)

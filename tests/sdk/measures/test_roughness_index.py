@@ -197,3 +197,26 @@ def test_unusable_profile_is_refused(elevation: np.ndarray, interval: float, tex
 def test_segment_shorter_than_the_interval_is_refused() -> None:
     with pytest.raises(InputError, match=r"segment is 0.01 m, less than the interval 0.05 m"):
         iri_segments(np.zeros(1000), 0.05, IriSettings(segment_m=0.01))
+
+
+@pytest.mark.parametrize("segment", [49.95, 50.0, 1e6, 1e308])
+def test_a_segment_longer_than_the_profile_is_all_of_it(segment: float) -> None:
+    z = rough_road(9, 0.05)[:1000]
+    (only,) = iri_segments(z, 0.05, IriSettings(segment_m=segment), start_m=3.0)
+    assert (only.start_m, only.length_m) == (3.0, pytest.approx(49.95))
+    assert only.iri_m_per_km == pytest.approx(iri(z, 0.05), rel=1e-12)
+
+
+def test_a_start_longer_than_all_profiles_is_refused() -> None:
+    with pytest.raises(InputError, match=r"the car needs 1e\+308 m"):
+        iri(rough_road(9, 0.05), 0.05, IriSettings(start_length_m=1e308))
+
+
+@pytest.mark.parametrize("height", [1.1e6, -1.7e308])
+def test_an_elevation_that_no_road_has_is_refused_by_its_point(height: float) -> None:
+    z = rough_road(10, 0.05)
+    z[100] = np.nan
+    for kept in (z, np.nan_to_num(z)):
+        kept[200:202] = height, -height
+        with pytest.raises(InputError, match=r"elevation of point 200 is -?1\.\de\+\d+ m, beyond"):
+            iri(kept, 0.05)

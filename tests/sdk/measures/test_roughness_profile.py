@@ -138,3 +138,9 @@ def test_mean_roughness_index_lies_midway(left: float, right: float) -> None:
 def test_impossible_base_is_refused(base: float) -> None:
     with pytest.raises(InputError, match="base length"):
         short_interval_roughness(np.zeros(1000), 0.05, base)
+
+
+def test_a_base_longer_than_all_profiles_averages_all_of_it() -> None:
+    z = np.cumsum(np.random.default_rng(3).normal(0.0, 4e-4, 1000))
+    endless = short_interval_roughness(z, 0.05, 1e308)
+    np.testing.assert_array_equal(endless, short_interval_roughness(z, 0.05, 1e6))
