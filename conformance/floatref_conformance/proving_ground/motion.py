@@ -132,13 +132,16 @@ def _decimated(tracks: FloatArray, every: int) -> FloatArray:
     """Return every q-th sample, accelerations averaged over the interval around it.
 
     An accelerometer is band-limited to its recording: a sudden change between two samples
-    keeps its integral.
+    keeps its integral. The interval is centred, so that it stays in step with the range.
     """
     from floatref_conformance.proving_ground.kernels import A_Z, F_X, F_Y, F_Z
 
     fewer = tracks[:, :, ::every].copy()
-    weights = np.concatenate([[0.5], np.ones(every - 1), [0.5]]) / every
-    offsets = np.arange(every + 1) - every // 2
+    offsets = np.arange(-(every // 2), every // 2 + 1)
+    weights = np.ones(offsets.size)
+    if every % 2 == 0:
+        weights[[0, -1]] = 0.5
+    weights /= every
     centres = np.arange(fewer.shape[2]) * every
     for row in (F_X, F_Y, F_Z, A_Z):
         fewer[:, row] = 0.0
