@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, on_common_grid
-from floatref.plots.figure import check_suffix, legend, new_figure, save
+from floatref.plots.figure import check_suffix, legend, new_figure, save, title
 from floatref.plots.traces import (
     COLOURS,
     REFERENCE_COLOUR,
@@ -43,8 +43,7 @@ def draw_comparison(
     for column, expected in zip(axes.T, reference.tracks, strict=True):
         found = profile.track(expected.name)
         _draw_track(list(column), expected, found, reference)
-        title = _title(expected, found, reference.interval_m, max_offset_m)
-        column[0].set_title(title, loc="left", fontsize="medium")
+        title(column[0], _title(expected, found, reference.interval_m, max_offset_m))
     axes[0, 0].set_xlim(reference.distance_m[0], reference.distance_m[-1])
     save(figure, path)
 

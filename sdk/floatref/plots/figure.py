@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -68,11 +69,25 @@ def dress(ax: Axes) -> None:
 def legend(ax: Axes) -> None:
     """Put the legend of ``ax`` above its right end, off the lines."""
     style: dict[str, Any] = {"frameon": False, "fontsize": "small", "borderaxespad": 0.2}
-    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6, **style)
+    drawn = ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6, **style)
+    for text in drawn.get_texts():
+        text.set_parse_math(False)
+
+
+def shown_name(name: str) -> str:
+    """Return ``name`` as a label that legends do not leave out: they do after an underscore."""
+    return f" {name}" if name.startswith("_") else name
+
+
+def title(ax: Axes, text: str) -> None:
+    """Put ``text``, taken literally, above the left end of ``ax``."""
+    ax.set_title(text, loc="left", fontsize="medium", parse_math=False)
 
 
 def save(figure: Figure, path: Path) -> None:
     """Write ``figure`` to ``path``, replacing a file; InputError where that cannot be written."""
     check_suffix(path)
-    with replacing_file(path, overwrite=True) as beside:
+    with replacing_file(path, overwrite=True) as beside, warnings.catch_warnings():
+        # A name in letters that the font lacks is drawn as boxes.
+        warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
         figure.savefig(beside, dpi=DOTS_PER_INCH, format=path.suffix.lower()[1:])

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.plots.figure import check_suffix, legend, new_figure, save
+from floatref.measures.gaps import check_heights
+from floatref.plots.figure import check_suffix, legend, new_figure, save, shown_name, title
 from floatref.plots.traces import COLOURS, in_readable_unit, line, roughness, shade
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
@@ -24,11 +25,16 @@ def draw_profile(
     """Write a drawing of ``profile`` to ``path`` (.png, .pdf or .svg).
 
     Elevation, short-interval roughness in m/km, and ``speed`` if given, as distances in m and
-    speeds in m/s. Points that are not valid for a wheel path are shaded. Raises InputError if
-    matplotlib is missing or ``path`` cannot be written.
+    speeds in m/s, unless none of them is finite. Points that are not valid for a wheel path are
+    shaded. Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or
+    ``path`` cannot be written.
     """
     path = Path(path)
     check_suffix(path)
+    for track in profile.tracks:
+        check_heights(track.elevation)
+    if speed is not None and not np.isfinite(speed[1]).any():
+        speed = None
     heights = [2.6, 2.2] if speed is None else [2.6, 2.2, 1.3]
     figure, axes = new_figure(len(heights), 1, heights)
     column = axes[:, 0]
@@ -41,7 +47,7 @@ def draw_profile(
         shade(ax, profile.distance_m, invalid, "not valid" if row == 0 else None)
     for ax in column[:2]:
         legend(ax)
-    column[0].set_title(_title(profile), loc="left", fontsize="medium")
+    title(column[0], _title(profile))
     column[0].set_xlim(profile.distance_m[0], profile.distance_m[-1])
     save(figure, path)
 
@@ -49,7 +55,13 @@ def draw_profile(
 def _draw_elevation(ax: Axes, profile: Profile) -> None:
     factor, unit = in_readable_unit(*(track.elevation for track in profile.tracks))
     for track, colour in zip(profile.tracks, _colours(profile), strict=True):
-        line(ax, profile.distance_m, factor * track.elevation, color=colour, label=track.name)
+        line(
+            ax,
+            profile.distance_m,
+            factor * track.elevation,
+            color=colour,
+            label=shown_name(track.name),
+        )
     ax.set_ylabel(f"Elevation ({unit})")
 
 
@@ -57,8 +69,8 @@ def _draw_roughness(ax: Axes, profile: Profile) -> None:
     middle = profile.distance_m[:-1] + profile.interval_m / 2.0
     for track, colour in zip(profile.tracks, _colours(profile), strict=True):
         trace, value = roughness(track.elevation, profile.interval_m)
-        label = f"{track.name}: IRI {value:.2f} m/km" if value == value else f"{track.name}: no IRI"
-        line(ax, middle, trace, color=colour, label=label)
+        found = f"IRI {value:.2f} m/km" if value == value else "no IRI"
+        line(ax, middle, trace, color=colour, label=f"{shown_name(track.name)}: {found}")
     ax.set_ylabel("Roughness over\n7.62 m (m/km)")
     ax.set_ylim(bottom=0.0)
 
@@ -66,7 +78,7 @@ def _draw_roughness(ax: Axes, profile: Profile) -> None:
 def _draw_speed(ax: Axes, distance_m: FloatArray, speed_mps: FloatArray) -> None:
     line(ax, np.asarray(distance_m), KMH_PER_MPS * np.asarray(speed_mps), color="0.25")
     ax.set_ylabel("Speed (km/h)")
-    ax.set_ylim(0.0, 1.1 * max(1.0, KMH_PER_MPS * float(np.max(speed_mps))))
+    ax.set_ylim(0.0, 1.1 * max(1.0, KMH_PER_MPS * float(np.nanmax(speed_mps))))
 
 
 def _colours(profile: Profile) -> list[str]:

@@ -56,6 +56,39 @@ def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path) -> None:
     assert np.diff(shares) == pytest.approx(0.46, abs=0.05)
 
 
+@pytest.mark.parametrize("speeds", [np.zeros(0), np.full(3, np.nan)])
+def test_without_any_speed_there_is_no_panel(tmp_path: Path, speeds: np.ndarray) -> None:
+    run = profile("left")
+    draw_profile(run, tmp_path / "without.png")
+    draw_profile(run, tmp_path / "none.png", (np.arange(speeds.size, dtype=float), speeds))
+    assert (tmp_path / "none.png").read_bytes() == (tmp_path / "without.png").read_bytes()
+
+
+def test_some_missing_speeds_leave_the_panel(tmp_path: Path) -> None:
+    run = profile("left")
+    draw_profile(run, tmp_path / "s.svg", (np.arange(3.0), np.array([1.0, np.nan, 2.0])))
+    assert (tmp_path / "s.svg").read_text(encoding="utf-8").count('<g id="axes_') == 3
+
+
+@pytest.mark.parametrize("name", ["a$x^$", "$", "_left", "__", "左", "\\frac"])
+def test_every_name_is_drawn_as_it_is_written(tmp_path: Path, name: str) -> None:
+    run = profile(name, "right")
+    draw_profile(run, tmp_path / "p.svg")
+    draw_comparison(run, run, tmp_path / "c.svg")
+    whole = (tmp_path / "p.svg").read_text(encoding="utf-8")
+    both = (tmp_path / "c.svg").read_text(encoding="utf-8")
+    assert f"<!-- {name.strip()} -->" in whole.replace("<!--  ", "<!-- ")
+    assert f"{name}: IRI" in whole
+    assert f"{name}: agreement" in both
+
+
+def test_an_elevation_that_no_road_has_is_refused(tmp_path: Path) -> None:
+    z = np.tile([1.7e308, -1.7e308], 500)
+    run = Profile(INTERVAL, (ProfileTrack.of("left", z),))
+    with pytest.raises(InputError, match=r"elevation of point 0 is 1.7e\+308 m"):
+        draw_profile(run, tmp_path / "p.png")
+
+
 def test_speed_adds_a_panel(tmp_path: Path) -> None:
     run = profile("left")
     draw_profile(run, tmp_path / "without.png")
