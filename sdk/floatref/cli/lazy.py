@@ -1,6 +1,11 @@
 """A click group whose sub-commands are imported when they are called, and their errors."""
 
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from importlib import import_module
+from traceback import walk_tb
 from typing import Any
 
 import click
@@ -43,14 +48,44 @@ class LazyGroup(click.Group):
         with formatter.section("Commands"):
             formatter.write_dl([(name, text) for name, (_, text) in self._lazy.items()])
 
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
+        """Parse the arguments, with `--help`; errors as those of `invoke`."""
+        with _one_line():
+            return super().make_context(*args, **kwargs)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run the sub-command; an error the user can act on becomes one line and exit code 2."""
-        try:
+        with _one_line():
             return super().invoke(ctx)
-        except FloatrefError as error:
-            raise UnusableInput(" ".join(str(error).split())) from error
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            where = f"{error.filename}: " if error.filename else ""
-            raise UnusableInput(f"{where}{error.strerror or error}") from error
+
+
+@contextmanager
+def _one_line() -> Iterator[None]:
+    try:
+        yield
+    except FloatrefError as error:
+        raise UnusableInput(" ".join(str(error).split())) from error
+    except BrokenPipeError:
+        raise
+    except MemoryError as error:
+        what = f"not enough memory ({error})" if str(error) else "not enough memory"
+        raise UnusableInput(f"{what}; cut the run into shorter ones") from error
+    except OSError as error:
+        raise UnusableInput(f"{_place(error)}{error.strerror or error}") from error
+
+
+def _place(error: OSError) -> str:
+    """Return where ``error`` happened, followed by a colon; nothing where that is unknown."""
+    if error.filename:
+        return f"{error.filename}: "
+    modules = [frame.f_globals.get("__name__", "") for frame, _ in walk_tb(error.__traceback__)]
+    if not any(name == click.echo.__module__ or name.startswith("rich.") for name in modules):
+        return ""
+    _drop_output()
+    return "standard output: "
+
+
+def _drop_output() -> None:
+    """Send standard output nowhere: what is left of it would fail again when Python exits."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
