@@ -19,6 +19,8 @@ from floatref_adapters.stamps import clock_of, decimals_of
 TIME = "time_s"
 ROWS = 1 << 16
 """Rows handled together."""
+LATEST_S = 1e12
+"""Largest time from zero in s, whatever the epoch."""
 SAMPLED = 1000
 """Rows in which the decimals of the time are counted."""
 
@@ -127,10 +129,12 @@ def _numbers(texts: tuple[str, ...], name: str, first: int) -> Floats:
         if _is_number(texts[bad].replace(",", ".")):
             advice = "write a decimal point, not a decimal comma"
         raise InputError(f"row {first + bad}: {name} is {texts[bad][:40]!r}; {advice}") from None
-    if name == TIME and not np.isfinite(numbers).all():
-        bad = int(np.argmin(np.isfinite(numbers)))
+    usable = np.abs(numbers) <= LATEST_S
+    if name == TIME and not usable.all():
+        bad = int(np.argmin(usable))
         raise InputError(
-            f"row {first + bad}: {name} is {texts[bad]!r}; every row needs its time in s"
+            f"row {first + bad}: {name} is {texts[bad][:40]!r}; "
+            f"every row needs its time in s, within {LATEST_S:g} s of zero"
         )
     return numbers
 

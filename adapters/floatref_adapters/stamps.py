@@ -7,12 +7,20 @@ from floatref import StampedClock, UniformClock
 
 MOST_DIGITS = 12
 """Significant digits of a rate or a step that is looked for."""
+SHORTEST_S = 1e-8
+"""A step below this is no clock's, in s."""
+MOST_EXPONENT = 300
 
 
 def decimals_of(text: str) -> int:
     """Return with how many decimals the number ``text`` is written, its exponent included."""
     mantissa, _, exponent = text.strip().lower().partition("e")
-    return len(mantissa.partition(".")[2]) - int(exponent or 0)
+    return len(mantissa.partition(".")[2]) - _whole(exponent)
+
+
+def _whole(exponent: str) -> int:
+    """Return ``exponent``, at most as large as one of float64 counts."""
+    return int(min(max(float(exponent or 0), -MOST_EXPONENT), MOST_EXPONENT))
 
 
 def clock_of(times_s: NDArray[np.float64], decimals: int) -> UniformClock | StampedClock:
@@ -24,9 +32,9 @@ def clock_of(times_s: NDArray[np.float64], decimals: int) -> UniformClock | Stam
     InputError if they do not increase.
     """
     span = float(times_s[-1] - times_s[0])
-    if not span > 0:
+    step = span / max(times_s.size - 1, 1)
+    if not step > SHORTEST_S:
         return StampedClock.of(times_s)
-    step = span / (times_s.size - 1)
     unit = 10.0**-decimals + 4 * float(np.spacing(np.abs(times_s).max()))
     for digits in range(1, MOST_DIGITS + 1):
         for candidate in (1 / _rounded(1 / step, digits), _rounded(step, digits)):

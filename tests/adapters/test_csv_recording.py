@@ -90,6 +90,8 @@ REFUSED = {
     "time_s,distance\n0,0\n0.1\n": "row 3 has 1 fields, the header 2; the file is truncated",
     "time_s,distance\n0,0\n0.1,fast\n": "row 3: distance is 'fast'; write a number",
     "time_s,distance\n0,0\n,1\n": "row 3: time_s is ''; every row needs its time",
+    "time_s,distance\n-1e308,0\n1e308,1\n": "row 2: time_s is '-1e308'; every row needs its time",
+    "time_s,distance\n0,0\n1.1e12,1\n": "time_s is '1.1e12'; every row needs its time in s, within",
     "time_s,distance\n0,0\n0,1\n": "times must increase",
     "time_s,distance\n0,0\n0.1,inf\n": "channel distance: sample 1 is infinite",
     "time_s,distance,distance\n0,0,0\n": "column distance: given twice; rename one of them",

@@ -64,7 +64,20 @@ def test_stamps_that_go_back_are_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "decimals"), [("12", 0), ("12.", 0), ("0.0625", 4), ("6.25e-05", 7), ("1.5E2", -1)]
+    ("text", "decimals"),
+    [
+        ("12", 0),
+        ("12.", 0),
+        ("0.0625", 4),
+        ("6.25e-05", 7),
+        ("1.5E2", -1),
+        ("0e-9999", 300),
+        ("0e9999", -300),
+    ],
 )
 def test_decimals_are_counted_with_the_exponent(text: str, decimals: int) -> None:
     assert decimals_of(text) == decimals
+
+
+def test_stamps_closer_than_any_clock_ticks_stay_stamps() -> None:
+    assert isinstance(clock_of(np.array([0.0, 1e-320]), 320), StampedClock)

@@ -4,6 +4,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
+from floatref.values.profile import FARTHEST_M
 
 
 def constant_interval(distance_m: FloatArray, decimals: int) -> tuple[float, float]:
@@ -17,6 +18,12 @@ def constant_interval(distance_m: FloatArray, decimals: int) -> tuple[float, flo
     missing = ~np.isfinite(distance_m)
     if missing.any():
         raise InputError(f"row {_row(missing)}: distance_m is missing; every row needs one")
+    beyond = np.abs(distance_m) > FARTHEST_M
+    if beyond.any():
+        raise InputError(
+            f"row {_row(beyond)}: distance_m is {distance_m[_row(beyond) - 2]:.10g}, beyond "
+            f"{FARTHEST_M:g} m; give it in m, less an origin"
+        )
     backward = np.diff(distance_m, prepend=-np.inf) <= 0
     if backward.any():
         raise InputError(f"row {_row(backward)}: distance_m does not increase; sort the rows")

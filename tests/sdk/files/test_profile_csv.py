@@ -111,6 +111,9 @@ BAD: list[tuple[str, str]] = [
     (HEAD + "0,0,1\n1,0,1\n2,0,1\n4,0,1\n5,0,1\n", "row 5: distance_m is 4.0, off the interval"),
     (HEAD + "0,0,1\n.25,0,1\n.5,0,1\n1,0,1\n", "row 5: distance_m is 1.0, off the interval"),
     (HEAD + "0,inf,1\n1,0,1\n", "track left: infinite elevation"),
+    (HEAD + "-1e308,0,1\n1e308,0,1\n", "row 2: distance_m is -1e+308, beyond 1e+10 m; give it"),
+    (HEAD + "0,0,1\n1e308,0,1\n", "row 3: distance_m is 1e+308, beyond 1e+10 m; give it in m"),
+    (HEAD + "0,0,1\n1e-306,0,1\n", "interval_m is 1e-306; give it in m, between 0.00001 and 1000"),
     (HEAD + '0,"0,1\n', "not a CSV"),
 ]
 
