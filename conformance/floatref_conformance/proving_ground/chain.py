@@ -74,13 +74,15 @@ class Chain:
     def shaking(self) -> FloatArray | None:
         """Return the engine's vibration of the mounts, shape (n,), in m/s².
 
-        Its phase is closed: the speed's share of the engine's speed integrates to distance.
+        Its phase is drawn at the start, apart from that of the body's own shake, and closed
+        from there on: the speed's share of the engine's speed integrates to distance.
         """
         suite = self.suite
         if suite.vibration == 0.0:
             return None
         turns = suite.revving_hz_per_mps * self.motion.distance
         turns += suite.idle_hz * self.motion.times_s
+        turns += stream(self.seed, "vibration").uniform()
         turns *= 2 * np.pi
         np.sin(turns, out=turns)
         turns *= suite.vibration

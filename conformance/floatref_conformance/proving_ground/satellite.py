@@ -16,13 +16,16 @@ START_RAD = (np.radians(45.26), np.radians(-93.71))
 EARTH_RADIUS_M = 6371e3
 
 
-def gnss_channels(chain: Chain, setup: Setup, curvature: float) -> tuple[Channel, ...]:
+def gnss_channels(
+    chain: Chain, setup: Setup, curvature: float, standing: bool = False
+) -> tuple[Channel, ...]:
     """Return all GNSS channels on the receiver's own time stamps.
 
     Args:
         chain: suite, seed and true motion.
         setup: where the antenna and the first track's reference point sit.
         curvature: of the course, left turn positive, in 1/m.
+        standing: the vehicle is parked and its distance an artificial encoder's.
     """
     last_s = (chain.count - 1) / chain.rate_hz
     fixes = int(max(0.0, last_s - FIRST_S) * chain.suite.gnss_rate_hz) + 1
@@ -32,11 +35,12 @@ def gnss_channels(chain: Chain, setup: Setup, curvature: float) -> tuple[Channel
     antenna = setup.gnss_antenna_offset_m
     reference = next(iter(setup.tracks.values())).reference_point_m
     lever = np.subtract(antenna, reference)
+    travel = np.zeros(fixes) if standing else sampled(chain.motion.distance, at)
     true = {
         **_vertical(chain, at, attitude, lever),
         "gnss_pitch": attitude[0],
         "gnss_roll": np.arcsin(np.cos(attitude[0]) * np.sin(attitude[1])),
-        **_horizontal(chain, at, antenna, curvature),
+        **_horizontal(travel, antenna, curvature),
     }
     clock = StampedClock.of(times)
     errors = _errors(chain)
@@ -70,11 +74,8 @@ def _vertical(
     }
 
 
-def _horizontal(
-    chain: Chain, at: FloatArray, antenna_m: Vector, curvature: float
-) -> dict[str, FloatArray]:
-    """Return latitude and longitude in rad of a course of constant curvature."""
-    travel = sampled(chain.motion.distance, at)
+def _horizontal(travel: FloatArray, antenna_m: Vector, curvature: float) -> dict[str, FloatArray]:
+    """Return latitude and longitude in rad after ``travel`` in m at constant curvature."""
     heading = curvature * travel
     chord = travel * np.sinc(heading / (2 * np.pi))
     north = chord * np.cos(heading / 2) + antenna_m[0] * np.cos(heading)

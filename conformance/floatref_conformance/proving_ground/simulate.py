@@ -114,7 +114,8 @@ def _recorded(
     if scenario.imu:
         channels += chain.gyros()
     if scenario.gnss:
-        channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m)
+        standing = scenario.manoeuvre in STATIONARY
+        channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing)
     model = f"proving ground {version('floatref')}"
     recording = Recording(tuple(channels), setup, "floatref", model)
     return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)

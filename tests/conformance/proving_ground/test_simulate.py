@@ -231,6 +231,15 @@ def test_stationary_tests_pass_the_standards_limits(kind: str, limit: float) -> 
         assert 0.0 < iri(track.elevation[part], profile.interval_m) < limit / 2
 
 
+@pytest.mark.parametrize("kind", ["quiescent", "bounce"])
+def test_parked_vehicle_stays_where_it_is(kind: str) -> None:
+    """The encoder tells 640 m; the receiver's position drifts by centimetres."""
+    recording = simulate(Scenario(seed=6, manoeuvre=kind, rate_hz=1000.0)).recording
+    assert recording.channel("distance").values[-1] > 600.0
+    for name in ("gnss_latitude", "gnss_longitude"):
+        assert 0.0 < np.ptp(recording.channel(name).values) * 6371e3 < 0.2
+
+
 def test_unknown_stationary_test_is_refused() -> None:
     with pytest.raises(InputError, match="stationary test 'jump': unknown"):
         stationary("jump")
