@@ -1,4 +1,4 @@
-"""The encoder: what float64 holds of its distance, and counts that are held too long."""
+"""The encoder: what float64 holds of its distance, direction, speed, and held counts."""
 
 import numpy as np
 import pytest
@@ -80,3 +80,33 @@ def test_a_gap_is_no_count() -> None:
     values = 0.005 * np.floor(travel(20.0) / 0.005)
     values[100:3000] = np.nan
     assert warned(values, 0.00508) == ()
+
+
+@few
+@given(st.integers(50, 900), st.integers(1, 4), st.integers(-1, 1), st.integers(0, 40))
+def test_a_step_back_is_found_wherever_the_chunks_end(
+    chunk: int, number: int, beyond: int, gap: int
+) -> None:
+    at = chunk * number + beyond
+    values = travel(20.0)
+    values[at - gap : at], values[at] = np.nan, -1.0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scanning, "CHUNK", chunk)
+        with pytest.raises(InputError, match=f"channel distance: sample {at} goes back by"):
+            warned(values, 0.00508)
+
+
+def test_time_stamps_are_held_to_the_same_speed() -> None:
+    times = np.array([100.0, 101.0, 102.5, 110.0, 119.9])
+    assert warned(20 * times, 0.00508, StampedClock.of(times)) == ()
+    burst = StampedClock.of([100.0, 110.0, 110.0001, 119.9])
+    assert warned(np.array([0.0, 200.0, 200.1, 398.0]), 0.00508, burst) == ()
+    jump = np.array([0.0, 20.0, 2000.0, 2100.0, 2300.0])
+    with pytest.raises(InputError, match=r"distance: 1980 m in 1.5 s from 101 s is 1320 m/s"):
+        warned(jump, 0.00508, StampedClock.of(times))
+
+
+def test_more_points_than_memory_holds_are_refused() -> None:
+    long = np.linspace(0.0, 80_000.0, 1_000_000)
+    with pytest.raises(InputError, match=r"too many points; choose a longer setup.profile_interv"):
+        warned(long, 1e-5)

@@ -159,19 +159,6 @@ def test_whatever_the_chunk_the_verdict_is_the_same(monkeypatch: pytest.MonkeyPa
     assert verdicts() == whole
 
 
-@given(st.integers(50, 900), st.integers(1, 4), st.integers(-1, 1), st.integers(0, 40))
-@settings(deadline=None, max_examples=40)
-def test_a_step_back_is_found_wherever_the_chunks_end(
-    chunk: int, number: int, beyond: int, gap: int
-) -> None:
-    at = chunk * number + beyond
-    recording = spoilt(DISTANCE, lambda d: put((slice(at - gap, at), np.nan), (at, -1.0))(d))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(scanning, "CHUNK", chunk)
-        with pytest.raises(InputError, match=f"channel distance: sample {at} goes back by"):
-            examine(recording)
-
-
 @pytest.mark.parametrize("name", [FORCE, HEIGHT, DISTANCE])
 def test_a_missing_channel_is_named_with_those_that_are_there(name: str) -> None:
     values = good()
@@ -213,20 +200,6 @@ def test_gnss_may_start_late_and_end_early_but_gyros_may_not() -> None:
         examine(Recording((*whole, gyro)))
 
 
-def test_an_encoder_with_time_stamps_is_held_to_the_same_speed() -> None:
-    values = good()
-    whole = recorded({name: values[name] for name in (FORCE, HEIGHT)}).channels
-    times = np.array([100.0, 101.0, 102.5, 110.0, 119.9])
-    steady = Channel.of(DISTANCE, 20 * times, StampedClock.of(times))
-    assert examine(Recording((*whole, steady))) == ()
-    burst = np.array([100.0, 110.0, 110.0001, 119.9])
-    counts = Channel.of(DISTANCE, [0.0, 200.0, 200.1, 398.0], StampedClock.of(burst))
-    assert examine(Recording((*whole, counts))) == ()
-    jump = Channel.of(DISTANCE, [0, 20, 2000, 2100, 2300], StampedClock.of(times))
-    with pytest.raises(InputError, match=r"distance: 1980 m in 1.5 s from 101 s is 1320 m/s"):
-        examine(Recording((*whole, jump)))
-
-
 def test_a_rate_in_khz_is_named() -> None:
     with pytest.raises(InputError, match=r"16 samples per second are too few .* in Hz, not kHz"):
         examine(recorded(good(), rate=16.0))
@@ -239,13 +212,6 @@ def test_a_distance_in_km_and_unused_geometry_are_warnings() -> None:
     slow, unused = examine(recorded(values, setup=setup))
     assert slow == "channel distance: 0.3999 m in 20 s; if the distance is in km, multiply by 1000"
     assert unused == "setup.tracks.rigth: only main have channels; its offsets are not used"
-
-
-def test_more_points_than_memory_holds_are_refused() -> None:
-    values = {name: np.tile(array, 50) for name, array in good().items()}
-    values[DISTANCE] = np.linspace(0, 80 * SECONDS * 50, 50 * COUNT)
-    with pytest.raises(InputError, match=r"too many points; choose a longer setup.profile_interv"):
-        examine(recorded(values, setup=Setup(1e-5)))
 
 
 def test_memory_is_bounded_whatever_the_length() -> None:
