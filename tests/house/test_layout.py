@@ -51,10 +51,11 @@ def test_tests_are_no_package() -> None:
     assert not [n for n in tracked() if n.startswith("tests/") and n.endswith("__init__.py")]
 
 
-def test_test_data_carries_its_licence_and_source() -> None:
-    for folder in (ROOT / "tests" / "data").iterdir():
-        names = {path.stem for path in folder.iterdir()}
-        assert {"LICENSE", "SOURCE"} <= names, folder.name
+def test_data_of_others_carries_its_licence_and_source() -> None:
+    sources = [p for p in (ROOT / "conformance").rglob("SOURCE.md") if p.parent.name != "data"]
+    assert sources
+    for source in sources:
+        assert (source.parent / "LICENSE.txt").is_file(), source.parent.name
 
 
 def test_core_and_extras_are_those_that_users_script_against() -> None:

@@ -2,13 +2,15 @@
 
 import zlib
 from collections.abc import Iterator, Mapping
-from tempfile import SpooledTemporaryFile
+from tempfile import SpooledTemporaryFile, gettempdir
 from types import TracebackType
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Event
 from floatref.values.channels import ChannelId
 
@@ -62,8 +64,7 @@ class Tape:
         for channel, values in block.values.items():
             if channel not in self._spools:
                 self._spools[channel] = _spool()
-            self._spools[channel].seek(8 * start)
-            self._spools[channel].write(np.ascontiguousarray(values).data)
+            _write(self._spools[channel], 8 * start, values)
         self._masks[number] = (_pack(block.fresh), _pack(block.flags), block.events)
 
     def read(self, number: int) -> Block:
@@ -80,6 +81,17 @@ class Tape:
         """Yield all blocks, the first one first."""
         for number in range(len(self)):
             yield self.read(number)
+
+
+def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> None:
+    try:
+        spool.seek(at)
+        spool.write(np.ascontiguousarray(values).data)
+    except OSError as error:
+        raise InputError(
+            f"{gettempdir()}: the run does not fit ({error.strerror}); free space there, or name "
+            "another folder in the environment variable TMPDIR"
+        ) from error
 
 
 def _spool() -> SpooledTemporaryFile[bytes]:

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.architectures import flow, tape
-from floatref.errors import StageError
+from floatref.errors import InputError, StageError
 from floatref.kernels.zero_phase import high_pass_b3x2
 from floatref.stages.butterworth import high_pass_b3x2 as high_pass_stages
 from floatref.stages.mean_removal import RemoveMean
@@ -100,3 +100,19 @@ def test_whatever_a_stage_raises_is_one_error_that_names_it(where):
 
     with pytest.raises(StageError, match="stage Cracked: KeyError: 'of a vendor'"):
         list(flow.run([Cracked()], HEADER, blocks_of(np.zeros(9), [4, 5]))[1])
+
+
+def test_a_full_disk_names_the_folder(monkeypatch):
+    class Full:
+        def seek(self, at):
+            pass
+
+        def write(self, data):
+            raise OSError(28, "No space left on device")
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr(tape, "_spool", Full)
+    with tape.Tape() as written, pytest.raises(InputError, match=r"does not fit \(No space left"):
+        written.append(blocks_of(np.zeros(3), [3])[0])
