@@ -1,14 +1,20 @@
 """Laws of the cache: simulated once, remade when damaged, bounded, and keyed by the source."""
 
 import os
+import shutil
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from floatref_conformance.proving_ground import cache
-from floatref_conformance.proving_ground.cache import cache_folder, simulate_cached
+from floatref_conformance.proving_ground.cache import (
+    cache_folder,
+    simulate_cached,
+    source_digest,
+)
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 
@@ -92,6 +98,46 @@ def test_changed_source_is_not_answered_with_an_old_recording(
     monkeypatch.setattr(cache, "source_digest", lambda: "another model")
     simulate_cached(TINY, tmp_path)
     assert len(counted) == 2
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        "floatref_conformance.proving_ground/motion.py",
+        "floatref_conformance.proving_ground/data/sroubek/profile_1.txt",
+        "floatref.measures/quarter_car.py",
+        "floatref.kernels/golden_car.py",
+        "floatref.values/recording.py",
+        "floatref.files/samples.py",
+    ],
+)
+def test_digest_covers_models_data_and_what_of_the_sdk_shapes_recordings(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changed: str
+) -> None:
+    def copied(package: str) -> Path:
+        copy = tmp_path / package
+        if not copy.exists():
+            shutil.copytree(Path(str(files(package))), copy)
+        return copy
+
+    monkeypatch.setattr(cache, "files", copied)
+    before = source_digest.__wrapped__()
+    assert source_digest.__wrapped__() == before
+    victim = tmp_path / changed
+    content = victim.read_bytes()
+    victim.write_bytes(content[:-2] + bytes([content[-2] ^ 1]) + content[-1:])
+    assert source_digest.__wrapped__() != before
+
+
+@pytest.mark.parametrize("what", ["recording", "truth"])
+def test_entry_evicted_before_it_is_read_is_made_again(
+    tmp_path: Path, counted: list[Scenario], what: str
+) -> None:
+    stored = simulate_cached(TINY, tmp_path)
+    simulate_cached(replace(TINY, seed=1), tmp_path, largest_bytes=1)
+    assert not stored.recording_path.exists()
+    assert getattr(stored, what) is not None
+    assert counted[-1] == TINY
 
 
 def test_nothing_is_left_when_a_simulation_fails(

@@ -177,17 +177,11 @@ def test_engine_shakes_at_idle_and_revs_with_speed() -> None:
 def test_vibration_of_the_mount_has_any_phase_against_the_body() -> None:
     """Over the seeds it neither adds to the engine's true shake nor takes from it."""
     turns = 2 * np.pi * np.arange(16000) * (820 / 60) / 16000
-    motion, suite, phases = (
-        moved(16000, distance=np.zeros(16000)),
-        replace(IDEAL, vibration=1.0),
-        [],
-    )
+    motion, phases = moved(16000, distance=np.zeros(16000)), []
     for seed in range(60):
-        shake = Chain(suite, seed, motion).shaking()
+        shake = Chain(replace(IDEAL, vibration=1.0), seed, motion).shaking()
         assert shake is not None
         phases.append(np.angle(np.sum(shake * np.exp(-1j * turns))))
-        again = Chain(suite, seed, motion).shaking()
-        assert again is not None and np.array_equal(shake, again)
     assert abs(np.mean(np.exp(1j * np.array(phases)))) < 0.35
     assert np.histogram(phases, bins=6, range=(-np.pi, np.pi))[0].min() > 0
 
