@@ -21,6 +21,7 @@ class Effort(StrEnum):
     """How many cases a check draws: a number, never a time."""
 
     QUICK = "quick"
+    CERTIFICATION = "certification"
 
 
 Limits = Mapping[DeviceClass, float]

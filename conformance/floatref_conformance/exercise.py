@@ -23,7 +23,7 @@ Answer = TypeVar("Answer")
 
 def describe(device: Device) -> Description:
     """Return what ``device`` says of itself; DeviceError if it fails to."""
-    return Description.of(_asked(device.describe))
+    return Description.of(_asked(lambda: device.describe()))
 
 
 def exercise(device: Device, description: Description, recording: Recording) -> Profile:

@@ -3,6 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
+from floatref.values.profile import Profile
 from floatref_conformance import oracle
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
@@ -34,7 +37,13 @@ def check_result(
         cases=len(cases),
         worst=worst,
         counterexample=None if outcome is Outcome.PASS else _counterexample(worst_case, reason),
+        flagged_m=max(case.flagged_m for case in cases),
     )
+
+
+def flagged_m(profile: Profile) -> float:
+    """Return the largest length in m of a wheel path in ``profile`` that is flagged invalid."""
+    return max(profile.interval_m * float(np.sum(~track.valid)) for track in profile.tracks)
 
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:

@@ -9,6 +9,7 @@ import pluggy
 from floatref_conformance import hookspecs
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.devices.interface import DeviceKind
+from floatref_conformance.registration import sound_check, sound_kind
 from floatref_conformance.registry import Registry
 
 Named = TypeVar("Named")
@@ -29,8 +30,8 @@ def load_registry() -> Registry:
 def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
     """Return what each of ``plugins`` registers, wholly or not at all.
 
-    Each is given as the function that loads it. One that raises, or takes a name that an earlier
-    one has, is left out and reported.
+    Each is given as the function that loads it. One that raises or ends the process, registers
+    something incomplete, or takes a name that an earlier one has, is left out and reported.
     """
     kinds: dict[str, DeviceKind] = {}
     checks: dict[str, Check] = {}
@@ -40,7 +41,7 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
         try:
             new_kinds, new_checks = _registered(name, load())
             _refuse_taken(owners, (*new_kinds, *new_checks))
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             text = " ".join(str(error).split())
             broken.append(f"plug-in {name}: {type(error).__name__}: {text}; it is left out")
             continue
@@ -57,8 +58,10 @@ def _registered(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[
     manager.register(plugin, name)
     kinds: list[DeviceKind] = []
     checks: list[Check] = []
-    manager.hook.conformance_register_devices(register=kinds.append)
-    manager.hook.conformance_register_checks(register=checks.append)
+    manager.hook.conformance_register_devices(register=lambda kind: kinds.append(sound_kind(kind)))
+    manager.hook.conformance_register_checks(
+        register=lambda check: checks.append(sound_check(check))
+    )
     _refuse_repeated([*(kind.prefix for kind in kinds), *(check.id for check in checks)])
     return {kind.prefix: kind for kind in kinds}, {check.id: check for check in checks}
 

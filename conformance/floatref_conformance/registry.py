@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from floatref.errors import InputError
+from floatref.errors import FloatrefError, InputError
 from floatref_conformance.checks.catalogue import IDS, LeftOut, not_built
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.devices.interface import Device, DeviceKind
@@ -21,12 +21,20 @@ class Registry:
     broken: tuple[str, ...] = ()
 
     def device(self, spec: str) -> Device:
-        """Return the device that ``spec`` names; InputError if its kind or name is unknown."""
+        """Return the device that ``spec`` names.
+
+        Raises InputError if its kind or name is unknown, or if its kind cannot make it.
+        """
         prefix, colon, argument = spec.partition(":")
         if not colon or not argument or prefix not in self.kinds:
             usages = ", ".join(kind.usage for kind in self.kinds.values())
             raise InputError(f"device {spec}: not a kind that works here; these do: {usages}")
-        return self.kinds[prefix].make(argument)
+        try:
+            return self.kinds[prefix].make(argument)
+        except FloatrefError:
+            raise
+        except (Exception, SystemExit) as error:
+            raise InputError(f"device {spec}: {type(error).__name__}: {error}") from error
 
     def check(self, id_: str) -> Check:
         """Return check ``id_``; InputError if there is none, or it is not built yet."""

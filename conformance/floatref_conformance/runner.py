@@ -17,7 +17,12 @@ from floatref_conformance.events import (
     RunStarted,
 )
 from floatref_conformance.exercise import describe, exercise
-from floatref_conformance.judging import check_result, left_out_result, not_applicable_result
+from floatref_conformance.judging import (
+    check_result,
+    flagged_m,
+    left_out_result,
+    not_applicable_result,
+)
 from floatref_conformance.verdict import CaseResult, CheckResult, RunResult
 
 
@@ -35,12 +40,12 @@ class Plan:
 
 
 def run(plan: Plan) -> Iterator[Event]:
-    """Yield what happens. Raises SuiteError, and then there is no verdict."""
+    """Yield what happens. Raises SuiteError, sys.exit included, and then there is no verdict."""
     try:
         yield from _run(plan)
     except SuiteError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
         raise SuiteError(f"{type(error).__name__}: {text}") from error
 
@@ -93,7 +98,7 @@ def _case(device: Device, description: Description, check: Check, case: Case) ->
         measured = check.judge(case, profile, simulated)
     except DeviceError as error:
         return CaseResult(case.name, case.parameters, fault=str(error))
-    return CaseResult(case.name, case.parameters, measured)
+    return CaseResult(case.name, case.parameters, measured, flagged_m=flagged_m(profile))
 
 
 def _run_result(plan: Plan, description: Description, results: list[CheckResult]) -> RunResult:

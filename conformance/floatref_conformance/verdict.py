@@ -74,12 +74,16 @@ class Measurement:
 
 @dataclass(frozen=True, eq=False)
 class CaseResult:
-    """What one case came to; ``fault`` says what the device did wrong, if it did."""
+    """What one case came to; ``fault`` says what the device did wrong, if it did.
+
+    ``flagged_m`` is the largest length of a wheel path that the device flagged invalid, in m.
+    """
 
     name: str
     parameters: Mapping[str, Any]
     measurements: tuple[Measurement, ...] = ()
     fault: str | None = None
+    flagged_m: float = 0.0
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return the largest ratio of value to limit; infinite for a faulty device."""
@@ -90,7 +94,10 @@ class CaseResult:
 
 @dataclass(frozen=True, eq=False)
 class CheckResult:
-    """What one check came to; ``reason`` says in one line why it did not pass."""
+    """What one check came to; ``reason`` says in one line why it did not pass.
+
+    ``flagged_m`` is the largest of its cases'.
+    """
 
     id: str
     clause: str
@@ -100,6 +107,7 @@ class CheckResult:
     cases: int = 0
     worst: Measurement | None = None
     counterexample: Mapping[str, Any] | None = None
+    flagged_m: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,8 @@
 """The `conformance` command: exit codes and what it says."""
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 
@@ -9,6 +11,7 @@ from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
 from floatref.errors import InputError
+from floatref_conformance import runner
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.cli import explain as explain_command
 from floatref_conformance.cli import list as list_command
@@ -26,6 +29,8 @@ def call(monkeypatch, toy_check, fake_device):
     entries = tuple(DeviceEntry(name, "toy", ("toy",) * (name == "bad")) for name in gains)
 
     def make(name):
+        if name == "odd":
+            raise ZeroDivisionError("out of luck")
         if name not in gains:
             raise InputError(f"device fake:{name}: unknown; known: good, bad")
         return fake_device(lambda tracks: {t: gains[name] * z for t, z in tracks.items()})
@@ -69,7 +74,8 @@ def test_a_failure_is_exit_1_with_reason_and_how_to_reproduce_it_last(call):
         (["--device", "fake:good", "--check", "jumping"], "unknown check"),
         (["--device", "fake:good", "--check", "stop"], "not built yet"),
         (["--device", "fake:good", "--class", "superb"], "superb"),
-        (["--device", "fake:good", "--effort", "certification"], "certification"),
+        (["--device", "fake:good", "--effort", "endless"], "endless"),
+        (["--device", "fake:odd"], "fake:odd: ZeroDivisionError: out of luck"),
         (["--device", "fake:good", "--seed", "-1"], "-1"),
         (["--waive", "x"], "No such option"),
     ],
@@ -99,6 +105,70 @@ def test_an_unexpected_error_of_the_suite_is_exit_3_and_shows_where(call, monkey
     assert answer.exit_code == 3
     assert "RuntimeError: bug" in answer.stderr
     assert "Traceback" in answer.stderr
+
+
+@pytest.mark.parametrize("effort", ["quick", "certification"])
+def test_the_report_keeps_its_schema_at_every_effort(call, tmp_path, effort):
+    assert run(call, "good", "--effort", effort, "--report", str(tmp_path)).exit_code == 4
+    report = json.loads((tmp_path / "report.json").read_text())
+    Draft202012Validator(read_schema("conformance-report-1")).validate(report)
+    assert report["effort"] == effort
+
+
+@pytest.mark.parametrize("command", [["list"], ["explain", "toy"], ["run"]])
+@pytest.mark.parametrize("error", [AttributeError("clause"), SystemExit(0), SystemExit(1)])
+def test_an_unexpected_error_outside_a_run_is_exit_3_in_one_line(call, monkeypatch, command, error):
+    def broken():
+        raise error
+
+    for module in (run_command, list_command, explain_command):
+        monkeypatch.setattr(module, "load_registry", broken)
+    answer = call(*command)
+    assert answer.exit_code == 3
+    assert answer.stderr.startswith("Error: the suite itself is at fault, no verdict: ")
+    assert f"{type(error).__name__}: {error} (test_cli.py:" in answer.stderr
+    assert len(answer.stderr.splitlines()) == 1
+
+
+def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(list_command, "load_registry", interrupted)
+    answer = call("list")
+    assert (answer.exit_code, answer.stderr) == (130, "Interrupted: no verdict\n")
+
+
+@pytest.mark.parametrize("both", [False, True])
+@pytest.mark.parametrize("words", [["list"], ["--help"], ["run", "--check", "quiescent"]])
+def test_output_that_nobody_reads_is_exit_3_and_never_a_verdict(words, both):
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [sys.executable, "-m", "floatref_conformance", *words]
+    stderr = writing if both else subprocess.PIPE
+    done = subprocess.run(command, stdout=writing, stderr=stderr, text=True, check=False)
+    os.close(writing)
+    assert done.returncode == 3
+    if not both:
+        assert done.stderr == "Error: nobody reads the output any more, no verdict\n"
+
+
+def test_a_report_that_fails_after_judging_is_exit_3_beneath_the_verdict(
+    call, monkeypatch, tmp_path
+):
+    folder = tmp_path / "report"
+    judged = runner.check_result
+
+    def losing(*arguments):
+        shutil.rmtree(folder, ignore_errors=True)
+        return judged(*arguments)
+
+    monkeypatch.setattr(runner, "check_result", losing)
+    answer = run(call, "good", "--report", str(folder))
+    assert answer.exit_code == 3
+    assert "INCOMPLETE: 1 of 1 checks that ran passed" in answer.stdout
+    assert "Error: no report: FileNotFoundError" in answer.stderr
+    assert "Traceback" not in answer.output
 
 
 def test_an_interruption_is_no_verdict(call, monkeypatch):

@@ -92,9 +92,14 @@ class FileMaker(Quitter):
         profile.write_text("distance_m,left_elevation_m\n")
 
 
+class Mute:
+    """A device that cannot even describe itself."""
+
+
 @pytest.mark.parametrize(
     ("device", "words"),
     [
+        (Mute, "describe"),
         (Quitter, "SystemExit"),
         (Raiser, "ZeroDivisionError: no speed"),
         (Silent, "no profile directory"),

@@ -2,6 +2,7 @@
 
 import inspect
 import sys
+from dataclasses import replace
 from importlib.metadata import EntryPoint, EntryPoints
 from types import ModuleType, SimpleNamespace
 
@@ -89,6 +90,80 @@ def test_a_plugin_that_takes_a_name_twice_is_left_out(kind):
 def test_what_is_no_check_or_kind_is_reported(kind):
     registry = collected(vendor=plugin(lambda register: register("a device")))
     assert len(registry.broken) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"title": None}, "check toy: title is None"),
+        ({"clause": ""}, "check toy: clause is ''"),
+        ({"derivation": 5}, "derivation is 5"),
+        ({"floor": None}, "floor is None"),
+        ({"id": None}, "id is None"),
+        ({"needs": ("imu",)}, "needs is ('imu',), not a set"),
+        ({"needs": frozenset({"radar"})}, "not a set of imu, gnss"),
+        ({"limits": None}, "limits do not give"),
+        ({"limits": {"IRI": {"nominal": "1"}}}, "limits do not give"),
+    ],
+)
+def test_a_check_with_an_unusable_member_is_left_out_and_reported(toy_check, changes, words):
+    check = toy_check(**changes)
+    registry = collected(vendor=plugin(None, lambda register: register(check)))
+    assert list(registry.checks) == ["quiescent", "bounce"]
+    assert registry.broken[0].startswith("plug-in vendor: TypeError: ")
+    assert words in registry.broken[0]
+
+
+def test_a_check_without_a_member_is_left_out_and_the_member_named():
+    check = SimpleNamespace(id="bad")
+    registry = collected(vendor=plugin(None, lambda register: register(check)))
+    assert registry.broken == (
+        "plug-in vendor: TypeError: check bad: a SimpleNamespace without title; it is left out",
+    )
+
+
+def test_a_class_in_place_of_a_check_is_left_out(toy_check):
+    registry = collected(vendor=plugin(None, lambda register: register(toy_check)))
+    assert len(registry.broken) == 1
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"prefix": ""}, "prefix is ''"),
+        ({"prefix": "a:b"}, "no colon"),
+        ({"argument": None}, "argument is None"),
+        ({"make": None}, "make cannot be called"),
+        ({"entries": ()}, "entries cannot be called"),
+        ({"entries": lambda: ("one",)}, "gives a str, not a DeviceEntry"),
+        ({"entries": lambda: 1 / 0}, "ZeroDivisionError"),
+    ],
+)
+def test_a_kind_with_an_unusable_member_is_left_out_and_reported(kind, changes, words):
+    changed = replace(kind, **changes)
+    registry = collected(vendor=plugin(lambda register: register(changed)))
+    assert set(registry.kinds) == {"builtin", "mutant"}
+    assert words in registry.broken[0]
+
+
+def test_a_plugin_that_ends_the_process_is_left_out_and_reported():
+    def leaving():
+        sys.exit(7)
+
+    registry = plugins.collect({plugins.OWN: lambda: defaults, "vendor": leaving})
+    assert registry.broken == ("plug-in vendor: SystemExit: 7; it is left out",)
+    assert "bounce" in registry.checks
+
+
+@pytest.mark.parametrize("error", [KeyError("x"), SystemExit(0), OSError("no\nlink")])
+def test_a_kind_that_cannot_make_a_device_is_an_input_error(kind, error):
+    def make(name):
+        raise error
+
+    changed = replace(kind, make=make)
+    registry = collected(vendor=plugin(lambda register: register(changed)))
+    with pytest.raises(InputError, match=f"device fake:one: {type(error).__name__}: "):
+        registry.device("fake:one")
 
 
 def test_entry_points_are_loaded_one_at_a_time(monkeypatch, toy_check):

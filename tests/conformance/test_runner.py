@@ -1,6 +1,7 @@
 """The run: its events, and what the outcomes of its checks make together."""
 
 import json
+import sys
 from dataclasses import replace
 
 import pytest
@@ -107,6 +108,15 @@ def test_an_error_of_the_suite_is_not_blamed_on_the_device(plan, fake_device, to
 
     with pytest.raises(SuiteError, match="KeyError"):
         list(run(plan(fake_device(), Broken())))
+
+
+def test_a_check_that_ends_the_process_is_no_verdict(plan, fake_device, toy_check):
+    class Leaving(toy_check):
+        def judge(self, case, profile, simulated):
+            sys.exit(0)
+
+    with pytest.raises(SuiteError, match="SystemExit"):
+        list(run(plan(fake_device(), Leaving())))
 
 
 def test_the_same_seed_makes_the_same_report_and_another_seed_another(plan, fake_device):

@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
+from floatref.files import read_profile, write_recording
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.bounce import BOUNCE
@@ -16,7 +17,10 @@ from floatref_conformance.checks.plate import Plate, measure_plate
 from floatref_conformance.checks.quiescent import QUIESCENT
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.main import main
+from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry
+from floatref_conformance.proving_ground import cache, simulate
+from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.schemas import read_schema
 
 TRACKS = ("left", "right")
@@ -81,6 +85,80 @@ def test_smoothing_the_plate_away_fails_by_the_plate(bounced):
     assert failing(BOUNCE, *bounced, smooth) == {"plate height error"}
 
 
+def at_480_m(z, simulated):
+    x = simulated.truth.distance_m
+    return 0.005 * ((x > 480.0) & (x < 483.0))
+
+
+def of_the_case_before(z, simulated):
+    before = BOUNCE.cases(0, Effort.QUICK)[0].simulate().truth
+    return high_pass(before.track("left").elevation, before.interval_m)[: z.size]
+
+
+def of_the_other_track(z, simulated):
+    tracks = [high_pass(t.elevation, simulated.truth.interval_m) for t in simulated.truth.tracks]
+    return next(other for other in tracks if not np.array_equal(other, z))
+
+
+def of_the_left_track(z, simulated):
+    return high_pass(simulated.truth.track("left").elevation, simulated.truth.interval_m)
+
+
+@pytest.mark.parametrize(
+    "cheat", [at_480_m, of_the_case_before, of_the_other_track, of_the_left_track]
+)
+def test_a_plate_from_elsewhere_fails_by_its_height(bounced, cheat):
+    assert "plate height error" in failing(BOUNCE, *bounced, cheat)
+
+
+def test_a_profile_shifted_by_two_hand_widths_fails_by_the_plates_place_alone(bounced):
+    def shifted(z, simulated):
+        return np.roll(z, round(0.2 / simulated.truth.interval_m))
+
+    assert failing(BOUNCE, *bounced, shifted) == {"plate displacement"}
+
+
+@pytest.mark.parametrize("place", [107.0, 150.0, 400.0, 533.0])
+def test_a_point_without_elevation_is_an_error_wherever_the_filter_has_run_in(bounced, place):
+    def holed(z, simulated):
+        return np.where(np.abs(simulated.truth.distance_m - place) < 0.004, np.nan, z)
+
+    case, simulated = bounced
+    with pytest.raises(DeviceError, match=r"points without elevation from 106\.0 m to 534\.0 m"):
+        BOUNCE.judge(case, on_truths_grid(simulated, holed), simulated)
+
+
+def test_the_ends_of_the_run_may_lack_elevations(bounced):
+    def without_ends(z, simulated):
+        x = simulated.truth.distance_m
+        return np.where((x < 105.9) | (x > 534.1), np.nan, z)
+
+    assert failing(BOUNCE, *bounced, without_ends) == set()
+
+
+def test_a_recording_comes_from_the_cache_and_is_the_one_simulated_anew(bounced, monkeypatch):
+    case, _ = bounced
+
+    def unexpected(*_):
+        raise AssertionError("simulated again")
+
+    monkeypatch.setattr(cache, "simulate", unexpected)
+    stored = case.simulate()
+    anew = simulate(Scenario(seed=case.seed, manoeuvre="bounce", rate_hz=case.rate_hz))
+    for channel in anew.recording.channels:
+        again = stored.recording.channel(*channel.id).values
+        assert np.array_equal(again, channel.values)
+    for track in anew.truth.tracks:
+        assert np.array_equal(stored.truth.track(track.name).elevation, track.elevation)
+
+
+def test_a_cache_that_cannot_be_written_is_done_without(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("FLOATREF_CACHE", str(tmp_path / "file" / "below"))
+    case = QUIESCENT.cases(5, Effort.QUICK)[1]
+    assert case.simulate().recording.channel("distance").values.size > 0
+
+
 def test_the_plate_lies_outside_the_stretch_whose_iri_is_limited(bounced):
     _, simulated = bounced
     for track in simulated.truth.tracks:
@@ -106,8 +184,15 @@ def test_a_left_over_acceleration_bends_the_rise_as_published(bounced):
     def bent(z, simulated):
         return z + acceleration / 2 * ((simulated.truth.distance_m - 480.0) / speed) ** 2
 
-    measured = measure_plate(on_truths_grid(simulated, bent), simulated.truth, "left")
-    assert measured.value == pytest.approx(1000 * 0.0133 * acceleration, rel=0.02)
+    profile = on_truths_grid(simulated, bent)
+    for track in TRACKS:
+        top = Plate.found(simulated.truth, track).top
+        length = top[1] - top[0] + 0.54
+        middles = (length / 2 + 1.0) ** 2 + 1.5**2 / 12 - (length / 2 - 0.27) ** 2 / 3
+        measured, _ = measure_plate(profile, simulated.truth, track)
+        expected = acceleration * middles / (2 * speed**2)
+        assert measured.value == pytest.approx(1000 * expected, rel=0.02)
+        assert expected < acceleration * 0.0103
 
 
 def test_cases_follow_from_the_seed_and_differ_between_seeds_checks_and_each_other():
@@ -118,6 +203,13 @@ def test_cases_follow_from_the_seed_and_differ_between_seeds_checks_and_each_oth
     drawn = [*seeds(QUIESCENT, 7), *seeds(QUIESCENT, 8), *seeds(BOUNCE, 7)]
     assert len(set(drawn)) == len(drawn)
     assert len({case.rate_hz for case in BOUNCE.cases(0, Effort.QUICK)}) == 2
+
+
+def test_certification_draws_more_cases_and_those_of_a_quick_run_first():
+    for check in (QUIESCENT, BOUNCE):
+        quick, more = (check.cases(3, effort) for effort in Effort)
+        assert more[: len(quick)] == quick
+        assert len(set(more)) == len(more) == 16
 
 
 def test_every_check_names_clause_derivation_floor_and_a_limit_per_class():
@@ -151,6 +243,26 @@ def test_the_basic_pipeline_passes_both_and_the_run_is_incomplete(reported):
 def test_another_process_with_the_same_seed_writes_the_same_bytes(reported, tmp_path):
     CliRunner().invoke(main, ["run", *BOTH, "--report", str(tmp_path)])
     assert (tmp_path / "report.json").read_bytes() == reported[1]
+
+
+def test_the_mutants_are_those_of_the_known_mistakes():
+    names = {entry.name for entry in load_registry().kinds["mutant"].entries()}
+    assert names >= {
+        "all-zeros", "scaled", "previous-result", "swapped-tracks", "laser-sign", "height-only",
+        "accelerometer-only", "late-laser",
+    }  # fmt: skip
+
+
+def test_a_mutant_that_remembers_begins_with_nothing(bounced, tmp_path):
+    _, simulated = bounced
+    kind = load_registry().kinds["mutant"]
+    delivered = []
+    for n in range(2):
+        write_recording(simulated.recording, tmp_path / f"{n}")
+        kind.make("previous-result").run(tmp_path / f"{n}", tmp_path / f"p{n}")
+        delivered.append(read_profile(tmp_path / f"p{n}").track("left").elevation)
+        simulated = QUIESCENT.cases(0, Effort.QUICK)[1].simulate()
+    assert not np.array_equal(*delivered)
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,15 @@
 """The terminal: what is shown while a run goes on, and after."""
 
+from dataclasses import replace
 from io import StringIO
 
+import numpy as np
 import pytest
 from rich.console import Console
 
+from floatref.files import read_profile, write_profile
+from floatref.values.profile import ProfileTrack
+from floatref_conformance.classes import Effort
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.render.terminal import TerminalRenderer
 from floatref_conformance.runner import run
@@ -48,6 +53,30 @@ def test_the_progress_bar_goes_away_after_an_error(plan, fake_device, toy_check)
     renderer.close()
     renderer.close()
     assert console._live_stack == []
+
+
+def test_what_a_device_flags_invalid_is_told_though_it_passes(plan, fake_device):
+    class Doubter(fake_device):
+        def run(self, recording, profile):
+            super().run(recording, profile)
+            made = read_profile(profile)
+            tracks = tuple(
+                ProfileTrack.of(t.name, np.array(t.elevation), np.zeros(t.elevation.size))
+                for t in made.tracks
+            )
+            write_profile(replace(made, tracks=tracks), profile, overwrite=True)
+
+    text = shown(plan(Doubter()), terminal=False)
+    assert "PASS: 1 of 1" in text
+    assert "toy: up to 60.0 m of a wheel path flagged invalid; every point counted" in text
+    assert "flagged" not in shown(plan(fake_device()), terminal=False)
+
+
+def test_a_failure_of_another_effort_is_reproduced_with_that_effort(plan, fake_device):
+    bad = fake_device(lambda t: {n: 0.5 * z for n, z in t.items()})
+    text = shown(plan(bad, effort=Effort.CERTIFICATION), terminal=False)
+    assert text.rstrip().endswith("--seed 0 --effort certification --check toy")
+    assert "--effort" not in shown(plan(bad), terminal=False).splitlines()[-1]
 
 
 def test_a_check_that_is_not_applicable_says_what_it_needs(plan, fake_device, toy_check):

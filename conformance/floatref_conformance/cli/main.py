@@ -3,7 +3,7 @@
 import click
 
 from floatref import __version__
-from floatref.cli.lazy import LazyGroup
+from floatref_conformance.cli.no_verdict import VerdictGroup
 
 COMMANDS = {
     "run": ("floatref_conformance.cli.run:run", "judge a device"),
@@ -13,7 +13,7 @@ COMMANDS = {
 }
 
 
-@click.group(cls=LazyGroup, lazy=COMMANDS)
+@click.group(cls=VerdictGroup, lazy=COMMANDS)
 @click.version_option(__version__, prog_name="conformance")
 def main() -> None:
     """Judge the software of an inertial profiler on simulated recordings with known truth."""

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, INTERRUPTED, in_one_line
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.events import Renderer, RunFinished
 from floatref_conformance.plugins import load_registry
@@ -13,10 +14,6 @@ from floatref_conformance.render.report import JsonReport
 from floatref_conformance.render.terminal import TerminalRenderer
 from floatref_conformance.runner import Plan
 from floatref_conformance.runner import run as run_plan
-from floatref_conformance.verdict import Verdict
-
-FAULT_OF_THE_SUITE = 3
-INTERRUPTED = 130
 
 
 @click.command()
@@ -65,8 +62,8 @@ def run(
 ) -> None:
     """Judge a device.
 
-    Exit code 0: PASS; 1: FAIL; 2: wrong usage; 3: the suite itself is at fault, no verdict;
-    4: INCOMPLETE, since checks were left out.
+    Exit code 0: PASS; 1: FAIL; 2: wrong usage; 3: the suite itself is at fault, no verdict, or
+    the report could not be written; 4: INCOMPLETE, since checks were left out.
     """
     registry = load_registry()
     for line in registry.broken:
@@ -81,13 +78,11 @@ def run(
 def _follow(plan: Plan, writers: list[Renderer]) -> int:
     """Run ``plan``, show it, and return the exit code."""
     terminal = TerminalRenderer()
-    verdict = Verdict.INCOMPLETE
     try:
         for event in run_plan(plan):
-            for renderer in (*writers, terminal):
-                renderer.handle(event)
+            terminal.handle(event)
             if isinstance(event, RunFinished):
-                verdict = event.result.verdict
+                return _written(event, writers)
     except SuiteError as fault:
         terminal.close()
         return _report_fault(fault)
@@ -97,7 +92,18 @@ def _follow(plan: Plan, writers: list[Renderer]) -> int:
         return INTERRUPTED
     finally:
         terminal.close()
-    return verdict.exit_code
+    raise SuiteError("the run ended without a verdict")
+
+
+def _written(event: RunFinished, writers: list[Renderer]) -> int:
+    """Write the reports of a verdict that is already shown, and return the exit code."""
+    try:
+        for writer in writers:
+            writer.handle(event)
+    except Exception as error:
+        click.echo(f"Error: no report: {in_one_line(error)}", err=True)
+        return FAULT_OF_THE_SUITE
+    return event.result.verdict.exit_code
 
 
 def _report_fault(fault: SuiteError) -> int:

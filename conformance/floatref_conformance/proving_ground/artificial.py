@@ -143,8 +143,6 @@ class Stationary:
 class Plate:
     """A plate that lies under the laser over a stretch of the simulated distance.
 
-    The default lies 150 m beyond the end of the default bounce and 157 m before the end.
-
     Attributes:
         start_m: simulated distance of its first edge, in m.
         length_m: between the outer ends of its edges, in m.
@@ -152,8 +150,8 @@ class Plate:
         edge_m: length of each half-cosine edge, in m; 0 for a rectangular plate.
     """
 
-    start_m: float = 480.0
-    length_m: float = 3.0
+    start_m: float
+    length_m: float
     height_m: float = 0.005
     edge_m: float = 0.02
 

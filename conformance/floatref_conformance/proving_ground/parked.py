@@ -1,5 +1,7 @@
 """Stationary tests: the closed-form body of a parked vehicle under the whole sensor chain."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from floatref.values.arrays import FloatArray
@@ -13,21 +15,48 @@ from floatref_conformance.proving_ground.artificial import (
 )
 from floatref_conformance.proving_ground.kinematics import Course, Sighted
 from floatref_conformance.proving_ground.motion import BodyMotion, empty_rows
+from floatref_conformance.proving_ground.noise import stream
 from floatref_conformance.proving_ground.road import flat_road
 from floatref_conformance.proving_ground.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import setup_of
 from floatref_conformance.proving_ground.vehicles import vehicle_called
 
+FIRST_START_M, LAST_START_M = 455.0, 525.0
+"""Between these a plate starts: a high-pass wavelength, 91.44 m, beyond the first 360.9 m of
+the run, and with the ground behind it outside the last 106 m of 640 m."""
+SHORTEST_M, LONGEST_M = 2.0, 4.0
+"""Lengths between which a plate's is drawn."""
+APART_M = 10.0
+"""Least difference of two plates' starts: no plate lies beside another on the same distance."""
 
-def parked(scenario: Scenario, plate: Plate | None = None) -> tuple[BodyMotion, Setup]:
+
+def plates_of(scenario: Scenario) -> Mapping[str, Plate]:
+    """Return the 5-mm plate of every wheel path, its place and length drawn from the seed.
+
+    The starts differ by `APART_M` or more, or by equal shares of the room if it is too small
+    for that; which wheel path comes first is drawn too. All are whole centimetres.
+    """
+    rng = stream(scenario.seed, "plates")
+    count = len(scenario.tracks)
+    room = LAST_START_M - FIRST_START_M
+    apart = min(APART_M, room / count)
+    free = np.sort(rng.uniform(0.0, room - (count - 1) * apart, count))
+    starts = rng.permutation(FIRST_START_M + free + apart * np.arange(count))
+    lengths = rng.uniform(SHORTEST_M, LONGEST_M, count)
+    return {
+        name: Plate(round(float(start), 2), round(float(length), 2))
+        for name, start, length in zip(scenario.tracks, starts, lengths, strict=True)
+    }
+
+
+def parked(scenario: Scenario) -> tuple[BodyMotion, Setup]:
     """Return the motion of a quiescent or bounce test and where its sensors sit.
 
     Distance and speed are the artificial encoder's. The body pitches and rolls about the
     middle of the reference points, whose height the closed form gives. The floor is level;
-    ``plate`` (default: 5 mm) lies under every laser over its stretch of that distance.
+    under each laser its wheel path's plate of `plates_of` lies over a stretch of that distance.
     """
-    plate = Plate() if plate is None else plate
     vehicle = vehicle_called(scenario.vehicle)
     floor = flat_road(1.0, tracks=scenario.tracks)
     setup = setup_of(scenario, vehicle, floor.lateral_m)
@@ -41,9 +70,9 @@ def parked(scenario: Scenario, plate: Plate | None = None) -> tuple[BodyMotion, 
     above = [TrackSetup((0.0, floor.lateral_m[name], vehicle.sensor_z_m)) for name in setup.tracks]
     seen = Sighted.of(Course(), floor, above, vehicle.sensor_z_m)
     seen.carry(_rows(Stationary(bounce), clock.times(count)), travel, tracks, shared)
-    for rows in tracks:
-        _lay(plate, rows, travel[0], shared)
     named = dict(zip(setup.tracks, tracks, strict=True))
+    for name, plate in plates_of(scenario).items():
+        _lay(plate, named[name], travel[0], shared)
     return BodyMotion.of(clock, travel, shared, named), setup
 
 

@@ -1,6 +1,7 @@
 """The terminal: a progress bar or plain lines while it runs, then a table and the verdict."""
 
 import shlex
+from errno import EPIPE
 from math import isfinite
 from typing import Any
 
@@ -10,6 +11,7 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
+from floatref_conformance.classes import Effort
 from floatref_conformance.events import (
     CaseFinished,
     CheckFinished,
@@ -26,12 +28,21 @@ PLAIN_WIDTH = 100
 """Columns of the table when nobody says how wide the output is."""
 
 
+class PipedConsole(Console):
+    """A console that tells when nobody reads it any more, instead of ending the process."""
+
+    def on_broken_pipe(self) -> None:
+        """Let the caller decide on the exit code."""
+        self.quiet = True
+        raise BrokenPipeError(EPIPE, "nobody reads the output")
+
+
 class TerminalRenderer:
     """Writes to ``console`` as the run goes on, and the result at its end."""
 
     def __init__(self, console: Console | None = None) -> None:
         """Write to ``console``, or else to standard output."""
-        self.console = console or Console()
+        self.console = console or PipedConsole()
         if not self.console.is_terminal:
             self.console.width = max(self.console.width, PLAIN_WIDTH)
         self._progress: Progress | None = None
@@ -83,6 +94,8 @@ class TerminalRenderer:
         for check in result.checks:
             if check.outcome is not Outcome.SKIP:
                 self._print(f"{check.id}: {check.reason or measured(check)} [{check.clause}]")
+            if check.flagged_m:
+                self._print(f"{check.id}: {flagged(check)}")
         for line in not_run_lines(result):
             self._print(line)
         self._print(verdict_line(result))
@@ -117,6 +130,8 @@ def reproduction(result: RunResult) -> str:
     """Return the command that runs the failed checks again."""
     words = ["conformance", "run", "--device", str(result.device["spec"])]
     words += ["--class", result.device_class.value, "--seed", str(result.seed)]
+    if result.effort != Effort.QUICK:
+        words += ["--effort", result.effort]
     for check in result.checks:
         if check.outcome in (Outcome.FAIL, Outcome.ERROR):
             words += ["--check", check.id]
@@ -127,6 +142,11 @@ def measured(check: CheckResult) -> str:
     """Return what the worst value of a check is a value of."""
     worst = check.worst
     return "" if worst is None else f"worst is the {worst.quantity} of track {worst.track}"
+
+
+def flagged(check: CheckResult) -> str:
+    """Return how much of a profile was flagged invalid, and that it counted all the same."""
+    return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid; every point counted"
 
 
 def _in_words(result: CheckResult) -> str:

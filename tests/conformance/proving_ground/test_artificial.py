@@ -78,11 +78,9 @@ def test_a_plate_has_its_height_and_its_length(
     assert area == pytest.approx(height * (length - edge), rel=2e-3, abs=1e-9)
 
 
-def test_the_default_plate_lies_well_away_from_the_bounce_and_the_ends() -> None:
-    drive, plate, bounce = artificial_drive(), Plate(), Bounce()
-    bounce_end = (bounce.start_s + bounce.duration_s) * 20.0
-    assert plate.start_m - bounce_end > 100.0
-    assert drive.length_m - (plate.start_m + plate.length_m) > 100.0
+def test_the_artificial_encoder_tells_72_km_h_for_640_m() -> None:
+    drive = artificial_drive()
+    assert drive.length_m == pytest.approx(640.0)
     assert drive.motion(np.array([1.0])).speed[0] == pytest.approx(72 / 3.6)
 
 
@@ -90,4 +88,4 @@ def test_impossible_bounces_and_plates_are_refused() -> None:
     with pytest.raises(InputError, match="duration, frequency and travel"):
         Bounce(lowest_m=0.1)
     with pytest.raises(InputError, match="the edges must fit"):
-        Plate(length_m=0.1, edge_m=0.06)
+        Plate(480.0, length_m=0.1, edge_m=0.06)

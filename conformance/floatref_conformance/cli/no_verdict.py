@@ -1,0 +1,80 @@
+"""What goes wrong outside a run: one line and an exit code that is never that of a verdict."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from traceback import extract_tb
+from typing import Any
+
+import click
+
+from floatref.cli.lazy import LazyGroup
+
+FAULT_OF_THE_SUITE = 3
+INTERRUPTED = 130
+
+
+class NoVerdict(click.ClickException):
+    """One clear line on stderr, exit code 3."""
+
+    exit_code = FAULT_OF_THE_SUITE
+
+
+class VerdictGroup(LazyGroup):
+    """Group whose sub-commands alone say 1: whatever they let through ends with another code."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command; where not even stderr takes a line, the exit code alone tells."""
+        try:
+            return super().main(*args, **kwargs)
+        except OSError:
+            _drop_output()
+            sys.exit(FAULT_OF_THE_SUITE)
+
+    def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
+        """Parse the arguments, with `--help`; errors as those of `invoke`."""
+        with _no_verdict():
+            return super().make_context(*args, **kwargs)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the sub-command; an error that nobody expected is one line and exit code 3."""
+        with _no_verdict():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _no_verdict() -> Iterator[None]:
+    try:
+        yield
+    except (click.ClickException, click.exceptions.Exit):
+        raise
+    except (KeyboardInterrupt, click.Abort):
+        click.echo("Interrupted: no verdict", err=True)
+        raise click.exceptions.Exit(INTERRUPTED) from None
+    except BrokenPipeError:
+        _drop_output()
+        raise NoVerdict("nobody reads the output any more, no verdict") from None
+    except (Exception, SystemExit) as error:
+        raise NoVerdict(
+            f"the suite itself is at fault, no verdict: {in_one_line(error)}"
+        ) from error
+
+
+def in_one_line(error: BaseException) -> str:
+    """Return kind and text of ``error``, and the line of code that raised it."""
+    text = " ".join(f"{type(error).__name__}: {error}".split())
+    frames = extract_tb(error.__traceback__)
+    return (
+        f"{text} ({os.path.basename(frames[-1].filename)}:{frames[-1].lineno})" if frames else text
+    )
+
+
+def _drop_output() -> None:
+    """Let what is left in the buffers go nowhere, so that flushing them at exit cannot fail."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+            continue
+        with suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
