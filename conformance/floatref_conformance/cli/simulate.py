@@ -27,10 +27,12 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
     scenario = _scenario(run, seed)
     _check_targets(out, truth)
     from floatref.files import write_profile, write_recording
+    from floatref.files.sources import naming
     from floatref_conformance.proving_ground.simulate import simulate as simulated
 
     click.echo(f"simulating {run}, seed {scenario.seed} …", err=True)
-    simulation = simulated(scenario)
+    with naming(run):
+        simulation = simulated(scenario)
     click.echo("writing …", err=True)
     write_recording(simulation.recording, out)
     if truth is not None:

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref_conformance.proving_ground.drive import Drive, Segment
+from floatref_conformance.proving_ground.drive import STANDSTILL_MPS, Drive, Segment
 
 BRAKE_JERK = 0.5 * STANDARD_GRAVITY
 """Rate at which a driver builds the deceleration up, in m/s³, unless the brake is too short."""
@@ -90,7 +90,7 @@ def brake_to_stop(from_speed: float, mean_deceleration: float) -> tuple[Segment,
     """
     _check_brake(from_speed, 0.0, mean_deceleration)
     upper, lower = from_speed - STOP_BAND_MPS[0], STOP_BAND_MPS[1]
-    if upper <= lower:
+    if upper - lower <= STANDSTILL_MPS:
         raise InputError(f"{from_speed} m/s is too slow for the average deceleration of a stop")
 
     def excess(held: float) -> float:

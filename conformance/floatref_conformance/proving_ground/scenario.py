@@ -2,16 +2,18 @@
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
+from reprlib import repr as shortened
 from types import MappingProxyType
 from typing import Any
 
-import numpy as np
-
 from floatref.errors import InputError
+from floatref.files import read_schema
 from floatref_conformance.proving_ground.iso8608 import CLASSES
 from floatref_conformance.proving_ground.runs import RUNS
 from floatref_conformance.proving_ground.sayers import CASES
@@ -115,6 +117,8 @@ class Scenario:
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
         vehicle_called(self.vehicle)
+        if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
+            raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the plain JSON object of this scenario."""
@@ -129,7 +133,8 @@ class Scenario:
         if not isinstance(document, Mapping):
             raise InputError("a scenario is a JSON object of its numbers")
         if document.get("format", FORMAT) != FORMAT:
-            raise InputError(f"format {document['format']!r}: unknown, expected {FORMAT!r}")
+            found = shortened(document["format"])
+            raise InputError(f"format {found}: unknown, expected {FORMAT!r}")
         known = {field.name for field in fields(cls)}
         return cls(**{name: value for name, value in document.items() if name in known})
 
@@ -157,6 +162,8 @@ def read_scenario(path: Path) -> Scenario:
         raise InputError(f"{path}: {error.strerror}; give a run or a scenario file") from error
     except ValueError as error:
         raise InputError(f"{path}: not JSON ({error}); write one object") from error
+    except RecursionError as error:
+        raise InputError(f"{path}: nested too deeply; write one object of numbers") from error
     try:
         return Scenario.from_dict(document)
     except InputError as error:
@@ -166,9 +173,9 @@ def read_scenario(path: Path) -> Scenario:
 def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
     """Raise InputError unless ``value`` is among ``known``."""
     if value not in known:
-        near = get_close_matches(value, known, n=1)
+        near = get_close_matches(value[:64], known, n=1)
         hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
-        raise InputError(f"{name} {value!r}: unknown; {hint}")
+        raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
 
 
 def _typed(name: str, value: Any, default: Any) -> Any:
@@ -177,13 +184,14 @@ def _typed(name: str, value: Any, default: Any) -> Any:
         return _track_names(value)
     if isinstance(default, bool | str):
         if type(value) is not type(default):
-            raise InputError(f"{name} is {value!r}; give {_kind(default)}")
+            raise InputError(f"{name} is {shortened(value)}; give {_kind(default)}")
         return value
-    if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
-        raise InputError(f"{name} is {value!r}; give a number")
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+        raise InputError(f"{name} is {shortened(value)}; give a number")
     low, high = LIMITS[name]
     if not low <= value <= high:
-        raise InputError(f"{name} is {value:g}; it must lie between {low:g} and {high:g}")
+        found = shortened(value)
+        raise InputError(f"{name} is {found}; it must lie between {low:g} and {high:g}")
     if isinstance(default, int):
         if value != int(value):
             raise InputError(f"{name} is {value}; give a whole number")
@@ -192,12 +200,28 @@ def _typed(name: str, value: Any, default: Any) -> Any:
 
 
 def _track_names(value: Any) -> tuple[str, ...]:
-    """Return distinct, non-empty names of wheel paths."""
+    """Return distinct names of wheel paths that can be part of a file name."""
     names = tuple(value) if isinstance(value, list | tuple) else ()
-    named = all(isinstance(name, str) and name for name in names)
+    named = all(isinstance(name, str) for name in names)
     if not (names and named and len(set(names)) == len(names)):
-        raise InputError(f"tracks is {value!r}; give a list of different names of wheel paths")
+        raise InputError(
+            f"tracks is {shortened(value)}; give a list of different names of wheel paths"
+        )
+    longest, pattern = _track_rule()
+    for name in names:
+        if len(name) > longest or not pattern.search(name):
+            raise InputError(
+                f"tracks has {shortened(name)}; a name has at most {longest} characters "
+                "that can be part of a file name"
+            )
     return names
+
+
+@cache
+def _track_rule() -> tuple[int, re.Pattern[str]]:
+    """Return greatest length and pattern of a track's name in a recording directory."""
+    rule = read_schema("floatref-recording-1")["$defs"]["track"]
+    return rule["maxLength"], re.compile(rule["pattern"])
 
 
 def _kind(default: bool | str) -> str:

@@ -4,6 +4,8 @@ from collections.abc import Callable, Mapping
 from math import atan
 from types import MappingProxyType
 
+from floatref.errors import InputError
+from floatref.files.sources import naming
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Setup, TrackSetup
 from floatref_conformance.proving_ground import manoeuvres
@@ -15,6 +17,7 @@ from floatref_conformance.proving_ground.measured import (
     measured_road,
     shipped_profile,
 )
+from floatref_conformance.proving_ground.response import oversampling
 from floatref_conformance.proving_ground.road import FULL_FROM_M, Road, flat_road
 from floatref_conformance.proving_ground.runs import KMH, RUNS, run_drive
 from floatref_conformance.proving_ground.sayers import sayers_road
@@ -26,6 +29,8 @@ from floatref_conformance.proving_ground.vehicle import Vehicle
 BUMP_LENGTH_M = 3.0
 SCALED_OVER_M = 100.0
 """A road is made long enough to have an IRI over this length, however short the drive."""
+MOST_SAMPLES = 2**26
+"""Most samples of the true motion, over all wheel paths: 4 GiB."""
 
 
 def road_of(scenario: Scenario, length_m: float) -> Road:
@@ -50,10 +55,17 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
 
 
 def drive_of(scenario: Scenario) -> Drive:
-    """Return the scenario's drive; InputError where its numbers do not fit together."""
+    """Return the scenario's drive.
+
+    Raises InputError where its numbers do not fit together or need more than `MOST_SAMPLES`.
+    """
     if scenario.manoeuvre in RUNS:
-        return run_drive(scenario.manoeuvre)
-    return _DRIVES[scenario.manoeuvre](scenario)
+        drive = run_drive(scenario.manoeuvre)
+    else:
+        with naming(f"manoeuvre {scenario.manoeuvre}"):
+            drive = _DRIVES[scenario.manoeuvre](scenario)
+    _check_samples(scenario, drive.duration_s)
+    return drive
 
 
 def course_of(scenario: Scenario) -> Course:
@@ -79,6 +91,17 @@ def setup_of(scenario: Scenario, vehicle: Vehicle, lateral_m: Mapping[str, float
         for name in scenario.tracks
     }
     return Setup(scenario.profile_interval_m, vehicle.antenna_m, tracks)
+
+
+def _check_samples(s: Scenario, duration_s: float) -> None:
+    """Raise InputError for a drive too long to be kept in memory at the rate asked for."""
+    rate_hz = s.rate_hz * oversampling(s.rate_hz)
+    if not duration_s * rate_hz * len(s.tracks) <= MOST_SAMPLES:
+        raise InputError(
+            f"length_m {s.length_m:g} takes {duration_s:.4g} s, which at {rate_hz:g} steps/s on "
+            f"{len(s.tracks)} tracks is above {MOST_SAMPLES} samples; "
+            "shorten length_m or dwell_s, raise the speeds or lower rate_hz"
+        )
 
 
 def _braking(s: Scenario) -> Drive:
@@ -128,6 +151,13 @@ def _near_stop(s: Scenario) -> Drive:
     )
 
 
+def _creeping(s: Scenario) -> Drive:
+    slowest, fastest = s.speed_kmh * KMH, s.event_speed_kmh * KMH
+    if 0 < slowest < fastest:
+        _check_samples(s, s.length_m / fastest)
+    return manoeuvres.creeping(slowest, fastest, s.length_m)
+
+
 _DRIVES: Mapping[str, Callable[[Scenario], Drive]] = MappingProxyType(
     {
         "constant": lambda s: manoeuvres.constant(s.speed_kmh * KMH, s.length_m),
@@ -139,8 +169,6 @@ _DRIVES: Mapping[str, Callable[[Scenario], Drive]] = MappingProxyType(
         "dead-start": lambda s: manoeuvres.dead_start(
             s.dwell_s, s.final_speed_kmh * KMH, s.length_m
         ),
-        "creeping": lambda s: manoeuvres.creeping(
-            s.speed_kmh * KMH, s.event_speed_kmh * KMH, s.length_m
-        ),
+        "creeping": _creeping,
     }
 )

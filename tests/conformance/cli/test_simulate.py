@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -81,4 +82,30 @@ def test_unusable_requests_are_refused_before_any_work(
     assert result.exit_code == 2
     assert message in result.output
     assert "Traceback" not in result.output
+    assert sorted(path.name for path in case.parent.iterdir()) == ["case.json"]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        ({"manoeuvre": "braking", "event_speed_kmh": 90}, "case.json: manoeuvre braking: cannot"),
+        ({"manoeuvre": "dead-start", "final_speed_kmh": 0}, "case.json: manoeuvre dead-start: the"),
+        ({"manoeuvre": "stop", "speed_kmh": 0}, "case.json: speed_kmh is 0"),
+        ({"length_m": 1e5, "speed_kmh": 0.001}, "case.json: length_m 100000 takes"),
+        ({"tracks": ["../x"]}, "case.json: tracks has '../x'"),
+        ({"tracks": ["a", "b"]}, "case.json: wheel path a: give its lateral position"),
+        ({"seed": 10**400}, "case.json: seed is 1000"),
+    ],
+)
+def test_scenario_that_cannot_be_driven_is_refused_in_a_line_naming_its_file(
+    case: Path, monkeypatch: pytest.MonkeyPatch, numbers: dict[str, Any], message: str
+) -> None:
+    monkeypatch.chdir(case.parent)
+    case.write_text(json.dumps(numbers), encoding="utf-8")
+    result = invoked("case.json", "--out", "new")
+    assert result.exit_code == 2
+    assert message in result.output
+    assert [line for line in result.output.splitlines() if "case.json: " in line] == [
+        result.output.splitlines()[-1]
+    ]
     assert sorted(path.name for path in case.parent.iterdir()) == ["case.json"]

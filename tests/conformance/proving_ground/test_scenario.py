@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
@@ -22,6 +22,7 @@ from floatref_conformance.proving_ground.scenario import (
     scenario_of_run,
 )
 from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import (
     course_of,
     drive_of,
@@ -37,7 +38,7 @@ scenarios = st.builds(
     road=st.sampled_from(ROADS),
     vehicle=st.sampled_from(sorted(VEHICLES)),
     manoeuvre=st.sampled_from(MANOEUVRES),
-    speed_kmh=st.floats(0, 150),
+    speed_kmh=st.floats(0, 150, exclude_min=True),
     sensors=st.floats(0, 2),
     imu=st.booleans(),
     tracks=st.sampled_from([("main",), ("left", "right"), ("right",)]),
@@ -99,6 +100,16 @@ def test_unknown_keys_are_ignored_and_an_unknown_format_is_refused() -> None:
         ({"vehicle": "tank"}, "vehicle tank: unknown"),
         ({"tracks": []}, "give a list of different names"),
         ({"tracks": ["left", "left"]}, "give a list of different names"),
+        ({"tracks": ["left", "../x"]}, "tracks has '../x'; a name has at most 48 characters"),
+        ({"tracks": ["a/b"]}, "tracks has 'a/b'"),
+        ({"tracks": [".hidden"]}, "tracks has '.hidden'"),
+        ({"tracks": ["x" * 49]}, "tracks has 'x"),
+        ({"tracks": [""]}, "tracks has ''"),
+        ({"seed": 10**400}, r"seed is 10+\.\.\.0+; it must lie between 0"),
+        ({"speed_kmh": -(10**400)}, r"speed_kmh is -10+\.\.\.0+; it must lie between 0 and 150"),
+        ({"manoeuvre": "quiescent", "speed_kmh": 0}, "speed_kmh is 0; quiescent needs a speed"),
+        ({"manoeuvre": "bounce", "speed_kmh": 0}, "speed_kmh is 0; bounce needs a speed"),
+        ({"manoeuvre": "stop", "speed_kmh": 0}, "speed_kmh is 0; stop needs a speed"),
         ([], "a scenario is a JSON object"),
     ],
 )
@@ -117,6 +128,60 @@ def test_file_errors_name_the_file(tmp_path: Path) -> None:
     broken.write_text('{"rate_hz": 1}', encoding="utf-8")
     with pytest.raises(InputError, match=r"broken\.json: rate_hz is 1"):
         read_scenario(broken)
+
+
+@pytest.mark.parametrize("depth", [300, 100_000])
+def test_nested_lists_are_refused_in_one_short_line(tmp_path: Path, depth: int) -> None:
+    nested = tmp_path / "nested.json"
+    for text in ("{}", '{{"tracks": {}}}', '{{"road": {}}}', '{{"seed": {}}}', '{{"format": {}}}'):
+        nested.write_text(text.format("[" * depth + "]" * depth), encoding="utf-8")
+        with pytest.raises(InputError, match=r"nested\.json: ") as caught:
+            read_scenario(nested)
+        assert len(str(caught.value)) < len(str(tmp_path)) + 200
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        {"speed_kmh": 0.001, "length_m": 1e5},
+        {"manoeuvre": "creeping", "speed_kmh": 1e-7, "event_speed_kmh": 2e-7},
+        {"manoeuvre": "stop", "dwell_s": 600.0, "rate_hz": 64000.0},
+    ],
+)
+def test_drive_too_long_for_the_memory_is_refused_before_it_is_made(numbers: Any) -> None:
+    with pytest.raises(
+        InputError, match=r"length_m .* is above 67108864 samples; shorten length_m"
+    ):
+        simulate(Scenario(**numbers))
+
+
+@pytest.mark.parametrize("name", list(RUNS))
+def test_published_runs_fit_the_memory_at_the_highest_rate(name: str) -> None:
+    drive_of(scenario_of_run(name, rate_hz=64000.0))
+
+
+@settings(deadline=None, max_examples=100)
+@given(
+    kind=st.sampled_from(sorted(set(MANOEUVRES) - set(RUNS) - set(STATIONARY))),
+    speeds=st.tuples(*3 * [st.floats(0, 150) | st.sampled_from([0.0, 0.5, 1.5, 2.0, 150.0])]),
+    deceleration=st.floats(0.01, 1.0),
+    places=st.tuples(st.floats(0, 1e5), st.floats(10, 1e5)),
+)
+@example(kind="stop", speeds=(2.0, 0.0, 0.0), deceleration=1.0, places=(316.0, 500.0))
+def test_numbers_make_a_drive_or_a_clear_refusal(
+    kind: str,
+    speeds: tuple[float, float, float],
+    deceleration: float,
+    places: tuple[float, float],
+) -> None:
+    numbers = dict(zip(("speed_kmh", "event_speed_kmh", "final_speed_kmh"), speeds, strict=True))
+    numbers |= dict(zip(("event_at_m", "length_m"), places, strict=True))
+    try:
+        scenario = Scenario(manoeuvre=kind, deceleration_g=deceleration, **numbers)
+        drive = drive_of(scenario)
+    except InputError:
+        return
+    assert drive.length_m >= scenario.length_m - 1e-6
 
 
 @pytest.mark.parametrize("name", list(RUNS))
