@@ -9,7 +9,6 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
-from floatref.files import read_profile, write_recording
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.bounce import BOUNCE
@@ -243,36 +242,3 @@ def test_the_basic_pipeline_passes_both_and_the_run_is_incomplete(reported):
 def test_another_process_with_the_same_seed_writes_the_same_bytes(reported, tmp_path):
     CliRunner().invoke(main, ["run", *BOTH, "--report", str(tmp_path)])
     assert (tmp_path / "report.json").read_bytes() == reported[1]
-
-
-def test_the_mutants_are_those_of_the_known_mistakes():
-    names = {entry.name for entry in load_registry().kinds["mutant"].entries()}
-    assert names >= {
-        "all-zeros", "scaled", "previous-result", "swapped-tracks", "laser-sign", "height-only",
-        "accelerometer-only", "late-laser",
-    }  # fmt: skip
-
-
-def test_a_mutant_that_remembers_begins_with_nothing(bounced, tmp_path):
-    _, simulated = bounced
-    kind = load_registry().kinds["mutant"]
-    delivered = []
-    for n in range(2):
-        write_recording(simulated.recording, tmp_path / f"{n}")
-        kind.make("previous-result").run(tmp_path / f"{n}", tmp_path / f"p{n}")
-        delivered.append(read_profile(tmp_path / f"p{n}").track("left").elevation)
-        simulated = QUIESCENT.cases(0, Effort.QUICK)[1].simulate()
-    assert not np.array_equal(*delivered)
-
-
-@pytest.mark.parametrize(
-    ("kind", "entry"), [(k, e) for k in ("mutant",) for e in load_registry().kinds[k].entries()]
-)
-def test_each_mutant_fails_the_checks_that_it_names(kind, entry, tmp_path):
-    words = ["run", "--device", f"{kind}:{entry.name}", "--report", str(tmp_path)]
-    answer = CliRunner().invoke(main, words)
-    assert answer.exit_code == 1
-    report = json.loads((tmp_path / "report.json").read_text())
-    failed = {c["id"] for c in report["checks"] if c["outcome"] == "fail"}
-    assert failed == set(entry.fails)
-    assert entry.fails
