@@ -125,14 +125,6 @@ class FakeDevice:
         write_profile(Profile(self.interval_m, made), profile)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def cache_of_its_own(tmp_path_factory):
-    """Keep simulated recordings in a folder of the session, in this and every other process."""
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setenv("FLOATREF_CACHE", str(tmp_path_factory.mktemp("cache")))
-        yield
-
-
 @pytest.fixture
 def toy_check():
     return ToyCheck
