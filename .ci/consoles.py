@@ -24,6 +24,7 @@ BLOCK = re.compile(r"^```(console|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL
 FILE = re.compile(r"# file: (\S+)\n")
 PICTURE = re.compile(r"\]\(images/(\S+\.png)\)")
 NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+RULE = re.compile("─+")
 RELATIVE, ABSOLUTE = 0.02, 0.02
 
 
@@ -81,8 +82,9 @@ def differences(expected: str, found: str) -> list[str]:
 
 
 def _alike(expected: str, found: str) -> bool:
-    # Tables are padded to their longest number, so spaces do not count.
-    if NUMBER.sub("#", expected).split() != NUMBER.sub("#", found).split():
+    # Tables are padded and ruled to their longest number, so spaces and rules do not count.
+    shown, printed = (RULE.sub("─", NUMBER.sub("#", line)).split() for line in (expected, found))
+    if shown != printed:
         return False
     pairs = zip(NUMBER.findall(expected), NUMBER.findall(found), strict=True)
     return all(
