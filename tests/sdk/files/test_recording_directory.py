@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
 from floatref.errors import InputError
-from floatref.files import fingerprint, read_recording, write_recording
+from floatref.files import fingerprint, fingerprint_native, read_recording, write_recording
 from floatref.values.channels import CHANNELS
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording, Setup, TrackSetup
@@ -161,4 +161,6 @@ def test_the_fingerprint_is_the_sha256_of_every_file(folder: Path) -> None:
 def test_the_fingerprint_of_a_native_file_is_its_own(tmp_path: Path) -> None:
     (tmp_path / "run.bin").write_bytes(b"abc")
     known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-    assert fingerprint(tmp_path / "run.bin") == {"run.bin": known}
+    assert fingerprint_native(tmp_path / "run.bin") == {"run.bin": known}
+    (tmp_path / "folder").mkdir()
+    assert fingerprint_native(tmp_path) == {"run.bin": known}
