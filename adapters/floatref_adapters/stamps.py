@@ -29,11 +29,12 @@ def clock_of(times_s: NDArray[np.float64], decimals: int) -> UniformClock | Stam
     A constant rate within one unit of the last decimal of every stamp is a uniform clock: the
     line through the first and the last stamp of one is never farther off. Of all such rates
     the roundest, in Hz or as a step in s, is taken. Other stamps are kept as they are;
-    InputError if they do not increase.
+    InputError if they do not increase. Stamps that leave one out, by their longest step, are
+    kept too; where the step is nearly the unit of the last decimal, rounding looks the same.
     """
     span = float(times_s[-1] - times_s[0])
     step = span / max(times_s.size - 1, 1)
-    if not step > SHORTEST_S:
+    if not step > SHORTEST_S or _broken(times_s, step, 10.0**-decimals):
         return StampedClock.of(times_s)
     unit = 10.0**-decimals + 4 * float(np.spacing(np.abs(times_s).max()))
     for digits in range(1, MOST_DIGITS + 1):
@@ -43,6 +44,15 @@ def clock_of(times_s: NDArray[np.float64], decimals: int) -> UniformClock | Stam
     if _keeps(times_s, step, unit):
         return UniformClock.of(1 / step, float(times_s[0]))
     return StampedClock.of(times_s)
+
+
+def _broken(times_s: NDArray[np.float64], step: float, unit: float) -> bool:
+    """Tell whether stamps go back, repeat or leave one out, which rounding cannot explain."""
+    steps = np.diff(times_s)
+    if (steps < 0).any():
+        return True
+    # Several samples within one unit of the last decimal have equal stamps; others have not.
+    return step >= 0.99 * unit and bool(steps.min() == 0 or steps.max() > 1.75 * step)
 
 
 def _rounded(value: float, digits: int) -> float:

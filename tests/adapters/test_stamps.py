@@ -23,7 +23,7 @@ def test_rounded_stamps_of_a_constant_rate_are_a_uniform_clock(
 ) -> None:
     true = start + np.arange(count) / rate
     stamps = np.round(true, decimals)
-    if stamps[-1] == stamps[0]:
+    if stamps[-1] == stamps[0] or 0.98 <= 10.0**decimals / rate < 1.2:
         return
     clock = clock_of(stamps, decimals)
     assert isinstance(clock, UniformClock)
@@ -81,3 +81,28 @@ def test_decimals_are_counted_with_the_exponent(text: str, decimals: int) -> Non
 
 def test_stamps_closer_than_any_clock_ticks_stay_stamps() -> None:
     assert isinstance(clock_of(np.array([0.0, 1e-320]), 320), StampedClock)
+
+
+@pytest.mark.parametrize("at", [1, 100, 198])
+def test_swapped_and_repeated_stamps_of_whole_milliseconds_are_refused(at: int) -> None:
+    swapped, repeated = (np.arange(200) / 1000.0 for _ in range(2))
+    swapped[[at, at - 1]] = swapped[[at - 1, at]]
+    repeated[at] = repeated[at - 1]
+    for stamps in (swapped, repeated):
+        with pytest.raises(InputError, match="times must increase"):
+            clock_of(stamps, 3)
+
+
+def test_a_row_that_is_missing_is_no_constant_rate() -> None:
+    stamps = np.delete(np.arange(200) / 1000.0, 100)
+    clock = clock_of(stamps, 3)
+    assert isinstance(clock, StampedClock)
+    np.testing.assert_array_equal(clock.times_s, stamps)
+
+
+@pytest.mark.parametrize("rate", [700.0, 3240.0, 16_000.0])
+def test_stamps_coarser_than_the_samples_keep_their_rate(rate: float) -> None:
+    stamps = np.round(np.arange(5000) / rate, 3)
+    clock = clock_of(stamps, 3)
+    assert isinstance(clock, UniformClock)
+    assert float(clock.rate) == pytest.approx(rate, rel=1e-3)

@@ -29,10 +29,10 @@ def measured():
     return simulate(Scenario(seed=4, road="measured", iri_m_per_km=0.0, length_m=480.0))
 
 
-@pytest.fixture(scope="module")
-def stop():
-    """The run with the 10.7-s stop."""
-    return simulate(scenario_of_run("sg_10.7s_0.20g", 0))
+@pytest.fixture(scope="module", params=[0, 1, 2, 5])
+def stop(request):
+    """The run with the 10.7-s stop, with the errors of several seeds."""
+    return simulate(scenario_of_run("sg_10.7s_0.20g", request.param))
 
 
 def within(profile, z, limits):
@@ -63,13 +63,17 @@ def test_at_speed_the_truth_comes_back(request, road, pipeline, track):
 
 
 @pytest.mark.parametrize("pipeline", PIPELINES)
-@pytest.mark.parametrize("track", ["left", "right"])
-def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
-    correlation, *_ = judged(stop, pipeline, track)
-    assert correlation < 0.2
+def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline):
     profile = floatref.process(stop.recording, pipeline)
-    roughness = short_interval_roughness(profile.track(track).elevation, profile.interval_m)
-    assert within(profile, roughness, PEAK_M).max() > 200.0
+    peaks = []
+    for track in ("left", "right"):
+        correlation, *_ = judged(stop, pipeline, track)
+        assert correlation < 0.2
+        roughness = short_interval_roughness(profile.track(track).elevation, profile.interval_m)
+        peaks.append(within(profile, roughness, PEAK_M).max())
+    # On one wheel path, bias and tilt may happen to cancel.
+    assert max(peaks) > 200.0
+    assert min(peaks) > 20.0
 
 
 def velocity_error(simulation, track, at):
@@ -89,5 +93,8 @@ def test_the_velocity_error_at_the_stop_is_tilt_and_bias_integrated(stop, track)
     at = int(np.flatnonzero(motion.speed < 1e-6)[0])
     tilt = motion.acceleration * np.sin(motion.pitch + error.pitch_rad)
     expected = np.sum((tilt + error.bias)[:at]) / float(motion.clock.rate)
-    assert abs(expected) > 0.05
-    assert 0.5 <= velocity_error(stop, track, at) / expected <= 2.0
+    found = velocity_error(stop, track, at)
+    # What cancels to less than this leaves the second-order terms of (1.5) alone.
+    if abs(expected) > 0.05:
+        assert 0.5 <= found / expected <= 2.0
+    assert abs(found - expected) < 0.05

@@ -26,7 +26,7 @@ class VerticalError:
     """The slow errors of one vertical accelerometer, as drawn.
 
     Attributes:
-        bias: constant and random walk, shape (n,), in m/s².
+        bias: constant, scale error of 1 g, and random walk, shape (n,), in m/s².
         pitch_rad, roll_rad: tilt of its axis against body Z, nose down and left up.
     """
 
@@ -91,17 +91,21 @@ class Chain:
     def _accelerometer(
         self, rng: np.random.Generator, force: FloatArray, shake: FloatArray | None
     ) -> tuple[FloatArray, FloatArray]:
-        """Return reading and bias in m/s²; ``force`` is given up."""
+        """Return reading and bias in m/s², a scale error's share of 1 g included.
+
+        ``force`` is given up.
+        """
         suite = self.suite
         bias = random_walk(rng, suite.force_walk, self.rate_hz, self.count)
         bias += drawn(rng, suite.force_bias)
-        force *= 1.0 + suite.force_scale * rng.uniform(-1.0, 1.0)
+        scale = suite.force_scale * rng.uniform(-1.0, 1.0)
+        force *= 1.0 + scale
         if shake is not None:
             force += shake
         force += bias
         if suite.force_noise > 0:
             force += white(rng, suite.force_noise, self.rate_hz, self.count)
-        return quantize(force, suite.force_resolution), bias
+        return quantize(force, suite.force_resolution), bias + scale * STANDARD_GRAVITY
 
     def height(self, track: str) -> Channel:
         """Return the laser of ``track``: its latest sample, held at the accelerometers' rate."""

@@ -42,7 +42,7 @@ class TerminalRenderer:
 
     def __init__(self, console: Console | None = None) -> None:
         """Write to ``console``, or else to standard output."""
-        self.console = console or PipedConsole()
+        self.console = console or PipedConsole(emoji=False)
         if not self.console.is_terminal:
             self.console.width = max(self.console.width, PLAIN_WIDTH)
         self._progress: Progress | None = None

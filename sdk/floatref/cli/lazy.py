@@ -63,6 +63,11 @@ class LazyGroup(click.Group):
 def _one_line() -> Iterator[None]:
     try:
         yield
+    except click.UsageError as error:
+        # click puts three lines of usage before an error that knows its context.
+        if not isinstance(error, getattr(click.exceptions, "NoArgsIsHelpError", ())):
+            error.ctx = None
+        raise
     except FloatrefError as error:
         raise UnusableInput(" ".join(str(error).split())) from error
     except BrokenPipeError:

@@ -39,7 +39,7 @@ def print_table(
 ) -> None:
     """Print ``rows`` under ``title``; with ``numbers`` all but the first column align right."""
     terminal = sys.stdout.isatty()
-    console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH)
+    console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH, emoji=False)
     style = box.SIMPLE_HEAD if terminal else None
     table = Table(box=style)
     for index, name in enumerate(columns):

@@ -104,6 +104,9 @@ def test_an_existing_target_needs_overwrite(folder):
         (["run", "--out", "nowhere/o"], "its folder does not exist"),
         (["run", "--out", "o", "--plot", "o.txt"], "not the name of a drawing"),
         (["unknown.bin", "--out", "o"], "no adapter recognises it"),
+        (["run"], "Missing option '--out'"),
+        (["run", "--out", "o", "--colour"], "No such option"),
+        (["run", "--out", "o", "--format", "xls"], "'xls' is not one of"),
     ],
 )
 def test_what_cannot_be_done_is_one_line_and_leaves_nothing(folder, monkeypatch, args, message):
