@@ -93,7 +93,7 @@ class Scenario:
     vehicle: str = "loaded-van"
     manoeuvre: str = "constant"
     speed_kmh: float = 72.0
-    event_speed_kmh: float = 0.0
+    event_speed_kmh: float = 11.0
     deceleration_g: float = 0.2
     dwell_s: float = 5.0
     event_at_m: float = 316.0
