@@ -1,9 +1,10 @@
 """The recording directory, `floatref-recording/1`."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from floatref.errors import InputError
 from floatref.files.atomic import replacing_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.samples import free_name, read_samples, write_samples
@@ -28,6 +29,8 @@ def read_recording(path: Path) -> Recording:
     """
     source = document_path(path, DOCUMENT)
     document = _enforced(source)
+    with naming(source):
+        _check_files(document["channels"])
     clocks: dict[str, StampedClock] = {}
     channels = tuple(_channel(entry, source, clocks) for entry in document["channels"])
     device = document.get("device", {})
@@ -62,6 +65,18 @@ def _enforced(source: Path) -> dict[str, Any]:
     enforce(document, SCHEMA, source)
     checked: dict[str, Any] = document
     return checked
+
+
+def _check_files(entries: Sequence[Mapping[str, Any]]) -> None:
+    """Refuse one file for two quantities; two wheel paths may share a sensor, and its file."""
+    names: dict[str, str] = {}
+    for entry in entries:
+        other = names.setdefault(entry["file"], entry["name"])
+        if other != entry["name"]:
+            raise InputError(
+                f"file {entry['file']}: listed for {other} and for {entry['name']}; "
+                "give each quantity its own"
+            )
 
 
 def _channel(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedClock]) -> Channel:

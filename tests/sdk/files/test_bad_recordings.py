@@ -55,6 +55,8 @@ DOCUMENTS: list[tuple[str, Change, str]] = [
     ("half a surrogate", lambda d: d["channels"][1].update(file="\ud800"), "plain name of a file"),
     ("trailing newline", lambda d: d["channels"][1].update(file="a\n"), r'is "a\\n"; expected'),
     ("long name", lambda d: d["channels"][1].update(file="a" * 5000), r'"a{56}\.\.\.; expected'),
+    ("one file for two", lambda d: d["channels"][1].update(file=d["channels"][0]["file"]),
+     "listed for vertical_specific_force and for height; give each quantity its own"),
     ("missing file", lambda d: d["channels"][1].update(file="other.f64"),
      "channel left.height: .*other.f64: No such file or directory; check the name"),
     ("track with a folder", lambda d: d["channels"][1].update(track="a/b"), "name of a wheel path"),
