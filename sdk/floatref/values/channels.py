@@ -29,21 +29,18 @@ class ChannelId(NamedTuple):
 
 @dataclass(frozen=True)
 class ChannelSpec:
-    """Unit and meaning of one channel, and whether each wheel path has its own."""
+    """Unit and meaning of one channel."""
 
     unit: str
     meaning: str
-    per_track: bool = False
 
 
 CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
     {
-        "vertical_specific_force": ChannelSpec(
-            "m/s^2", "accelerometer along body Z, +9.8 at rest", True
-        ),
-        "longitudinal_specific_force": ChannelSpec("m/s^2", "accelerometer along body X", True),
-        "lateral_specific_force": ChannelSpec("m/s^2", "accelerometer along body Y", True),
-        "height": ChannelSpec("m", "range from the reference point to the road, positive", True),
+        "vertical_specific_force": ChannelSpec("m/s^2", "accelerometer along body Z, +9.8 at rest"),
+        "longitudinal_specific_force": ChannelSpec("m/s^2", "accelerometer along body X"),
+        "lateral_specific_force": ChannelSpec("m/s^2", "accelerometer along body Y"),
+        "height": ChannelSpec("m", "range from the reference point to the road, positive"),
         "distance": ChannelSpec("m", "encoder distance, non-decreasing"),
         "roll_rate": ChannelSpec("rad/s", "angular rate about body X"),
         "pitch_rate": ChannelSpec("rad/s", "angular rate about body Y"),
