@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.stages.signals import DISTANCE
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel
 
@@ -53,6 +53,12 @@ class AlignedChannel:
         lost = self._lost(place, low, missing)
         skip = begin - before
         return Stretch(values[skip:], fresh[skip:], None if lost is None else lost[skip:])
+
+    def release(self) -> None:
+        """Let go of the samples taken, if they lie in a file."""
+        release(self.channel.values)
+        if isinstance(self.channel.clock, StampedClock):
+            release(self.channel.clock.times_s)
 
     def _places(self, times: FloatArray) -> FloatArray:
         clock, last = self.channel.clock, self.channel.values.size - 1

@@ -56,9 +56,11 @@ class Source:
         self.origin_m = float(self._aligned[ChannelId(DISTANCE)].take(0, 1).values[0])
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
-        """Yield the run in blocks of ``size`` samples."""
+        """Yield the run in blocks of ``size`` samples, each let go of before the next."""
         for begin in range(0, self.length, size):
             yield self._block(begin, min(begin + size, self.length))
+            for channel in self._aligned.values():
+                channel.release()
 
     def _block(self, begin: int, end: int) -> Block:
         taken = {name: channel.take(begin, end) for name, channel in self._aligned.items()}

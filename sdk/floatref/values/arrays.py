@@ -1,6 +1,8 @@
-"""Array types shared by every value, and the freezing that keeps values immutable."""
+"""Array types shared by every value, their freezing, and letting go of mapped files."""
 
+import mmap
 from enum import IntFlag
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,3 +34,19 @@ def frozen(values: ArrayLike) -> FloatArray:
     view = array.view()
     view.flags.writeable = False
     return view
+
+
+def release(values: NDArray[Any]) -> None:
+    """Let go of the memory that looking at ``values`` took, if they lie in a read-only file.
+
+    They can be looked at again. Nothing happens for an array in memory, or where the operating
+    system cannot be told.
+    """
+    array, base = values, values.base
+    while isinstance(base, np.ndarray):
+        array, base = base, base.base
+    # Another mode may have changes in these pages, which would be lost.
+    if isinstance(base, mmap.mmap) and isinstance(array, np.memmap) and array.mode == "r":
+        advise, unneeded = getattr(base, "madvise", None), getattr(mmap, "MADV_DONTNEED", None)
+        if advise is not None and unneeded is not None:
+            advise(unneeded)

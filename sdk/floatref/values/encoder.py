@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import FARTHEST_M
 from floatref.values.recording import Channel
-from floatref.values.scanning import Summary, chunks, first_where
+from floatref.values.scanning import Summary, chunks, every, first_where
 
 FASTEST_MPS = 90.0
 """No profiler is faster, in m/s."""
@@ -101,7 +101,7 @@ def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None
 def _check_speed(channel: Channel) -> None:
     """Refuse a distance that is faster than any profiler, averaged over half a second."""
     stride = round(min(max(1, AVERAGED_S * channel.mean_rate_hz), channel.values.size))
-    distance = channel.values[::stride]
+    distance = every(stride, channel.values)
     times = channel.clock.times(distance.size, step=stride)
     valid = ~np.isnan(distance)
     advance, elapsed = np.diff(distance[valid]), np.diff(times[valid])

@@ -9,7 +9,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.encoder import check_distance
 from floatref.values.recording import Channel, Recording
-from floatref.values.scanning import Summary, first_where, longest_gap
+from floatref.values.scanning import Summary, every, first_where, longest_gap
 
 GRAVITY_TOLERANCE = 2.0
 """How far the mean of a vertical accelerometer may be from g, in m/s²: bias and tilt."""
@@ -194,7 +194,7 @@ def _unused_setup(recording: Recording) -> Iterator[str]:
 
 def _median(values: FloatArray) -> float:
     """Return the median of at most 65536 valid samples, evenly spread where possible."""
-    few = values[:: max(1, values.size >> 16)]
+    few = every(max(1, values.size >> 16), values)
     if np.isnan(few).all():
         few = values
     return float(np.nanmedian(few))

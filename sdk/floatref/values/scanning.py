@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 
 CHUNK = 1 << 18
 """Samples looked at together (2 MiB)."""
@@ -14,10 +14,19 @@ CHUNK = 1 << 18
 def chunks(values: FloatArray, overlap: int = 0) -> Iterator[tuple[int, FloatArray]]:
     """Yield stretches of ``values``, shape (N,), with the index of their first sample.
 
-    Each stretch goes on for ``overlap`` samples into the next one.
+    Each stretch goes on for ``overlap`` samples into the next one. Samples of a file are let go
+    of before the next stretch.
     """
     for first in range(0, values.size, CHUNK):
         yield first, values[first : first + CHUNK + overlap]
+        release(values)
+
+
+def every(stride: int, values: FloatArray) -> FloatArray:
+    """Return a copy of ``values[::stride]``."""
+    return np.concatenate(
+        [chunk[-first % stride :: stride].copy() for first, chunk in chunks(values)]
+    )
 
 
 def first_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray) -> int | None:
