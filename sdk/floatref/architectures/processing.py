@@ -7,20 +7,17 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any
 
-import numpy as np
-
 from floatref import __version__
 from floatref.architectures import flow
+from floatref.architectures.collecting import collected
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import valid_points
 from floatref.errors import InputError
-from floatref.stages.signals import ELEVATION
 from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
-from floatref.values.channels import ChannelId
 from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, check_interval
@@ -116,8 +113,9 @@ def _collect(
 ) -> Profile:
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
-    kept = list(blocks)
-    tracks = tuple(_track(header, kept, name, resolved) for name in header.tracks)
+    found = collected(blocks, header.tracks)
+    reach = (resolved.get("cutoff_wavelength_m") or 0.0) / header.step
+    tracks = tuple(_track(name, *found.pop(name), reach) for name in header.tracks)
     return Profile(
         interval_m=header.step,
         tracks=tracks,
@@ -132,20 +130,5 @@ def _collect(
     )
 
 
-def _track(
-    header: Header, blocks: list[Block], name: str, resolved: Mapping[str, Any]
-) -> ProfileTrack:
-    channel = ChannelId(ELEVATION, name)
-    elevation = _joined([block[channel] for block in blocks])
-    flags = _flags(blocks, channel)
-    reach = (resolved.get("cutoff_wavelength_m") or 0.0) / header.step
+def _track(name: str, elevation: FloatArray, flags: FlagArray, reach: float) -> ProfileTrack:
     return ProfileTrack.of(name, elevation, valid_points(flags, round(min(reach, flags.size))))
-
-
-def _joined(parts: list[FloatArray]) -> FloatArray:
-    return np.concatenate(parts) if parts else np.empty(0)
-
-
-def _flags(blocks: list[Block], channel: ChannelId) -> FlagArray:
-    parts = [b.flags.get(channel, np.zeros(len(b), np.uint8)) for b in blocks]
-    return np.concatenate(parts) if parts else np.empty(0, np.uint8)

@@ -42,7 +42,9 @@ def write_samples(values: FloatArray, path: Path) -> None:
 
 def write_flags(flags: BoolArray, path: Path) -> None:
     """Write ``flags``, shape (N,), to ``path``, one byte 0 or 1 each."""
-    path.write_bytes(flags.astype(np.uint8).tobytes())
+    with path.open("wb") as stream:
+        for _, chunk in chunks(flags):
+            stream.write(chunk.astype(np.uint8).tobytes())
 
 
 def free_name(stem: str, suffix: str, taken: set[str]) -> str:

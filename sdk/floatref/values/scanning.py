@@ -2,16 +2,20 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from floatref.values.arrays import BoolArray, FloatArray, release
 
 CHUNK = 1 << 18
 """Samples looked at together (2 MiB)."""
 
+S = TypeVar("S", bound=np.generic)
 
-def chunks(values: FloatArray, overlap: int = 0) -> Iterator[tuple[int, FloatArray]]:
+
+def chunks(values: NDArray[S], overlap: int = 0) -> Iterator[tuple[int, NDArray[S]]]:
     """Yield stretches of ``values``, shape (N,), with the index of their first sample.
 
     Each stretch goes on for ``overlap`` samples into the next one. Samples of a file are let go
