@@ -1,0 +1,86 @@
+"""The published tables beside ours, in the terminal."""
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from floatref_conformance.render.terminal import PLAIN_WIDTH
+from floatref_conformance.table.cells import Cell, ComparisonTable
+from floatref_conformance.table.published import PublishedFigures, published_table
+from floatref_conformance.table.rank import RankCorrelation, rank_correlations
+
+FIGURES = ("peak, m/km", "IRI error, %", "cross corr.")
+
+
+def print_comparison(table: ComparisonTable, console: Console) -> None:
+    """Print one block for each pipeline, then the rank correlations."""
+    if not console.is_terminal:
+        console.width = max(console.width, PLAIN_WIDTH)
+    for pipeline in table.settings.pipelines:
+        console.print(_block(pipeline, table.of_pipeline(pipeline)))
+    for line in closing_lines(table):
+        console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+def closing_lines(table: ComparisonTable) -> list[str]:
+    """Return what the means rest on, and how the order of the cells compares with print."""
+    made = table.settings
+    lines = [
+        f"Means over {len(table.cells[0].passes)} wheel paths (roads: {made.roads}, sets of passes "
+        f"on each: {made.seeds}; vehicle {made.vehicle}, seed {made.seed}).",
+        "Spearman's rank correlation of the cross correlations, clipped below at 0.2, with print:",
+    ]
+    found = rank_correlations(table)
+    rule = "the rule 'stop: low, else high' alone"
+    chapter, stops = found["chapter_5"], found["stops"]
+    lines.append(f"  chapter 5: {_ranked(chapter)}; {rule}: {_value(chapter.rule)}")
+    lines.append(f"  its stops alone: {_ranked(stops)}")
+    return lines
+
+
+def _block(pipeline: str, cells: tuple[Cell, ...]) -> Table:
+    number = published_table(pipeline)
+    source = "not published" if number is None else f"Table {number}"
+    block = Table(
+        title=f"{pipeline} ({source})",
+        title_justify="left",
+        title_style="bold",
+        box=SIMPLE_HEAD,
+        pad_edge=False,
+    )
+    block.add_column("run", no_wrap=True)
+    for figure in FIGURES:
+        block.add_column(figure, justify="right", no_wrap=True)
+        block.add_column("print", justify="right", style="dim", no_wrap=True)
+    for cell in cells:
+        block.add_row(*_row(cell))
+    return block
+
+
+def _row(cell: Cell) -> tuple[str, ...]:
+    ours, published = cell.mean, cell.published
+    theirs = published and published.scores
+    return (
+        cell.run,
+        f"{ours.peak_m_per_km:,.1f}",
+        f"{theirs.peak_m_per_km:,.1f}" if theirs else "–",
+        f"{ours.iri_error_percent:,.1f}",
+        f"{theirs.iri_error_percent:,.1f}" if theirs else "–",
+        f"{ours.cross_correlation:.3f}",
+        printed_correlation(published) if published else "–",
+    )
+
+
+def printed_correlation(published: PublishedFigures) -> str:
+    """Return the published cross correlation as it is printed."""
+    if published.cross_correlation_is_upper_bound:
+        return f"< {published.scores.cross_correlation:g}"
+    return f"{published.scores.cross_correlation:.3f}"
+
+
+def _ranked(found: RankCorrelation) -> str:
+    return f"{_value(found.ours)} over {found.cells} cells"
+
+
+def _value(value: float | None) -> str:
+    return "none" if value is None else f"{value:.2f}"

@@ -1,0 +1,97 @@
+"""The passes behind the table: a run driven on a road, and what every pipeline makes of it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from floatref.files import read_profile, write_recording
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.devices import builtin
+from floatref_conformance.devices.interface import visible
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.exercise import describe
+from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.proving_ground.runs import RECORDING_LENGTH_M
+from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
+from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.proving_ground.staging import road_of
+from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
+
+SPECTRUM = "sayers-normal"
+"""The roads' kind; each is scaled to the IRI of the published reference pass."""
+
+
+def road_drawn(seed: int, index: int) -> Road:
+    """Return road number ``index`` of ``seed``, long enough for every run."""
+    drawn = _drawn(seed, "road", index)
+    scenario = Scenario(seed=drawn, road=SPECTRUM, iri_m_per_km=REFERENCE_IRI_M_PER_KM)
+    return road_of(scenario, RECORDING_LENGTH_M)
+
+
+def pass_scenario(
+    run: str, seed: int, place: tuple[int, int], vehicle: str, capabilities: frozenset[str]
+) -> Scenario:
+    """Return the scenario of a pass; its sensor errors are those of no other run or pass.
+
+    They follow from ``seed``, ``run`` and ``place``, the number of the road and of the noise,
+    so that a table of fewer runs or pipelines holds the same figures.
+    """
+    drawn = _drawn(seed, run, *place)
+    return scenario_of_run(
+        run, drawn, vehicle=vehicle, imu="imu" in capabilities, gnss="gnss" in capabilities
+    )
+
+
+class Processing:
+    """Pipelines as devices, each given the channels that it declares."""
+
+    def __init__(self, pipelines: Sequence[str]) -> None:
+        """Make the devices; InputError if floatref has no such pipeline."""
+        self._devices = {name: builtin.make(name) for name in pipelines}
+        self._said = {name: describe(device) for name, device in self._devices.items()}
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """What any of the pipelines needs beside the nominal channels."""
+        return frozenset(c for said in self._said.values() for c in said.capabilities)
+
+    def profiles(self, scenario: Scenario, road: Road) -> dict[str, Profile]:
+        """Return the profile that every pipeline makes of ``scenario`` driven on ``road``.
+
+        Raises SuiteError, naming pipeline and run, for a pipeline that fails.
+        """
+        recording = simulate(scenario, road=road).recording
+        profiles: dict[str, Profile] = {}
+        with TemporaryDirectory(ignore_cleanup_errors=True) as name:
+            folder = Path(name)
+            for number, channels in enumerate({said.channels for said in self._said.values()}):
+                given = folder / f"recording-{number}"
+                write_recording(visible(recording, channels), given)
+                for pipeline, said in self._said.items():
+                    if said.channels == channels:
+                        profiles[pipeline] = self._processed(pipeline, given, scenario.manoeuvre)
+        return profiles
+
+    def _processed(self, pipeline: str, given: Path, run: str) -> Profile:
+        target = given.with_name(f"profile-{pipeline}")
+        try:
+            self._devices[pipeline].run(given / "recording.json", target)
+            return _in_memory(read_profile(target))
+        except Exception as error:
+            text = " ".join(str(error).split())
+            raise SuiteError(f"pipeline {pipeline}, run {run}: {text}") from error
+
+
+def _drawn(seed: int, name: str, *numbers: int) -> int:
+    """Return the seed of whatever ``name`` and ``numbers`` stand for."""
+    return int(np.random.SeedSequence([seed, *name.encode(), *numbers]).generate_state(1)[0])
+
+
+def _in_memory(profile: Profile) -> Profile:
+    """Return ``profile`` without its files, which go away."""
+    tracks = tuple(
+        ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid)) for t in profile.tracks
+    )
+    return Profile(profile.interval_m, tracks, profile.start_m)
