@@ -2,6 +2,7 @@
 
 import zlib
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from tempfile import SpooledTemporaryFile, gettempdir
 from types import TracebackType
 from typing import TypeVar
@@ -14,8 +15,8 @@ from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Event
 from floatref.values.channels import ChannelId
 
-IN_MEMORY = 32 * 2**20
-"""Bytes per channel up to which the tape stays in memory; beyond, it is on disk."""
+IN_MEMORY = 64 * 2**20
+"""Bytes of samples up to which a tape stays in memory; beyond, it is on disk."""
 
 M = TypeVar("M", np.bool_, np.uint8)
 Packed = Mapping[ChannelId, bytes]
@@ -65,6 +66,8 @@ class Tape:
             if channel not in self._spools:
                 self._spools[channel] = _spool()
             _write(self._spools[channel], 8 * start, values)
+        if 8 * self._length * len(self._spools) > IN_MEMORY:
+            self._to_disk()
         self._masks[number] = (_pack(block.fresh), _pack(block.flags), block.events)
 
     def read(self, number: int) -> Block:
@@ -82,11 +85,23 @@ class Tape:
         for number in range(len(self)):
             yield self.read(number)
 
+    def _to_disk(self) -> None:
+        with _room():
+            for spool in self._spools.values():
+                spool.rollover()
+
 
 def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> None:
-    try:
+    with _room():
         spool.seek(at)
         spool.write(np.ascontiguousarray(values).data)
+
+
+@contextmanager
+def _room() -> Iterator[None]:
+    """Name the folder that is full."""
+    try:
+        yield
     except OSError as error:
         raise InputError(
             f"{gettempdir()}: the run does not fit ({error.strerror}); free space there, or name "
@@ -95,7 +110,8 @@ def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> N
 
 
 def _spool() -> SpooledTemporaryFile[bytes]:
-    return SpooledTemporaryFile(max_size=IN_MEMORY)
+    # Without a size of its own: the tape decides for all channels together.
+    return SpooledTemporaryFile()
 
 
 def _pack(masks: Mapping[ChannelId, NDArray[M]]) -> Packed:
