@@ -9,6 +9,7 @@ from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel
+from floatref.values.scanning import median_step
 
 APART = 0.01
 """Two clocks of one rate agree if their samples are no further apart than this, in steps."""
@@ -117,4 +118,4 @@ def _common_grid(clock: Clock, other: UniformClock) -> int | None:
 def _gap(channel: Channel) -> float | None:
     if channel.id.name == DISTANCE or not isinstance(channel.clock, StampedClock):
         return None
-    return GAP * float(np.median(np.diff(channel.clock.times_s)))
+    return GAP * median_step(channel.clock.times_s)

@@ -95,3 +95,41 @@ def longest_gap(values: FloatArray) -> tuple[int, int]:
             best = max(best, (int(starts[at]), int(stops[at] - starts[at])), key=lambda gap: gap[1])
     last = (open_at, values.size - open_at) if open_at >= 0 else (0, 0)
     return max(best, last, key=lambda gap: gap[1])
+
+
+def longest_step(values: FloatArray) -> tuple[int, float]:
+    """Return where the longest step of ``values``, shape (N,), N > 1, starts, and the step."""
+    longest, most = 0, -np.inf
+    for first, chunk in chunks(values, overlap=1):
+        steps = np.diff(chunk)
+        if steps.size and steps.max() > most:
+            longest, most = first + int(steps.argmax()), float(steps.max())
+    return longest, most
+
+
+def median_step(values: FloatArray) -> float:
+    """Return the median step of ``values``, shape (N,), which increase all along; NaN for N < 2.
+
+    A long channel's steps are never held together: they are counted by their leading bits, then
+    those in the middle by the next ones.
+    """
+    count = values.size - 1
+    if count <= CHUNK:
+        return float(np.median(np.diff(values))) if count > 0 else np.nan
+    return (_ranked_step((count - 1) // 2, values) + _ranked_step(count // 2, values)) / 2
+
+
+def _ranked_step(rank: int, values: FloatArray) -> float:
+    """Return the step that ``rank`` others precede in order; positive floats sort as integers."""
+    found = 0
+    for shift in (48, 32, 16, 0):
+        counts = np.zeros(1 << 16, np.int64)
+        for _, chunk in chunks(values, overlap=1):
+            digits = np.diff(chunk).view(np.int64) >> shift
+            digits = digits[digits >> 16 == found] - (found << 16)
+            counts += np.bincount(digits, minlength=counts.size)
+        below = np.cumsum(counts)
+        digit = int(np.searchsorted(below, rank, "right"))
+        rank -= int(below[digit] - counts[digit])
+        found = (found << 16) + digit
+    return float(np.int64(found).view(np.float64))

@@ -1,6 +1,7 @@
 """The tape gives back what it took; the engine's order of passes does not change the result."""
 
 from fractions import Fraction
+from tempfile import SpooledTemporaryFile
 
 import numpy as np
 import pytest
@@ -53,6 +54,27 @@ def test_the_tape_returns_what_was_written_on_disk_too(monkeypatch, sizes, seed)
     np.testing.assert_array_equal(joined[: -sizes[-1]], x[: -sizes[-1]])
     np.testing.assert_array_equal(joined[-sizes[-1] :], -x[-sizes[-1] :])
     np.testing.assert_array_equal(np.concatenate([b.flags[ELEVATION] for b in read]), flags)
+
+
+def test_the_channels_of_a_tape_go_to_disk_together(monkeypatch):
+    class Watched(SpooledTemporaryFile):
+        def rollover(self):
+            rolled.add(self)
+            super().rollover()
+
+    rolled = set()
+    monkeypatch.setattr(tape, "_spool", Watched)
+    monkeypatch.setattr(tape, "IN_MEMORY", 3 * 8 * 10)
+    height = ChannelId("height", "main")
+    with tape.Tape() as written:
+        for first, kept in ((0, 0), (10, 2)):
+            ramp = first + np.arange(10.0)
+            written.append(Block(first, {ELEVATION: ramp, height: -ramp}))
+            assert len(rolled) == kept
+        both = list(written.forward())
+    for channel, sign in ((ELEVATION, 1.0), (height, -1.0)):
+        joined = np.concatenate([block[channel] for block in both])
+        np.testing.assert_array_equal(joined, sign * np.arange(20.0))
 
 
 @settings(deadline=None, max_examples=20)

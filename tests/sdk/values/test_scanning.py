@@ -7,7 +7,16 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
 from floatref.values import scanning
-from floatref.values.scanning import Summary, chunks, first_step_where, first_where, longest_gap
+from floatref.values.scanning import (
+    Summary,
+    chunks,
+    every,
+    first_step_where,
+    first_where,
+    longest_gap,
+    longest_step,
+    median_step,
+)
 
 SAMPLES = npst.arrays(
     np.float64,
@@ -31,6 +40,24 @@ def test_the_chunks_in_turn_are_the_whole(values: np.ndarray) -> None:
     np.testing.assert_array_equal(whole, values)
     for first, chunk in chunks(values, overlap=1):
         np.testing.assert_array_equal(chunk, values[first : first + 5])
+
+
+@given(SAMPLES, st.integers(1, 50))
+@PIECES
+def test_every_so_many_samples_are_those_of_the_whole(values: np.ndarray, stride: int) -> None:
+    np.testing.assert_array_equal(every(stride, values), values[::stride])
+
+
+STEPS = st.one_of(st.sampled_from([0.25, 1e-3]), st.floats(1e-300, 1e6))
+
+
+@given(st.lists(STEPS, min_size=1, max_size=40))
+@PIECES
+def test_median_and_longest_step_are_those_of_the_whole(steps: list[float]) -> None:
+    times = np.unique(np.cumsum([0.0, *steps]))
+    whole = np.diff(times)
+    assert median_step(times) == np.median(whole)
+    assert longest_step(times) == (np.argmax(whole), whole.max())
 
 
 @given(SAMPLES)

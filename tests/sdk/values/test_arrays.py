@@ -1,0 +1,57 @@
+"""Letting go of mapped samples changes none of them."""
+
+import mmap
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floatref.values.arrays import frozen, release
+
+SAMPLES = np.arange(100_000.0)
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    SAMPLES.tofile(tmp_path / "samples.f64")
+    return tmp_path / "samples.f64"
+
+
+def test_mapped_samples_can_be_read_again(path: Path) -> None:
+    values = frozen(np.memmap(path, np.uint8, "r").view("<f8"))
+    for part in (values, values[10:20], values[::7]):
+        before = part.copy()
+        release(part)
+        np.testing.assert_array_equal(part, before)
+
+
+def test_changes_that_are_in_memory_alone_stay(path: Path) -> None:
+    values = np.memmap(path, np.float64, "c")
+    values[5000] = -1.0
+    release(values[4000:6000])
+    assert values[5000] == -1.0
+
+
+def test_a_mapping_that_is_not_numpys_stays(path: Path) -> None:
+    with path.open("rb") as stream:
+        private = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_COPY)
+    values = np.frombuffer(private, np.float64)
+    values[5000] = -1.0
+    release(values)
+    assert values[5000] == -1.0
+
+
+def test_an_array_in_memory_stays() -> None:
+    values = SAMPLES.copy()
+    release(values)
+    release(values[3:])
+    np.testing.assert_array_equal(values, SAMPLES)
+
+
+def test_a_system_that_cannot_be_told_is_no_failure(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(mmap, "MADV_DONTNEED", raising=False)
+    values = np.memmap(path, np.float64, "r")
+    release(values)
+    np.testing.assert_array_equal(values, SAMPLES)
