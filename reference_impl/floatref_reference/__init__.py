@@ -6,7 +6,8 @@ contents:
 
 - `appendix_a`: the digital filters (A.1 to A.22).
 - `chapter_2`: the measures, the kinematics and the inverted pendulum (2.1 to 2.26).
-- `chapter_5`: the profile pipelines that use no inertial platform (sections 5.3, 5.4, 5.8).
+- `chapter_5`: the profile pipelines that use no inertial platform (5.1 to 5.9).
+- `beyond`: what the dissertation does not have, built from its equations.
 
 Correct and readable come before fast. Loops are plain, symbols carry the names of the paper,
 filters and sums run in `numpy.longdouble`, and numpy is the only import. Where the print holds

@@ -6,4 +6,5 @@
 - `initialization`: A.3, the first samples (A.12 to A.19).
 - `cut_off`: A.4 and A.5, cut-off conversions (A.20 to A.22).
 - `filters`: the designated stages and filter sets, ready to apply to a signal.
+- `varying`: the high-pass stages with a cut-off of its own at each sample, as section 5.7 needs.
 """

@@ -71,6 +71,31 @@ def _trapezoids(x: npt.ArrayLike, dt: npt.ArrayLike, y_1: Real) -> Signal:
     return signal(y)
 
 
+def captured(
+    a_zp: npt.ArrayLike, h: npt.ArrayLike, r_xp: npt.ArrayLike, f_s: Real, dx: float
+) -> tuple[Signal, Signal, Signal]:
+    """Read the sensors and the clock at each trigger.
+
+    Equation:
+        Figure 5.13: anti-alias filter in time, capture of a_zp, h and t, (5.4).
+
+    Args:
+        a_zp: vertical acceleration with 1 g removed, m/s², shape (N,).
+        h: height above the road, m, shape (N,).
+        r_xp: travel distance, m, shape (N,), non-decreasing.
+        f_s: sampling rate of the three signals, Hz.
+        dx: distance interval Δx of the profile, m.
+
+    Returns:
+        a_zp(x_k), m/s², h(x_k), m, and Δt(x_k), s, each of shape (K,).
+    """
+    points = trigger(r_xp, dx)
+    t = np.arange(len(samples(r_xp))) / np.longdouble(f_s)
+    a_x = capture(anti_alias(a_zp, f_s), points)
+    h_x = capture(anti_alias(h, f_s), points)
+    return a_x, h_x, time_step(capture(t, points))
+
+
 def basic_spatial(
     a_zp: npt.ArrayLike,
     h: npt.ArrayLike,
@@ -97,11 +122,7 @@ def basic_spatial(
     Returns:
         Distance of the first point, m, and the spatial profile r_zr(x_k), m.
     """
-    points = trigger(r_xp, dx)
-    a_x = capture(anti_alias(a_zp, f_s), points)
-    h_x = capture(anti_alias(h, f_s), points)
-    t_x = capture(np.arange(len(samples(r_xp))) / np.longdouble(f_s), points)
-    dt = time_step(t_x)
+    a_x, h_x, dt = captured(a_zp, h, r_xp, f_s, dx)
     r_zp = position(velocity(a_x, dt), dt, h_x[0])
     r_zr = hpf_b3x2(r_zp - h_x, 1 / np.longdouble(lambda_c), dx)
     return float(samples(r_xp)[0]), r_zr

@@ -1,0 +1,4 @@
+"""What goes beyond the dissertation, in its symbols and on its equations.
+
+- `matched_high_pass`: the adaptive high-pass filter of section 5.7 as an observer.
+"""
