@@ -25,6 +25,7 @@ ALLOWED = {
         "rich",
         "scipy",
     },
+    "conformance/floatref_conformance/render": {"matplotlib"},
 }
 """Distributions that a folder may use beside those of the folder around it."""
 

@@ -1,0 +1,90 @@
+"""`conformance table`: output, options and refusals in one line."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+from jsonschema import Draft202012Validator
+
+from floatref_conformance import table as table_package
+from floatref_conformance.cli.main import main
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.schemas import read_schema
+from floatref_conformance.table import Scores, TableSettings
+
+
+@pytest.fixture
+def call(monkeypatch, hand_table):
+    """Return a function that calls the command; every cell it makes is the same."""
+    made = []
+
+    def quick(settings, watch):
+        made.append(settings)
+        watch("road 1, noise 1: ref_72")
+        keys = [(p, r) for p in settings.pipelines for r in settings.runs]
+        return hand_table(dict.fromkeys(keys, Scores(3.0, 5.0, 0.9)), settings)
+
+    monkeypatch.setattr(table_package, "make_table", quick)
+    return (lambda *words: CliRunner().invoke(main, ["table", *map(str, words)])), made
+
+
+def test_json_is_all_there_is_on_stdout(call):
+    answer = call[0]("--json", "--run", "const_16", "--pipeline", "spatial-basic")
+    assert answer.exit_code == 0, answer.output
+    made = json.loads(answer.stdout)
+    Draft202012Validator(read_schema("conformance-table-1")).validate(made)
+    assert [(c["pipeline"], c["run"]) for c in made["cells"]] == [("spatial-basic", "const_16")]
+    assert answer.stderr.splitlines() == ["road 1, noise 1 …"]
+
+
+def test_the_terminal_gets_a_block_for_each_pipeline(call):
+    answer = call[0]("--run", "const_16", "--pipeline", "spatial-basic")
+    assert answer.exit_code == 0
+    assert "spatial-basic (Table 5.9)" in answer.stdout
+    assert "temporal-basic" not in answer.stdout
+
+
+def test_options_reach_the_settings(call):
+    command, made = call
+    assert command().exit_code == 0
+    words = "--seed 7 --seeds 3 --roads 4 --vehicle minivan --run const_5 --run const_16"
+    assert command(*words.split()).exit_code == 0
+    assert made == [TableSettings(), TableSettings(7, 4, 3, "minivan", ("const_16", "const_5"))]
+
+
+def test_the_picture_is_written(call, tmp_path):
+    answer = call[0]("--plot", tmp_path / "table.png", "--run", "const_16")
+    assert answer.exit_code == 0, answer.output
+    assert (tmp_path / "table.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--run", "const_26"), "run const_26: unknown; did you mean const_16?"),
+        (("--pipeline", "magic"), "pipeline magic: unknown; choose from temporal-basic, "),
+        (("--vehicle", "tank"), "vehicle tank: unknown; "),
+        (("--plot", "table.txt"), "table.txt: not the name of a PNG picture"),
+        (("--plot", "nowhere/table.png"), "nowhere/table.png: its folder does not exist"),
+        (("--roads", "0"), "'--roads': 0 is not in the range x>=1"),
+    ],
+)
+def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(call, words, said):
+    command, made = call
+    answer = command(*words)
+    assert answer.exit_code == 2
+    assert said in answer.stderr.splitlines()[-1]
+    assert sum(line.startswith("Error") for line in answer.stderr.splitlines()) == 1
+    assert "Traceback" not in answer.output
+    assert made == []
+
+
+def test_a_fault_of_the_suite_is_exit_3_and_leaves_no_picture(call, monkeypatch, tmp_path):
+    def broken(_settings, _watch):
+        raise SuiteError("pipeline x, run y: no luck")
+
+    monkeypatch.setattr(table_package, "make_table", broken)
+    answer = call[0]("--plot", tmp_path / "table.png")
+    assert answer.exit_code == 3
+    assert "pipeline x, run y: no luck" in answer.stderr
+    assert list(tmp_path.iterdir()) == []
