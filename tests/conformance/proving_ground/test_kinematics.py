@@ -76,6 +76,7 @@ def test_velocity_and_acceleration_are_derivatives_of_height(seed: int, course: 
     assert np.abs(bend - point.acceleration[1:-1]).max() < 4e-3
 
 
+@pytest.mark.cites("(2.17)")
 @settings(deadline=None, max_examples=15)
 @given(seed=seeds)
 def test_centre_of_gravity_feels_the_equations_of_the_text(seed: int) -> None:
@@ -90,6 +91,7 @@ def test_centre_of_gravity_feels_the_equations_of_the_text(seed: int) -> None:
     assert point.vertical == pytest.approx(a_x * st_ * cp + lifted * ct * cp, abs=1e-11)
 
 
+@pytest.mark.cites("(2.19)", "(2.20)")
 @settings(deadline=None, max_examples=15)
 @given(seed=seeds)
 def test_both_corrections_of_the_text_recover_the_vertical_acceleration(seed: int) -> None:
@@ -113,6 +115,7 @@ def test_both_corrections_of_the_text_recover_the_vertical_acceleration(seed: in
     assert second[inner] == pytest.approx(bend, abs=5e-3)
 
 
+@pytest.mark.cites("(2.18)")
 @settings(deadline=None, max_examples=15)
 @given(seed=seeds)
 def test_range_over_a_level_floor_grows_with_both_cosines(seed: int) -> None:

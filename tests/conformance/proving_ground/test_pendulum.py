@@ -51,6 +51,7 @@ def pulse() -> PendulumMotion:
     return simulate_pendulum(Pendulum(), PULSE, 25.0, rate_hz=500.0)
 
 
+@pytest.mark.cites("(2.23)", "(2.24)")
 @given(st.floats(-1.0, 1.5), st.floats(-3.0, 3.0), st.floats(0.05, 0.6))
 @settings(deadline=None, max_examples=8)
 def test_accelerations_are_second_derivatives_of_the_profilers_place(
@@ -66,6 +67,7 @@ def test_accelerations_are_second_derivatives_of_the_profilers_place(
         np.testing.assert_allclose(derived, truth[1:-1], atol=2e-3 * peak_g * G)
 
 
+@pytest.mark.cites("(2.20)", "(2.25)")
 @given(st.floats(-1.0, 1.5), st.floats(-3.0, 3.0))
 @settings(deadline=None, max_examples=5)
 def test_equation_2_20_recovers_the_plumb_acceleration(up: float, forward: float) -> None:
@@ -86,6 +88,7 @@ def test_the_scheme_is_of_fourth_order() -> None:
     assert 10.0 < errors[0].max() / errors[1].max() < 25.0
 
 
+@pytest.mark.cites("(2.22)")
 def test_a_steady_brake_leans_the_body_forward_by_its_pitch_gain() -> None:
     pendulum = Pendulum()
     drive = Drive(30.0, (Segment(8.0, -0.2 * G),))
@@ -94,6 +97,7 @@ def test_a_steady_brake_leans_the_body_forward_by_its_pitch_gain() -> None:
     assert 2.0 < np.degrees(pendulum.pitch_gain) < 5.0
 
 
+@pytest.mark.cites("(2.22)")
 def test_an_undamped_body_swings_at_its_natural_frequency() -> None:
     pendulum = Pendulum(damping=0.0)
     pitch = simulate_pendulum(pendulum, SinSquaredPulse(start_s=0.0), 11.0, rate_hz=500.0).pitch
@@ -103,6 +107,7 @@ def test_an_undamped_body_swings_at_its_natural_frequency() -> None:
     )
 
 
+@pytest.mark.cites("(2.26)")
 def test_the_pulse_takes_22_to_20_metres_per_second() -> None:
     times = np.linspace(5.5, 7.5, 20_001)
     motion = PULSE.motion(times)

@@ -24,6 +24,7 @@ def stages(kind: str, f_c: float, dt: float) -> tuple[Coefficients, Coefficients
     return table_a_1.lpf_b3s1_coefficients(c), table_a_1.lpf_b3s2_coefficients(c)
 
 
+@pytest.mark.cites("(A.20)", "(A.21)")
 @settings(deadline=None, max_examples=30)
 @given(f=st.floats(0.1, 5.0))
 def test_two_passes_lose_3_db_at_the_wanted_frequency(f: float) -> None:
@@ -34,6 +35,7 @@ def test_two_passes_lose_3_db_at_the_wanted_frequency(f: float) -> None:
     assert gain(f, dt, *low) ** 2 == pytest.approx(HALF_POWER, abs=1e-5)
 
 
+@pytest.mark.cites("(A.22)")
 def test_cut_off_wavelength_for_91_44_m_is_105_91_m() -> None:
     assert round(float(cut_off.high_pass_cut_off_wavelength(91.44)), 2) == 105.91
 

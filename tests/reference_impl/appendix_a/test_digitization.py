@@ -19,6 +19,7 @@ def row(stage: str, f_c: float, dt: float) -> Coefficients:
     return build(digitization.substitution(f_c, dt))
 
 
+@pytest.mark.cites("(A.2) to (A.8)", "(A.11)", "Table A.1")
 @pytest.mark.parametrize("stage", STAGES)
 @settings(deadline=None, max_examples=40)
 @given(cut_off=st.floats(1e-3, 0.45), frequency=st.floats(1e-3, 0.49))
@@ -33,6 +34,7 @@ def test_row_equals_the_analog_stage_at_the_warped_frequency(
     assert digital == pytest.approx(analog, rel=1e-7, abs=1e-10)
 
 
+@pytest.mark.cites("(A.1)")
 @settings(deadline=None, max_examples=40)
 @given(omega=st.floats(0.01, 100.0), omega_a=st.floats(0.1, 10.0))
 def test_both_stages_make_the_third_order_butterworth_filter(omega: float, omega_a: float) -> None:

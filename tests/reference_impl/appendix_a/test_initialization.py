@@ -27,11 +27,13 @@ def stage(name: str) -> Stage:
     return found
 
 
+@pytest.mark.cites("(A.9)", "(A.12) to (A.15)")
 @pytest.mark.parametrize(("name", "expected"), BY_HAND.items())
 def test_forward_stage_starts_as_printed(name: str, expected: list[float]) -> None:
     assert stage(name)(IMPULSE, F_C, 1.0) == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.cites("(A.10)", "(A.16) to (A.19)")
 @pytest.mark.parametrize(("name", "expected"), BY_HAND.items())
 def test_reverse_stage_starts_at_the_end(name: str, expected: list[float]) -> None:
     y = stage(f"{name}r")(IMPULSE[::-1], F_C, 1.0)

@@ -31,6 +31,7 @@ def near(printed: float) -> float:
     return max(0.0015 * printed, 0.02)
 
 
+@pytest.mark.cites("(2.11)", "Tables 2.4 to 2.6")
 @pytest.mark.parametrize("column", range(4))
 @pytest.mark.parametrize("index", waveband.INDICES)
 def test_thresholds_agree_with_print(index: str, column: int) -> None:
@@ -48,6 +49,7 @@ def test_95_percent_of_the_iri_on_the_standard_road_as_in_figure_2_8() -> None:
     assert short == pytest.approx(1.85, abs=0.02)
 
 
+@pytest.mark.cites("(2.9)", "(2.10)")
 @pytest.mark.parametrize("index", waveband.INDICES.values(), ids=waveband.INDICES)
 @settings(deadline=None, max_examples=20)
 @given(nu=WAVE_NUMBERS)
@@ -59,6 +61,7 @@ def test_transfer_function_solves_the_equations_of_motion(index: waveband.Index,
     assert waveband.h_suspension_stroke(nu, index) == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.cites("(2.7)")
 @settings(deadline=None, max_examples=20)
 @given(nu=WAVE_NUMBERS, B=st.floats(0.05, 1.0))
 def test_moving_average_is_the_mean_of_a_cosine_over_its_base(nu: float, B: float) -> None:
@@ -68,6 +71,7 @@ def test_moving_average_is_the_mean_of_a_cosine_over_its_base(nu: float, B: floa
     assert waveband.h_moving_average(nu, 0.0) == 1.0
 
 
+@pytest.mark.cites("(2.4)", "(2.5)")
 @pytest.mark.parametrize("road", [*spectra.TABLE_2_2.values(), *spectra.TABLE_2_3.values()])
 @settings(deadline=None, max_examples=10)
 @given(nu=WAVE_NUMBERS)
@@ -78,6 +82,7 @@ def test_slope_spectrum_is_the_elevation_spectrum_differentiated(
     assert spectra.slope_spectrum(nu, road) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.cites("(2.3)", "(2.6)")
 @settings(deadline=None, max_examples=10)
 @given(nu=WAVE_NUMBERS, nu_0=st.floats(0.01, 1.0))
 def test_la_barre_is_sayers_without_white_noise_elevation(nu: float, nu_0: float) -> None:
@@ -87,6 +92,7 @@ def test_la_barre_is_sayers_without_white_noise_elevation(nu: float, nu_0: float
     assert spectra.slope_spectrum(nu, road) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.cites("(2.1)", "(2.2)")
 @settings(deadline=None, max_examples=10)
 @given(nu=WAVE_NUMBERS, nu_0=st.floats(0.01, 1.0))
 def test_power_law_with_exponent_2_has_a_constant_slope_spectrum(nu: float, nu_0: float) -> None:

@@ -14,6 +14,7 @@ def noise(seed: int, points: int = 300) -> np.ndarray:
     return np.random.default_rng(seed).normal(size=points)
 
 
+@pytest.mark.cites("(2.15)")
 @settings(deadline=None, max_examples=10)
 @given(seed=SEEDS, factor=st.floats(0.1, 10.0), mean=st.floats(-5.0, 5.0))
 def test_amplitude_alone_lowers_the_score(seed: int, factor: float, mean: float) -> None:
@@ -43,6 +44,7 @@ def test_search_stops_at_the_limit() -> None:
     assert section.agreement(road[50:350], road[39:339], 0.1, 1.1).score == pytest.approx(1)
 
 
+@pytest.mark.cites("(2.14)")
 @settings(deadline=None, max_examples=10)
 @given(seed=SEEDS)
 def test_opposite_profiles_correlate_negatively(seed: int) -> None:
@@ -50,6 +52,7 @@ def test_opposite_profiles_correlate_negatively(seed: int) -> None:
     assert section.correlation(p, -p, 0) == pytest.approx(-1)
 
 
+@pytest.mark.cites("(2.13)")
 @settings(deadline=None, max_examples=20)
 @given(seed=SEEDS, i=st.integers(-5, 5))
 def test_cross_correlation_function_is_the_mean_product(seed: int, i: int) -> None:

@@ -14,6 +14,7 @@ ANGLES = st.floats(-0.5, 0.5)
 ACCELERATIONS = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
 
 
+@pytest.mark.cites("(2.19)", "(2.20)")
 @settings(deadline=None, max_examples=40)
 @given(a_w=ACCELERATIONS, theta=ANGLES, phi=ANGLES)
 def test_both_corrections_recover_the_true_vertical_acceleration(
@@ -28,6 +29,7 @@ def test_both_corrections_recover_the_true_vertical_acceleration(
     assert float(from_horizontal) == pytest.approx(a_w[2], abs=1e-13)
 
 
+@pytest.mark.cites("(2.17)")
 @settings(deadline=None, max_examples=40)
 @given(a_w=ACCELERATIONS, theta=ANGLES, phi=ANGLES)
 def test_tilt_turns_the_specific_force_without_stretching_it(
@@ -63,6 +65,7 @@ def test_signals_over_time_are_taken_sample_by_sample() -> None:
         ).all()
 
 
+@pytest.mark.cites("(2.18)")
 @settings(deadline=None, max_examples=20)
 @given(height=st.floats(0.1, 1.0), theta=ANGLES, phi=ANGLES)
 def test_tilted_ray_meets_flat_ground_farther_away(height: float, theta: float, phi: float) -> None:

@@ -40,6 +40,7 @@ def measured(response: pendulum.Response) -> np.ndarray:
     return body_fixed_acceleration(a_w, response.theta, level)[2]
 
 
+@pytest.mark.cites("(2.26)")
 def test_pulse_takes_22_to_20_metres_per_second() -> None:
     t = np.arange(0, 4, 0.001)
     push = [pendulum.deceleration_pulse(np.longdouble(t_k)) for t_k in t]
@@ -54,6 +55,7 @@ def test_trolley_at_constant_speed_stays_upright() -> None:
     assert still.h_b == pytest.approx(np.full(101, 0.3))
 
 
+@pytest.mark.cites("(2.22)")
 def test_steady_braking_settles_where_the_moments_balance() -> None:
     settled = pendulum.simulate(5.0, 0.005, 50.0, lambda t: np.longdouble(-3))
     vehicle, theta = pendulum.HOST_VEHICLE, settled.theta[-1]
@@ -62,6 +64,7 @@ def test_steady_braking_settles_where_the_moments_balance() -> None:
     assert weight == pytest.approx(vehicle.k_r * theta, rel=1e-6)
 
 
+@pytest.mark.cites("(2.23) to (2.25)")
 def test_true_vertical_acceleration_is_the_second_derivative_of_true_height() -> None:
     response = braking_from(22.0)
     curvature = np.diff(response.h_w, 2) / DT**2

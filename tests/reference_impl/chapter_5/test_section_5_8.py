@@ -11,6 +11,7 @@ from floatref_reference.chapter_5.section_5_8 import basic_spatial, position, ti
 G = 9.80665
 
 
+@pytest.mark.cites("(5.4) to (5.6)")
 def test_stop_of_10_7_seconds_gives_the_printed_steps() -> None:
     dt = time_step([0.0, 10.7643])
     v_zp = velocity([-0.01865 * G, 0.00910 * G], dt, -0.00319)
@@ -18,6 +19,7 @@ def test_stop_of_10_7_seconds_gives_the_printed_steps() -> None:
     assert position(v_zp, dt)[1] == pytest.approx(-2.748, abs=2e-3)
 
 
+@pytest.mark.cites("(5.5)", "(5.6)")
 @settings(deadline=None, max_examples=20)
 @given(
     a=st.floats(-2.0, 2.0),

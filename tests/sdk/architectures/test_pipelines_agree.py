@@ -29,6 +29,7 @@ def drift_range(recording, track):
     return np.ptp(height)
 
 
+@pytest.mark.cites("(5.4)", "Tables 5.3 to 5.12")
 @pytest.mark.parametrize("pipeline", REFERENCES)
 @settings(
     deadline=None, max_examples=8, suppress_health_check=[HealthCheck.function_scoped_fixture]

@@ -21,6 +21,7 @@ def two_pass_gain(ratio: float) -> float:
     return 1.0 / (1.0 + ratio**6)
 
 
+@pytest.mark.cites("(A.20) to (A.22)")
 @given(st.floats(1e-3, 1e3))
 def test_both_passes_are_down_3_db_where_it_was_asked_for(wanted: float) -> None:
     high, low = high_pass_setting(wanted), low_pass_setting(wanted)

@@ -23,6 +23,7 @@ def test_integration_in_time_is_the_trapezoidal_rule(x, rate, start):
     assert np.abs(y - expected).max() <= 1e-12 * (1.0 + np.abs(expected).max())
 
 
+@pytest.mark.cites("(5.5)")
 @settings(deadline=None, max_examples=40)
 @given(x=SIGNALS, data=st.data())
 def test_integration_over_triggers_is_5_5(x, data):
@@ -33,6 +34,7 @@ def test_integration_over_triggers_is_5_5(x, data):
     assert np.abs(y - expected).max() <= 1e-12 * (1.0 + np.abs(expected).max())
 
 
+@pytest.mark.cites("(5.5)", "(5.6)")
 def test_the_example_of_section_5_8():
     g = 9.80665
     acceleration = np.array([-0.01865 * g, 0.00910 * g])

@@ -31,6 +31,7 @@ def filtered(name, x, cutoff, backward):
     return y
 
 
+@pytest.mark.cites("(A.2) to (A.19)")
 @pytest.mark.parametrize(("name", "backward"), PAIRS)
 @settings(deadline=None, max_examples=15)
 @given(cutoff=CUTOFFS, seed=SEEDS, offset=st.floats(-1e3, 1e3))

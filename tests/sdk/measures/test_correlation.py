@@ -47,6 +47,7 @@ def test_lies_between_minus_one_and_one(seed: int, other: int, count: int, lags:
     assert 0.0 <= found.amplitude_factor <= 1.0
 
 
+@pytest.mark.cites("(2.13) to (2.15)")
 @given(seed=seeds, other=seeds, count=st.integers(50, 400), lags=st.integers(0, 12))
 @FEW
 def test_is_the_best_of_the_correlations_of_the_overlaps(

@@ -36,6 +36,7 @@ def rough_road(seed: int, interval: float, length: float = 24.0) -> np.ndarray:
     return 500.0 * rng.random() + 0.05 * interval * np.arange(count) + np.cumsum(slope)
 
 
+@pytest.mark.cites("section 2.1.1")
 @given(seed=seeds, interval=intervals)
 @FEW
 def test_trace_and_iri(seed: int, interval: float) -> None:
@@ -55,6 +56,7 @@ def test_segments(seed: int, interval: float) -> None:
     np.testing.assert_allclose(flat, np.array(expected, dtype=float), rtol=1e-7)
 
 
+@pytest.mark.cites("section 2.1.3")
 @given(seed=seeds, interval=intervals)
 @FEW
 def test_short_interval_roughness(seed: int, interval: float) -> None:
@@ -64,6 +66,7 @@ def test_short_interval_roughness(seed: int, interval: float) -> None:
     np.testing.assert_allclose(found, expected.astype(float), rtol=1e-7)
 
 
+@pytest.mark.cites("(2.16)")
 @pytest.mark.parametrize("band", BANDS)
 @given(seed=seeds, noise=st.floats(1e-4, 3e-3), shift=st.integers(-6, 6))
 @settings(deadline=None, max_examples=3)

@@ -58,6 +58,7 @@ def test_two_steps_at_one_slope_are_one_step_of_twice_the_length(
     assert poles * gains + gains == pytest.approx(double_gains, rel=1e-10)
 
 
+@pytest.mark.cites("(2.9)")
 @given(frequency=st.floats(0.05, 30.0))
 @settings(deadline=None, max_examples=20)
 def test_modes_at_a_short_step_have_the_stroke_response(frequency: float) -> None:

@@ -62,6 +62,7 @@ def test_a_plane_has_none(interval: float, slope: float) -> None:
     assert iri(z, interval) == pytest.approx(0.0, abs=1e-7)
 
 
+@pytest.mark.cites("(2.7)", "(2.9)")
 @pytest.mark.parametrize("wavelength", [0.7, 1.5, 2.2, 5.0, 12.0, 16.0, 30.0, 60.0])
 def test_sinusoid_is_amplified_as_the_two_responses_say(wavelength: float) -> None:
     interval, slope_amplitude = 0.005, 1e-3

@@ -23,6 +23,7 @@ SHORT = {
 }
 
 
+@pytest.mark.cites("(2.5)", "(2.10)", "(2.11)", "Tables 2.4 to 2.6")
 @pytest.mark.parametrize("index", list(INDICES))
 def test_printed_tables_follow_from_the_equations(index: str) -> None:
     for road, long_m, short_m in zip(SAMPLE_ROADS, LONG[index], SHORT[index], strict=True):

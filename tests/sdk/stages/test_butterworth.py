@@ -24,6 +24,7 @@ SETS = {
 }
 
 
+@pytest.mark.cites("(A.1)")
 @pytest.mark.parametrize("name", SETS)
 @settings(deadline=None, max_examples=10)
 @given(cutoff=st.floats(0.01, 4.0), cut=st.integers(1, 199), seed=st.integers(0, 2**32 - 1))
