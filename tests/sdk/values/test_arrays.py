@@ -32,15 +32,6 @@ def test_changes_that_are_in_memory_alone_stay(path: Path) -> None:
     assert values[5000] == -1.0
 
 
-def test_a_mapping_that_is_not_numpys_stays(path: Path) -> None:
-    with path.open("rb") as stream:
-        private = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_COPY)
-    values = np.frombuffer(private, np.float64)
-    values[5000] = -1.0
-    release(values)
-    assert values[5000] == -1.0
-
-
 def test_an_array_in_memory_stays() -> None:
     values = SAMPLES.copy()
     release(values)
