@@ -27,6 +27,7 @@ TABLE_2_2 = {
     "rough (short waves)": SpectralModel(G_e=1e-6, G_s=100e-6, G_a=0.0),
     "limit roughness": SpectralModel(G_e=8e-6, G_s=300e-6, G_a=0.0),
 }
+"""Table 2.2: four sample roads."""
 
 TABLE_2_3 = {
     "very wavy": SpectralModel(G_e=0.0, G_s=1.0, G_a=8.0),
@@ -34,6 +35,7 @@ TABLE_2_3 = {
     "white noise slope": SpectralModel(G_e=0.0, G_s=1.0, G_a=0.0),
     "choppy": SpectralModel(G_e=0.08, G_s=1.0, G_a=0.0),
 }
+"""Table 2.3: four cases for analysis, for a white noise slope of one."""
 
 
 def power_law(nu: float, G_nu_0: float, nu_0: float, w: float) -> float:
