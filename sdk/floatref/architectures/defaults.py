@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Sequence
 
-from floatref.architectures import steps
 from floatref.architectures.adapter import Adapter, RecordingDirectory
+from floatref.architectures.catalogue import PIPELINES as PIPELINES
 from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
@@ -12,13 +12,21 @@ from floatref.stages import (
     butterworth,
     combining,
     conditioning,
+    datum,
+    dropping,
     integration,
     mean_removal,
+    observer,
+    reflection,
     resampling,
+    schedule,
+    speed,
+    suppression,
+    timer,
+    varying,
 )
 from floatref.stages.protocol import Stage
 
-SETTINGS = {"interval_m": None, "anti_alias_hz": 1000.0, "cutoff_wavelength_m": 105.91}
 STAGES: tuple[type[Stage], ...] = (
     butterworth.HighPassB3S1,
     butterworth.HighPassB3S2,
@@ -30,24 +38,23 @@ STAGES: tuple[type[Stage], ...] = (
     butterworth.LowPassB3S2R,
     combining.Combine,
     conditioning.RemoveGravity,
+    datum.FromFirst,
+    dropping.Drop,
     integration.Integrate,
     mean_removal.RemoveMean,
+    observer.MatchedHighPass,
+    reflection.IntegrateReflecting,
     resampling.TimeStep,
     resampling.ToDistance,
-)
-PIPELINES = (
-    Pipeline("temporal-basic", "temporal", "no error suppression (section 5.3)", SETTINGS),
-    Pipeline(
-        "temporal-mean-removal",
-        "temporal",
-        "the run's mean removed before each integration (section 5.4)",
-        SETTINGS,
-        {
-            "temporal_first_integration": steps.first_integration_without_mean,
-            "temporal_second_integration": steps.second_integration_without_mean,
-        },
-    ),
-    Pipeline("spatial-basic", "spatial", "no error suppression (section 5.8)", SETTINGS),
+    schedule.ScheduleCutOff,
+    schedule.ScheduleWaveNumber,
+    speed.TravelSpeed,
+    suppression.SuppressLocally,
+    timer.DistortTimer,
+    varying.VaryingHighPassB3S1,
+    varying.VaryingHighPassB3S1R,
+    varying.VaryingHighPassB3S2,
+    varying.VaryingHighPassB3S2R,
 )
 
 

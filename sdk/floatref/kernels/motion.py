@@ -134,3 +134,30 @@ def gather_flags(
     for i in range(at, flags.size):
         pending |= flags[i] & lasting
     return pending
+
+
+@compiled
+def integrate_reflecting(
+    x: FloatArray,
+    height: FloatArray,
+    y: FloatArray,
+    memory: FloatArray,
+    steps: FloatArray,
+    true_steps: FloatArray,
+) -> None:
+    """Trapezoidal integral of ``x`` with reflected ``height`` in ``y``: (5.9).
+
+    ``steps[i]`` is the adjusted step to sample i, ``true_steps[i]`` what it really took. The
+    memory has a fourth entry, the last height. Missing (NaN) values are bridged by those before
+    them.
+    """
+    for i in range(x.size):
+        value = x[i] if x[i] == x[i] else memory[1]
+        reading = height[i] if height[i] == height[i] else memory[3]
+        if memory[0] != 0.0:
+            memory[2] = memory[2] + 0.5 * steps[i] * (value + memory[1])
+            if true_steps[i] > 0.0:
+                ratio = steps[i] / true_steps[i]
+                memory[2] += (1.0 - ratio * ratio) * (reading - memory[3])
+        memory[0], memory[1], memory[3] = 1.0, value, reading
+        y[i] = memory[2]

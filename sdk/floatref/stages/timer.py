@@ -1,0 +1,64 @@
+"""Timer distortion: a limit on the time step of the integration over distance."""
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.stages.marking import flags_of
+from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import TIME_STEP, TRUE_TIME_STEP
+from floatref.values.arrays import FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+
+def adjusted_time_step(
+    time_step: FloatArray, limit_s: float, sharpness: float = 25.0
+) -> FloatArray:
+    """Return dt_adj of (5.8), shape (N,), for ``time_step`` dt >= 0 and ``limit_s`` dt_0 in s.
+
+    It is about dt where dt is short and dt_0 where dt is long; ``sharpness`` is β. No power
+    of a number above one is taken, so nothing overflows however long the stop. Raises
+    InputError unless both numbers are above zero.
+    """
+    if not (limit_s > 0.0 and sharpness > 0.0):
+        raise InputError(f"time step limit {limit_s} s, sharpness {sharpness}: both must exceed 0")
+    ratio = np.asarray(time_step, dtype=np.float64) / limit_s
+    # max() and min() keep either branch finite where the other one is taken.
+    short, long = np.minimum(ratio, 1.0), np.maximum(ratio, 1.0)
+    below = short - np.expm1(np.log1p(short**sharpness) / sharpness)
+    above = 1.0 - long * np.expm1(np.log1p((1.0 / long) ** sharpness) / sharpness)
+    adjusted: FloatArray = limit_s * np.where(ratio > 1.0, above, below)
+    return adjusted
+
+
+class DistortTimer(Stage):
+    """Replaces `time_step` by dt_adj of (5.8) and keeps what it was as `true_time_step`.
+
+    dt_0 is the profile's interval over ``slow_speed`` in m/s (5.7), ``sharpness`` is β. Points
+    passed more slowly than about ``slow_speed`` lose content in proportion to the square of
+    the time that is taken away.
+    """
+
+    declared = Declared(linear=False)
+
+    def __init__(self, slow_speed: float = 3.576, sharpness: float = 25.0) -> None:
+        """Limit the time step to that of ``slow_speed``."""
+        super().__init__()
+        self.slow_speed, self.sharpness = slow_speed, sharpness
+        self._limit_s = 1.0
+
+    def open(self, header: Header) -> Header:
+        """Ask for the time step of the triggers."""
+        if header.axis is not Axis.DISTANCE:
+            raise InputError(f"stage {self.name}: the stream is not on the distance axis")
+        header.require(self.name, ChannelId(TIME_STEP))
+        self._limit_s = header.step / self.slow_speed
+        return header.adding(ChannelId(TRUE_TIME_STEP))
+
+    def advance(self, block: Block) -> Block:
+        """Adjust every step."""
+        step, true = ChannelId(TIME_STEP), ChannelId(TRUE_TIME_STEP)
+        adjusted = adjusted_time_step(block[step], self._limit_s, self.sharpness)
+        flags = flags_of(block, step)
+        marks = {} if flags is None else {step: flags, true: flags}
+        return block.setting({step: adjusted, true: block[step]}, marks)
