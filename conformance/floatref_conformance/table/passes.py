@@ -1,6 +1,9 @@
 """The passes behind the table: a run driven on a road, and what every pipeline makes of it."""
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -63,18 +66,18 @@ class Processing:
         Raises SuiteError, naming pipeline and run, for a pipeline that fails.
         """
         recording = simulate(scenario, road=road).recording
-        profiles: dict[str, Profile] = {}
+        kinds = list({said.channels for said in self._said.values()})
         with TemporaryDirectory(ignore_cleanup_errors=True) as name:
             folder = Path(name)
-            for number, channels in enumerate({said.channels for said in self._said.values()}):
-                given = folder / f"recording-{number}"
-                write_recording(visible(recording, channels), given)
-                for pipeline, said in self._said.items():
-                    if said.channels == channels:
-                        profiles[pipeline] = self._processed(pipeline, given, scenario.manoeuvre)
-        return profiles
+            for number, channels in enumerate(kinds):
+                write_recording(visible(recording, channels), folder / str(number))
+            del recording
+            given = [folder / str(kinds.index(said.channels)) for said in self._said.values()]
+            with ThreadPoolExecutor(os.cpu_count()) as workers:
+                made = workers.map(partial(self._processed, scenario.manoeuvre), self._said, given)
+                return dict(zip(self._said, made, strict=True))
 
-    def _processed(self, pipeline: str, given: Path, run: str) -> Profile:
+    def _processed(self, run: str, pipeline: str, given: Path) -> Profile:
         target = given.with_name(f"profile-{pipeline}")
         try:
             self._devices[pipeline].run(given / "recording.json", target)
