@@ -6,6 +6,7 @@ from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
+from floatref.values.scanning import every
 
 PROGRESS_S = 0.05
 """Encoder progress over this time gives the speed (5.6)."""
@@ -18,19 +19,19 @@ def travel_speed(recording: Recording) -> tuple[FloatArray, FloatArray]:
     are empty for a run that short.
     """
     channel = recording.channel(DISTANCE, recording.tracks[0])
-    index = _every_twentieth(channel)
-    known = index[~np.isnan(channel.values[index])]
-    times, distance = _times(channel, known), channel.values[known]
+    stride = _stride(channel)
+    distance = every(stride, channel.values)
+    known = np.flatnonzero(~np.isnan(distance))
+    times, distance = _times(channel, stride * known), distance[known]
     even = np.arange(times[0], times[-1], PROGRESS_S) if times.size else times
     distance = np.interp(even, times, distance)
     return distance[1:], np.diff(distance) / PROGRESS_S
 
 
-def _every_twentieth(channel: Channel) -> IndexArray:
-    count = channel.values.size
+def _stride(channel: Channel) -> int:
     if isinstance(channel.clock, StampedClock):
-        return np.arange(count)
-    return np.arange(0, count, max(1, round(PROGRESS_S * float(channel.clock.rate))))
+        return 1
+    return max(1, round(PROGRESS_S * float(channel.clock.rate)))
 
 
 def _times(channel: Channel, index: IndexArray) -> FloatArray:
