@@ -15,6 +15,7 @@ from floatref_conformance.proving_ground.phases import (
     brake_to_stop,
     cruise,
     extent,
+    set_off,
     speed_change,
 )
 
@@ -24,9 +25,9 @@ SLOW_COAST_DRAG = 0.048 * STANDARD_GRAVITY
 """Deceleration of the paper's coast after a near stop: 5.8 m in 2.19 s from 11.4 km/h (5.2)."""
 THROTTLE = 0.15 * STANDARD_GRAVITY
 """Acceleration of a brisk throttle, in m/s²."""
-RESTART = 0.12 * STANDARD_GRAVITY
-"""Acceleration of a vehicle setting off, in m/s²."""
-WANDER_S = (7.0, 9.0, 6.0, 10.0, 8.0)
+RESTART = 0.25 * STANDARD_GRAVITY
+"""Greatest acceleration of a vehicle setting off, in m/s²."""
+WANDER_S = (14.0, 18.0, 12.0, 20.0, 16.0)
 """Times in s from slowest to fastest and back of a creeping vehicle, over and over."""
 
 
@@ -104,7 +105,7 @@ def near_stop(
     before = cruise(initial_speed, release_m - distance, "the release of the brake")
     coast = Segment(coast_s, -drag)
     _, slowest = extent(slow_speed, (coast,))
-    faster = speed_change(slowest, final_speed, RESTART)
+    faster = set_off(slowest, final_speed, RESTART)
     return _up_to(length_m, initial_speed, (before, *slowing, coast, *faster))
 
 
@@ -131,7 +132,7 @@ def stops(
         slowing = brake_to_stop(speed, mean_deceleration)
         distance, _ = extent(speed, slowing)
         before = cruise(speed, stop_m - place - distance, f"the stop at {stop_m} m")
-        restart = speed_change(0.0, final_speed, acceleration)
+        restart = set_off(0.0, final_speed, acceleration)
         segments += (before, *slowing, Segment(dwell_s), *restart)
         place, speed = stop_m + extent(0.0, restart)[0], final_speed
     return _up_to(length_m, initial_speed, segments)
@@ -158,7 +159,7 @@ def dead_start(
     """Stand at distance 0 for ``dwell_s``, then set off and hold ``final_speed``."""
     if not dwell_s >= 0:
         raise InputError(f"dwell is {dwell_s} s; it must not be negative")
-    return _up_to(length_m, 0.0, (Segment(dwell_s), *speed_change(0.0, final_speed, acceleration)))
+    return _up_to(length_m, 0.0, (Segment(dwell_s), *set_off(0.0, final_speed, acceleration)))
 
 
 def creeping(slowest: float, fastest: float, length_m: float) -> Drive:

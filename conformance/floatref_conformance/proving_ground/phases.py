@@ -2,6 +2,11 @@
 
 A driver builds the brake force up over a moment and lifts the foot off at once; at standstill
 the deceleration ends at once too, whatever the foot does. Throttle comes and goes gently.
+
+Who has to stop at a mark brakes lightly at first and hardest at the end, and sets off with
+more than is left at speed. Figure 5.16 of Karamihas 2021 shows how much: of the stop with an
+average of 0.2 g the stretch below 3.576 m/s begins 2.0 m before the stop and ends 2.5 m behind
+it, which takes 0.33 g and 0.26 g.
 """
 
 from collections.abc import Sequence
@@ -17,6 +22,10 @@ BRAKE_JERK = 0.5 * STANDARD_GRAVITY
 """Rate at which a driver builds the deceleration up, in m/s³, unless the brake is too short."""
 THROTTLE_JERK = 0.2 * STANDARD_GRAVITY
 """Rate at which the acceleration comes and goes with the throttle, in m/s³."""
+LIGHT_SHARE = 0.4
+"""Deceleration at the start of a brake to standstill as a share of that at its end."""
+LAUNCH_JERK = 0.5 * STANDARD_GRAVITY
+"""Rate at which the acceleration comes when setting off, in m/s³."""
 ONSET_SHARE = 0.25
 """Longest onset of a brake as a share of the brake's duration."""
 STOP_BAND_MPS = (1.5 / 3.6, 0.5 / 3.6)
@@ -82,28 +91,50 @@ def brake(from_speed: float, to_speed: float, mean_deceleration: float) -> tuple
     return _onset_and_hold(change, float(held), float(held) / BRAKE_JERK)
 
 
-def brake_to_stop(from_speed: float, mean_deceleration: float) -> tuple[Segment, ...]:
-    """Return onset and hold of a brake to standstill, where the deceleration ends at once.
+def set_off(from_speed: float, to_speed: float, acceleration: float) -> tuple[Segment, ...]:
+    """Return the segments from a standstill or a crawl up to a speed.
 
-    The mean holds between `STOP_BAND_MPS` below ``from_speed`` and the band's lower speed, as
-    the paper's 70.5 and 0.5 km/h from 72 km/h. Speed in m/s, deceleration in m/s², positive.
+    Speeds in m/s, acceleration in m/s². It comes by `LAUNCH_JERK` and then falls steadily to
+    zero, as the engine's power lets it; a small change of speed does not reach it.
+    """
+    change = to_speed - from_speed
+    if not (acceleration > 0 and change >= 0):
+        raise InputError(f"cannot set off from {from_speed} to {to_speed} m/s at {acceleration}")
+    if change == 0:
+        return ()
+    peak = min(acceleration, float(np.sqrt(change * LAUNCH_JERK)))
+    rise_s = peak / LAUNCH_JERK
+    fall_s = 2 * change / peak - rise_s
+    return Segment(rise_s, 0.0, LAUNCH_JERK), Segment(fall_s, peak, -peak / fall_s)
+
+
+def brake_to_stop(from_speed: float, mean_deceleration: float) -> tuple[Segment, ...]:
+    """Return onset and growth of a brake to standstill, where the deceleration ends at once.
+
+    After the onset, by `BRAKE_JERK`, the deceleration grows steadily from `LIGHT_SHARE` of its
+    last value. The mean holds between `STOP_BAND_MPS` below ``from_speed`` and the band's lower
+    speed, as the paper's 70.5 and 0.5 km/h from 72 km/h. Speed in m/s, deceleration in m/s²,
+    positive.
     """
     _check_brake(from_speed, 0.0, mean_deceleration)
     upper, lower = from_speed - STOP_BAND_MPS[0], STOP_BAND_MPS[1]
     if upper - lower <= STANDSTILL_MPS:
         raise InputError(f"{from_speed} m/s is too slow for the average deceleration of a stop")
 
-    def excess(held: float) -> float:
-        segments = _stopping(from_speed, held)
+    def excess(last: float) -> float:
+        segments = _stopping(from_speed, last)
         elapsed = _time_to(from_speed, segments, lower) - _time_to(from_speed, segments, upper)
         return (upper - lower) / elapsed - mean_deceleration
 
-    return _stopping(from_speed, brentq(excess, mean_deceleration / 2, 4 * mean_deceleration))
+    return _stopping(from_speed, brentq(excess, mean_deceleration / 2, 8 * mean_deceleration))
 
 
-def _stopping(from_speed: float, held: float) -> tuple[Segment, ...]:
-    onset_s = min(held / BRAKE_JERK, ONSET_SHARE * from_speed / held)
-    return _onset_and_hold(from_speed, held, onset_s)
+def _stopping(from_speed: float, last: float) -> tuple[Segment, ...]:
+    first = LIGHT_SHARE * last
+    onset_s = min(first / BRAKE_JERK, ONSET_SHARE * from_speed / last)
+    growth_s = (from_speed - first * onset_s / 2) / ((first + last) / 2)
+    jerk = (last - first) / growth_s
+    return Segment(onset_s, 0.0, -first / onset_s), Segment(growth_s, -first, -jerk)
 
 
 def _onset_and_hold(change: float, held: float, onset_s: float) -> tuple[Segment, ...]:
@@ -112,13 +143,19 @@ def _onset_and_hold(change: float, held: float, onset_s: float) -> tuple[Segment
 
 
 def _time_to(from_speed: float, segments: tuple[Segment, ...], speed: float) -> float:
-    """Return when onset and hold have slowed the vehicle to ``speed``, in s."""
-    onset, hold = segments
-    lost = from_speed - speed
-    in_onset = -onset.speed_gain(onset.duration_s)
-    if lost <= in_onset:
-        return float(np.sqrt(-2 * lost / onset.jerk))
-    return onset.duration_s - (lost - in_onset) / hold.acceleration
+    """Return when onset and growth have slowed the vehicle to ``speed``, in s."""
+    onset, growth = segments
+    in_onset = onset.speed_gain(onset.duration_s)
+    gain = speed - from_speed
+    if gain >= in_onset:
+        return _time_of(onset, gain)
+    return onset.duration_s + _time_of(growth, gain - in_onset)
+
+
+def _time_of(segment: Segment, gain: float) -> float:
+    """Return the first time in a slowing segment at which the speed has changed by ``gain``."""
+    start = segment.acceleration
+    return float(2 * gain / (start - np.sqrt(start**2 + 2 * segment.jerk * gain)))
 
 
 def _check_brake(from_speed: float, to_speed: float, mean_deceleration: float) -> None:
