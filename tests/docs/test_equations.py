@@ -1,46 +1,96 @@
-"""The page for readers of the dissertation: all that it names exists and cites its equation."""
+"""The page for readers of the dissertation: as generated, complete, and strict about its rows."""
 
-import re
-import sys
+import importlib
+import tomllib
 from pathlib import Path
-from pkgutil import resolve_name
 
 import pytest
 
 import floatref
 
-PAGE = (Path(__file__).parents[2] / "docs" / "equations.md").read_text(encoding="utf-8")
-ROWS = re.findall(r"^\| \(([\dA]\.\d+)\) \| [^|]+ \| `([\w.]+)` \| `([\w.]+)` \|$", PAGE, re.M)
-PIPELINES = re.findall(r"^\| \d\.\d \| `([\w-]+)` \| `([\w.]+)` \|$", PAGE, re.M)
+ROOT = Path(__file__).parents[2]
+ROWS = tomllib.loads((ROOT / ".ci" / "equations.toml").read_text(encoding="utf-8"))
+GOOD = {
+    "cites": "(2.7)",
+    "what": "Moving average",
+    "reference": "chapter_2.section_2_1_4_waveband.h_moving_average",
+    "used": "floatref.measures.quarter_car.moving_average_response",
+}
+BAD = {
+    "no reference function given": {"reference": ""},
+    "no function given": {"used": []},
+    "floatref_reference.chapter_2.lost does not exist": {"reference": "chapter_2.lost"},
+    "floatref.measures.lost.f does not exist": {"used": ["floatref.measures.lost.f"]},
+    "the docstring of floatref.measures.gaps does not cite it": {"used": "floatref.measures.gaps"},
+    "no test that imports floatref_conformance is marked": {
+        "used": "floatref_conformance.proving_ground.kinematics"
+    },
+    "no test that imports floatref_reference is marked": {"cites": "(9.9)"},
+    "slips.md has no anchor 9-9": {"slip": "9-9"},
+}
 
 
-def cited(text: str) -> set[tuple[str, int]]:
-    """Return chapter and number of every equation in ``text``, ranges filled in."""
-    found: set[tuple[str, int]] = set()
-    for chapter, first, last in re.findall(
-        r"\(([\dA])\.(\d+)\)(?:(?: to |[-–])\([\dA]\.(\d+)\))?", text
-    ):
-        found |= {(chapter, n) for n in range(int(first), int(last or first) + 1)}
-    return found
+@pytest.fixture
+def generator(monkeypatch):
+    """Return the script that writes the page."""
+    monkeypatch.syspath_prepend(str(ROOT / ".ci"))
+    return importlib.import_module("equations_page")
 
 
-@pytest.mark.parametrize(("equation", "reference", "used"), ROWS)
-def test_what_is_named_exists_and_cites_the_equation(
-    equation: str, reference: str, used: str
-) -> None:
-    chapter, number = equation.split(".")
-    for name in (f"floatref_reference.{reference}", used):
-        target = resolve_name(name)
-        module = sys.modules[getattr(target, "__module__", name)]
-        text = f"{target.__doc__} {module.__doc__}"
-        assert (chapter, int(number)) in cited(text), name
+def test_the_page_is_what_the_script_writes(generator, monkeypatch, capsys):
+    monkeypatch.setattr("sys.argv", ["equations_page.py", "--check"])
+    assert generator.main() == 0, capsys.readouterr().err
 
 
-def test_the_page_has_its_rows() -> None:
-    assert len(ROWS) == len(re.findall(r"^\| \([\dA]\.\d+\)", PAGE, re.M)) > 20
+def test_a_page_of_yesterday_fails(generator, monkeypatch, capsys, tmp_path):
+    page = tmp_path / "equations.md"
+    page.write_text("# Yesterday\n", encoding="utf-8")
+    monkeypatch.setattr("sys.argv", ["equations_page.py", "--check", "--page", str(page)])
+    assert generator.main() == 1
+    assert "is out of date" in capsys.readouterr().err
 
 
-def test_every_pipeline_has_its_reference() -> None:
-    assert {name for name, _ in PIPELINES} == set(floatref.pipelines())
-    for _, reference in PIPELINES:
-        assert callable(resolve_name(f"floatref_reference.{reference}"))
+def test_a_complete_row_is_a_line_with_four_columns(generator):
+    text = generator.page({"intro": "", "outro": "", "groups": [{"title": "One", "rows": [GOOD]}]})
+    row = next(line for line in text.splitlines() if "(2.7)" in line)
+    assert all(cell.strip() for cell in row.strip("|").split("|"))
+    assert row.count("|") == 5
+
+
+@pytest.mark.parametrize("reason", BAD)
+def test_a_row_that_lacks_something_fails_in_one_line(generator, reason):
+    row = GOOD | BAD[reason]
+    with pytest.raises(generator.IncompleteRowError) as caught:
+        generator.complete([{"title": "One", "rows": [row]}])
+    said = [line for line in str(caught.value).splitlines() if reason in line]
+    assert len(said) == 1
+    assert said[0].startswith(f"{row['cites']}, Moving average: ")
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"pipeline": "temporal-lost"}, "there is no pipeline temporal-lost"),
+        ({"cites": "section 5.4"}, "its summary does not cite section 5.4"),
+        ({"table": "Table 5.4"}, "its figures are published in Table 5.3"),
+        ({"reference": "chapter_5.lost"}, "floatref_reference.chapter_5.lost does not exist"),
+    ],
+)
+def test_a_pipeline_that_lacks_something_fails(generator, change, reason):
+    rows = [row for group in ROWS["groups"] for row in group["rows"]]
+    good = next(row for row in rows if row.get("pipeline") == "temporal-basic")
+    assert list(generator.pipeline_faults(good)) == []
+    assert reason in list(generator.pipeline_faults(good | change))
+
+
+def test_every_pipeline_is_on_the_page():
+    page = (ROOT / "docs" / "equations.md").read_text(encoding="utf-8")
+    assert [name for name in floatref.pipelines() if f"`{name}`" not in page] == []
+
+
+def test_no_row_is_listed_twice_and_every_test_cites_what_is_on_the_page(generator):
+    rows = [row for group in ROWS["groups"] for row in group["rows"]]
+    listed = [(row["cites"], row["reference"]) for row in rows]
+    assert len(set(listed)) == len(listed)
+    page = generator.cited((ROOT / "docs" / "equations.md").read_text(encoding="utf-8"))
+    assert set(generator.tests()) <= page

@@ -103,7 +103,7 @@ def iri(z: npt.ArrayLike, dx: float, speed_kmh: float = 80.0) -> np.longdouble:
     """Compute the IRI of a whole profile.
 
     Equation:
-        Step 4: average rectified value of the trace of steps 1 to 3.
+        Section 2.1.1, step 4: average rectified value of the trace of steps 1 to 3.
 
     Args:
         z: elevation, m, shape (N,), N ≥ 2.

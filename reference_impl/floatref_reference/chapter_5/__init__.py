@@ -1,5 +1,6 @@
 """Chapter 5, Error Suppression Algorithms: the profile pipelines of both architectures.
 
+- `section_5_2`: the runs of Tables 5.1 and 5.2.
 - `section_5_3`: basic temporal algorithm, and the procedures every algorithm shares.
 - `section_5_4`: temporal mean removal.
 - `section_5_5`: temporal high-pass filtering before integration.

@@ -1,7 +1,8 @@
 """Butterworth stages in trapezoidal state-variable form, after appendix A of Karamihas (2021).
 
-The transfer functions are those of (A.1)-(A.8); the states are the integrators of the analog
-prototype, so nothing cancels at a cut-off a million times below the sampling rate. With
+The transfer functions are those of (A.1)-(A.8), the outputs those of the recursions (A.9) and
+(A.10) with Table A.1; the states are the integrators of the analog prototype, so nothing cancels
+at a cut-off a million times below the sampling rate. With
 c = tan(pi f_c dt) (A.11), a first-order stage has one state s and a second-order stage two:
 
     S1:  hp = (x - s) / (1 + c),  lp = x - hp,  s += 2 c hp

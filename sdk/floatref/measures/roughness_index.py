@@ -40,7 +40,7 @@ def iri_trace(
 
     Value k is the output at the end of the interval from point k to point k + 1; NaN before the
     first and after the last measured point. Raises InputError for a profile shorter than the
-    start length. Source: steps 1 to 3 of 2.1.1.
+    start length. Source: steps 1 to 3 of section 2.1.1.
     """
     from floatref.kernels.golden_car import car_response
 
@@ -52,7 +52,7 @@ def iri_trace(
 
 
 def iri(elevation: FloatArray, interval_m: float, settings: IriSettings = STANDARD) -> float:
-    """Return the IRI in m/km of ``elevation`` in m at ``interval_m``, from step 4 of 2.1.1.
+    """Return the IRI in m/km of ``elevation`` in m at ``interval_m``, by section 2.1.1.
 
     The average goes from the first to the last measured point. Raises InputError for a profile
     shorter than the start length.

@@ -36,7 +36,7 @@ def short_interval_roughness(
 
     One value fewer than ``elevation``: value k belongs to the interval from point k to k + 1 and
     is the mean of n = round(base/interval) values from k − n//2 on, of those there are near the
-    ends. NaN before the first and after the last measured point. Source: 2.1.3.
+    ends. NaN before the first and after the last measured point. Source: section 2.1.3.
     """
     if not (np.isfinite(base_m) and base_m > 0):
         raise InputError(f"base length is {base_m} m; it must be above zero")

@@ -79,7 +79,8 @@ def wavelength_thresholds(
 ) -> WavelengthThresholds:
     """Return the wavelengths up to which, and down to which, ``captured`` of the index lies.
 
-    Raises InputError unless 0 < ``captured`` < 1. Source: (2.4), (2.7) to (2.11).
+    Raises InputError unless 0 < ``captured`` < 1. Source: (2.4), (2.7) to (2.11);
+    of Tables 2.4 to 2.6 for 0.995.
     """
     if not 0.0 < captured < 1.0:
         raise InputError(f"captured share is {captured}; it must lie between 0 and 1")

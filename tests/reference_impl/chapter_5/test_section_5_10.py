@@ -30,6 +30,7 @@ def drive(speed: float, n: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.n
     return rng.normal(size=n), 0.3 + 0.01 * rng.normal(size=n), np.arange(n) * speed / 1000
 
 
+@pytest.mark.cites("(5.7)")
 def test_limit_is_the_one_in_print() -> None:
     assert time_step_limit(DX) == pytest.approx(DT_0, abs=1e-7)
 
@@ -44,6 +45,7 @@ def test_at_16_km_h_a_fiftieth_of_a_percent_is_missing() -> None:
     assert 0.00018 < missing < 0.0002
 
 
+@pytest.mark.cites("(5.8)")
 @settings(deadline=None, max_examples=50)
 @given(ratio=st.floats(1e-6, 1e6), dt_0=st.floats(1e-5, 1.0), beta=st.floats(2.0, 40.0))
 def test_adjusted_step_stays_below_both_limits_and_reaches_them(
@@ -66,6 +68,7 @@ def test_no_time_stays_no_time() -> None:
     assert adjusted_time_step([0.0], DT_0)[0] == 0
 
 
+@pytest.mark.cites("(5.9)")
 @settings(deadline=None, max_examples=20)
 @given(heights=st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=30))
 def test_without_motion_and_time_the_profile_is_flat_whatever_the_height_does(
@@ -85,6 +88,7 @@ def test_unadjusted_steps_reflect_nothing(step: float, seed: int) -> None:
     assert reflected_position(v, dt, dt, h) == pytest.approx(position(v, dt), abs=1e-14)
 
 
+@pytest.mark.cites("(5.9)")
 @settings(deadline=None, max_examples=20)
 @given(part=st.floats(0.0, 1.0), lift=st.floats(-1.0, 1.0))
 def test_reflection_replaces_the_part_that_both_integrations_lose(part: float, lift: float) -> None:

@@ -57,10 +57,12 @@ def test_at_low_sampling_rates_one_step_is_the_window() -> None:
     assert list(travel_speed([0.0, 1.0, 3.0], 5.0)) == [0, 5, 10]
 
 
+@pytest.mark.cites("(5.1)")
 def test_settings_in_print_make_a_time_constant_of_1_2_s() -> None:
     assert section_5_6.time_constant() == pytest.approx(1.2, abs=0.001)
 
 
+@pytest.mark.cites("(5.2)")
 @pytest.mark.parametrize(("frequency", "gain", "degrees"), [(2.0, 0.996, 3.8), (14.0, 0.999, 0.54)])
 def test_controller_has_the_gain_in_print_and_twice_its_phase(
     frequency: float, gain: float, degrees: float

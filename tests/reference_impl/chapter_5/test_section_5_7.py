@@ -24,12 +24,14 @@ Pipeline = Callable[..., tuple[float, npt.NDArray[np.longdouble]]]
 PIPELINES: list[Pipeline] = [adaptive_high_pass, adaptive_high_pass_spatial_backward]
 
 
+@pytest.mark.cites("(5.3)")
 def test_cut_off_at_16_km_h_is_the_one_in_print() -> None:
     f_c = cut_off_frequency([MPH_10])[0]
     assert round(float(f_c), 4) == 0.0481
     assert 1 / cut_off_wave_number([MPH_10], 0.00508)[0] == pytest.approx(93.04, abs=0.03)
 
 
+@pytest.mark.cites("(5.3)")
 @settings(deadline=None, max_examples=50)
 @given(
     v=st.floats(0.0, 60.0),
