@@ -34,6 +34,7 @@ def bounce(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return 0.025 * omega**2 * (np.cos(omega * t) - np.cos(2 * omega * t)), lift
 
 
+@pytest.mark.cites("(A.1)")
 @settings(deadline=None, max_examples=20)
 @given(f_c=st.floats(0.001, 0.3), seed=st.integers(0, 99))
 def test_constant_cut_off_is_the_third_order_filter_of_the_profile(f_c: float, seed: int) -> None:
