@@ -80,7 +80,7 @@ def test_bounce_under_a_sweeping_cut_off_cancels_in_the_observer_and_not_in_the_
     assert len(profile) == 2800
     assert np.abs(profile).max() <= 1e-6
     for cascade in (adaptive_high_pass, adaptive_high_pass_spatial_backward):
-        _, residue = cascade(a, 0.3 + lift, x, F_S, DX)
+        _, residue = cascade(a[::4], 0.3 + lift[::4], x[::4], F_S / 4, DX)
         assert np.abs(residue).max() > 1e-3
 
 

@@ -113,6 +113,17 @@ def test_crawling_vehicle_reflects_its_height_sensor() -> None:
     assert np.abs(reflected).max() < 2e-4 * np.std(distorted) * 10
 
 
+def test_reflected_is_the_height_that_is_subtracted() -> None:
+    x = np.arange(2000) * 4e-5
+    sinking = 0.3 - 0.5 * x
+    profiles = [
+        pipeline(np.zeros(2000), sinking, x, 1000.0, 4e-4, lambda_c=0.02) for pipeline in PIPELINES
+    ]
+    distorted, reflected = (np.abs(profile).max() for _, profile in profiles)
+    assert distorted > 1e-4
+    assert reflected < 1e-3 * distorted
+
+
 @settings(deadline=None, max_examples=10)
 @given(speed=st.floats(0.2, 3.0), v_0=st.floats(4.0, 9.0))
 def test_distortion_runs_both_integrations_on_the_adjusted_clock(speed: float, v_0: float) -> None:
