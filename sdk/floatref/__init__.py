@@ -23,11 +23,21 @@ if TYPE_CHECKING:
     from floatref.architectures.processing import process as process
     from floatref.errors import FloatrefError as FloatrefError
     from floatref.errors import InputError as InputError
+    from floatref.errors import StageError as StageError
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
+    from floatref.retrofit import AdaptiveCutOff as AdaptiveCutOff
+    from floatref.retrofit import AdaptiveHighPass as AdaptiveHighPass
+    from floatref.retrofit import HeightReflection as HeightReflection
+    from floatref.retrofit import HighPass as HighPass
+    from floatref.retrofit import LocalSuppression as LocalSuppression
+    from floatref.retrofit import MatchedHighPass as MatchedHighPass
+    from floatref.retrofit import SpatialHighPass as SpatialHighPass
+    from floatref.retrofit import TimerDistortion as TimerDistortion
+    from floatref.retrofit import TravelSpeed as TravelSpeed
     from floatref.values.clock import StampedClock as StampedClock
     from floatref.values.clock import UniformClock as UniformClock
     from floatref.values.profile import Profile as Profile
@@ -41,16 +51,26 @@ __version__ = "0.1.0"
 
 # Imported on first use, so that `import floatref` loads neither numba nor scipy.
 _PUBLIC = {
+    "AdaptiveCutOff": "retrofit",
+    "AdaptiveHighPass": "retrofit",
     "Channel": "values.recording",
     "FloatrefError": "errors",
     "FloatrefWarning": "architectures.processing",
+    "HeightReflection": "retrofit",
+    "HighPass": "retrofit",
     "InputError": "errors",
+    "LocalSuppression": "retrofit",
+    "MatchedHighPass": "retrofit",
     "Profile": "values.profile",
     "ProfileTrack": "values.profile",
     "Recording": "values.recording",
     "Setup": "values.recording",
+    "SpatialHighPass": "retrofit",
+    "StageError": "errors",
     "StampedClock": "values.clock",
+    "TimerDistortion": "retrofit",
     "TrackSetup": "values.recording",
+    "TravelSpeed": "retrofit",
     "UniformClock": "values.clock",
     "pipelines": "architectures.processing",
     "process": "architectures.processing",

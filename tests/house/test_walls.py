@@ -18,6 +18,7 @@ BREACHES = {
     "sdk/floatref/stages/marking.py": "floatref.files",
     "sdk/floatref/measures/gaps.py": "floatref.architectures",
     "sdk/floatref/files/samples.py": "floatref.kernels",
+    "sdk/floatref/retrofit/alone.py": "floatref.architectures.flow",
     "sdk/floatref/architectures/temporal.py": "floatref.architectures.spatial",
     "sdk/floatref/architectures/flow.py": "floatref.cli",
     "sdk/floatref/architectures/tape.py": "floatref_conformance",

@@ -1,0 +1,25 @@
+"""Every algorithm of chapter 5 alone, for an engine that is not ours: plain arrays in and out.
+
+One object per wheel path and run. It takes chunks of any length from one sample up, keeps its
+state from one to the next, and gives the numbers of the pipelines' stages, bit for bit, however
+the run is cut. Arrays are float64 of shape (N,), the answer is a new array of the same length,
+and what is passed in is left as it was. `copy.deepcopy` saves the state.
+
+A missing sample is NaN. It is bridged by the one before it, so the answer has no NaN; ``bridged``
+counts such samples, and `numpy.isnan` of the chunk tells which they are. An infinite sample, or
+signals of different length in one call, raise InputError. A set of calls that belongs together
+(acceleration, velocity and height) is counted, and an incomplete one raises StageError.
+
+The algorithms are linear in the vertical signals, so these may be in any unit, the same for
+all of them; m/s², m/s and m are meant below. Speeds are in m/s, time in s, distance in m.
+"""
+
+from floatref.retrofit.adaptive import AdaptiveHighPass as AdaptiveHighPass
+from floatref.retrofit.high_pass import HighPass as HighPass
+from floatref.retrofit.high_pass import SpatialHighPass as SpatialHighPass
+from floatref.retrofit.low_speed import HeightReflection as HeightReflection
+from floatref.retrofit.low_speed import LocalSuppression as LocalSuppression
+from floatref.retrofit.low_speed import TimerDistortion as TimerDistortion
+from floatref.retrofit.matched import MatchedHighPass as MatchedHighPass
+from floatref.retrofit.travel import TravelSpeed as TravelSpeed
+from floatref.stages.schedule import AdaptiveCutOff as AdaptiveCutOff

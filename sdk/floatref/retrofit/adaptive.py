@@ -1,0 +1,156 @@
+"""The high-pass filter whose cut-off follows the travel speed, before each integration."""
+
+from collections.abc import Callable
+from fractions import Fraction
+
+from numpy.typing import ArrayLike
+
+from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
+from floatref.retrofit.calls import Calls
+from floatref.stages.datum import FromFirst
+from floatref.stages.protocol import Stage
+from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
+from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, TRAVEL_SPEED, VELOCITY
+from floatref.stages.varying import (
+    VaryingHighPassB3S1,
+    VaryingHighPassB3S1R,
+    VaryingHighPassB3S2,
+    VaryingHighPassB3S2R,
+)
+from floatref.values.arrays import FloatArray
+from floatref.values.block import Header
+
+
+class AdaptiveHighPass:
+    """Adaptive high-pass filtering (5.7) at the cut-off (5.3) of every sample's speed.
+
+    As `HighPass`, with the speed beside every chunk: at low speed the cut-off is a frequency, at
+    high speed a wavelength. The filter removes content below the cut-off; at low speed that is
+    content of the roughness too.
+
+    Attributes:
+        schedule: the cut-off that it follows.
+    """
+
+    def __init__(
+        self,
+        rate_hz: float | Fraction,
+        low_speed_cutoff_hz: float = 0.45,
+        cutoff_wavelength_m: float = 105.91,
+        transition_speed_mps: float = 2.778,
+        transition_steepness: float = 2.5,
+    ) -> None:
+        """Filter signals sampled at ``rate_hz`` at f_ls, λ_c, v_0 and α (in s/m) of (5.3).
+
+        Raises InputError for an unlikely rate, or unless the others are above zero.
+        """
+        self.schedule = AdaptiveCutOff(
+            low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
+        )
+        self._axis = in_time(rate_hz)
+        self._calls = Calls(type(self).__name__)
+        self._acceleration = self._forward(ACCELERATION, VaryingHighPassB3S1)
+        self._velocity = self._forward(VELOCITY, VaryingHighPassB3S2)
+        self._height = self._forward(HEIGHT, FromFirst, VaryingHighPassB3S1, VaryingHighPassB3S2)
+
+    @property
+    def bridged(self) -> int:
+        """How many samples of the three signals were bridged so far, they or their speed NaN."""
+        return self._acceleration.bridged + self._velocity.bridged + self._height.bridged
+
+    def acceleration(self, a: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return HPF_B3S1 of the acceleration with 1 g removed, before the first integration.
+
+        Args:
+            a: next samples in m/s², shape (N,).
+            speed: travel speed there in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: after the end of the run.
+        """
+        x, v_x = chunks("AdaptiveHighPass.acceleration", a=a, speed=speed)
+        self._calls.add("acceleration", x.size, v_x)
+        return self._acceleration(x, v_x)
+
+    def velocity(self, v: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return HPF_B3S2 of the integrated acceleration, before the second integration.
+
+        Args:
+            v: next samples in m/s, shape (N,).
+            speed: travel speed there in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: beyond the samples of the acceleration so far; after the end of the run.
+        """
+        x, v_x = chunks("AdaptiveHighPass.velocity", v=v, speed=speed)
+        self._calls.add("velocity", x.size, v_x)
+        return self._velocity(x, v_x)
+
+    def height(self, h: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return HPF_B3 of the height, counted from its first sample, to be subtracted.
+
+        Args:
+            h: next samples in m, shape (N,).
+            speed: travel speed there in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: after the end of the run.
+        """
+        x, v_x = chunks("AdaptiveHighPass.height", h=h, speed=speed)
+        self._calls.add("height", x.size, v_x)
+        return self._height(x, v_x)
+
+    def reverse(self, profile: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return the backward pass in time over the whole run's elevation, HPF_B3S2R, HPF_B3S1R.
+
+        Args:
+            profile: the second integral minus the filtered height in m, shape (N,).
+            speed: the speed of all forward calls in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: unless N samples of all three signals have passed, at this speed; the
+                second time.
+        """
+        z, v_x = chunks("AdaptiveHighPass.reverse", profile=profile, speed=speed)
+        self._calls.end_in_time(z.size, v_x)
+        return backward(self._axis, ScheduleCutOff(self.schedule), z, v_x)
+
+    def reverse_over_distance(
+        self, profile: ArrayLike, speed: ArrayLike, interval_m: float
+    ) -> FloatArray:
+        """Return the backward pass over distance, after the decimation (fig. 5.12).
+
+        The cut-off wavelength of a point is that of its speed, at least four intervals.
+
+        Args:
+            profile: elevation every ``interval_m`` in m, shape (K,).
+            speed: speed stored with each point in m/s, shape (K,).
+            interval_m: distance between points in m.
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples; an interval not above zero.
+            StageError: unless all three signals have come as far; the second time.
+        """
+        call = "AdaptiveHighPass.reverse_over_distance"
+        z, v_x = chunks(call, profile=profile, speed=speed)
+        axis = over_distance(interval_m)
+        self._calls.end("reverse_over_distance")
+        return backward(axis, ScheduleWaveNumber(self.schedule), z, v_x)
+
+    def finish(self) -> None:
+        """End a run without a backward pass; StageError unless all three signals are complete."""
+        self._calls.end("finish")
+
+    def _forward(self, signal: str, *kinds: Callable[[str], Stage]) -> Alone:
+        stages = ScheduleCutOff(self.schedule), *(kind(signal) for kind in kinds)
+        return Alone(self._axis, (signal, TRAVEL_SPEED), signal, stages)
+
+
+def backward(axis: Header, scheduled: Stage, profile: FloatArray, speed: FloatArray) -> FloatArray:
+    """Return HPF_B3S1R of HPF_B3S2R of ``profile``, shape (N,), at the cut-off ``scheduled``."""
+    stages = scheduled, VaryingHighPassB3S2R(ELEVATION), VaryingHighPassB3S1R(ELEVATION)
+    return Alone(axis, (ELEVATION, TRAVEL_SPEED), ELEVATION, stages)(profile, speed)

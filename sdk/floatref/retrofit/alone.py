@@ -1,0 +1,106 @@
+"""Stages without a stream around them: plain arrays in, one plain array out."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import isfinite
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from floatref.errors import InputError
+from floatref.stages.protocol import Stage
+from floatref.stages.signals import DISTANCE, TIME_STEP, TRAVEL_SPEED, TRUE_TIME_STEP
+from floatref.values.arrays import Flag, FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+from floatref.values.clock import UniformClock
+
+TRACK = "main"
+SHARED = frozenset({DISTANCE, TIME_STEP, TRAVEL_SPEED, TRUE_TIME_STEP})
+
+
+class Alone:
+    """A chain of stages for one wheel path.
+
+    Attributes:
+        bridged: how many samples were missing (NaN) so far and were bridged.
+    """
+
+    def __init__(
+        self, axis: Header, inputs: Sequence[str], output: str, stages: Sequence[Stage]
+    ) -> None:
+        """Start ``stages``, given the signals named ``inputs``, to make ``output`` of them."""
+        self._inputs = tuple(_channel(name) for name in inputs)
+        self._output, self._stages = _channel(output), tuple(stages)
+        header = axis.adding(*self._inputs)
+        for stage in self._stages:
+            header = stage.start(header)
+        self._next = 0
+        self.bridged = 0
+
+    def __call__(self, *signals: FloatArray) -> FloatArray:
+        """Return the output for the next samples, shape (N,), of all inputs."""
+        block = Block(self._next, dict(zip(self._inputs, signals, strict=True)))
+        self._next += len(block)
+        for stage in self._stages:
+            block = stage.push(block)
+        flags = block.flags.get(self._output)
+        if flags is not None:
+            self.bridged += int(np.count_nonzero(flags & Flag.MISSING))
+        result = block[self._output]
+        # Stages give out arrays of their own, read-only; here one belongs to the caller.
+        result.flags.writeable = True
+        return result
+
+
+def in_time(rate_hz: float | Fraction) -> Header:
+    """Return the time axis of ``rate_hz``, no signals yet; InputError for an unlikely rate."""
+    rate = UniformClock.of(rate_hz).rate if not isinstance(rate_hz, Fraction) else rate_hz
+    return Header(Axis.TIME, float(1 / UniformClock(rate).rate), 0.0, rate, frozenset(), (TRACK,))
+
+
+def over_distance(interval_m: float) -> Header:
+    """Return the distance axis of ``interval_m``, no signals yet; InputError unless above zero."""
+    require_above_zero("interval_m", interval_m)
+    return Header(Axis.DISTANCE, float(interval_m), 0.0, Fraction(1), frozenset(), (TRACK,))
+
+
+def require_above_zero(name: str, value: float) -> None:
+    """Raise InputError unless ``value``, called ``name``, is finite and above zero."""
+    if not (isfinite(value) and value > 0.0):
+        raise InputError(f"{name} is {value}; give a number above zero")
+
+
+def chunks(call: str, **signals: ArrayLike) -> tuple[FloatArray, ...]:
+    """Return ``signals`` as float64 arrays of one common shape (N,).
+
+    Raises InputError in the name of ``call`` for what is no such array, for an infinite sample,
+    and for signals of different length.
+    """
+    arrays = {name: _chunk(f"{call}: {name}", values) for name, values in signals.items()}
+    lengths = {array.size for array in arrays.values()}
+    if len(lengths) > 1:
+        found = ", ".join(f"{array.size} of {name}" for name, array in arrays.items())
+        raise InputError(f"{call}: {found}; give as many samples of each")
+    return tuple(arrays.values())
+
+
+def _chunk(name: str, values: ArrayLike) -> FloatArray:
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} is not an array of numbers; give float64, shape (N,)") from error
+    if array.ndim != 1:
+        raise InputError(
+            f"{name} has shape {array.shape}; give one wheel path, shape (N,), which is (1,) for "
+            "a single sample"
+        )
+    infinite = np.isinf(array)
+    if infinite.any():
+        where = int(infinite.argmax())
+        raise InputError(f"{name} sample {where} is {array[where]}; give NaN for a missing one")
+    return array
+
+
+def _channel(name: str) -> ChannelId:
+    return ChannelId(name) if name in SHARED else ChannelId(name, TRACK)

@@ -1,0 +1,102 @@
+"""The high-pass filter that is matched exactly: an observer in place of both integrations."""
+
+from fractions import Fraction
+
+from numpy.typing import ArrayLike
+
+from floatref.retrofit.adaptive import backward
+from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
+from floatref.retrofit.calls import Calls
+from floatref.stages.observer import MatchedHighPass as Observer
+from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
+from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
+from floatref.values.arrays import FloatArray
+
+
+class MatchedHighPass:
+    """The floating reference height, drawn to the height below the cut-off (5.3) of the speed.
+
+    It takes the place of both integrations and of the filters around them: subtract the height as
+    it was measured. The vehicle's motion cancels however the cut-off varies. At a constant one the
+    difference is (A.1) of the profile; content below the cut-off is removed.
+
+    Attributes:
+        schedule: the cut-off that it follows.
+    """
+
+    def __init__(
+        self,
+        rate_hz: float | Fraction,
+        low_speed_cutoff_hz: float = 0.45,
+        cutoff_wavelength_m: float = 105.91,
+        transition_speed_mps: float = 2.778,
+        transition_steepness: float = 2.5,
+    ) -> None:
+        """Observe signals sampled at ``rate_hz`` at f_ls, λ_c, v_0 and α (in s/m) of (5.3).
+
+        Raises InputError for an unlikely rate, or unless the others are above zero.
+        """
+        self.schedule = AdaptiveCutOff(
+            low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
+        )
+        self._axis = in_time(rate_hz)
+        self._calls = Calls(type(self).__name__, ("reference_height",))
+        signals = ACCELERATION, HEIGHT, TRAVEL_SPEED
+        stages = ScheduleCutOff(self.schedule), Observer()
+        self._observer = Alone(self._axis, signals, REFERENCE_HEIGHT, stages)
+
+    @property
+    def bridged(self) -> int:
+        """How many samples so far lacked (NaN) acceleration, height or speed and were bridged."""
+        return self._observer.bridged
+
+    def reference_height(self, a: ArrayLike, h: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return the floating reference height in m, shape (N,); minus ``h`` it is the elevation.
+
+        Args:
+            a: next samples of the acceleration with 1 g removed in m/s², shape (N,).
+            h: height as it was measured in m, shape (N,).
+            speed: travel speed there in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: after the end of the run.
+        """
+        x, height, v_x = chunks("MatchedHighPass.reference_height", a=a, h=h, speed=speed)
+        self._calls.add("reference_height", x.size, v_x)
+        return self._observer(x, height, v_x)
+
+    def reverse(self, profile: ArrayLike, speed: ArrayLike) -> FloatArray:
+        """Return the backward pass in time over the whole run's elevation, HPF_B3S2R, HPF_B3S1R.
+
+        Args:
+            profile: the floating reference height minus the height in m, shape (N,).
+            speed: the speed of all forward calls in m/s, shape (N,).
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples.
+            StageError: unless N samples were observed at this speed; the second time.
+        """
+        z, v_x = chunks("MatchedHighPass.reverse", profile=profile, speed=speed)
+        self._calls.end_in_time(z.size, v_x)
+        return backward(self._axis, ScheduleCutOff(self.schedule), z, v_x)
+
+    def reverse_over_distance(
+        self, profile: ArrayLike, speed: ArrayLike, interval_m: float
+    ) -> FloatArray:
+        """Return the backward pass over distance, after the decimation (fig. 5.12).
+
+        Args:
+            profile: elevation every ``interval_m`` in m, shape (K,).
+            speed: speed stored with each point in m/s, shape (K,).
+            interval_m: distance between points in m.
+
+        Raises:
+            InputError: for arrays of other shapes or infinite samples; an interval not above zero.
+            StageError: before anything was observed; the second time.
+        """
+        call = "MatchedHighPass.reverse_over_distance"
+        z, v_x = chunks(call, profile=profile, speed=speed)
+        axis = over_distance(interval_m)
+        self._calls.end("reverse_over_distance")
+        return backward(axis, ScheduleWaveNumber(self.schedule), z, v_x)
