@@ -15,17 +15,23 @@ APART = 0.01
 """Two clocks of one rate agree if their samples are no further apart than this, in steps."""
 GAP = 5.0
 """Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
+BRIDGE_S = 0.01
+"""A gap up to so long is bridged well: a line misses a 15-Hz swing of the body by a tenth."""
 LOOK = 4096
 """Samples looked at in one go for the end of a gap."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Samples of a channel on the clock of the blocks, and which of them are what."""
+    """Samples of a channel on the clock of the blocks, and which of them are what.
+
+    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`.
+    """
 
     values: FloatArray
     fresh: BoolArray | None = None
     missing: BoolArray | None = None
+    lost: BoolArray | None = None
 
 
 class AlignedChannel:
@@ -42,18 +48,20 @@ class AlignedChannel:
         """Return samples ``begin`` to ``end - 1``, which lie within the channel's span."""
         if self._offset is not None:
             low = begin + self._first + self._offset
-            values, missing = bridged(self.channel.values, low, low + end - begin)
-            return Stretch(values, missing=missing)
+            longest = int(BRIDGE_S * float(self._clock.rate))
+            values, missing, lost = bridged(self.channel.values, low, low + end - begin, longest)
+            return Stretch(values, missing=missing, lost=lost)
         before = max(begin - 1, 0)
         place = self._places(self._clock.times(end - before, self._first + before))
         low = int(place[0])
         high = min(math.ceil(place[-1]) + 1, self.channel.values.size)
-        samples, missing = bridged(self.channel.values, low, high)
+        samples, missing, _ = bridged(self.channel.values, low, high)
         values = np.interp(place, np.arange(low, high), samples)
         fresh = np.diff(np.floor(place), prepend=-1.0 if begin == before else np.nan) > 0
         lost = self._lost(place, low, missing)
         skip = begin - before
-        return Stretch(values[skip:], fresh[skip:], None if lost is None else lost[skip:])
+        lost = None if lost is None else lost[skip:]
+        return Stretch(values[skip:], fresh[skip:], lost, lost)
 
     def release(self) -> None:
         """Let go of the samples taken, if they lie in a file."""
@@ -79,17 +87,31 @@ class AlignedChannel:
         return wide if lost is None else np.logical_or(lost, wide)
 
 
-def bridged(values: FloatArray, low: int, high: int) -> tuple[FloatArray, BoolArray | None]:
-    """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which those were."""
+def bridged(
+    values: FloatArray, low: int, high: int, longest: int = 0
+) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
+    """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which those were.
+
+    The last array tells which of them lie in a gap of more than ``longest`` samples, or one
+    that is open at an end of the channel.
+    """
     part = values[low:high]
     if not np.isnan(part.sum()):
-        return part, None
+        return part, None, None
     missing = np.isnan(part)
     known = np.flatnonzero(~missing) + low
     left, right = _good_before(values, low), _good_after(values, high)
     known = np.concatenate((left, known, right))
     where = np.arange(low, high)
-    return np.interp(where, known, values[known]), missing
+    lost = missing & (_gap_lengths(known, where) > longest)
+    return np.interp(where, known, values[known]), missing, lost
+
+
+def _gap_lengths(known: IndexArray, where: IndexArray) -> IndexArray:
+    """Return how many samples lie between the known ones on either side of each of ``where``."""
+    edges = np.concatenate(([-LOOK], known, [known[-1] + 2 * LOOK]))
+    after = np.searchsorted(edges, where, "right")
+    return np.asarray(edges[after] - edges[after - 1] - 1)
 
 
 def _good_before(values: FloatArray, low: int) -> IndexArray:

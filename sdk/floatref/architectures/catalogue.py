@@ -5,9 +5,23 @@ from floatref.architectures import steps
 from floatref.architectures import suppression_steps as temporal
 from floatref.architectures.question import Answer, Pipeline
 
-INTERVAL: dict[str, float | None] = {"interval_m": None, "anti_alias_hz": 1000.0}
+VALIDITY: dict[str, float | None] = {
+    "slow_mps": 4.444444,
+    "braking_g": 0.16,
+    "before_slow_m": 20.0,
+    "after_slow_m": 40.0,
+    "after_braking_m": 20.0,
+}
+UNSUPPRESSED = {"before_slow_m": 47.0, "after_slow_m": 76.0, "after_braking_m": 47.0}
+"""In the spatial architecture a stop is one time step, which only timer distortion limits."""
+INTERVAL = {"interval_m": None, "anti_alias_hz": 1000.0, **VALIDITY}
 WAVELENGTH = {**INTERVAL, "cutoff_wavelength_m": 105.91}
-COLLECTIVE = {**INTERVAL, "collective_cutoff_hz": 0.0489}
+COLLECTIVE = {
+    **INTERVAL,
+    "collective_cutoff_hz": 0.0489,
+    "run_in_m": 52.955,
+    "drift_reach_m": 105.91,
+}
 SUPPRESSION = {
     **COLLECTIVE,
     "suppression_speed_mps": 4.444444,
@@ -20,6 +34,7 @@ ADAPTIVE = {
     "transition_speed_mps": 2.778,
     "transition_steepness": 2.5,
 }
+SPATIAL = {**WAVELENGTH, **UNSUPPRESSED}
 TIMER = {**WAVELENGTH, "timer_speed_mps": 3.576, "timer_sharpness": 25.0}
 
 TEMPORAL_HPF: dict[str, Answer] = {
@@ -105,12 +120,12 @@ PIPELINES = (
             "temporal_finish": temporal.finish_backward,
         },
     ),
-    Pipeline("spatial-basic", "spatial", "no error suppression (section 5.8)", WAVELENGTH),
+    Pipeline("spatial-basic", "spatial", "no error suppression (section 5.8)", SPATIAL),
     Pipeline(
         "spatial-hpf",
         "spatial",
         "high-pass filters before the integrations (section 5.9)",
-        WAVELENGTH,
+        SPATIAL,
         SPATIAL_HPF,
     ),
     Pipeline(

@@ -14,7 +14,7 @@ from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
-from floatref.architectures.validity import valid_points
+from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
 from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
@@ -114,8 +114,11 @@ def _collect(
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
     found = collected(blocks, header.tracks)
-    reach = (resolved.get("cutoff_wavelength_m") or 0.0) / header.step
-    tracks = tuple(_track(name, *found.pop(name), reach) for name in header.tracks)
+    reach = Reach.of(resolved)
+    tracks = tuple(
+        ProfileTrack.of(name, elevation, valid_points(flags, header.step, reach))
+        for name, (elevation, flags) in ((name, found.pop(name)) for name in header.tracks)
+    )
     return Profile(
         interval_m=header.step,
         tracks=tracks,
@@ -128,7 +131,3 @@ def _collect(
             "numpy": version("numpy"),
         },
     )
-
-
-def _track(name: str, elevation: FloatArray, flags: FlagArray, reach: float) -> ProfileTrack:
-    return ProfileTrack.of(name, elevation, valid_points(flags, round(min(reach, flags.size))))

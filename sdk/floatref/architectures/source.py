@@ -2,7 +2,7 @@
 
 A channel on that clock is passed through. Another is linear between its samples, which is
 what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
-missing sample is bridged by the line between its neighbours and flagged; one of the
+missing sample is bridged by the line between its neighbours and flagged; a longer gap of the
 accelerometer disturbs the floating reference height, and is flagged as that too. GNSS samples
 keep their own times, as events.
 """
@@ -12,13 +12,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from floatref.architectures.aligned import AlignedChannel
+from floatref.architectures.aligned import AlignedChannel, Stretch
 from floatref.architectures.events import GnssEvents
 from floatref.architectures.steady import steady_clock
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
-from floatref.values.arrays import BoolArray, Flag, FlagArray
+from floatref.values.arrays import Flag, FlagArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
@@ -68,7 +68,7 @@ class Source:
             begin,
             {name: stretch.values for name, stretch in taken.items()},
             {name: s.fresh for name, s in taken.items() if s.fresh is not None},
-            {name: _flags(name, s.missing) for name, s in taken.items() if s.missing is not None},
+            {name: flags for name, s in taken.items() if (flags := _flags(name, s)) is not None},
             self._events.between(self._time(begin), self._time(end)),
         )
 
@@ -96,6 +96,10 @@ def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int
     return first, last - first + 1
 
 
-def _flags(name: ChannelId, missing: BoolArray) -> FlagArray:
-    kind = Flag.MISSING | Flag.DRIFT if name.name == SPECIFIC_FORCE else Flag.MISSING
-    return np.where(missing, np.uint8(kind), np.uint8(0)).astype(np.uint8)
+def _flags(name: ChannelId, stretch: Stretch) -> FlagArray | None:
+    if stretch.missing is None:
+        return None
+    flags = np.where(stretch.missing, np.uint8(Flag.MISSING), np.uint8(0))
+    if name.name == SPECIFIC_FORCE and stretch.lost is not None:
+        flags |= np.where(stretch.lost, np.uint8(Flag.DRIFT), np.uint8(0))
+    return flags

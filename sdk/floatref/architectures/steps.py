@@ -6,6 +6,7 @@ from floatref.architectures.question import Question
 from floatref.stages.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.combining import Combine
 from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.drive_marks import BRAKING_G, SLOW_MPS, MarkDrive
 from floatref.stages.integration import Integrate
 from floatref.stages.mean_removal import RemoveMean
 from floatref.stages.protocol import Stage
@@ -22,8 +23,10 @@ def nothing(question: Question) -> Sequence[Stage]:
 
 
 def condition(question: Question) -> Sequence[Stage]:
-    """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it (5.3)."""
-    stages: list[Stage] = [RemoveGravity()]
+    """Remove 1 g, mark the drive; LPF_B3 at 1000 Hz on both sensors where the rate allows it."""
+    slow = question.settings.get("slow_mps") or SLOW_MPS
+    braking = question.settings.get("braking_g") or BRAKING_G
+    stages: list[Stage] = [RemoveGravity(), MarkDrive(slow, braking)]
     if question.header.rate > LEAST_RATE_HZ:
         cutoff = question.setting("anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)

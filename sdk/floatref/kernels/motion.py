@@ -161,3 +161,30 @@ def integrate_reflecting(
                 memory[2] += (1.0 - ratio * ratio) * (reading - memory[3])
         memory[0], memory[1], memory[3] = 1.0, value, reading
         y[i] = memory[2]
+
+
+@compiled
+def mark_drive(
+    distance: FloatArray,
+    window: int,
+    slow: float,
+    braking: float,
+    marks: tuple[int, int],
+    flags: FlagArray,
+) -> None:
+    """Write to ``flags`` the first of ``marks`` for slow travel, the second for hard braking.
+
+    ``distance`` holds two windows of ``window`` samples before the first flag. Travel is slow if
+    the progress over the last window is below ``slow``, and the braking is hard if it is that
+    much, ``braking``, below the progress over the window before. Where a distance is missing
+    (NaN), so is the mark.
+    """
+    for i in range(flags.size):
+        last = distance[i + 2 * window] - distance[i + window]
+        before = distance[i + window] - distance[i]
+        mark = 0
+        if last < slow:
+            mark |= marks[0]
+        if before - last > braking:
+            mark |= marks[1]
+        flags[i] = mark

@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
-from floatref.values.arrays import Flag, FlagArray, FloatArray, IndexArray
+from floatref.values.arrays import LASTING, FlagArray, FloatArray, IndexArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -23,8 +23,8 @@ class ToDistance(Stage):
     reached it, so during a stop there is none (section 5.3); where time samples are further
     apart than the interval, it is linear in distance between them. `distance` is dropped, and
     so are samples at which the encoder is missing or behind where it has been. A point has the
-    flags of the samples it is read from; `Flag.DRIFT` of any sample since the point before
-    reaches it too, however long the vehicle stood.
+    flags of the samples it is read from; those that are `LASTING` of any sample since the point
+    before reach it too, however long the vehicle stood.
 
     With ``keep_time`` each point gets the channel `time` that an encoder-triggered engine
     stores with its sample (section 5.8).
@@ -92,7 +92,7 @@ class ToDistance(Stage):
             marks = np.bitwise_or.reduce([np.zeros(len(wide), np.uint8), *own])
             gathered = np.empty(sample.size, np.uint8)
             pending[channel] = motion.gather_flags(
-                marks, sample, part, int(Flag.DRIFT), pending.get(channel, 0), gathered
+                marks, sample, part, int(LASTING), pending.get(channel, 0), gathered
             )
             found[channel] = gathered
         return found

@@ -20,6 +20,14 @@ class Flag(IntFlag):
     """The sample itself was not measured and has been bridged."""
     DRIFT = 2
     """The floating reference height is disturbed here; a high-pass filter spreads it."""
+    SLOW = 4
+    """Travel so slow that stages remove content there, or drift is squeezed into one spot."""
+    BRAKING = 8
+    """Braking so hard that the tilt of the accelerometer matters."""
+
+
+LASTING = Flag.DRIFT | Flag.SLOW | Flag.BRAKING
+"""What a sample between two points of the profile does to the second of them, too."""
 
 
 def frozen(values: ArrayLike) -> FloatArray:

@@ -14,6 +14,13 @@ from floatref.values.recording import Channel
 RATE = UniformClock.of(1000.0)
 
 
+def invalid_within(profile, run_in_m=53.0):
+    """Distances of the invalid points away from the ends of the run."""
+    x = profile.distance_m
+    inner = (x > x[0] + run_in_m) & (x < x[-1] - run_in_m)
+    return x[inner & ~profile.tracks[0].valid]
+
+
 def with_gap(steady, name, begin, end):
     values = steady(seconds=30.0).channel(name).values.copy()
     values[begin:end] = np.nan
@@ -41,6 +48,11 @@ def test_the_profile_records_how_it_was_made(steady):
         "interval_m": 0.05,
         "anti_alias_hz": 1000.0,
         "cutoff_wavelength_m": 50.0,
+        "slow_mps": 4.444444,
+        "braking_g": 0.16,
+        "before_slow_m": 47.0,
+        "after_slow_m": 76.0,
+        "after_braking_m": 47.0,
     }
     assert profile.provenance["architecture"] == "spatial"
     assert profile.provenance["floatref"] == floatref.__version__
@@ -80,7 +92,7 @@ def test_numpy_numbers_are_numbers_and_none_keeps_the_default(steady):
 
 
 def test_a_huge_cut_off_is_no_more_than_the_whole_run(steady):
-    recording = with_gap(steady, "vertical_specific_force", 15_000, 15_010)
+    recording = with_gap(steady, "vertical_specific_force", 15_000, 15_050)
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
         profile = floatref.process(recording, settings={"cutoff_wavelength_m": 1e308})
     assert not profile.tracks[0].valid.any()
@@ -96,7 +108,7 @@ def test_a_laser_drop_out_is_flagged_where_it_is(steady, pipeline):
     recording = with_gap(steady, "height", 15_000, 15_500)
     with pytest.warns(floatref.FloatrefWarning, match=r"height: 500 of 30000 samples missing"):
         profile = floatref.process(recording, pipeline)
-    lost = profile.distance_m[~profile.tracks[0].valid]
+    lost = invalid_within(profile)
     assert 299.9 <= lost.min() <= 300.1
     assert 309.8 <= lost.max() <= 310.1
     assert np.isfinite(profile.tracks[0].elevation).all()
@@ -104,14 +116,44 @@ def test_a_laser_drop_out_is_flagged_where_it_is(steady, pipeline):
 
 def test_an_accelerometer_drop_out_is_flagged_a_cut_off_wavelength_to_either_side(steady):
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
-        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_010))
-    lost = profile.distance_m[~profile.tracks[0].valid]
+        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_011))
+    lost = invalid_within(profile)
     assert lost.min() == pytest.approx(300.0 - 105.91, abs=0.2)
     assert lost.max() == pytest.approx(300.2 + 105.91, abs=0.2)
 
 
+def test_a_drop_out_too_short_to_drift_is_flagged_where_it_is(steady):
+    with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
+        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_010))
+    lost = invalid_within(profile)
+    assert 299.9 <= lost.min() <= lost.max() <= 300.3
+
+
+@pytest.mark.parametrize("pipeline", floatref.pipelines())
+def test_filter_run_in_and_run_out_are_half_a_cut_off_wavelength(steady, pipeline):
+    valid = floatref.process(steady(seconds=30.0), pipeline).tracks[0].valid
+    points = round(105.91 / 2 / 0.05)
+    assert not valid[:points].any() and not valid[-points:].any()
+    assert valid[points:-points].all()
+
+
+@pytest.mark.parametrize("pipeline", floatref.pipelines())
+def test_a_stop_is_flagged_with_what_its_pipeline_spreads(steady, pipeline):
+    times = np.arange(60_000) / 1000.0
+    slowing = np.clip(20.0 - 1.5 * np.clip(times - 20.0, 0.0, None), 0.0, None)
+    speed = slowing + np.clip(times - 36.0, 0.0, 10.0)
+    distance = np.cumsum(speed) / 1000.0
+    recording = steady(seconds=60.0, distance=Channel.of("distance", distance, RATE))
+    profile = floatref.process(recording, pipeline)
+    lost = invalid_within(profile, 100.0)
+    before, after = (47.0, 76.0) if pipeline in ("spatial-basic", "spatial-hpf") else (20.0, 40.0)
+    slow = distance[speed < 16 / 3.6]
+    assert lost.min() == pytest.approx(slow.min() - before, abs=2.0)
+    assert lost.max() == pytest.approx(slow.max() + after, abs=2.0)
+
+
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "temporal-mean-removal", "spatial-basic"])
-@pytest.mark.parametrize("lost", [slice(15_000, 16_250), slice(15_007, 15_008)])
+@pytest.mark.parametrize("lost", [slice(15_000, 16_250), slice(15_007, 15_018)])
 def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):
     times = np.arange(30_000) / 1000.0
     distance = 20.0 * np.clip(times, None, 14.0) + 20.0 * np.clip(times - 17.0, 0.0, None)
@@ -124,7 +166,7 @@ def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):
     )
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
         profile = floatref.process(recording, pipeline)
-    invalid = profile.distance_m[~profile.tracks[0].valid]
+    invalid = invalid_within(profile)
     assert invalid.min() == pytest.approx(280.0 - 105.91, abs=0.2)
     assert invalid.max() == pytest.approx(280.0 + 105.91, abs=0.2)
 

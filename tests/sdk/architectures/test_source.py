@@ -82,12 +82,26 @@ def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
     assert set(flags.tolist()) == {0, int(Flag.MISSING)}
 
 
-def test_a_gap_of_the_accelerometer_is_flagged_as_drift(steady):
+@pytest.mark.parametrize("size", [3, 7, 4000])
+@pytest.mark.parametrize(("count", "kind"), [(10, Flag.MISSING), (11, Flag.MISSING | Flag.DRIFT)])
+def test_a_long_gap_of_the_accelerometer_is_flagged_as_drift(steady, size, count, kind):
     forces = steady().channel("vertical_specific_force").values.copy()
-    forces[5] = np.nan
+    forces[5 : 5 + count] = np.nan
     lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
-    (block, *_) = Source(steady(vertical_specific_force=lost)).blocks()
-    assert block.flags[FORCE][5] == Flag.MISSING | Flag.DRIFT
+    blocks = Source(steady(vertical_specific_force=lost)).blocks(size)
+    flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    assert set(flags[5 : 5 + count].tolist()) == {int(kind)}
+    assert not flags[:5].any() and not flags[5 + count :].any()
+
+
+@pytest.mark.parametrize("part", [slice(0, 3), slice(-3, None)])
+def test_a_gap_at_the_end_of_a_run_is_long_since_nobody_knows_its_end(steady, part):
+    forces = steady().channel("vertical_specific_force").values.copy()
+    forces[part] = np.nan
+    lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
+    blocks = Source(steady(vertical_specific_force=lost)).blocks(100)
+    flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    assert (flags[part] == Flag.MISSING | Flag.DRIFT).all()
 
 
 def test_a_hole_between_time_stamps_of_a_laser_is_a_gap(steady):

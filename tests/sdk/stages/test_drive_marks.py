@@ -1,0 +1,80 @@
+"""Marks for slow travel and hard braking."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import InputError
+from floatref.stages.drive_marks import MarkDrive
+from floatref.values.arrays import Flag
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+RATE = 200
+G = 9.80665
+ACCELERATION, DISTANCE = ChannelId("vertical_acceleration", "left"), ChannelId("distance")
+
+
+def marked(
+    speed: np.ndarray, count_m: float = 0.0, lost: tuple[int, ...] = (), **limits: float
+) -> np.ndarray:
+    """Return the flags of a drive at ``speed`` in m/s, its encoder counting in ``count_m``."""
+    distance = np.cumsum(speed) / RATE
+    distance[list(lost)] = np.nan
+    if count_m:
+        distance = count_m * np.floor(distance / count_m)
+    channels = frozenset({ACCELERATION, DISTANCE})
+    stage = MarkDrive(**limits)
+    stage.start(Header(Axis.TIME, 1 / RATE, 0.0, Fraction(RATE), channels, ("left",)))
+    out = stage.push(Block(0, {ACCELERATION: np.zeros(speed.size), DISTANCE: distance}))
+    return out.flags.get(ACCELERATION, np.zeros(speed.size, np.uint8))
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.floats(0.0, 35.0), st.sampled_from([0.0, 0.0003, 0.01]))
+def test_a_steady_speed_is_slow_below_16_km_h_however_coarse_the_encoder(speed, count_m):
+    flags = marked(np.full(5 * RATE, speed), count_m)[RATE:]
+    if speed < 16 / 3.6 - 0.03:
+        assert (flags == Flag.SLOW).all()
+    elif speed > 16 / 3.6 + 0.03:
+        assert (flags == 0).all()
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.floats(0.0, 0.9), st.sampled_from([0.0, 0.0003, 0.001]))
+def test_a_steady_brake_is_marked_beyond_its_limit(braking, count_m):
+    times = np.arange(3 * RATE) / RATE
+    flags = marked(40.0 - braking * G * times, count_m)[RATE:]
+    if braking > 0.17:
+        assert (flags == Flag.BRAKING).all()
+    elif braking < 0.15:
+        assert (flags == 0).all()
+
+
+def test_a_standstill_is_slow_to_its_end_and_speeding_up_is_no_braking():
+    speed = np.concatenate((np.zeros(2 * RATE), np.linspace(0.0, 20.0, 4 * RATE)))
+    flags = marked(speed)
+    assert (flags[RATE : 2 * RATE] == Flag.SLOW).all()
+    assert not (flags & Flag.BRAKING).any()
+    assert flags[-1] == 0
+
+
+def test_limits_are_settings():
+    speed = np.full(3 * RATE, 7.0)
+    assert not marked(speed).any()
+    assert marked(speed, slow_mps=8.0)[RATE:].all()
+
+
+def test_a_missing_distance_marks_nothing_by_itself():
+    assert not marked(np.full(4 * RATE, 20.0), lost=(2 * RATE,)).any()
+    standing = marked(np.zeros(4 * RATE), lost=(2 * RATE,))
+    assert np.count_nonzero(standing[RATE:] == 0) == 2
+
+
+def test_it_belongs_on_the_time_axis():
+    header = Header(Axis.DISTANCE, 0.1, 0.0, Fraction(RATE), frozenset({DISTANCE}), ("left",))
+    with pytest.raises(InputError, match="time axis"):
+        MarkDrive().start(header)
