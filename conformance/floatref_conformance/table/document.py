@@ -6,7 +6,7 @@ from typing import Any
 
 from floatref_conformance.schemas import enforce
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import SPECTRUM
+from floatref_conformance.table.passes import ROADS
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM, published_table
 from floatref_conformance.table.rank import rank_correlations
 
@@ -21,7 +21,7 @@ def document(table: ComparisonTable) -> dict[str, Any]:
         "seed": settings.seed,
         "seeds": settings.seeds,
         "roads": settings.roads,
-        "road": {"spectrum": SPECTRUM, "iri_m_per_km": REFERENCE_IRI_M_PER_KM},
+        "road": {"kinds": list(ROADS), "iri_m_per_km": REFERENCE_IRI_M_PER_KM},
         "vehicle": settings.vehicle,
         "cells": [_cell(cell) for cell in table.cells],
         "rank_correlation": {

@@ -22,14 +22,15 @@ from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
 
-SPECTRUM = "sayers-normal"
-"""The roads' kind; each is scaled to the IRI of the published reference pass."""
+ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
+"""The roads' kinds in turn; each is scaled to the IRI of the published reference pass."""
 
 
 def road_drawn(seed: int, index: int) -> Road:
     """Return road number ``index`` of ``seed``, long enough for every run."""
     drawn = _drawn(seed, "road", index)
-    scenario = Scenario(seed=drawn, road=SPECTRUM, iri_m_per_km=REFERENCE_IRI_M_PER_KM)
+    kind = ROADS[index % len(ROADS)]
+    scenario = Scenario(seed=drawn, road=kind, iri_m_per_km=REFERENCE_IRI_M_PER_KM)
     return road_of(scenario, RECORDING_LENGTH_M)
 
 

@@ -35,7 +35,7 @@ class TableSettings:
     """
 
     seed: int = 0
-    roads: int = 2
+    roads: int = 3
     seeds: int = 2
     vehicle: str = Scenario.vehicle
     runs: tuple[str, ...] = RUN_NAMES
