@@ -16,7 +16,6 @@ from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
-from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack

@@ -24,9 +24,9 @@ class MarkDrive(Stage):
     `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a
     basic algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI
     control (section 5.6) removes the road's longer waves, and timer distortion with reflection
-    (section 5.10) removes all of it. `Flag.BRAKING` where that speed has fallen over the half second before by more than
-    ``braking_g`` allows: there the accelerometer's axis is tilted and sees the deceleration
-    (1.4). Within the first second of a run nothing is marked, since there is nothing to compare
+    (section 5.10) removes all of it. `Flag.BRAKING` where that speed has fallen over the half
+    second before by more than ``braking_g`` allows: there the accelerometer's axis is tilted and
+    sees the deceleration (1.4). Within the first second of a run nothing is marked, since there is nothing to compare
     with; filter run-in covers it. Values stay as they are.
     """
 
