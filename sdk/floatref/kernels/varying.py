@@ -9,11 +9,20 @@ difference to the sample before,
     S1:  D e = c_k (y_k + y_{k-1})
     S2:  D^2 e = c_k (y_k - y_{k-2}) + c_k^2 (y_k + 2 y_{k-1} + y_{k-2})
 
-are solved for y_k. Each kernel reads ``x`` and ``c`` and writes ``y`` (it may be ``x``), from the
-last sample down if ``backward``. `memory` is float64: how far it is started (3 is fully), the
-last input, the last c, then the states. A missing (NaN) input or c is bridged by the one
-before it; the output is 0 as long as there is none of either.
+Without the share of y_k itself, e_k is known before y_k and called r for S1 and t for S2; g is
+the step that t is about to take. With a_k = c_k + c_k^2:
+
+    S1:  r += (c_{k-1} + c_k) y_{k-1},  y_k = (x_k - r) / (1 + c_k)
+    S2:  g += (c_k^2 - c_k) y_{k-2},  b = a_{k-1} + c_k^2,
+         t += g + 2 b y_{k-1},  g += (b + c_k^2) y_{k-1},  y_k = (x_k - t) / (1 + a_k)
+
+Each kernel reads ``x`` and ``c`` and writes ``y`` (it may be ``x``), from the last sample down if
+``backward``. `memory` is float64: how far it is started (3 is fully), the last input, the last
+c, then the states. A missing (NaN) input or c is bridged by the one before it; the output is 0
+as long as there is none of either.
 """
+
+import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
@@ -23,21 +32,52 @@ MEMORY = 8
 
 
 @compiled
-def _lead(x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
-    """Write 0 up to the first sample of which all is known, keep it and return its number."""
+def _lead(x: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
+    """Return the number of the first sample by which both an input and a c have been there."""
+    seen_x, seen_c = memory[0] == 1.0, memory[0] == 2.0
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
-        seen_x = memory[0] == 1.0 or x[i] == x[i]
-        seen_c = memory[0] == 2.0 or c[i] == c[i]
-        if x[i] == x[i]:
-            memory[1] = x[i]
-        if c[i] == c[i]:
-            memory[2] = c[i]
-        memory[0] = (1.0 if seen_x else 0.0) + (2.0 if seen_c else 0.0)
+        seen_x = seen_x or x[i] == x[i]
+        seen_c = seen_c or c[i] == c[i]
         if seen_x and seen_c:
             return j
-        y[i] = 0.0
     return int(x.size)
+
+
+@compiled
+def _begin(x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
+    """Write 0 up to that sample, keep the input and c there and return its number."""
+    lead = _lead(x, c, memory, backward)
+    for j in range(min(lead + 1, x.size)):
+        i = x.size - 1 - j if backward else j
+        if x[i] == x[i]:
+            memory[0] = 3.0 if memory[0] >= 2.0 else 1.0
+            memory[1] = x[i]
+        if c[i] == c[i]:
+            memory[0] = 3.0 if memory[0] == 1.0 or memory[0] == 3.0 else 2.0
+            memory[2] = c[i]
+        if j < lead:
+            y[i] = 0.0
+    return lead
+
+
+@compiled
+def _bridged(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
+    """Return ``x`` with what is missing bridged, from ``memory[at]`` on; keep its last there."""
+    missing = 0
+    for i in range(x.size):
+        missing += 0 if x[i] == x[i] else 1
+    if missing == 0:
+        if x.size > 0:
+            memory[at] = x[0 if backward else x.size - 1]
+        return x
+    whole = np.empty(x.size)
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        if x[i] == x[i]:
+            memory[at] = x[i]
+        whole[i] = memory[at]
+    return whole
 
 
 @compiled
@@ -47,23 +87,35 @@ def high_pass_1(
     """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
     begin = 0
     if memory[0] != 3.0:
-        begin = _lead(x, y, c, memory, backward)
-        if begin == x.size:
-            return
-        memory[4] = (1.0 - memory[2]) / (1.0 + memory[2]) * memory[1]
-        memory[3] = memory[1] - memory[4]
-        y[x.size - 1 - begin if backward else begin] = memory[4]
-        begin += 1
-    held, rate, e, y1 = memory[1], memory[2], memory[3], memory[4]
-    for j in range(begin, x.size):
+        begin = _begin(x, y, c, memory, backward)
+        memory[3], memory[4] = memory[2] * memory[1], 0.0
+    r, y1 = memory[3], memory[4]
+    rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
+    rate = memory[2]
+    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
+    c = _bridged(c[rest], memory, 2, backward)
+    for j in range(x.size):
         i = x.size - 1 - j if backward else j
-        held = x[i] if x[i] == x[i] else held
-        rate = c[i] if c[i] == c[i] else rate
-        value = ((held - e) - rate * y1) / (1.0 + rate)
-        e += rate * (value + y1)
-        y1 = value
-        y[i] = value
-    memory[1], memory[2], memory[3], memory[4] = held, rate, e, y1
+        before = rate
+        rate = c[i]
+        r = r + (before + rate) * y1
+        y1 = (x[i] - r) * (1.0 / (1.0 + rate))
+        y[i] = y1
+    memory[3], memory[4] = r, y1
+
+
+@compiled
+def _start_2(memory: FloatArray) -> float:
+    """Set the states of HPF_B3S2 to those of (A.15) and return its first output.
+
+    The second sample of (A.15) sees (x1, y1) twice; these states are that past.
+    """
+    x1, c = memory[1], memory[2]
+    a = c + c * c
+    y1: float = x1 * (1.0 + c - 3.0 * c * c) * (1.0 / (1.0 + a))
+    memory[3], memory[4] = x1 * (3.0 * c * c - c), -a * y1
+    memory[5], memory[6], memory[7] = y1, y1, a
+    return y1
 
 
 @compiled
@@ -73,29 +125,114 @@ def high_pass_2(
     """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
     begin = 0
     if memory[0] != 3.0:
-        begin = _lead(x, y, c, memory, backward)
+        begin = _begin(x, y, c, memory, backward)
         if begin == x.size:
             return
-        square = memory[2] * memory[2]
-        started = (1.0 + memory[2] - 3.0 * square) / (1.0 + memory[2] + square) * memory[1]
-        # The second sample of (A.15) sees (x1, y1) twice, so nothing has changed before it.
-        memory[3], memory[4] = memory[1] - started, 0.0
-        memory[5], memory[6] = started, started
-        y[x.size - 1 - begin if backward else begin] = started
+        y[x.size - 1 - begin if backward else begin] = _start_2(memory)
         begin += 1
-    held, rate, e, slope = memory[1], memory[2], memory[3], memory[4]
-    y1, y2 = memory[5], memory[6]
-    for j in range(begin, x.size):
+    t, g, y1, y2, a = memory[3], memory[4], memory[5], memory[6], memory[7]
+    rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
+    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
+    c = _bridged(c[rest], memory, 2, backward)
+    for j in range(x.size):
         i = x.size - 1 - j if backward else j
-        held = x[i] if x[i] == x[i] else held
-        rate = c[i] if c[i] == c[i] else rate
+        rate = c[i]
         square = rate * rate
-        past = square * (2.0 * y1 + y2) - rate * y2
-        value = (((held - e) - slope) - past) / (1.0 + rate + square)
-        slope += (rate + square) * value + past
-        e += slope
+        g = g + (square - rate) * y2
+        b = a + square
+        t = (t + g) + (b + b) * y1
+        g = g + (b + square) * y1
+        a = rate + square
         y2 = y1
-        y1 = value
-        y[i] = value
-    memory[1], memory[2], memory[3], memory[4] = held, rate, e, slope
-    memory[5], memory[6] = y1, y2
+        y1 = (x[i] - t) * (1.0 / (1.0 + a))
+        y[i] = y1
+    memory[3], memory[4], memory[5], memory[6], memory[7] = t, g, y1, y2, a
+
+
+@compiled
+def high_pass_12(
+    x: FloatArray,
+    y: FloatArray,
+    c: FloatArray,
+    first: FloatArray,
+    second: FloatArray,
+    backward: bool,
+) -> None:
+    """HPF_B3S1 then HPF_B3S2 in one loop, in which the two recursions overlap."""
+    begin = 0
+    if first[0] != 3.0 or second[0] != 3.0:
+        begin = min(_lead(x, c, first, backward) + 1, x.size)
+        part = slice(x.size - begin, x.size) if backward else slice(0, begin)
+        high_pass_1(x[part], y[part], c[part], first, backward)
+        high_pass_2(y[part], y[part], c[part], second, backward)
+    r, z1 = first[3], first[4]
+    t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
+    rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
+    rate = first[2]
+    x, y = _bridged(x[rest], first, 1, backward), y[rest]
+    c = _bridged(c[rest], first, 2, backward)
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        before = rate
+        rate = c[i]
+        square = rate * rate
+        one = 1.0 + rate
+        two = one + square
+        both = 1.0 / (one * two)
+        r = r + (before + rate) * z1
+        z1 = (x[i] - r) * (two * both)
+        g = g + (square - rate) * y2
+        b = a + square
+        t = (t + g) + (b + b) * y1
+        g = g + (b + square) * y1
+        a = rate + square
+        y2 = y1
+        y1 = (z1 - t) * (one * both)
+        y[i] = y1
+    first[3], first[4] = r, z1
+    second[1], second[2] = z1, first[2]
+    second[3], second[4], second[5], second[6], second[7] = t, g, y1, y2, a
+
+
+@compiled
+def high_pass_21(
+    x: FloatArray,
+    y: FloatArray,
+    c: FloatArray,
+    second: FloatArray,
+    first: FloatArray,
+    backward: bool,
+) -> None:
+    """HPF_B3S2 then HPF_B3S1 in one loop, in which the two recursions overlap."""
+    begin = 0
+    if first[0] != 3.0 or second[0] != 3.0:
+        begin = min(_lead(x, c, second, backward) + 1, x.size)
+        part = slice(x.size - begin, x.size) if backward else slice(0, begin)
+        high_pass_2(x[part], y[part], c[part], second, backward)
+        high_pass_1(y[part], y[part], c[part], first, backward)
+    r, z1 = first[3], first[4]
+    t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
+    rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
+    rate = second[2]
+    x, y = _bridged(x[rest], second, 1, backward), y[rest]
+    c = _bridged(c[rest], second, 2, backward)
+    for j in range(x.size):
+        i = x.size - 1 - j if backward else j
+        before = rate
+        rate = c[i]
+        square = rate * rate
+        one = 1.0 + rate
+        two = one + square
+        both = 1.0 / (one * two)
+        g = g + (square - rate) * y2
+        b = a + square
+        t = (t + g) + (b + b) * y1
+        g = g + (b + square) * y1
+        a = rate + square
+        y2 = y1
+        y1 = (x[i] - t) * (one * both)
+        r = r + (before + rate) * z1
+        z1 = (y1 - r) * (two * both)
+        y[i] = z1
+    second[3], second[4], second[5], second[6], second[7] = t, g, y1, y2, a
+    first[1], first[2], first[3], first[4] = y1, second[2], r, z1
