@@ -117,7 +117,7 @@ PIPELINES = (
         {
             "temporal_condition": temporal.condition_matched,
             "temporal_estimate": temporal.observe,
-            "temporal_finish": temporal.finish_backward,
+            "temporal_finish": temporal.finish_matched,
         },
     ),
     Pipeline("spatial-basic", "spatial", "no error suppression (section 5.8)", SPATIAL),

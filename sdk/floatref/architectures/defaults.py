@@ -53,6 +53,8 @@ STAGES: tuple[type[Stage], ...] = (
     speed.TravelSpeed,
     suppression.SuppressLocally,
     timer.DistortTimer,
+    varying.StateHighPassB3S1R,
+    varying.StateHighPassB3S2R,
     varying.VaryingHighPassB3S1,
     varying.VaryingHighPassB3S1R,
     varying.VaryingHighPassB3S2,

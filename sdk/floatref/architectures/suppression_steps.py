@@ -31,6 +31,8 @@ from floatref.stages.signals import (
 from floatref.stages.speed import TravelSpeed
 from floatref.stages.suppression import SuppressLocally
 from floatref.stages.varying import (
+    StateHighPassB3S1R,
+    StateHighPassB3S2R,
     VaryingHighPassB3S1,
     VaryingHighPassB3S1R,
     VaryingHighPassB3S2,
@@ -139,6 +141,17 @@ def finish_backward(question: Question) -> Sequence[Stage]:
         Drop(TRAVEL_SPEED),
         VaryingHighPassB3S2R(ELEVATION),
         VaryingHighPassB3S1R(ELEVATION),
+        Drop(CUTOFF),
+    )
+
+
+def finish_matched(question: Question) -> Sequence[Stage]:
+    """The backward stages over distance in state-variable form, which bears a stop."""
+    return (
+        ScheduleWaveNumber(_schedule(question)),
+        Drop(TRAVEL_SPEED),
+        StateHighPassB3S2R(ELEVATION),
+        StateHighPassB3S1R(ELEVATION),
         Drop(CUTOFF),
     )
 

@@ -26,8 +26,8 @@ class MarkDrive(Stage):
     control (section 5.6) removes the road's longer waves, and timer distortion with reflection
     (section 5.10) removes all of it. `Flag.BRAKING` where that speed has fallen over the half
     second before by more than ``braking_g`` allows: there the accelerometer's axis is tilted and
-    sees the deceleration (1.4). Within the first second of a run nothing is marked, since there is nothing to compare
-    with; filter run-in covers it. Values stay as they are.
+    sees the deceleration (1.4). Within the first second of a run nothing is marked,
+    since there is nothing to compare with; filter run-in covers it. Values stay as they are.
     """
 
     declared = Declared(shift_invariant=True)

@@ -96,6 +96,34 @@ class VaryingHighPassB3S2R(VaryingHighPassB3S2):
     direction = Direction.BACKWARD
 
 
+class StateHighPassB3S1R(VaryingHighPass):
+    """HPF_B3S1R in state-variable form: at a varying cut-off s' = w hp, hp = x - s.
+
+    It removes content below the cut-off from every point.
+    """
+
+    order = 1
+    direction = Direction.BACKWARD
+
+    def _filtered(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+        from floatref.kernels import varying_states
+
+        y = np.empty(x.size)
+        kernel = varying_states.high_pass_1 if self.order == 1 else varying_states.high_pass_2
+        kernel(x, y, c, memory, self.direction is Direction.BACKWARD)
+        return y
+
+
+class StateHighPassB3S2R(StateHighPassB3S1R):
+    """HPF_B3S2R in state-variable form: bp' = w hp, lp' = w bp, hp = x - bp - lp.
+
+    Unlike (A.10) with coefficients that vary it does not swell where the cut-off falls, as it
+    does on the way back from a stop. It removes content below the cut-off from every point.
+    """
+
+    order = 2
+
+
 def tangents(cutoff: FloatArray, step: float, stage: str) -> FloatArray:
     """Return c of (A.11), shape (N,), at every ``cutoff`` in cycles per unit of ``step``.
 
