@@ -51,7 +51,7 @@ def main(seconds: float) -> None:
     print(f"{seconds:g} s of driving at {RATE_HZ / 1000:g} kHz, one wheel path")
     for name in plugins().pipelines():
         taken = median_seconds(run, name)
-        print(f"  {name:24} {taken:7.3f} s   {seconds / taken:6.0f} x real time")
+        print(f"  {name:40} {taken:7.3f} s   {seconds / taken:6.0f} x real time")
 
 
 if __name__ == "__main__":

@@ -21,27 +21,27 @@ def integrate(x: FloatArray, y: FloatArray, memory: FloatArray, half_step: float
     A missing (NaN) input is bridged by the one before it. The integral starts at
     ``memory[2]``, which is its value at the first sample.
     """
+    started, last, total = memory[0], memory[1], memory[2]
     for i in range(x.size):
-        value = x[i]
-        if value != value:
-            value = memory[1] if memory[0] != 0.0 else 0.0
-        if memory[0] != 0.0:
-            memory[2] = memory[2] + half_step * (value + memory[1])
-        memory[0], memory[1] = 1.0, value
-        y[i] = memory[2]
+        value = x[i] if x[i] == x[i] else last
+        if started != 0.0:
+            total = total + half_step * (value + last)
+        started, last = 1.0, value
+        y[i] = total
+    memory[0], memory[1], memory[2] = started, last, total
 
 
 @compiled
 def integrate_steps(x: FloatArray, y: FloatArray, memory: FloatArray, steps: FloatArray) -> None:
     """Trapezoidal integral of ``x`` in ``y``; ``steps[i]`` leads to sample i, see (5.5)."""
+    started, last, total = memory[0], memory[1], memory[2]
     for i in range(x.size):
-        value = x[i]
-        if value != value:
-            value = memory[1] if memory[0] != 0.0 else 0.0
-        if memory[0] != 0.0:
-            memory[2] = memory[2] + 0.5 * steps[i] * (value + memory[1])
-        memory[0], memory[1] = 1.0, value
-        y[i] = memory[2]
+        value = x[i] if x[i] == x[i] else last
+        if started != 0.0:
+            total = total + 0.5 * steps[i] * (value + last)
+        started, last = 1.0, value
+        y[i] = total
+    memory[0], memory[1], memory[2] = started, last, total
 
 
 @compiled
@@ -151,16 +151,18 @@ def integrate_reflecting(
     memory has a fourth entry, the last height. Missing (NaN) values are bridged by those before
     them.
     """
+    started, last, total, before = memory[0], memory[1], memory[2], memory[3]
     for i in range(x.size):
-        value = x[i] if x[i] == x[i] else memory[1]
-        reading = height[i] if height[i] == height[i] else memory[3]
-        if memory[0] != 0.0:
-            memory[2] = memory[2] + 0.5 * steps[i] * (value + memory[1])
+        value = x[i] if x[i] == x[i] else last
+        reading = height[i] if height[i] == height[i] else before
+        if started != 0.0:
+            total = total + 0.5 * steps[i] * (value + last)
             if true_steps[i] > 0.0:
                 ratio = steps[i] / true_steps[i]
-                memory[2] += (1.0 - ratio * ratio) * (reading - memory[3])
-        memory[0], memory[1], memory[3] = 1.0, value, reading
-        y[i] = memory[2]
+                total += (1.0 - ratio * ratio) * (reading - before)
+        started, last, before = 1.0, value, reading
+        y[i] = total
+    memory[0], memory[1], memory[2], memory[3] = started, last, total, before
 
 
 @compiled

@@ -46,15 +46,16 @@ class TravelSpeed(Stage):
         return block.setting({speed: self._speed(block[distance])}, marks)
 
     def _speed(self, distance: FloatArray) -> FloatArray:
-        known = np.flatnonzero(~np.isnan(distance))
+        if np.isnan(distance.sum()):
+            before = self.memory["past"]
+            distance = _held(distance, np.nan if before is None else before[-1])
         if self.memory["past"] is None:
+            known = distance[~np.isnan(distance)]
             if known.size == 0:
                 return np.zeros(distance.size)
-            self.memory["past"] = np.full(self._samples, distance[known[0]])
-        past: FloatArray = self.memory["past"]
-        if known.size < distance.size:
-            distance = _held(distance, past[-1])
-        wide = np.concatenate((past, distance))
+            self.memory["past"] = np.full(self._samples, known[0])
+            distance = np.where(np.isnan(distance), known[0], distance)
+        wide = np.concatenate((self.memory["past"], distance))
         self.memory["past"] = wide[wide.size - self._samples :].copy()
         speed: FloatArray = (distance - wide[: distance.size]) / self._duration
         return speed
