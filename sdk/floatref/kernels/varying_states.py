@@ -38,7 +38,7 @@ def high_pass_1(
         high = (held - s) / (1.0 + ck)
         s += 2.0 * ck * high
         y[i] = high
-    memory[0], memory[1], memory[2], memory[3] = float(started), held, ck, s
+    memory[0], memory[1], memory[2], memory[3] = (1.0 if started else 0.0), held, ck, s
 
 
 @compiled
@@ -69,4 +69,10 @@ def high_pass_2(
             s1 += 2.0 * ck * high
             s2 += 2.0 * ck * band
         y[i] = high
-    memory[0], memory[1], memory[2], memory[3], memory[4] = float(started), held, ck, s1, s2
+    memory[0], memory[1], memory[2], memory[3], memory[4] = (
+        (1.0 if started else 0.0),
+        held,
+        ck,
+        s1,
+        s2,
+    )
