@@ -11,9 +11,19 @@ from floatref.stages import (
     butterworth,
     combining,
     conditioning,
+    datum,
+    drive_marks,
+    dropping,
     integration,
     mean_removal,
+    observer,
+    reflection,
     resampling,
+    schedule,
+    speed,
+    suppression,
+    timer,
+    varying,
 )
 from floatref.stages.protocol import Direction
 from floatref.values.block import Axis, Block, Header
@@ -22,7 +32,17 @@ from floatref.values.channels import ChannelId
 TRACKS = ("left", "right")
 MAKERS = {
     "Combine": combining.Combine,
+    "DistortTimer": lambda: timer.DistortTimer(slow_speed=1.0),
+    "Drop": lambda: dropping.Drop("time_step", "elevation"),
+    "FromFirst": lambda: datum.FromFirst("height"),
+    "IntegrateReflecting": reflection.IntegrateReflecting,
+    "MarkDrive": lambda: drive_marks.MarkDrive(1e-6, 1e6),
+    "MatchedHighPass": observer.MatchedHighPass,
     "RemoveGravity": conditioning.RemoveGravity,
+    "ScheduleCutOff": schedule.ScheduleCutOff,
+    "ScheduleWaveNumber": schedule.ScheduleWaveNumber,
+    "SuppressLocally": suppression.SuppressLocally,
+    "TravelSpeed": lambda: speed.TravelSpeed(0.1),
     "Integrate": lambda: integration.Integrate("vertical_acceleration", "vertical_velocity"),
     "RemoveMean": lambda: mean_removal.RemoveMean("vertical_acceleration"),
     "TimeStep": resampling.TimeStep,
@@ -32,10 +52,32 @@ MAKERS = {
         for name in dir(butterworth)
         if name.startswith(("HighPassB3S", "LowPassB3S"))
     },
+    **{
+        name: lambda name=name: getattr(varying, name)("elevation")
+        for name in dir(varying)
+        if name.startswith(("VaryingHighPassB3S", "StateHighPassB3S"))
+    },
 }
+OVER_DISTANCE = {"DistortTimer", "IntegrateReflecting", "ScheduleWaveNumber", "TimeStep"}
+SOURCES = {
+    "DistortTimer": "time_step",
+    "ScheduleCutOff": "travel_speed",
+    "ScheduleWaveNumber": "travel_speed",
+    "TravelSpeed": "distance",
+}
+"""The shared channel that a stage computes from; others compute from those of the tracks."""
+TARGETS = {
+    "DistortTimer": {"time_step", "true_time_step"},
+    "ScheduleCutOff": {"high_pass_cutoff"},
+    "ScheduleWaveNumber": {"high_pass_cutoff"},
+    "TravelSpeed": {"travel_speed"},
+}
+MAY_BE_MISSING = {"travel_speed", "high_pass_cutoff"}
+"""Shared channels that a stage bridges."""
 PER_TRACK = (
     "vertical_specific_force",
     "vertical_acceleration",
+    "vertical_velocity",
     "elevation",
     "floating_reference_height",
     "height",
@@ -50,10 +92,10 @@ class Bench:
         self.name = name
         self.values = self._samples(np.random.default_rng(seed), length)
         for channel, samples in self.values.items():
-            for begin, count in lost if channel.track else ():
+            for begin, count in lost if self.may_be_missing(channel) else ():
                 samples[begin : begin + count] = np.nan
         self.header = Header(
-            axis=Axis.DISTANCE if name == "TimeStep" else Axis.TIME,
+            axis=Axis.DISTANCE if name in OVER_DISTANCE else Axis.TIME,
             step=0.01,
             origin=0.0,
             rate=Fraction(100),
@@ -70,7 +112,23 @@ class Bench:
         steps = rng.choice([0.0, 0.004, 0.02, 0.07], length)
         values[ChannelId("distance")] = np.cumsum(steps) - steps[0]
         values[ChannelId("time")] = np.cumsum(rng.uniform(0.0, 1.0, length))
+        values[ChannelId("travel_speed")] = rng.uniform(0.0, 9.0, length)
+        values[ChannelId("high_pass_cutoff")] = rng.uniform(0.5, 20.0, length)
+        values[ChannelId("time_step")] = rng.choice([0.0, 0.005, 0.009, 0.03], length)
+        values[ChannelId("true_time_step")] = values[ChannelId("time_step")] * 1.5
         return values
+
+    def is_source(self, channel):
+        """Tell whether the stage may compute from ``channel``, other than be steered by it."""
+        return channel.track is not None or channel.name == SOURCES.get(self.name)
+
+    def is_target(self, channel):
+        """Tell whether ``channel`` is, or may be, what the stage computes."""
+        return channel.track is not None or channel.name in TARGETS.get(self.name, ())
+
+    def may_be_missing(self, channel):
+        """Tell whether samples of ``channel`` may be missing."""
+        return self.is_source(channel) or channel.name in MAY_BE_MISSING
 
     @property
     def backward(self):

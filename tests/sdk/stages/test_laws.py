@@ -92,7 +92,7 @@ def test_4_saving_and_restoring_changes_nothing(bench, identical, join, name, se
 @given(seed=SEEDS, at=st.integers(1, 238), flag=st.booleans())
 def test_5_a_missing_or_flagged_sample_is_flagged_on_the_way_out(bench, name, seed, at, flag):
     stream = bench(name, seed)
-    used = {c for c in stream.values if c.name not in {"distance", "time"}}
+    used = {c for c in stream.values if stream.may_be_missing(c)}
     values, flags = dict(stream.values), {}
     for channel in used:
         if flag:
@@ -107,7 +107,7 @@ def test_5_a_missing_or_flagged_sample_is_flagged_on_the_way_out(bench, name, se
     else:
         hit = affected = np.arange(240) == at
     for channel, samples in out.values.items():
-        if channel.name in {"distance", "time", "time_step"}:
+        if not stream.is_target(channel):
             continue
         marks = out.flags.get(channel, np.zeros(len(out), np.uint8))
         missing = np.isnan(samples)
@@ -156,13 +156,13 @@ def test_7_declared_linear(bench, name, seed, factor, other):
 
 def _check_linear(bench, name, seed, factor, other):
     one, two = bench(name, seed), bench(name, other)
-    fixed = {c for c in one.values if c.name in {"distance", "time"}}
+    fixed = {c for c in one.values if not one.is_source(c)}
     added = {c: x if c in fixed else x + factor * two.values[c] for c, x in one.values.items()}
     second = {**two.values, **{c: one.values[c] for c in fixed}}
     out = one.run(one.blocks(values=added))
     first, scaled = one.run(one.blocks()), one.run(one.blocks(values=second))
     for channel, values in out.values.items():
-        if channel.name in {"distance", "time", "time_step"}:
+        if not one.is_target(channel):
             continue
         expected = first[channel] + factor * scaled[channel]
         np.testing.assert_allclose(values, expected, atol=1e-9, rtol=1e-9)
@@ -171,12 +171,9 @@ def _check_linear(bench, name, seed, factor, other):
 @every_stage
 def test_7_declared_zero_in_zero_out(bench, name):
     stream = bench(name)
-    zeros = {
-        c: x if c.name in {"distance", "time"} else np.zeros(x.size)
-        for c, x in stream.values.items()
-    }
+    zeros = {c: np.zeros(x.size) if stream.is_source(c) else x for c, x in stream.values.items()}
     out = stream.run(stream.blocks(values=zeros))
-    kept = [c for c in out.values if c.name not in {"distance", "time", "time_step"}]
+    kept = [c for c in out.values if stream.is_target(c)]
     silent = not any(out[c].any() for c in kept)
     assert silent == stream.make().declared.zero_in_zero_out
 
