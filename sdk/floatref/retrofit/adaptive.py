@@ -20,6 +20,8 @@ from floatref.stages.varying import (
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Header
 
+BACKWARD = VaryingHighPassB3S2R, VaryingHighPassB3S1R
+
 
 class AdaptiveHighPass:
     """Adaptive high-pass filtering (5.7) at the cut-off (5.3) of every sample's speed.
@@ -47,11 +49,12 @@ class AdaptiveHighPass:
         self.schedule = AdaptiveCutOff(
             low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
         )
-        self._axis = in_time(rate_hz)
         self._calls = Calls(type(self).__name__)
-        self._acceleration = self._forward(ACCELERATION, VaryingHighPassB3S1)
-        self._velocity = self._forward(VELOCITY, VaryingHighPassB3S2)
-        self._height = self._forward(HEIGHT, FromFirst, VaryingHighPassB3S1, VaryingHighPassB3S2)
+        axis, both = in_time(rate_hz), (VaryingHighPassB3S1, VaryingHighPassB3S2)
+        self._acceleration = self._forward(axis, ACCELERATION, VaryingHighPassB3S1)
+        self._velocity = self._forward(axis, VELOCITY, VaryingHighPassB3S2)
+        self._height = self._forward(axis, HEIGHT, FromFirst, *both)
+        self._reverse = backward(axis, ScheduleCutOff(self.schedule), *BACKWARD)
 
     @property
     def bridged(self) -> int:
@@ -117,7 +120,7 @@ class AdaptiveHighPass:
         """
         z, v_x = chunks("AdaptiveHighPass.reverse", profile=profile, speed=speed)
         self._calls.end_in_time(z.size, v_x)
-        return backward(self._axis, ScheduleCutOff(self.schedule), z, v_x)
+        return self._reverse(z, v_x)
 
     def reverse_over_distance(
         self, profile: ArrayLike, speed: ArrayLike, interval_m: float
@@ -137,20 +140,24 @@ class AdaptiveHighPass:
         """
         call = "AdaptiveHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
-        axis = over_distance(interval_m)
+        scheduled = ScheduleWaveNumber(self.schedule)
+        back = backward(over_distance(interval_m), scheduled, *BACKWARD)
         self._calls.end("reverse_over_distance")
-        return backward(axis, ScheduleWaveNumber(self.schedule), z, v_x)
+        return back(z, v_x)
 
     def finish(self) -> None:
         """End a run without a backward pass; StageError unless all three signals are complete."""
         self._calls.end("finish")
 
-    def _forward(self, signal: str, *kinds: Callable[[str], Stage]) -> Alone:
+    def _forward(self, axis: Header, signal: str, *kinds: Callable[[str], Stage]) -> Alone:
         stages = ScheduleCutOff(self.schedule), *(kind(signal) for kind in kinds)
-        return Alone(self._axis, (signal, TRAVEL_SPEED), signal, stages)
+        return Alone(axis, (signal, TRAVEL_SPEED), signal, stages)
 
 
-def backward(axis: Header, scheduled: Stage, profile: FloatArray, speed: FloatArray) -> FloatArray:
-    """Return HPF_B3S1R of HPF_B3S2R of ``profile``, shape (N,), at the cut-off ``scheduled``."""
-    stages = scheduled, VaryingHighPassB3S2R(ELEVATION), VaryingHighPassB3S1R(ELEVATION)
-    return Alone(axis, (ELEVATION, TRAVEL_SPEED), ELEVATION, stages)(profile, speed)
+def backward(axis: Header, scheduled: Stage, *kinds: Callable[[str], Stage]) -> Alone:
+    """Return the backward pass over elevation and speed, at the cut-off that is ``scheduled``.
+
+    Its stages are of ``kinds``, first to last.
+    """
+    stages = scheduled, *(kind(ELEVATION) for kind in kinds)
+    return Alone(axis, (ELEVATION, TRAVEL_SPEED), ELEVATION, stages)

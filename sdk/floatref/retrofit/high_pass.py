@@ -29,13 +29,14 @@ class FixedHighPass:
 
     def __init__(self, axis: Header, cutoff: float) -> None:
         """Filter at ``cutoff`` in cycles per unit of ``axis``."""
-        self._axis, self._cutoff = axis, cutoff
         self._calls = Calls(type(self).__name__)
         first, second = HighPassB3S1(ACCELERATION, cutoff), HighPassB3S2(VELOCITY, cutoff)
         both = FromFirst(HEIGHT), *high_pass_b3(HEIGHT, cutoff)
         self._acceleration = Alone(axis, (ACCELERATION,), ACCELERATION, (first,))
         self._velocity = Alone(axis, (VELOCITY,), VELOCITY, (second,))
         self._height = Alone(axis, (HEIGHT,), HEIGHT, both)
+        back = HighPassB3S2R(ELEVATION, cutoff), HighPassB3S1R(ELEVATION, cutoff)
+        self._reverse = Alone(axis, (ELEVATION,), ELEVATION, back)
 
     @property
     def bridged(self) -> int:
@@ -96,8 +97,7 @@ class FixedHighPass:
         """
         (z,) = chunks(f"{type(self).__name__}.reverse", profile=profile)
         self._calls.end_in_time(z.size)
-        stages = HighPassB3S2R(ELEVATION, self._cutoff), HighPassB3S1R(ELEVATION, self._cutoff)
-        return Alone(self._axis, (ELEVATION,), ELEVATION, stages)(z)
+        return self._reverse(z)
 
     def finish(self) -> None:
         """End a run without a backward pass; StageError unless all three signals are complete."""

@@ -10,7 +10,10 @@ from floatref.retrofit.calls import Calls
 from floatref.stages.observer import MatchedHighPass as Observer
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
 from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
+from floatref.stages.varying import StateHighPassB3S1R, StateHighPassB3S2R
 from floatref.values.arrays import FloatArray
+
+BACKWARD = StateHighPassB3S2R, StateHighPassB3S1R
 
 
 class MatchedHighPass:
@@ -39,11 +42,12 @@ class MatchedHighPass:
         self.schedule = AdaptiveCutOff(
             low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
         )
-        self._axis = in_time(rate_hz)
+        axis = in_time(rate_hz)
         self._calls = Calls(type(self).__name__, ("reference_height",))
         signals = ACCELERATION, HEIGHT, TRAVEL_SPEED
         stages = ScheduleCutOff(self.schedule), Observer()
-        self._observer = Alone(self._axis, signals, REFERENCE_HEIGHT, stages)
+        self._observer = Alone(axis, signals, REFERENCE_HEIGHT, stages)
+        self._reverse = backward(axis, ScheduleCutOff(self.schedule), *BACKWARD)
 
     @property
     def bridged(self) -> int:
@@ -69,6 +73,8 @@ class MatchedHighPass:
     def reverse(self, profile: ArrayLike, speed: ArrayLike) -> FloatArray:
         """Return the backward pass in time over the whole run's elevation, HPF_B3S2R, HPF_B3S1R.
 
+        The stages are in state-variable form, which bears a stop.
+
         Args:
             profile: the floating reference height minus the height in m, shape (N,).
             speed: the speed of all forward calls in m/s, shape (N,).
@@ -79,12 +85,12 @@ class MatchedHighPass:
         """
         z, v_x = chunks("MatchedHighPass.reverse", profile=profile, speed=speed)
         self._calls.end_in_time(z.size, v_x)
-        return backward(self._axis, ScheduleCutOff(self.schedule), z, v_x)
+        return self._reverse(z, v_x)
 
     def reverse_over_distance(
         self, profile: ArrayLike, speed: ArrayLike, interval_m: float
     ) -> FloatArray:
-        """Return the backward pass over distance, after the decimation (fig. 5.12).
+        """Return that backward pass over distance, after the decimation (fig. 5.12).
 
         Args:
             profile: elevation every ``interval_m`` in m, shape (K,).
@@ -97,6 +103,7 @@ class MatchedHighPass:
         """
         call = "MatchedHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
-        axis = over_distance(interval_m)
+        scheduled = ScheduleWaveNumber(self.schedule)
+        back = backward(over_distance(interval_m), scheduled, *BACKWARD)
         self._calls.end("reverse_over_distance")
-        return backward(axis, ScheduleWaveNumber(self.schedule), z, v_x)
+        return back(z, v_x)
