@@ -1,0 +1,163 @@
+"""The varying kernels are the printed recursion at every sample's own cut-off."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.kernels import adaptive, state_variable, varying
+from floatref_reference.appendix_a import varying as literal
+from floatref_reference.chapter_5 import section_5_7
+
+SEEDS = st.integers(0, 2**32 - 1)
+FEW = settings(deadline=None, max_examples=12)
+PAIRS = {
+    ("high_pass_1", False): literal.hpf_b3s1_varying,
+    ("high_pass_2", False): literal.hpf_b3s2_varying,
+    ("high_pass_1", True): literal.hpf_b3s1r_varying,
+    ("high_pass_2", True): literal.hpf_b3s2r_varying,
+}
+every_kernel = pytest.mark.parametrize(("name", "backward"), PAIRS)
+
+
+def drawn(seed, size, highest=0.2):
+    """A signal with a stand-off, and the tangent of a cut-off in cycles per sample."""
+    rng = np.random.default_rng(seed)
+    return rng.standard_normal(size) + 3.0, np.tan(np.pi * rng.uniform(1e-4, highest, size))
+
+
+def filtered(name, x, c, backward, memory=None):
+    y = np.empty(x.size)
+    memory = np.zeros(varying.MEMORY) if memory is None else memory
+    getattr(varying, name)(x, y, c, memory, backward)
+    return y
+
+
+def fused(name, x, c, backward):
+    y = np.empty(x.size)
+    memories = np.zeros(varying.MEMORY), np.zeros(varying.MEMORY)
+    getattr(varying, name)(x, y, c, *memories, backward)
+    return y
+
+
+def pieces(size, cuts, backward):
+    edges = [0, *sorted(cut for cut in cuts if cut < size), size]
+    found = [slice(a, b) for a, b in itertools.pairwise(edges)]
+    return found[::-1] if backward else found
+
+
+@pytest.mark.cites("(A.9)", "(A.10)", "Table A.1")
+@every_kernel
+@FEW
+@given(seed=SEEDS, wander=st.floats(0.0, 0.05))
+def test_each_kernel_is_the_printed_recursion(name, backward, seed, wander):
+    rng = np.random.default_rng(seed)
+    cutoff = np.clip(0.05 + wander * rng.standard_normal(300).cumsum(), 1e-4, 0.45)
+    x = rng.standard_normal(300).cumsum()
+    expected = PAIRS[name, backward](x, cutoff, 1.0)
+    found = filtered(name, x, np.tan(np.pi * cutoff), backward)
+    assert np.abs(found - expected).max() <= 1e-12 * max(np.abs(expected).max(), np.abs(x).max())
+
+
+@pytest.mark.cites("(A.9)", "(A.10)", "Table A.1")
+@every_kernel
+def test_accuracy_holds_at_low_cut_offs_and_16_khz(name, backward):
+    x = np.random.default_rng(1).standard_normal(4000).cumsum()
+    cutoff = (0.05 + 0.04 * np.sin(np.arange(4000) / 300.0)) / 16_000.0
+    expected = PAIRS[name, backward](x, cutoff, 1.0)
+    error = np.abs(filtered(name, x, np.tan(np.pi * cutoff), backward) - expected).max()
+    assert error <= 1e-12 * np.abs(x).max()
+
+
+@pytest.mark.cites("(A.2)", "(A.3)")
+@every_kernel
+@FEW
+@given(cutoff=st.floats(1e-4, 0.45), seed=SEEDS)
+def test_a_constant_cut_off_is_the_fixed_stage(name, backward, cutoff, seed):
+    x = np.random.default_rng(seed).standard_normal(200)
+    c = math.tan(math.pi * cutoff)
+    expected = np.empty(x.size)
+    fixed = np.zeros(state_variable.MEMORY)
+    getattr(state_variable, name)(x, expected, fixed, c, backward)
+    assert np.abs(filtered(name, x, np.full(200, c), backward) - expected).max() <= 1e-11
+
+
+@pytest.mark.parametrize("backward", [False, True])
+@pytest.mark.parametrize("name", ["high_pass_12", "high_pass_21"])
+@FEW
+@given(seed=SEEDS, lost=st.sets(st.integers(0, 63)), unknown=st.sets(st.integers(0, 63)))
+def test_a_fused_kernel_is_its_two_parts(name, backward, seed, lost, unknown):
+    x, c = drawn(seed, 64)
+    x[list(lost)], c[list(unknown)] = np.nan, np.nan
+    apart = x
+    for order in name[-2:]:
+        apart = filtered(f"high_pass_{order}", apart, c, backward)
+    assert np.abs(fused(name, x, c, backward) - apart).max() <= 1e-11
+
+
+@every_kernel
+@FEW
+@given(seed=SEEDS, at=st.integers(1, 98), of_c=st.booleans())
+def test_a_missing_sample_or_cut_off_is_the_one_before_it(name, backward, seed, at, of_c):
+    x, c = drawn(seed, 100)
+    held_x, held_c = x.copy(), c.copy()
+    missing, held = (c, held_c) if of_c else (x, held_x)
+    held[at] = missing[at + 1] if backward else missing[at - 1]
+    missing[at] = np.nan
+    np.testing.assert_array_equal(
+        filtered(name, x, c, backward), filtered(name, held_x, held_c, backward)
+    )
+
+
+@every_kernel
+@pytest.mark.parametrize("lead", [1, 5])
+def test_nothing_comes_out_until_input_and_cut_off_are_there(name, backward, lead):
+    x, c = drawn(0, 40)
+    whole = filtered(name, x[: 40 - lead] if backward else x[lead:], c[lead:], backward)
+    late = np.concatenate((np.full(lead, np.nan), c[lead:]))
+    if backward:
+        late = np.concatenate((c[lead:], np.full(lead, np.nan)))
+    out = filtered(name, x, late, backward)[:: -1 if backward else 1]
+    assert not out[:lead].any()
+    np.testing.assert_array_equal(out[lead:], whole[:: -1 if backward else 1])
+
+
+@every_kernel
+@pytest.mark.parametrize("size", range(1, 18))
+def test_any_split_of_a_short_block_gives_the_same_bits(name, backward, size):
+    x, c = drawn(size, size)
+    whole = filtered(name, x, c, backward)
+    for cut in range(1, size):
+        memory, apart = np.zeros(varying.MEMORY), np.empty(size)
+        for part in pieces(size, [cut, cut + 2], backward):
+            apart[part] = filtered(name, x[part], c[part], backward, memory)
+        np.testing.assert_array_equal(apart, whole)
+
+
+@every_kernel
+def test_output_may_take_the_place_of_the_input(name, backward):
+    x, c = drawn(3, 50)
+    expected = filtered(name, x, c, backward)
+    getattr(varying, name)(x, x, c, np.zeros(varying.MEMORY), backward)
+    np.testing.assert_array_equal(x, expected)
+
+
+def test_nothing_but_missing_samples_gives_zero():
+    missing, c = np.full(5, np.nan), np.full(5, 0.1)
+    assert not filtered("high_pass_2", missing, c, False).any()
+    assert not fused("high_pass_21", missing, c, True).any()
+
+
+@pytest.mark.cites("(5.3)", "(A.9)", "(A.10)")
+def test_the_whole_pass_is_schedule_and_printed_stages(monkeypatch):
+    monkeypatch.setattr(adaptive, "PIECE", 130)
+    rng = np.random.default_rng(5)
+    speed = np.clip(4.0 + 0.3 * rng.standard_normal(600).cumsum(), 0.0, 15.0)
+    y = x = rng.standard_normal(600)
+    cutoff = section_5_7.cut_off_frequency(speed)
+    for stage in ("s1", "s2", "s2r", "s1r"):
+        y = getattr(literal, f"hpf_b3{stage}_varying")(y, cutoff, 0.01)
+    assert np.abs(adaptive.adaptive_high_pass(x, speed, 0.01) - y).max() <= 1e-10
