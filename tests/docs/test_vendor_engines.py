@@ -4,6 +4,7 @@ import importlib.util
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -80,20 +81,29 @@ def changes(name):
 
 def in_time(engine, drive):
     """Profile in m of the temporal engine, from a record in its units."""
+    return 0.001 * engine.run(temporal_record(engine, drive))
+
+
+def temporal_record(engine, drive):
+    """Return the record of ``drive`` that the temporal engine reads."""
     acceleration, height, distance = drive
     record = np.empty(height.size, engine.SAMPLE)
     record["accel_g"], record["range_mm"] = 1.0 + acceleration / G, 1000.0 * height
     record["pulses"] = np.round(distance / PULSE_M) - round(distance[0] / PULSE_M)
-    return 0.001 * engine.run(record)
+    return record
 
 
 def over_distance(engine, drive):
     """Profile in m of the spatial engine, from a record in its units."""
+    return 0.001 * engine.run(spatial_record(drive))
+
+
+def spatial_record(drive):
+    """Return the lines of ``drive`` that the spatial engine reads."""
     acceleration, height, step = (x.astype(float) for x in captured(*drive, RATE_HZ, SPACING_M))
     timer = np.round(1e6 * np.cumsum(step)).astype(int)
     columns = timer.tolist(), (1e4 * acceleration).tolist(), (1e6 * height).tolist()
-    lines = [f"{t},{a!r},{h!r}" for t, a, h in zip(*columns, strict=True)]
-    return 0.001 * engine.run(lines)
+    return [f"{t},{a!r},{h!r}" for t, a, h in zip(*columns, strict=True)]
 
 
 def peak(profile):
@@ -162,6 +172,22 @@ def test_the_spatial_engine_with_all_three_is_our_pipeline(engine, slow_part):
     assert profile.size > 400
     expected = pipeline(PIPELINES["All three"], slow_part)
     np.testing.assert_allclose(profile, expected, rtol=0, atol=1e-6)
+
+
+def test_the_engines_run_as_programs(engine, slow_part, tmp_path):
+    module = engine("temporal_engine")
+    (tmp_path / "run.bin").write_bytes(temporal_record(module, slow_part).tobytes())
+    lines = "\n".join(spatial_record(slow_part))
+    for name, argument, given in (
+        ("temporal_engine", "run.bin", None),
+        ("spatial_engine", "-", lines),
+    ):
+        file = EXAMPLES / name / "engine.py"
+        command = [sys.executable, file, argument]
+        found = subprocess.run(
+            command, cwd=tmp_path, input=given, capture_output=True, text=True, check=True
+        )
+        assert len(found.stdout.split()) == pipeline("spatial-basic", slow_part).size
 
 
 def test_the_engines_know_nothing_of_ours():
