@@ -7,13 +7,17 @@ both sensors see leaves a residue. An observer driven by both has one filter for
     r' = v + 2 ω (h - r),  v' = a + b + 2 ω² (h - r),  b' = ω³ (h - r)
 
 At a constant cut-off r - h is (A.1) applied to the profile ∬ a dt - h; under any schedule it
-depends on that profile alone.
+depends on that profile alone. The backward passes over distance hold ω inside their integrals too.
 """
 
 import numpy as np
 import numpy.typing as npt
 
 from floatref_reference.appendix_a.varying import substitutions
+from floatref_reference.beyond.state_variable import (
+    hpf_b3s1r_state_variable,
+    hpf_b3s2r_state_variable,
+)
 from floatref_reference.chapter_5.section_5_3 import (
     anti_alias,
     capture,
@@ -24,7 +28,6 @@ from floatref_reference.chapter_5.section_5_6 import travel_speed
 from floatref_reference.chapter_5.section_5_7 import (
     SCHEDULE,
     Schedule,
-    backward_passes_varying,
     cut_off_frequency,
     cut_off_wave_number,
 )
@@ -83,7 +86,8 @@ def matched_high_pass(
 
     Equation:
         The temporal profile of figure 5.4 through `matched_filter` with f_c(t_k) of (5.3);
-        decimation and backward passes over distance as in figure 5.12.
+        decimation and backward passes over distance as in figure 5.12, these in the form of
+        `state_variable`.
 
     Args:
         a_zp: vertical acceleration with 1 g removed, m/s², shape (N,).
@@ -100,5 +104,5 @@ def matched_high_pass(
     z = temporal_profile(anti_alias(a_zp, f_s), anti_alias(h, f_s), f_s)
     r_zr = matched_filter(z, cut_off_frequency(v_xp, schedule), 1 / np.longdouble(f_s))
     wave_number = cut_off_wave_number(capture(v_xp, points), dx, schedule)
-    r_zr_x = backward_passes_varying(capture(r_zr, points), wave_number, dx)
-    return float(samples(r_xp)[0]), r_zr_x
+    r_zr_x = hpf_b3s2r_state_variable(capture(r_zr, points), wave_number, dx)
+    return float(samples(r_xp)[0]), hpf_b3s1r_state_variable(r_zr_x, wave_number, dx)

@@ -103,7 +103,8 @@ def test_at_constant_cut_off_observer_and_cascade_differ_by_their_start_alone(
     x, schedule = np.arange(200) * speed / 20, Schedule(f_ls=0.3, v_0=1e6)
     _, cascade = adaptive_high_pass_spatial_backward(a, h, x, 20.0, speed / 20, schedule)
     _, profile = matched_high_pass(a, h, x, 20.0, speed / 20, schedule)
-    assert profile == pytest.approx(cascade, abs=1e-12)
+    # The speed at the first point is 0, and with it the cut-off another one.
+    assert profile[1:] == pytest.approx(cascade[1:], abs=1e-12)
 
 
 @pytest.mark.parametrize(("z", "f_c"), [([0.1, 0.2], [0.1, 0.1]), ([0.0, 0.2], [0.1])])
