@@ -15,6 +15,7 @@ REPORT = "import sys; print(*(m for m in {heavy!r} if m in sys.modules))"
         "import floatref",
         "import floatref, floatref.files, floatref.values.recording",
         "import floatref; floatref.Recording, floatref.Profile, floatref.InputError",
+        "import floatref; floatref.AdaptiveHighPass(16000.0), floatref.HeightReflection()",
         "import floatref_adapters.plugin",
         "from floatref.cli.main import main; main(['--help'], standalone_mode=False)",
         "from floatref_conformance.cli.main import main; main(['--help'], standalone_mode=False)",

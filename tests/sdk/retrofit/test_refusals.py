@@ -149,6 +149,18 @@ def test_chunks_of_different_length_are_refused(call, line):
     assert f": {line}; give as many samples of each" in said(error)
 
 
+@every_high_pass
+def test_a_refused_chunk_counts_for_nothing(name):
+    make, speed = HIGH_PASSES[name]
+    stage, other = make(), make()
+    with pytest.raises(InputError):
+        stage.acceleration(np.append(X[:9], np.inf), *speed)
+    for signal in SIGNALS:
+        found = getattr(stage, signal)(X, *speed)
+        np.testing.assert_array_equal(found, getattr(other, signal)(X, *speed))
+    stage.finish()
+
+
 @pytest.mark.parametrize("value", [np.inf, -np.inf])
 def test_an_infinite_sample_is_refused_by_number(value):
     bad = np.where(np.arange(10) == 6, value, X)
