@@ -13,6 +13,7 @@ VALIDITY: dict[str, float | None] = {
     "after_braking_m": 20.0,
 }
 UNSUPPRESSED = {"before_slow_m": 47.0, "after_slow_m": 76.0, "after_braking_m": 47.0}
+UNLIMITED = {"before_slow_m": 158.865, "after_slow_m": 158.865, "after_braking_m": 47.0}
 """In the spatial architecture a stop is one time step, which only timer distortion limits."""
 INTERVAL = {"interval_m": None, "anti_alias_hz": 1000.0, **VALIDITY}
 WAVELENGTH = {**INTERVAL, "cutoff_wavelength_m": 105.91}
@@ -34,7 +35,8 @@ ADAPTIVE = {
     "transition_speed_mps": 2.778,
     "transition_steepness": 2.5,
 }
-SPATIAL = {**WAVELENGTH, **UNSUPPRESSED}
+BASIC = {**WAVELENGTH, **UNSUPPRESSED}
+SPATIAL = {**WAVELENGTH, **UNLIMITED}
 TIMER = {**WAVELENGTH, "timer_speed_mps": 3.576, "timer_sharpness": 25.0}
 
 TEMPORAL_HPF: dict[str, Answer] = {
@@ -61,12 +63,12 @@ SPATIAL_HPF: dict[str, Answer] = {
 }
 
 PIPELINES = (
-    Pipeline("temporal-basic", "temporal", "no error suppression (section 5.3)", WAVELENGTH),
+    Pipeline("temporal-basic", "temporal", "no error suppression (section 5.3)", BASIC),
     Pipeline(
         "temporal-mean-removal",
         "temporal",
         "the run's mean removed before each integration (section 5.4)",
-        WAVELENGTH,
+        BASIC,
         {
             "temporal_first_integration": steps.first_integration_without_mean,
             "temporal_second_integration": steps.second_integration_without_mean,
