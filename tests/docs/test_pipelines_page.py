@@ -1,0 +1,36 @@
+"""The page of pipelines: it names every pipeline and every setting with its default."""
+
+import re
+from fnmatch import fnmatch
+from pathlib import Path
+
+from floatref.architectures.plugins import plugins
+
+PAGE = (Path(__file__).parents[2] / "docs" / "pipelines.md").read_text(encoding="utf-8")
+SETTING = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \|$", re.M)
+
+
+def named(cell: str, pipelines: list[str]) -> set[str]:
+    """Return the pipelines that a cell names: all, some patterns, or all but some."""
+    patterns = re.findall(r"`([\w*-]+)`", cell)
+    found = {name for name in pipelines if any(fnmatch(name, p) for p in patterns)}
+    assert not patterns or all(any(fnmatch(name, p) for name in pipelines) for p in patterns)
+    return set(pipelines) - found if cell.startswith("all") else found
+
+
+def test_every_setting_of_every_pipeline_is_on_the_page_with_its_default() -> None:
+    pipelines = plugins().pipelines()
+    told: dict[str, dict[str, float | None]] = {name: {} for name in pipelines}
+    for setting, default, cell in SETTING.findall(PAGE):
+        for name in named(cell, list(pipelines)):
+            assert setting not in told[name], (name, setting)
+            told[name][setting] = None if default == "the recording's" else float(default)
+    assert told == {name: dict(pipeline.settings) for name, pipeline in pipelines.items()}
+
+
+def test_every_pipeline_has_a_row_with_the_section_of_its_summary() -> None:
+    rows = dict(re.findall(r"^\| `([\w-]+)` \| (5\.\d+|beyond) \|", PAGE, re.M))
+    assert rows.keys() == plugins().pipelines().keys()
+    for name, section in rows.items():
+        summary = plugins().pipelines()[name].summary
+        assert (f"(section {section})" in summary) == (section != "beyond")
