@@ -15,6 +15,7 @@ from floatref.values.channels import ChannelId
 
 STAGES = sorted(plugins().stages())
 CUTS = st.lists(st.integers(0, 240), max_size=6)
+STEERED = ("VaryingHighPass", "StateHighPass", "MatchedHighPass", "SuppressLocally")
 SEEDS = st.integers(0, 2**32 - 1)
 every_stage = pytest.mark.parametrize("name", STAGES)
 laws = settings(
@@ -114,6 +115,19 @@ def test_5_a_missing_or_flagged_sample_is_flagged_on_the_way_out(bench, name, se
         assert ((marks != 0) | missing)[hit].all()
         assert not missing[~affected].any()
         assert not marks[~affected].any()
+
+
+@pytest.mark.parametrize("name", [n for n in STAGES if n.startswith(STEERED)])
+def test_5_a_missing_speed_or_cut_off_flags_what_it_steers(bench, name):
+    steering = "travel_speed" if name == "SuppressLocally" else "high_pass_cutoff"
+    stream = bench(name)
+    stream.values[ChannelId(steering)][100] = np.nan
+    out = stream.run(stream.blocks())
+    flagged = {c for c, flags in out.flags.items() if c.track and flags.any()}
+    assert {channel.track for channel in flagged} == set(stream.header.tracks)
+    for channel in flagged:
+        assert set(np.flatnonzero(out.flags[channel])) == {100}
+        assert not np.array_equal(out[channel], stream.values.get(channel))
 
 
 def _points_hit(times, when, drift):
