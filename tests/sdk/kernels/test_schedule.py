@@ -54,7 +54,7 @@ def test_nothing_overflows_and_both_ends_are_reached():
 @given(speed=SPEEDS, interval=st.floats(0.003, 0.3))
 def test_wave_number_is_frequency_over_speed_up_to_four_points_a_cycle(speed, interval):
     values = frequency(speed, *PRINTED)
-    exact = values[0] / speed if speed > 0 else math.inf
+    exact = float(values[0]) / speed if speed > 0 else math.inf
     schedule.wave_numbers(np.array([speed]), values, 1 / (4 * interval))
     assert values[0] == pytest.approx(min(exact, 1 / (4 * interval)), rel=1e-15)
 
