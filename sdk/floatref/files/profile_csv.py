@@ -40,7 +40,10 @@ def write_profile_csv(profile: Profile, path: Path, overwrite: bool = False) -> 
         beside.open("w", encoding="utf-8", newline="") as stream,
     ):
         names = [(f"{t.name}{ELEVATION}", f"{t.name}{VALID}") for t in profile.tracks]
-        csv.writer(stream, lineterminator="\n").writerow([DISTANCE, *chain(*names)])
+        # csv quotes a line feed by itself, a carriage return only if it ends lines.
+        quoting = csv.QUOTE_ALL if "\r" in "".join(chain(*names)) else csv.QUOTE_MINIMAL
+        header = csv.writer(stream, lineterminator="\n", quoting=quoting)
+        header.writerow([DISTANCE, *chain(*names)])
         for first in range(0, profile.tracks[0].elevation.size, ROWS):
             stream.writelines(_lines(profile, first))
 
