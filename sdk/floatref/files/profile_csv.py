@@ -9,6 +9,7 @@ import io
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -41,7 +42,9 @@ def write_profile_csv(profile: Profile, path: Path, overwrite: bool = False) -> 
     ):
         names = [(f"{t.name}{ELEVATION}", f"{t.name}{VALID}") for t in profile.tracks]
         # csv quotes a line feed by itself, a carriage return only if it ends lines.
-        quoting = csv.QUOTE_ALL if "\r" in "".join(chain(*names)) else csv.QUOTE_MINIMAL
+        quoting: Literal[0, 1] = (
+            csv.QUOTE_ALL if "\r" in "".join(chain(*names)) else csv.QUOTE_MINIMAL
+        )
         header = csv.writer(stream, lineterminator="\n", quoting=quoting)
         header.writerow([DISTANCE, *chain(*names)])
         for first in range(0, profile.tracks[0].elevation.size, ROWS):
