@@ -13,6 +13,8 @@ from floatref.values.channels import ChannelId
 
 SPARE = 16
 """An array that grows gets room for one more in so many samples."""
+LARGEST_ROOM = 1 << 27
+"""Points for which room is made at most before they come; a leap of the encoder is no run."""
 
 S = TypeVar("S", np.float64, np.uint8)
 
@@ -20,9 +22,9 @@ S = TypeVar("S", np.float64, np.uint8)
 class Growing(Generic[S]):
     """A one-dimensional array of ``kind`` that grows at its end."""
 
-    def __init__(self, kind: type[S]) -> None:
-        """Begin without samples."""
-        self._array: NDArray[S] = np.empty(0, kind)
+    def __init__(self, kind: type[S], room: int = 0) -> None:
+        """Begin without samples, with room for so many."""
+        self._array: NDArray[S] = np.empty(min(room, LARGEST_ROOM), kind)
         self._size = 0
 
     def extend(self, values: NDArray[S]) -> None:
@@ -45,12 +47,15 @@ class Growing(Generic[S]):
 
 
 def collected(
-    blocks: Iterable[Block], tracks: tuple[str, ...]
+    blocks: Iterable[Block], tracks: tuple[str, ...], room: int = 0
 ) -> dict[str, tuple[FloatArray, FlagArray]]:
-    """Return elevation in m and flags, shape (N,) each, of every one of ``tracks``."""
+    """Return elevation in m and flags, shape (N,) each, of every one of ``tracks``.
+
+    ``room`` is about how many points to expect.
+    """
     channels = [ChannelId(ELEVATION, track) for track in tracks]
-    elevations = [Growing(np.float64) for _ in tracks]
-    flags = [Growing(np.uint8) for _ in tracks]
+    elevations = [Growing(np.float64, room) for _ in tracks]
+    flags = [Growing(np.uint8, room) for _ in tracks]
     for block in blocks:
         for channel, elevation, marks in zip(channels, elevations, flags, strict=True):
             elevation.extend(block[channel])

@@ -73,7 +73,8 @@ def run(
     source = Source(recording)
     stages = _stages(loaded, chosen, resolved, source)
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
-    profile = _collect(header, blocks, chosen, resolved)
+    room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
+    profile = _collect(header, blocks, chosen, resolved, room)
     return Result(profile, (*cautions, *loaded.reports))
 
 
@@ -108,11 +109,15 @@ def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:
 
 
 def _collect(
-    header: Header, blocks: Iterable[Block], chosen: Pipeline, resolved: Mapping[str, Any]
+    header: Header,
+    blocks: Iterable[Block],
+    chosen: Pipeline,
+    resolved: Mapping[str, Any],
+    room: int,
 ) -> Profile:
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
-    found = collected(blocks, header.tracks)
+    found = collected(blocks, header.tracks, room)
     reach = Reach.of(resolved)
     tracks = tuple(
         ProfileTrack.of(name, elevation, valid_points(flags, header.step, reach))

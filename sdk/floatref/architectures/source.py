@@ -32,8 +32,8 @@ BLOCK = 65_536
 class Source:
     """The nominal channels of a recording as a stream of blocks.
 
-    `header` is that of the stream; `origin_m` the distance at its first sample; `length` the
-    number of samples that all channels cover.
+    `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
+    is travelled from there to the last; `length` the number of samples that all channels cover.
     """
 
     def __init__(self, recording: Recording) -> None:
@@ -53,7 +53,8 @@ class Source:
             setup=recording.setup,
         )
         self._events = GnssEvents(recording)
-        self.origin_m = float(self._aligned[ChannelId(DISTANCE)].take(0, 1).values[0])
+        self.origin_m = self._distance(0)
+        self.distance_m = self._distance(self.length - 1) - self.origin_m
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
         """Yield the run in blocks of ``size`` samples, each let go of before the next."""
@@ -71,6 +72,9 @@ class Source:
             {name: flags for name, s in taken.items() if (flags := _flags(name, s)) is not None},
             self._events.between(self._time(begin), self._time(end)),
         )
+
+    def _distance(self, index: int) -> float:
+        return float(self._aligned[ChannelId(DISTANCE)].take(index, index + 1).values[0])
 
     def _time(self, index: int) -> float:
         return self.header.origin + index * self.header.step
