@@ -3,8 +3,6 @@
 One set of passes on each of three roads, both wheel paths: every figure is a mean of six.
 """
 
-from collections.abc import Iterator
-
 import pytest
 
 from floatref_conformance.proving_ground.runs import RUNS
@@ -31,8 +29,8 @@ REFLECTION = "spatial-hpf-timer-distortion-reflection"
 
 
 @pytest.fixture(scope="module")
-def table() -> Iterator[ComparisonTable]:
-    yield make_table(TableSettings(seed=0, roads=3, seeds=1, pipelines=CHAPTER_5))
+def table() -> ComparisonTable:
+    return make_table(TableSettings(seed=0, roads=3, seeds=1, pipelines=CHAPTER_5))
 
 
 def peak(table: ComparisonTable, pipeline: str, run: str) -> float:
