@@ -1,7 +1,7 @@
 """What sources and tests cite of the dissertation, read without importing them.
 
 A docstring cites "(2.9)", "(2.12) to (2.16)" or "Tables 2.4 to 2.6"; a test cites the same in
-`@pytest.mark.cites("(2.9)")`.
+`@pytest.mark.cites("(2.9)")`, or for its whole file in `pytestmark`.
 """
 
 import ast
@@ -51,14 +51,13 @@ def parted(name: str) -> tuple[str, str]:
 
 
 def documentation(name: str) -> str | None:
-    """Return the docstrings of ``name`` and of its module; None if there is no such thing."""
+    """Return the docstring of the module or the thing in it ``name``; None if there is none."""
     module, inner = parted(name)
     path = _source(module.split("."))
     if path is None:
         return None
     tree = _parsed(path)
-    own = _docstring(tree.body, inner.split(".")) if inner else ""
-    return None if own is None else f"{own}\n{ast.get_docstring(tree) or ''}"
+    return _docstring(tree.body, inner.split(".")) if inner else ast.get_docstring(tree) or ""
 
 
 def functions(package: str) -> Iterator[tuple[str, str]]:
@@ -78,10 +77,11 @@ def tests() -> dict[str, list[Test]]:
     for path in sorted((ROOT / "tests").rglob("test_*.py")):
         tree = _parsed(path)
         packages = frozenset(_packages(tree))
+        shared = [text for node in tree.body for text in _marks_of_all(node)]
         for node in tree.body:
-            if isinstance(node, ast.FunctionDef):
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
                 test = Test(path.relative_to(ROOT).as_posix(), node.name, packages)
-                for where in sorted(cited(" ".join(_marks(node)))):
+                for where in sorted(cited(" ".join([*shared, *_marks(node)]))):
                     found.setdefault(where, []).append(test)
     return found
 
@@ -120,8 +120,20 @@ def _text(node: ast.expr) -> str:
 
 def _marks(node: ast.FunctionDef) -> Iterator[str]:
     for mark in node.decorator_list:
-        if isinstance(mark, ast.Call) and ast.unparse(mark.func) == "pytest.mark.cites":
-            yield from map(_text, mark.args)
+        yield from _cites(mark)
+
+
+def _marks_of_all(node: ast.stmt) -> Iterator[str]:
+    """Yield what ``node`` cites for every test of its module, if it is `pytestmark`."""
+    if isinstance(node, ast.Assign | ast.AnnAssign) and _target(node) == "pytestmark":
+        marks = node.value.elts if isinstance(node.value, ast.List | ast.Tuple) else [node.value]
+        for mark in filter(None, marks):
+            yield from _cites(mark)
+
+
+def _cites(mark: ast.expr) -> Iterator[str]:
+    if isinstance(mark, ast.Call) and ast.unparse(mark.func) == "pytest.mark.cites":
+        yield from map(_text, mark.args)
 
 
 def _packages(tree: ast.Module) -> Iterator[str]:

@@ -36,29 +36,44 @@ def documented() -> frozenset[str]:
     return frozenset(module for page in pages for module in SHOWN.findall(page))
 
 
-def shown(name: str) -> str:
-    """Return the module and the name of ``name`` as code, linked if the API shows it."""
-    module, inner = parted(name)
-    label = f"`{inner}`" if inner else ""
-    if module in documented():
-        label = f"[{label}][{name}]" if inner else ""
-    return f"`{module.removeprefix(f'{REFERENCE}.')}`<br>{label}".removesuffix("<br>")
+def shown(names: list[str]) -> str:
+    """Return the modules and names of ``names`` as code, linked if the API shows them."""
+    parts: list[str] = []
+    for name in names:
+        module, inner = parted(name)
+        label = f"`{module.removeprefix(f'{REFERENCE}.')}`"
+        if label not in parts:
+            parts.append(label)
+        if inner:
+            parts.append(f"[`{inner}`][{name}]" if module in documented() else f"`{inner}`")
+    return "<br>".join(parts)
 
 
 def used(row: Row) -> list[str]:
     """Return the names in the column of the SDK and the proving ground."""
-    names = row.get("used", [])
-    return [names] if isinstance(names, str) else list(names)
+    return _listed(row.get("used", []))
+
+
+def reference(row: Row) -> list[str]:
+    """Return the names in the column of the reference."""
+    return [f"{REFERENCE}.{name}" for name in _listed(row.get("reference", []))]
+
+
+def _listed(names: str | list[str]) -> list[str]:
+    return list(filter(None, [names] if isinstance(names, str) else names))
 
 
 def faults(row: Row) -> Iterator[str]:
     """Yield what ``row`` of an equation or table lacks."""
-    where = cited(row["cites"])
-    reference = f"{REFERENCE}.{row['reference']}" if row.get("reference") else ""
-    for column, names in {"reference function": [reference], "function": used(row)}.items():
-        if not any(names):
+    where = cited(row.get("cites", ""))
+    if not where:
+        yield "cites no equation, table or section"
+    if not row.get("what"):
+        yield "no title given in what"
+    for column, names in {"reference function": reference(row), "function": used(row)}.items():
+        if not names:
             yield f"no {column} given"
-        for name in filter(None, names):
+        for name in names:
             text = documentation(name)
             if text is None:
                 yield f"{name} does not exist"
@@ -88,9 +103,9 @@ def pipeline_faults(row: Row) -> Iterator[str]:
     from floatref_conformance.table.published import published_table
 
     pipeline = plugins().pipelines().get(row["pipeline"])
-    name = f"{REFERENCE}.{row['reference']}"
-    if documentation(name) is None:
-        yield f"{name} does not exist"
+    for name in reference(row):
+        if documentation(name) is None:
+            yield f"{name} does not exist"
     if pipeline is None:
         yield f"there is no pipeline {row['pipeline']}"
     elif row["cites"] not in cited(pipeline.summary):
@@ -104,7 +119,7 @@ def pipeline_faults(row: Row) -> Iterator[str]:
 def complete(groups: list[Row]) -> None:
     """Raise IncompleteRowError unless every row has all its columns."""
     lines = [
-        f"{row['cites']}, {row.get('what') or row['pipeline']}: {fault}"
+        f"{row.get('cites')}, {row.get('what') or row.get('pipeline')}: {fault}"
         for group in groups
         for row in group["rows"]
         for fault in (pipeline_faults(row) if "pipeline" in row else faults(row))
@@ -126,14 +141,13 @@ def tested(where: set[str]) -> str:
 
 def line(row: Row) -> str:
     """Return ``row`` as one of the page's tables."""
-    reference = shown(f"{REFERENCE}.{row['reference']}")
+    left = shown(reference(row))
     if "pipeline" in row:
         first, names = f"{row['cites']}, {row['table']}", f"`{row['pipeline']}`"
-        return f"| {first} | {reference} | {names} | {tested({row['table']})} |"
+        return f"| {first} | {left} | {names} | {tested({row['table']})} |"
     slip = f"<br>[slip](slips.md#{row['slip']})" if row.get("slip") else ""
-    names = "<br>".join(map(shown, used(row)))
     where = tested(cited(row["cites"]))
-    return f"| **{row['cites']}** {row['what']}{slip} | {reference} | {names} | {where} |"
+    return f"| **{row['cites']}** {row['what']}{slip} | {left} | {shown(used(row))} | {where} |"
 
 
 def alone(groups: list[Row]) -> str:

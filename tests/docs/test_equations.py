@@ -1,6 +1,7 @@
 """The page for readers of the dissertation: as generated, complete, and strict about its rows."""
 
 import importlib
+import re
 import tomllib
 from pathlib import Path
 
@@ -57,6 +58,29 @@ def test_a_complete_row_is_a_line_with_four_columns(generator):
     assert row.count("|") == 5
 
 
+def test_a_row_without_what_it_cites_or_a_title_is_refused(generator):
+    assert "cites no equation, table or section" in list(generator.faults(GOOD | {"cites": ""}))
+    assert "no title given in what" in list(generator.faults(GOOD | {"what": ""}))
+    for name in ("cites", "what"):
+        row = {key: value for key, value in GOOD.items() if key != name}
+        with pytest.raises(generator.IncompleteRowError):
+            generator.complete([{"title": "One", "rows": [row]}])
+
+
+def test_a_function_has_to_cite_it_itself(generator):
+    module = "floatref.kernels.state_variable"
+    assert "(A.6)" in generator.cited(generator.documentation(f"{module}.high_pass_1"))
+    assert "(A.2)" in generator.cited(generator.documentation(module))
+    assert "(A.2)" not in generator.cited(generator.documentation(f"{module}.high_pass_21"))
+
+
+def test_a_file_can_cite_for_all_its_tests(generator):
+    names = {test.name for test in generator.tests()["Table 5.12"] if "findings" in test.path}
+    path = ROOT / "tests" / "conformance" / "table" / "test_findings.py"
+    defined = re.findall(r"^def (test_\w+)", path.read_text(encoding="utf-8"), re.M)
+    assert names == set(defined)
+
+
 @pytest.mark.parametrize("reason", BAD)
 def test_a_row_that_lacks_something_fails_in_one_line(generator, reason):
     row = GOOD | BAD[reason]
@@ -90,7 +114,7 @@ def test_every_pipeline_is_on_the_page():
 
 def test_no_row_is_listed_twice_and_every_test_cites_what_is_on_the_page(generator):
     rows = [row for group in ROWS["groups"] for row in group["rows"]]
-    listed = [(row["cites"], row["reference"]) for row in rows]
+    listed = [(row["cites"], str(row["reference"])) for row in rows]
     assert len(set(listed)) == len(listed)
     page = generator.cited((ROOT / "docs" / "equations.md").read_text(encoding="utf-8"))
     assert set(generator.tests()) <= page

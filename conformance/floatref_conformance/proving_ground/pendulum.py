@@ -126,8 +126,8 @@ class PendulumMotion:
         pitch: θ in rad, nose down positive.
         pitch_rate: θ' in rad/s.
         pitch_acceleration: θ'' in rad/s².
-        body_longitudinal: a_xp^b in m/s², along the body.
-        body_vertical: a_zp^b in m/s², along the body, 1 g removed.
+        body_longitudinal: a_xp^b of (2.23) in m/s², along the body.
+        body_vertical: a_zp^b of (2.24) in m/s², along the body, 1 g removed.
         body_height: h^b of (2.25) in m, range along the body.
         longitudinal: a_xp^w in m/s², level.
         vertical: a_zp^w in m/s², plumb: what the floating reference needs.

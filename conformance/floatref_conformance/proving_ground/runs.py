@@ -77,7 +77,7 @@ def _run_of(row: Mapping[str, str]) -> Run:
 
 
 RUNS: Mapping[str, Run] = _read()
-"""The runs by name, in the order of publication, `ref_72` last."""
+"""The runs of Tables 5.1 and 5.2 by name, in the order of publication, `ref_72` last."""
 
 
 @cache

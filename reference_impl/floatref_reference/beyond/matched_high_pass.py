@@ -42,7 +42,7 @@ def matched_filter(z: npt.ArrayLike, f_c: npt.ArrayLike, dt: Real) -> Signal:
         integral by the trapezoidal rule. With ω = (2/Δt) c, (A.7) and (A.11), the sums
         T x(t_k) = T x(t_{k-1}) + x(t_k) + x(t_{k-1}), T x(t_1) = 0, give
         e = z - R, R = T(2 c e + Q), Q = T(2 c² e + P), P = T(c³ e).
-        At constant c with z(t_1) = 0 this is HPF_B3 of appendix A.
+        At constant c with z(t_1) = 0 this is HPF_B3, (A.1).
 
     Args:
         z: temporal profile, m, shape (N,), starting at 0.

@@ -69,8 +69,9 @@ def wave_numbers(speed: FloatArray, values: FloatArray, largest: float) -> None:
 
 @compiled
 def tangents(cutoff: FloatArray, step: float, c: FloatArray) -> int:
-    """Write c = tan(pi f_c dt) (A.11) to ``c``; return how many cut-offs are out of range.
+    """Write c = tan(pi f_c dt) to ``c``; return how many cut-offs are out of range.
 
+    c is the substitution (A.11), and half a step of the analog cut-off (A.7) in radians.
     Out of range is below zero, or half the sampling rate and above. NaN stays NaN.
     """
     angle = math.pi * step

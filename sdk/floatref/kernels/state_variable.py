@@ -45,7 +45,10 @@ def _begin(x: FloatArray, y: FloatArray, memory: FloatArray, backward: bool) -> 
 
 @compiled
 def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
-    """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
+    """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18).
+
+    Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
+    """
     begin = 0
     if memory[0] == 0.0:
         begin = _begin(x, y, memory, backward)
@@ -66,7 +69,10 @@ def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
 
 @compiled
 def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
-    """LPF_B3S1: (A.4), started by (A.12) or, backward, (A.16)."""
+    """LPF_B3S1: (A.4), started by (A.12) or, backward, (A.16).
+
+    Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
+    """
     begin = 0
     if memory[0] == 0.0:
         begin = _begin(x, y, memory, backward)
@@ -87,7 +93,10 @@ def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backw
 
 @compiled
 def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
-    """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
+    """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19).
+
+    Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
+    """
     d = 1.0 / (1.0 + c + c * c)
     begin = 0
     if memory[0] == 0.0:
@@ -118,7 +127,10 @@ def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
 
 @compiled
 def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
-    """LPF_B3S2: (A.5), started by (A.13) or, backward, (A.17)."""
+    """LPF_B3S2: (A.5), started by (A.13) or, backward, (A.17).
+
+    Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
+    """
     begin = 0
     if memory[0] == 0.0:
         begin = _begin(x, y, memory, backward)

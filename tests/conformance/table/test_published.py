@@ -18,7 +18,6 @@ COUNTS = {
 }
 
 
-@pytest.mark.cites("Tables 5.3 to 5.12")
 def test_every_table_is_whole_and_names_known_runs():
     figures = published_figures()
     assert Counter(f.table for f in figures.values()) == COUNTS
