@@ -13,6 +13,8 @@ from floatref.cli.lazy import LazyGroup
 
 FAULT_OF_THE_SUITE = 3
 INTERRUPTED = 130
+MISSING = {"table": "no table", "simulate": "no recording"}
+"""What a sub-command that stops early leaves its caller without; for others it is a verdict."""
 
 
 class NoVerdict(click.ClickException):
@@ -34,31 +36,35 @@ class VerdictGroup(LazyGroup):
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Parse the arguments, with `--help`; errors as those of `invoke`."""
-        with _no_verdict():
+        with _no_verdict(None):
             return super().make_context(*args, **kwargs)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the sub-command; an error that nobody expected is one line and exit code 3."""
-        with _no_verdict():
+        with _no_verdict(ctx):
             return super().invoke(ctx)
 
 
 @contextmanager
-def _no_verdict() -> Iterator[None]:
+def _no_verdict(ctx: click.Context | None) -> Iterator[None]:
     try:
         yield
     except (click.ClickException, click.exceptions.Exit):
         raise
     except (KeyboardInterrupt, click.Abort):
-        click.echo("Interrupted: no verdict", err=True)
+        click.echo(f"Interrupted: {_missing(ctx)}", err=True)
         raise click.exceptions.Exit(INTERRUPTED) from None
     except BrokenPipeError:
         _drop_output()
-        raise NoVerdict("nobody reads the output any more, no verdict") from None
+        raise NoVerdict(f"nobody reads the output any more, {_missing(ctx)}") from None
     except (Exception, SystemExit) as error:
         raise NoVerdict(
-            f"the suite itself is at fault, no verdict: {in_one_line(error)}"
+            f"the suite itself is at fault, {_missing(ctx)}: {in_one_line(error)}"
         ) from error
+
+
+def _missing(ctx: click.Context | None) -> str:
+    return MISSING.get((ctx and ctx.invoked_subcommand) or "", "no verdict")
 
 
 def in_one_line(error: BaseException) -> str:

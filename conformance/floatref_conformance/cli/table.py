@@ -32,7 +32,13 @@ from floatref_conformance.table.settings import TableSettings
     show_default=True,
     help="Draws the roads and all sensor errors.",
 )
-@click.option("--vehicle", default=TableSettings.vehicle, show_default=True)
+@click.option(
+    "--vehicle",
+    metavar="NAME",
+    default=TableSettings.vehicle,
+    show_default=True,
+    help="Its size, weight, springs and dampers; a wrong name lists all.",
+)
 @click.option(
     "--run", "runs", metavar="RUN", multiple=True, help="This run alone; may be repeated."
 )
@@ -57,7 +63,8 @@ def table(
 
     Peak of the short-interval roughness profile, error of the IRI and cross correlation with a
     reference pass at 72 km/h, averaged over simulated roads, sensor errors and wheel paths. The
-    table judges nothing.
+    table judges nothing. All of it takes about 5 min on two free cores, 2.1 GB of memory and
+    250 MB of temporary files.
     """
     from floatref_conformance.render.comparison_picture import check_picture, draw_comparison_maps
     from floatref_conformance.render.comparison_text import print_comparison
@@ -71,9 +78,12 @@ def table(
         check_picture(plot)
     with PassProgress(settings.passes) as progress:
         made = make_table(settings, progress)
-    if plot is not None:
-        draw_comparison_maps(made, plot)
-    if as_json:
-        click.echo(json.dumps(document(made), indent=2, allow_nan=False))
-    else:
-        print_comparison(made, PipedConsole(emoji=False))
+    try:
+        if as_json:
+            click.echo(json.dumps(document(made), indent=2, allow_nan=False))
+        else:
+            print_comparison(made, PipedConsole(emoji=False))
+    finally:
+        # Minutes of work: neither output is lost because the other one fails.
+        if plot is not None:
+            draw_comparison_maps(made, plot)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -72,12 +73,22 @@ SIDES: tuple[tuple[str, ScoresOf], ...] = (
 
 
 def check_picture(path: Path) -> None:
-    """Raise InputError now if a picture to ``path`` would be refused later."""
+    """Raise InputError now if a picture to ``path`` would be refused later.
+
+    To know it, a file is made beside ``path`` and removed again.
+    """
     if path.suffix.lower() != ".png":
         raise InputError(f"{path}: not the name of a PNG picture; end it with .png")
     check_target(path, overwrite=True)
-    if path.is_dir():
-        raise InputError(f"{path}: is a folder; give the name of a file to write")
+    try:
+        if path.is_dir():
+            raise InputError(f"{path}: is a folder; give the name of a file to write")
+        with NamedTemporaryFile(dir=path.resolve().parent, prefix=".floatref-"):
+            pass
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be written ({error.strerror}); choose another folder or name"
+        ) from error
     _new_figure(1.0, 1.0)
 
 
@@ -89,14 +100,14 @@ def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
     InputError where matplotlib is missing or ``path`` cannot be written.
     """
     columns, rows = len(table.settings.pipelines), len(table.settings.runs)
-    figure = _new_figure(5.0 + 0.9 * columns, 4.0 + 0.5 * rows)
+    figure = _new_figure(6.0 + 0.9 * columns, 4.0 + 0.5 * rows)
     axes = figure.subplots(len(QUANTITIES), len(SIDES), squeeze=False, sharex=True, sharey=True)
     for pair, quantity in zip(axes, QUANTITIES, strict=True):
         norm = quantity.norm()
         for ax, (side, scores_of) in zip(pair, SIDES, strict=True):
             _draw_map(ax, table, scores_of, quantity, norm)
             ax.set_title(f"{quantity.label}, {side}", loc="left", fontsize="medium")
-        figure.colorbar(pair[0].images[0], ax=list(pair), label=quantity.label, pad=0.01)
+        figure.colorbar(pair[0].images[0], ax=list(pair), pad=0.01)
     for ax in axes[-1]:
         ax.set_xticks(range(columns), _columns(table), rotation=60, ha="right", fontsize="small")
     for ax in axes[:, 0]:

@@ -9,7 +9,9 @@ from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.published import PublishedFigures, published_table
 from floatref_conformance.table.rank import RankCorrelation, rank_correlations
 
-FIGURES = ("peak, m/km", "IRI error, %", "cross corr.")
+FIGURES = ("peak,\nm/km", "IRI\nerror, %", "cross\ncorr.")
+CELL_PADDING = (0, 1, 0, 0)
+"""One space behind a column, so that the default table fits 80 columns."""
 
 
 def print_comparison(table: ComparisonTable, console: Console) -> None:
@@ -25,9 +27,10 @@ def print_comparison(table: ComparisonTable, console: Console) -> None:
 def closing_lines(table: ComparisonTable) -> list[str]:
     """Return what the means rest on, and how the order of the cells compares with print."""
     made = table.settings
+    paths = _counted(len(table.cells[0].passes), "wheel path")
     lines = [
-        f"Means over {len(table.cells[0].passes)} wheel paths (roads: {made.roads}, sets of passes "
-        f"on each: {made.seeds}; vehicle {made.vehicle}, seed {made.seed}).",
+        f"Means over {paths} (roads: {made.roads}, sets of passes on each: {made.seeds}; "
+        f"vehicle {made.vehicle}, seed {made.seed}).",
         "Spearman's rank correlation of the cross correlations, clipped below at 0.2, with print:",
     ]
     found = rank_correlations(table)
@@ -46,6 +49,7 @@ def _block(pipeline: str, cells: tuple[Cell, ...]) -> Table:
         title_justify="left",
         title_style="bold",
         box=SIMPLE_HEAD,
+        padding=CELL_PADDING,
         pad_edge=False,
     )
     block.add_column("run", no_wrap=True)
@@ -74,12 +78,16 @@ def _row(cell: Cell) -> tuple[str, ...]:
 def printed_correlation(published: PublishedFigures) -> str:
     """Return the published cross correlation as it is printed."""
     if published.cross_correlation_is_upper_bound:
-        return f"< {published.scores.cross_correlation:g}"
+        return f"<{published.scores.cross_correlation:g}"
     return f"{published.scores.cross_correlation:.3f}"
 
 
 def _ranked(found: RankCorrelation) -> str:
-    return f"{_value(found.ours)} over {found.cells} cells"
+    return f"{_value(found.ours)} over {_counted(found.cells, 'cell')}"
+
+
+def _counted(number: int, name: str) -> str:
+    return f"{number} {name}" if number == 1 else f"{number} {name}s"
 
 
 def _value(value: float | None) -> str:

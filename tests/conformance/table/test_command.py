@@ -6,9 +6,11 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft202012Validator
 
+from floatref.errors import InputError
 from floatref_conformance import table as table_package
 from floatref_conformance.cli.main import main
 from floatref_conformance.errors import SuiteError
+from floatref_conformance.render import comparison_picture
 from floatref_conformance.schemas import read_schema
 from floatref_conformance.table import Scores, TableSettings
 
@@ -58,6 +60,28 @@ def test_the_picture_is_written(call, tmp_path):
     assert (tmp_path / "table.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("words", [(), ("--json",)])
+def test_what_cannot_be_drawn_is_printed_all_the_same(call, monkeypatch, tmp_path, words):
+    def full(_table, path):
+        raise InputError(f"{path}: cannot be written (No space left on device)")
+
+    monkeypatch.setattr(comparison_picture, "draw_comparison_maps", full)
+    plot = ("--plot", tmp_path / "table.png", "--run", "const_16")
+    answer = call[0](*plot, "--pipeline", "spatial-basic", *words)
+    assert answer.exit_code == 2
+    assert "table.png: cannot be written (No space left" in answer.stderr
+    assert answer.stdout == call[0](*plot[2:], "--pipeline", "spatial-basic", *words).stdout
+
+
+def test_an_interrupted_table_does_not_speak_of_a_verdict(call, monkeypatch):
+    def interrupted(_settings, _watch):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(table_package, "make_table", interrupted)
+    answer = call[0]()
+    assert (answer.exit_code, answer.stderr) == (130, "Interrupted: no table\n")
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -86,5 +110,5 @@ def test_a_fault_of_the_suite_is_exit_3_and_leaves_no_picture(call, monkeypatch,
     monkeypatch.setattr(table_package, "make_table", broken)
     answer = call[0]("--plot", tmp_path / "table.png")
     assert answer.exit_code == 3
-    assert "pipeline x, run y: no luck" in answer.stderr
+    assert "at fault, no table: SuiteError: pipeline x, run y: no luck" in answer.stderr
     assert list(tmp_path.iterdir()) == []
