@@ -87,7 +87,10 @@ class Drive:
                 raise InputError(f"segment {number} of the drive: {segment} is impossible")
         slowest = float(np.min(self.knot_speeds_mps))
         if slowest < 0:
-            raise InputError(f"the drive goes backwards at {slowest} m/s; brake for less long")
+            raise InputError(
+                f"the drive goes backwards at {-3.6 * slowest:.4g} km/h; brake or coast for less "
+                "long"
+            )
 
     @cached_property
     def knot_times_s(self) -> FloatArray:

@@ -96,17 +96,21 @@ def near_stop(
     length_m: float,
     drag: float = SLOW_COAST_DRAG,
 ) -> Drive:
-    """Brake to ``slow_speed``, released at ``release_m``; coast, then speed up again.
+    """Brake to ``slow_speed``, released at ``release_m``; coast, then take up ``final_speed``.
 
-    The release leaves the drag at once, since nothing else slows the vehicle.
+    The release leaves the drag at once, since nothing else slows the vehicle. A final speed
+    below that after the coast is reached by the drag too, coming and going gently.
     """
     slowing = brake(initial_speed, slow_speed, mean_deceleration)
     distance, _ = extent(initial_speed, slowing)
     before = cruise(initial_speed, release_m - distance, "the release of the brake")
     coast = Segment(coast_s, -drag)
     _, slowest = extent(slow_speed, (coast,))
-    faster = set_off(slowest, final_speed, RESTART)
-    return _up_to(length_m, initial_speed, (before, *slowing, coast, *faster))
+    if final_speed < slowest:
+        after = speed_change(slowest, final_speed, drag)
+    else:
+        after = set_off(slowest, final_speed, RESTART)
+    return _up_to(length_m, initial_speed, (before, *slowing, coast, *after))
 
 
 def stops(

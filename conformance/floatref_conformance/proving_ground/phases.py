@@ -6,7 +6,7 @@ the deceleration ends at once too, whatever the foot does. Throttle comes and go
 Who has to stop at a mark brakes lightly at first and hardest at the end, and sets off with
 more than is left at speed. Figure 5.16 of Karamihas 2021 shows how much: of the stop with an
 average of 0.2 g the stretch below 3.576 m/s begins 2.0 m before the stop and ends 2.5 m behind
-it, which takes 0.33 g and 0.26 g.
+it, which takes 0.33 g and 0.26 g. The drives here reach 0.28 g and 0.25 g: decision 0009.
 """
 
 from collections.abc import Sequence
@@ -46,7 +46,7 @@ def cruise(speed: float, distance_m: float, what: str) -> Segment:
     if distance_m < 0:
         raise InputError(f"{what} lies {-distance_m:.1f} m too early; move it farther along")
     if speed <= 0:
-        raise InputError(f"{what} cannot be reached at {speed} m/s; the speed must be above zero")
+        raise InputError(f"{what} cannot be reached at {_kmh(speed)}; drive on faster than that")
     return Segment(distance_m / speed)
 
 
@@ -95,11 +95,16 @@ def set_off(from_speed: float, to_speed: float, acceleration: float) -> tuple[Se
     """Return the segments from a standstill or a crawl up to a speed.
 
     Speeds in m/s, acceleration in m/s². It comes by `LAUNCH_JERK` and then falls steadily to
-    zero, as the engine's power lets it; a small change of speed does not reach it.
+    zero, as the engine's power lets it; a small change of speed does not reach it. InputError
+    for a lower speed, or an acceleration that is not positive.
     """
     change = to_speed - from_speed
-    if not (acceleration > 0 and change >= 0):
-        raise InputError(f"cannot set off from {from_speed} to {to_speed} m/s at {acceleration}")
+    if not acceleration > 0:
+        raise InputError(f"setting off at {acceleration:.4g} m/s² gets nowhere; give more than 0")
+    if not change >= 0:
+        raise InputError(
+            f"cannot set off from {_kmh(from_speed)} to {_kmh(to_speed)}; raise the final speed"
+        )
     if change == 0:
         return ()
     peak = min(acceleration, float(np.sqrt(change * LAUNCH_JERK)))
@@ -119,7 +124,11 @@ def brake_to_stop(from_speed: float, mean_deceleration: float) -> tuple[Segment,
     _check_brake(from_speed, 0.0, mean_deceleration)
     upper, lower = from_speed - STOP_BAND_MPS[0], STOP_BAND_MPS[1]
     if upper - lower <= STANDSTILL_MPS:
-        raise InputError(f"{from_speed} m/s is too slow for the average deceleration of a stop")
+        raise InputError(
+            f"{_kmh(from_speed)} is too slow for a stop, whose average deceleration counts from "
+            f"{_kmh(STOP_BAND_MPS[0])} less down to {_kmh(lower)}; drive faster than "
+            f"{_kmh(STOP_BAND_MPS[0] + lower)}"
+        )
 
     def excess(last: float) -> float:
         segments = _stopping(from_speed, last)
@@ -160,6 +169,15 @@ def _time_of(segment: Segment, gain: float) -> float:
 
 def _check_brake(from_speed: float, to_speed: float, mean_deceleration: float) -> None:
     if not (mean_deceleration > 0 and np.isfinite(mean_deceleration)):
-        raise InputError(f"mean deceleration is {mean_deceleration} m/s²; it must be above zero")
+        raise InputError(
+            f"mean deceleration is {mean_deceleration:.4g} m/s²; it must be above zero"
+        )
     if not 0 <= to_speed < from_speed:
-        raise InputError(f"cannot brake from {from_speed} m/s to {to_speed} m/s")
+        raise InputError(
+            f"cannot brake from {_kmh(from_speed)} to {_kmh(to_speed)}; give a lower speed to "
+            "brake to, or a higher one before"
+        )
+
+
+def _kmh(speed: float) -> str:
+    return f"{3.6 * speed:.4g} km/h"

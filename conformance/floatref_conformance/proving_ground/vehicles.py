@@ -2,8 +2,8 @@
 
 Wheelbase, track width, weight and sensor position of the loaded van are those of the system
 vehicle of Karamihas 2021, section 4.2; what the text lacks, and the other sets, are round
-numbers of the vehicle's kind. Pitch under braking is 2 to 5 degrees per g, bounce 1 to 2 Hz
-and wheel hop 8 to 16 Hz.
+numbers of the vehicle's kind. Pitch under braking is 2 to 5 degrees per g; the body bounces,
+pitches and rolls at 1.0 to 2.3 Hz, the wheels hop at 8 to 13 Hz.
 """
 
 from collections.abc import Mapping

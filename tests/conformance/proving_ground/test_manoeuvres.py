@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref_conformance.proving_ground import manoeuvres
+from floatref_conformance.proving_ground import manoeuvres, phases
 from floatref_conformance.proving_ground.drive import Drive
 
 FEW = settings(deadline=None, max_examples=30)
@@ -115,6 +115,18 @@ def test_a_near_stop_never_stands() -> None:
     assert throttle[0] > release[0]
 
 
+@given(st.floats(0.05, 0.99))
+@FEW
+def test_a_near_stop_can_go_on_slower_than_it_coasted(share: float) -> None:
+    coasted = manoeuvres.near_stop(20.0, 3.2, 2.0, 300.0, 2.2, 3.2, LENGTH_M)
+    slowest = float(coasted.knot_speeds_mps.min())
+    drive = manoeuvres.near_stop(20.0, 3.2, 2.0, 300.0, 2.2, share * slowest, LENGTH_M)
+    assert drive.final_speed == pytest.approx(share * slowest)
+    assert drive.length_m == pytest.approx(LENGTH_M)
+    after = int(np.argmin(np.abs(drive.knot_speeds_mps - slowest)))
+    assert (np.diff(drive.knot_speeds_mps[after:]) <= 1e-12).all()
+
+
 @given(st.floats(0.0, 20.0), st.floats(2.0, 25.0))
 @FEW
 def test_a_dead_start_stands_first_and_sets_off_without_a_jerk(dwell: float, final: float) -> None:
@@ -143,9 +155,12 @@ def test_creeping_wanders_between_its_speeds(slowest: float, above: float, lengt
         (lambda: manoeuvres.stop(20.0, 2.0, 50.0, 1.0, 15.0, 500.0), "stop at 50.0 m lies"),
         (lambda: manoeuvres.stops(10.0, 2.0, (100.0, 110.0), 1.0, 10.0, 500.0), "stop at 110.0 m"),
         (lambda: manoeuvres.stop(20.0, 2.0, 200.0, -1.0, 15.0, 500.0), "dwell is -1.0"),
-        (lambda: manoeuvres.braking(20.0, 21.0, 2.0, 300.0, 500.0), "cannot brake from 20.0"),
-        (lambda: manoeuvres.braking(20.0, 10.0, 0.0, 300.0, 500.0), "mean deceleration is 0.0"),
-        (lambda: manoeuvres.constant(0.0, 500.0), "cannot be reached at 0.0 m/s"),
+        (lambda: manoeuvres.braking(20.0, 21.0, 2.0, 300.0, 500.0), "cannot brake from 72 km/h"),
+        (lambda: manoeuvres.braking(20.0, 10.0, 0.0, 300.0, 500.0), "mean deceleration is 0 m/s²"),
+        (lambda: manoeuvres.stop(5 / 9, 2.0, 200.0, 1.0, 15.0, 500.0), "^2 km/h is too slow for a"),
+        (lambda: phases.set_off(1 / 3, 0.1, 2.0), "from 1.2 km/h to 0.36 km/h; raise the final"),
+        (lambda: phases.set_off(0.0, 10.0, 0.0), "setting off at 0 m/s² gets nowhere"),
+        (lambda: manoeuvres.constant(0.0, 500.0), "cannot be reached at 0 km/h"),
         (lambda: manoeuvres.creeping(2.0, 1.0, 500.0), "creeping from 2.0 to 1.0"),
         (lambda: manoeuvres.throttle(5.0, 20.0, 450.0, 500.0), "the end of the drive lies"),
     ],
