@@ -180,7 +180,7 @@ def test_long_stop_ruins_the_basic_architectures(stopped: Simulation, pipeline: 
 
 
 def test_velocity_error_at_the_stop_is_tilt_bias_and_misalignment(stopped: Simulation) -> None:
-    """The integral of a_x·sin θ and bias explains it; the axis' own tilt adds to θ."""
+    """All but a fifth is the integral of a_x·sin θ and bias; the axis' own tilt adds to θ."""
     motion, rate = stopped.motion, 16000.0
     stop = int(np.argmax(motion.speed == 0.0))
     for name, track in motion.tracks.items():
