@@ -4,7 +4,13 @@ import re
 from fnmatch import fnmatch
 from pathlib import Path
 
+import numpy as np
+import pytest
+
+import floatref
 from floatref.architectures.plugins import plugins
+from floatref.measures import high_pass
+from floatref_conformance.proving_ground import scenario_of_run, simulate
 
 PAGE = (Path(__file__).parents[2] / "docs" / "pipelines.md").read_text(encoding="utf-8")
 SETTING = re.compile(r"^\| `(\w+)` \| ([^|]+) \| ([^|]+) \|$", re.M)
@@ -26,6 +32,24 @@ def test_every_setting_of_every_pipeline_is_on_the_page_with_its_default() -> No
             assert setting not in told[name], (name, setting)
             told[name][setting] = None if default == "the recording's" else float(default)
     assert told == {name: dict(pipeline.settings) for name, pipeline in pipelines.items()}
+
+
+def test_how_far_off_valid_elevation_is_in_the_picture_of_a_stop() -> None:
+    simulation = simulate(scenario_of_run("sg_10.7s_0.20g", imu=False, gnss=False))
+    found = {}
+    for name in ("temporal-basic", "temporal-adaptive-hpf-spatial-backward"):
+        profile = floatref.process(simulation.recording, name)
+        track, place = profile.track("left"), round(250.0 / profile.interval_m)
+        true = high_pass(simulation.truth.track("left").elevation, profile.interval_m)
+        error = np.abs(track.elevation - true[: track.elevation.size])
+        assert track.valid[place]
+        found[name] = error[place], error[track.valid].max()
+        flagged = place + int(np.argmin(track.valid[place:]))
+        if name == "temporal-basic":
+            assert flagged * profile.interval_m - 250.0 == pytest.approx(9.0, abs=0.5)
+    assert f"is {found['temporal-basic'][0]:.1f} m off at 250 m" in PAGE
+    worst = found["temporal-adaptive-hpf-spatial-backward"][1]
+    assert f"valid points are off by up to {1000.0 * worst:.0f} mm" in PAGE
 
 
 def test_every_pipeline_has_a_row_with_the_section_of_its_summary() -> None:
