@@ -84,7 +84,7 @@ def trigger(r_xp: npt.ArrayLike, dx: float) -> list[tuple[int, np.longdouble]]:
         while x[i] + tie < x_k:
             i += 1
         fraction = np.longdouble(1)
-        if i > 0 and x[i] - x[i - 1] > dx + tie and x_k < x[i]:
+        if i > 0 and x[i] - x[i - 1] > dx + tie and x_k < x[i] - tie:
             fraction = (np.longdouble(x_k) - x[i - 1]) / (np.longdouble(x[i]) - x[i - 1])
         points.append((i, fraction))
     return points

@@ -17,6 +17,10 @@ GAP = 5.0
 """Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
 BRIDGE_S = 0.01
 """A gap up to so long is bridged well: a line misses a 15-Hz swing of the body by a tenth."""
+BLIND_S = 0.5
+"""A gap of the encoder longer than this can hide a stop."""
+FAR = 1 << 40
+"""Samples to the next known one, if there is none."""
 LOOK = 4096
 """Samples looked at in one go for the end of a gap."""
 
@@ -25,7 +29,8 @@ LOOK = 4096
 class Stretch:
     """Samples of a channel on the clock of the blocks, and which of them are what.
 
-    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`.
+    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`,
+    of the encoder `BLIND_S`.
     """
 
     values: FloatArray
@@ -43,25 +48,30 @@ class AlignedChannel:
         self._clock, self._first = clock, first
         self._offset = _common_grid(channel.clock, clock)
         self._gap_s = _gap(channel)
+        self._bridge_s = BLIND_S if channel.id.name == DISTANCE else BRIDGE_S
 
     def take(self, begin: int, end: int) -> Stretch:
         """Return samples ``begin`` to ``end - 1``, which lie within the channel's span."""
         if self._offset is not None:
             low = begin + self._first + self._offset
-            longest = int(BRIDGE_S * float(self._clock.rate))
+            longest = int(self._bridge_s * float(self._clock.rate))
             values, missing, lost = bridged(self.channel.values, low, low + end - begin, longest)
             return Stretch(values, missing=missing, lost=lost)
         before = max(begin - 1, 0)
         place = self._places(self._clock.times(end - before, self._first + before))
         low = int(place[0])
         high = min(math.ceil(place[-1]) + 1, self.channel.values.size)
-        samples, missing, _ = bridged(self.channel.values, low, high)
+        longest = int(self._bridge_s * self.channel.mean_rate_hz)
+        samples, missing, lost = bridged(self.channel.values, low, high, longest)
         values = np.interp(place, np.arange(low, high), samples)
         fresh = np.diff(np.floor(place), prepend=-1.0 if begin == before else np.nan) > 0
-        lost = self._lost(place, low, missing)
         skip = begin - before
-        lost = None if lost is None else lost[skip:]
-        return Stretch(values[skip:], fresh[skip:], lost, lost)
+        masks = [
+            self._between(place, low, mask, apart_s)
+            for mask, apart_s in ((missing, 0.0), (lost, self._bridge_s))
+        ]
+        gone, far = (None if mask is None else mask[skip:] for mask in masks)
+        return Stretch(values[skip:], fresh[skip:], gone, far)
 
     def release(self) -> None:
         """Let go of the samples taken, if they lie in a file."""
@@ -77,14 +87,17 @@ class AlignedChannel:
         high = min(int(np.searchsorted(clock.times_s, times[-1])) + 1, last + 1)
         return np.interp(times, clock.times_s[low:high], np.arange(low, high, dtype=np.float64))
 
-    def _lost(self, place: FloatArray, low: int, missing: BoolArray | None) -> BoolArray | None:
+    def _between(
+        self, place: FloatArray, low: int, mask: BoolArray | None, apart_s: float
+    ) -> BoolArray | None:
+        """Return which places rest on a sample of ``mask``, or lie in a hole beyond ``apart_s``."""
         before, after = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
-        lost = None if missing is None else missing[before - low] | missing[after - low]
+        found = None if mask is None else mask[before - low] | mask[after - low]
         if self._gap_s is None or not isinstance(self.channel.clock, StampedClock):
-            return lost
+            return found
         times = self.channel.clock.times_s
-        wide: BoolArray = times[after] - times[before] > self._gap_s
-        return wide if lost is None else np.logical_or(lost, wide)
+        wide: BoolArray = times[after] - times[before] > max(self._gap_s, apart_s)
+        return wide if found is None else np.logical_or(found, wide)
 
 
 def bridged(
@@ -109,7 +122,7 @@ def bridged(
 
 def _gap_lengths(known: IndexArray, where: IndexArray) -> IndexArray:
     """Return how many samples lie between the known ones on either side of each of ``where``."""
-    edges = np.concatenate(([-LOOK], known, [known[-1] + 2 * LOOK]))
+    edges = np.concatenate(([-FAR], known, [known[-1] + FAR]))
     after = np.searchsorted(edges, where, "right")
     return np.asarray(edges[after] - edges[after - 1] - 1)
 

@@ -3,7 +3,8 @@
 A channel on that clock is passed through. Another is linear between its samples, which is
 what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
 missing sample is bridged by the line between its neighbours and flagged; a longer gap of the
-accelerometer disturbs the floating reference height, and is flagged as that too. GNSS samples
+accelerometer disturbs the floating reference height, and one of the encoder may hide a stop; both
+are flagged as that too. GNSS samples
 keep their own times, as events.
 """
 
@@ -104,6 +105,7 @@ def _flags(name: ChannelId, stretch: Stretch) -> FlagArray | None:
     if stretch.missing is None:
         return None
     flags = np.where(stretch.missing, np.uint8(Flag.MISSING), np.uint8(0))
-    if name.name == SPECIFIC_FORCE and stretch.lost is not None:
-        flags |= np.where(stretch.lost, np.uint8(Flag.DRIFT), np.uint8(0))
+    lasting = {SPECIFIC_FORCE: Flag.DRIFT, DISTANCE: Flag.SLOW}.get(name.name)
+    if lasting is not None and stretch.lost is not None:
+        flags |= np.where(stretch.lost, np.uint8(lasting), np.uint8(0))
     return flags

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from floatref.architectures.question import Question
+from floatref.errors import InputError
 from floatref.stages.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.combining import Combine
 from floatref.stages.conditioning import RemoveGravity
@@ -13,6 +14,10 @@ from floatref.stages.protocol import Stage
 from floatref.stages.resampling import TimeStep, ToDistance
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, REFERENCE_HEIGHT, VELOCITY
 
+TIMER_ONSET = 1.2
+"""Timer distortion (5.8) begins to act at so many times its limit speed."""
+TRANSITION_WIDTH = 4.0
+"""The cut-off (5.3) is that of travel at speed beyond v_0 by this over its steepness."""
 LEAST_RATE_HZ = 4000.0
 """Up to this sampling rate the sensors' own bandwidth has to be the anti-alias filter."""
 
@@ -24,14 +29,37 @@ def nothing(question: Question) -> Sequence[Stage]:
 
 def condition(question: Question) -> Sequence[Stage]:
     """Remove 1 g, mark the drive; LPF_B3 at 1000 Hz on both sensors where the rate allows it."""
-    slow = question.settings.get("slow_mps") or SLOW_MPS
     braking = question.settings.get("braking_g") or BRAKING_G
-    stages: list[Stage] = [RemoveGravity(), MarkDrive(slow, braking)]
+    stages: list[Stage] = [RemoveGravity(), MarkDrive(_slow_mps(question), braking)]
     if question.header.rate > LEAST_RATE_HZ:
-        cutoff = question.setting("anti_alias_hz")
+        cutoff = cutoff_setting(question, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
     return stages
+
+
+def _slow_mps(question: Question) -> float:
+    """Return the speed in m/s below which the pipeline gives the profile up."""
+    given = {name: value for name, value in question.settings.items() if value}
+    speeds = [
+        given.get("slow_mps", SLOW_MPS),
+        given.get("suppression_speed_mps", 0.0),
+        TIMER_ONSET * given.get("timer_speed_mps", 0.0),
+    ]
+    if "transition_speed_mps" in given:
+        width = TRANSITION_WIDTH / given.get("transition_steepness", TRANSITION_WIDTH)
+        speeds.append(given["transition_speed_mps"] + width)
+    return max(speeds)
+
+
+def cutoff_setting(question: Question, name: str) -> float:
+    """Return cut-off ``name`` in Hz; InputError if it is not below half the rate."""
+    value, limit = question.setting(name), float(question.header.rate) / 2
+    if not value < limit:
+        raise InputError(
+            f"setting {name}: {value:g} Hz; give it below {limit:g} Hz, half the sampling rate"
+        )
+    return value
 
 
 def first_integration(question: Question) -> Sequence[Stage]:

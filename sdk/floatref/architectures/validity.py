@@ -25,7 +25,7 @@ class Reach:
             start leaves the IRI as it is.
         before_slow_m, after_slow_m: of slow travel. Contamination reached 47 m before and 76 m
             behind a stop without suppression (section 3.3.7), and 1.5 cut-off wavelengths
-            where the stop is one time step; with suppression 20 and 40 m are enough. What
+            where the stop is one time step; with suppression 15 and 30 m are enough. What
             remains has the road's IRI within 5 % on the published runs, simulated.
         after_braking_m: behind hard braking; the sharpest kink is where the brake is released.
     """

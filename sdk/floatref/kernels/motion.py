@@ -89,7 +89,7 @@ def find_points(
             point = origin + (first + found) * interval
             sample[found] = i
             part[found] = 1.0
-            if step > interval + slack and point < distance[i]:
+            if step > interval + slack and point < distance[i] - slack:
                 part[found] = (point - distance[i - 1]) / step
             found += 1
     return found
@@ -177,15 +177,15 @@ def mark_drive(
     """Write to ``flags`` the first of ``marks`` for slow travel, the second for hard braking.
 
     ``distance`` holds two windows of ``window`` samples before the first flag. Travel is slow if
-    the progress over the last window is below ``slow``, and the braking is hard if it is that
-    much, ``braking``, below the progress over the window before. Where a distance is missing
-    (NaN), so is the mark.
+    the progress over both windows is below ``slow``, and the braking is hard if that over the
+    last is ``braking`` below that over the one before. Where a distance is missing (NaN), so is
+    the mark.
     """
     for i in range(flags.size):
         last = distance[i + 2 * window] - distance[i + window]
         before = distance[i + window] - distance[i]
         mark = 0
-        if last < slow:
+        if last + before < slow:
             mark |= marks[0]
         if before - last > braking:
             mark |= marks[1]

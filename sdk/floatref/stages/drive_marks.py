@@ -10,8 +10,9 @@ from floatref.values.arrays import Flag, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 
-WINDOW_S = 0.5
-"""Progress is compared over this time: long enough that coarse encoder counts do not flicker."""
+WINDOW_S = 0.25
+"""Two such windows are compared: short enough to mark a brake where it begins, long enough that
+coarse encoder counts do not flicker."""
 SLOW_MPS = 16 / 3.6
 """16 km/h, below which every suppression algorithm gives the profile up (section 5.1)."""
 BRAKING_G = 0.16
@@ -24,10 +25,11 @@ class MarkDrive(Stage):
     `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a
     basic algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI
     control (section 5.6) removes the road's longer waves, and timer distortion with reflection
-    (section 5.10) removes all of it. `Flag.BRAKING` where that speed has fallen over the half
-    second before by more than ``braking_g`` allows: there the accelerometer's axis is tilted and
-    sees the deceleration (1.4). Within the first second of a run nothing is marked,
-    since there is nothing to compare with; filter run-in covers it. Values stay as they are.
+    (section 5.10) removes all of it. `Flag.BRAKING` where the speed fell by more than
+    ``braking_g`` allows between the two halves of it: there the accelerometer's axis is tilted
+    and sees the deceleration (1.4). A mark comes up to half a second late. Within the first half
+    second of a run nothing is marked, since there is nothing to compare with; filter run-in
+    covers it. Values stay as they are.
     """
 
     declared = Declared(shift_invariant=True)
@@ -47,7 +49,7 @@ class MarkDrive(Stage):
         self._tracks = header.tracks
         self._window = max(1, round(WINDOW_S * float(header.rate)))
         window_s = self._window / float(header.rate)
-        self._slow = self.slow_mps * window_s
+        self._slow = self.slow_mps * 2 * window_s
         self._braking = self.braking_g * STANDARD_GRAVITY * window_s**2
         self.memory = {"past": np.full(2 * self._window, np.nan)}
         return header

@@ -24,13 +24,14 @@ class ToDistance(Stage):
     apart than the interval, it is linear in distance between them. `distance` is dropped, and
     so are samples at which the encoder is missing or behind where it has been. A point has the
     flags of the samples it is read from; those that are `LASTING` of any sample since the point
-    before reach it too, however long the vehicle stood.
+    before reach it too, however long the vehicle stood. Those behind the last point reach that
+    one, which is therefore held back.
 
     With ``keep_time`` each point gets the channel `time` that an encoder-triggered engine
     stores with its sample (section 5.8).
     """
 
-    declared = Declared(shift_invariant=False)
+    declared = Declared(shift_invariant=False, delay=1)
 
     def __init__(self, interval_m: float, origin_m: float, keep_time: bool = False) -> None:
         """Sample at ``interval_m`` from ``origin_m`` on."""
@@ -44,7 +45,7 @@ class ToDistance(Stage):
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         header.require(self.name, ChannelId(DISTANCE))
         self._rate = float(header.rate)
-        self.memory = {"next": 0, "carry": None, "pending": {}}
+        self.memory = {"next": 0, "carry": None, "pending": {}, "held": None}
         points = header.on_distance(self.interval_m, self.origin_m).without(DISTANCE)
         return points.adding(ChannelId(TIME)) if self.keep_time else points
 
@@ -52,7 +53,8 @@ class ToDistance(Stage):
         """Take the points that lie within the block."""
         if len(block) == 0:
             none = {ChannelId(TIME): np.empty(0)} if self.keep_time else {}
-            return Block(self.memory["next"], {**block.without(DISTANCE).values, **none})
+            points = Block(self.memory["next"], {**block.without(DISTANCE).values, **none})
+            return self._but_last(points)
         wide = self._after_carry(block)
         distance = np.fmax.accumulate(wide[ChannelId(DISTANCE)])
         sample, part = self._points(distance)
@@ -62,7 +64,25 @@ class ToDistance(Stage):
         values = {c: _at(x, sample, part) for c, x in wide.without(DISTANCE).values.items()}
         if self.keep_time:
             values[ChannelId(TIME)] = ((wide.first + sample - 1) + part) / self._rate
-        return Block(first, values, flags=self._flags(wide, sample, part))
+        return self._but_last(Block(first, values, flags=self._flags(wide, sample, part)))
+
+    def close(self) -> tuple[Block, ...]:
+        """Return the last point, with the lasting flags of what came behind it."""
+        held: Block | None = self.memory["held"]
+        if held is None:
+            return ()
+        pending = {c: np.uint8(f) for c, f in self.memory["pending"].items() if f}
+        blank = np.zeros(1, np.uint8)
+        return (held.setting({}, {c: held.flags.get(c, blank) | f for c, f in pending.items()}),)
+
+    def _but_last(self, points: Block) -> Block:
+        """Hold the last point back and return the one held before with the others."""
+        held: Block | None = self.memory["held"]
+        if len(points) == 0:
+            return points if held is None else _part(held, slice(0, 0))
+        joined = points if held is None else _joined(held, points)
+        self.memory["held"] = _part(joined, slice(len(joined) - 1, len(joined)))
+        return _part(joined, slice(0, len(joined) - 1))
 
     def _after_carry(self, block: Block) -> Block:
         values, flags = self.memory["carry"] or _sample(block, 0, block[ChannelId(DISTANCE)][0])
@@ -144,6 +164,24 @@ def _sample(block: Block, index: int, distance: float) -> Carry:
     blank = np.zeros(1, np.uint8)
     flags = {c: block.flags[c][where].copy() if c in block.flags else blank for c in values}
     return values, flags
+
+
+def _joined(before: Block, after: Block) -> Block:
+    blanks = np.zeros(len(before), np.uint8), np.zeros(len(after), np.uint8)
+    flags = {
+        c: np.concatenate((before.flags.get(c, blanks[0]), after.flags.get(c, blanks[1])))
+        for c in {**before.flags, **after.flags}
+    }
+    values = {c: np.concatenate((x, after.values[c])) for c, x in before.values.items()}
+    return Block(before.first, values, flags=flags)
+
+
+def _part(block: Block, where: slice) -> Block:
+    return Block(
+        block.first + where.start,
+        {c: x[where] for c, x in block.values.items()},
+        flags={c: f[where] for c, f in block.flags.items() if f[where].any()},
+    )
 
 
 def _at(x: FloatArray, sample: IndexArray, part: FloatArray) -> FloatArray:

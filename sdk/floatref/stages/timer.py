@@ -10,6 +10,9 @@ from floatref.values.arrays import FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
+BLUNTEST = 2.0
+"""Least sharpness of (5.8): at 1 it takes all time away, below it time runs backward."""
+
 
 def adjusted_time_step(
     time_step: FloatArray, limit_s: float, sharpness: float = 25.0
@@ -18,10 +21,12 @@ def adjusted_time_step(
 
     It is about dt where dt is short and dt_0 where dt is long; ``sharpness`` is β. No power
     of a number above one is taken, so nothing overflows however long the stop. Raises
-    InputError unless both numbers are above zero.
+    InputError unless the limit is above zero and the sharpness at least `BLUNTEST`.
     """
-    if not (limit_s > 0.0 and sharpness > 0.0):
-        raise InputError(f"time step limit {limit_s} s, sharpness {sharpness}: both must exceed 0")
+    if not limit_s > 0.0:
+        raise InputError(f"time step limit {limit_s} s: give it above zero")
+    if not sharpness >= BLUNTEST:
+        raise InputError(f"timer_sharpness {sharpness:g}: give it at {BLUNTEST:g} or above")
     ratio = np.asarray(time_step, dtype=np.float64) / limit_s
     # max() and min() keep either branch finite where the other one is taken.
     short, long = np.minimum(ratio, 1.0), np.maximum(ratio, 1.0)

@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from floatref.architectures.plugins import plugins
 from floatref.architectures.processing import run
+from floatref.values.clock import UniformClock
+from floatref.values.recording import Channel
 from floatref_reference.beyond import matched_high_pass
 from floatref_reference.chapter_5 import (
     section_5_3,
@@ -74,3 +76,53 @@ def test_sdk_and_reference_agree(drawn, pipeline, data):
         tolerance = 1e-8 if pipeline in VARYING else 1e-9
         tolerance += 1e-9 * drift_range(recording, track.name)
         assert np.abs(track.elevation - expected).max() <= tolerance
+
+
+ADAPTIVE = {
+    "low_speed_cutoff_hz": 0.3,
+    "cutoff_wavelength_m": 60.0,
+    "transition_speed_mps": 4.0,
+    "transition_steepness": 1.1,
+}
+TIMER = {"cutoff_wavelength_m": 20.0, "timer_speed_mps": 6.0, "timer_sharpness": 7.0}
+SUPPRESSION = {
+    "collective_cutoff_hz": 0.2,
+    "suppression_speed_mps": 7.0,
+    "suppression_proportional": 0.1,
+    "suppression_integral_per_s": 2.0,
+}
+OTHER_SETTINGS = {
+    **{
+        name: (ADAPTIVE, {"schedule": section_5_7.Schedule(0.3, 60.0, 4.0, 1.1)})
+        for name in VARYING
+    },
+    "temporal-basic": ({"cutoff_wavelength_m": 20.0}, {"lambda_c": 20.0}),
+    "temporal-mean-removal": ({"cutoff_wavelength_m": 20.0}, {"lambda_c": 20.0}),
+    "temporal-hpf": ({"collective_cutoff_hz": 0.2}, {"f_3db": 0.2}),
+    "temporal-hpf-local-suppression": (
+        SUPPRESSION,
+        {"f_3db": 0.2, "v_on": 7.0, "K_P": 0.1, "K_I": 2.0},
+    ),
+    "spatial-basic": ({"cutoff_wavelength_m": 20.0}, {"lambda_c": 20.0}),
+    "spatial-hpf": ({"cutoff_wavelength_m": 20.0}, {"lambda_c": 20.0}),
+    "spatial-hpf-timer-distortion": (TIMER, {"lambda_c": 20.0, "v_0": 6.0, "beta": 7.0}),
+    "spatial-hpf-timer-distortion-reflection": (TIMER, {"lambda_c": 20.0, "v_0": 6.0, "beta": 7.0}),
+}
+
+
+@pytest.mark.parametrize("pipeline", REFERENCES)
+def test_every_setting_of_an_algorithm_reaches_it(steady, pipeline):
+    ours, theirs = OTHER_SETTINGS[pipeline]
+    times = np.arange(6000) / 1000.0
+    speed = np.where(times < 3.0, np.clip(12.0 - 6.0 * times, 0.0, None), 4.0 * (times - 3.0))
+    distance = 0.0003 * np.floor(np.cumsum(speed) / 1000.0 / 0.0003)
+    clock = UniformClock.of(1000.0)
+    recording = steady(seconds=6.0, distance=Channel.of("distance", distance, clock))
+    force, height = (
+        recording.channel(name).values for name in ("vertical_specific_force", "height")
+    )
+    _, expected = REFERENCES[pipeline](force - G, height, distance, 1000.0, 0.05, **theirs)
+    (track,) = run(recording, pipeline, ours).profile.tracks
+    assert np.abs(track.elevation - expected).max() <= 1e-9
+    (default,) = run(recording, pipeline).profile.tracks
+    assert np.abs(track.elevation - default.elevation).max() > 1e-6

@@ -155,7 +155,7 @@ def test_a_stop_is_flagged_with_what_its_pipeline_spreads(steady, pipeline):
     recording = steady(seconds=60.0, distance=Channel.of("distance", distance, RATE))
     profile = floatref.process(recording, pipeline)
     lost = invalid_within(profile, 100.0)
-    before, after = REACH.get(pipeline, (20.0, 40.0))
+    before, after = REACH.get(pipeline, (15.0, 30.0))
     slow = distance[speed < 16 / 3.6]
     assert lost.min() == pytest.approx(slow.min() - before, abs=2.0)
     assert lost.max() == pytest.approx(min(slow.max() + after, distance[-1] - 100.0), abs=2.0)
@@ -178,6 +178,67 @@ def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):
     invalid = invalid_within(profile)
     assert invalid.min() == pytest.approx(280.0 - 105.91, abs=0.2)
     assert invalid.max() == pytest.approx(280.0 + 105.91, abs=0.2)
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-hpf", "spatial-hpf-timer-distortion-reflection"])
+def test_what_happens_behind_the_last_point_reaches_back_from_there(steady, pipeline):
+    times = np.arange(40_000) / 1000.0
+    forces = steady(seconds=40.0).channel("vertical_specific_force").values.copy()
+    forces[30_000:35_000] = np.nan
+    recording = steady(
+        seconds=40.0,
+        vertical_specific_force=Channel.of("vertical_specific_force", forces, RATE),
+        distance=Channel.of("distance", 20.0 * np.clip(times, None, 25.0), RATE),
+    )
+    with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
+        profile = floatref.process(recording, pipeline)
+    assert invalid_within(profile).min() == pytest.approx(500.0 - 105.91, abs=0.2)
+
+
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-hpf"])
+@pytest.mark.parametrize("clock", ["common", "own"])
+def test_a_lost_encoder_can_hide_a_stop(steady, pipeline, clock):
+    before, after = REACH[pipeline]
+    every = 1 if clock == "common" else 4
+    distance = 20.0 * np.arange(0, 30_000, every) / 1000.0
+    distance[14_000 // every : 15_200 // every] = np.nan
+    channel = Channel.of("distance", distance, UniformClock.of(1000.0 / every))
+    with pytest.warns(floatref.FloatrefWarning, match="distance"):
+        profile = floatref.process(steady(seconds=30.0, distance=channel), pipeline)
+    lost = invalid_within(profile)
+    assert lost.min() == pytest.approx(280.0 - before, abs=0.3)
+    assert lost.max() == pytest.approx(304.0 + after, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("pipeline", "settings"),
+    [
+        ("temporal-hpf-local-suppression", {"suppression_speed_mps": 15.0}),
+        ("temporal-adaptive-hpf", {"transition_speed_mps": 15.0}),
+        ("temporal-matched-hpf", {"transition_speed_mps": 10.0, "transition_steepness": 0.5}),
+        ("spatial-hpf-timer-distortion", {"timer_speed_mps": 11.0}),
+        ("temporal-basic", {"slow_mps": 13.0}),
+    ],
+)
+def test_travel_below_the_limit_of_a_stage_is_not_valid(steady, pipeline, settings):
+    times = np.arange(40_000) / 1000.0
+    recording = steady(seconds=40.0, distance=Channel.of("distance", 12.0 * times, RATE))
+    assert floatref.process(recording, pipeline).tracks[0].valid.any()
+    assert not floatref.process(recording, pipeline, settings).tracks[0].valid.any()
+
+
+@pytest.mark.parametrize(
+    ("pipeline", "setting"),
+    [
+        ("temporal-hpf", "collective_cutoff_hz"),
+        ("temporal-adaptive-hpf", "low_speed_cutoff_hz"),
+        ("temporal-matched-hpf", "low_speed_cutoff_hz"),
+    ],
+)
+def test_a_cut_off_beyond_half_the_rate_is_named_as_it_was_given(steady, pipeline, setting):
+    message = f"setting {setting}: 700 Hz; give it below 500 Hz, half the sampling rate"
+    with pytest.raises(InputError, match=message):
+        floatref.process(steady(), pipeline, {setting: 700.0})
 
 
 def test_progress_ends_at_one(steady):

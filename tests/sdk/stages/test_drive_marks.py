@@ -71,7 +71,7 @@ def test_limits_are_settings():
 def test_a_missing_distance_marks_nothing_by_itself():
     assert not marked(np.full(4 * RATE, 20.0), lost=(2 * RATE,)).any()
     standing = marked(np.zeros(4 * RATE), lost=(2 * RATE,))
-    assert np.count_nonzero(standing[RATE:] == 0) == 2
+    assert np.count_nonzero(standing[RATE:] == 0) == 3
 
 
 def test_it_belongs_on_the_time_axis():
