@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from floatref_conformance.proving_ground.vehicles import VEHICLES
 from floatref_conformance.table.settings import TableSettings
 
 
@@ -37,7 +38,7 @@ from floatref_conformance.table.settings import TableSettings
     metavar="NAME",
     default=TableSettings.vehicle,
     show_default=True,
-    help="Its size, weight, springs and dampers; a wrong name lists all.",
+    help=f"What drives: {', '.join(VEHICLES)}.",
 )
 @click.option(
     "--run", "runs", metavar="RUN", multiple=True, help="This run alone; may be repeated."
