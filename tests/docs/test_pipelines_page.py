@@ -46,7 +46,7 @@ def test_how_far_off_valid_elevation_is_in_the_picture_of_a_stop() -> None:
         found[name] = error[place], error[track.valid].max()
         flagged = place + int(np.argmin(track.valid[place:]))
         if name == "temporal-basic":
-            assert flagged * profile.interval_m - 250.0 == pytest.approx(9.0, abs=0.5)
+            assert flagged * profile.interval_m - 250.0 == pytest.approx(4.0, abs=0.5)
     assert f"is {found['temporal-basic'][0]:.1f} m off at 250 m" in PAGE
     worst = found["temporal-adaptive-hpf-spatial-backward"][1]
     assert f"valid points are off by up to {1000.0 * worst:.0f} mm" in PAGE
