@@ -1,8 +1,9 @@
 """Time the zero-phase high-pass at a cut-off that follows the speed against a fixed peer.
 
 Ours goes from the speed at every sample to the filtered signal: (5.3), tan, and both passes of
-the third-order stages. The peer is `scipy.signal.sosfiltfilt` at a fixed cut-off. Prints medians
-and the ratio; below 1 is faster than the peer. Run as
+the third-order stages, once on whole arrays and once as the stages of a pipeline, block by block.
+The peer is `scipy.signal.sosfiltfilt` at a fixed cut-off. Prints medians and ratios; below 1 is
+faster than the peer. Run as
 ``python tests/benchmarks/bench_varying.py [samples]``.
 """
 
@@ -10,12 +11,19 @@ import statistics
 import sys
 import time
 from collections.abc import Callable
+from fractions import Fraction
 
 import numpy as np
 import scipy.signal
 
+from floatref.architectures.source import BLOCK
 from floatref.kernels.adaptive import adaptive_high_pass
+from floatref.stages.schedule import ScheduleCutOff
+from floatref.stages.varying import VaryingHighPassB3, VaryingHighPassB3R
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
 
+ELEVATION, SPEED = ChannelId("elevation", "main"), ChannelId("travel_speed")
 RATE_HZ, CUTOFF_HZ = 16_000.0, 0.05
 ROUNDS = 15
 
@@ -24,6 +32,21 @@ def drive(samples: int) -> np.ndarray:
     """Speed in m/s of a vehicle that slows down from 20 m/s to a stop and starts again."""
     times = np.arange(samples) / RATE_HZ
     return np.clip(10.0 + 12.0 * np.cos(0.1 * times), 0.0, 20.0)
+
+
+def staged(x: np.ndarray, speed: np.ndarray) -> None:
+    """Pass ``x`` through the stages of both passes, forward and then from the last block."""
+    channels = frozenset({ELEVATION, SPEED})
+    header = Header(Axis.TIME, 1.0 / RATE_HZ, 0.0, Fraction(RATE_HZ), channels, ("main",))
+    stages = ScheduleCutOff(), VaryingHighPassB3("elevation"), VaryingHighPassB3R("elevation")
+    for stage in stages:
+        header = stage.start(header)
+    schedule, forward, backward = stages
+    parts = [slice(at, at + BLOCK) for at in range(0, x.size, BLOCK)]
+    blocks = [Block(part.start, {ELEVATION: x[part], SPEED: speed[part]}) for part in parts]
+    there = [forward.push(schedule.push(block)) for block in blocks]
+    while there:
+        backward.push(there.pop())
 
 
 def in_turns(*calls: Callable[[], object]) -> list[list[float]]:
@@ -40,19 +63,22 @@ def in_turns(*calls: Callable[[], object]) -> list[list[float]]:
 
 
 def main(samples: int) -> None:
-    """Print both times and the median of the ratios, pair by pair."""
+    """Report what the filter costs on arrays, and in the stages of a pipeline."""
     speed = drive(samples)
     x = 1e-3 * np.random.default_rng(0).standard_normal(samples).cumsum()
     sos = scipy.signal.butter(3, CUTOFF_HZ, "high", output="sos", fs=RATE_HZ)
-    ours, peer = in_turns(
-        lambda: adaptive_high_pass(x, speed, 1.0 / RATE_HZ),
-        lambda: scipy.signal.sosfiltfilt(sos, x),
-    )
-    ratio = statistics.median(a / b for a, b in zip(ours, peer, strict=True))
     print(f"zero-phase high-pass, cut-off from the speed, both passes, {samples} samples")
-    print(f"  floatref              {statistics.median(ours) / samples * 1e9:7.2f} ns/sample")
+    report("on arrays", lambda: adaptive_high_pass(x, speed, 1.0 / RATE_HZ), sos, x)
+    report("as stages", lambda: staged(x, speed), sos, x)
+
+
+def report(name: str, ours: Callable[[], object], sos: np.ndarray, x: np.ndarray) -> None:
+    """Print ours beside the peer and the median of their ratios."""
+    times, peer = in_turns(ours, lambda: scipy.signal.sosfiltfilt(sos, x))
+    ratio = statistics.median(a / b for a, b in zip(times, peer, strict=True))
     print(
-        f"  sosfiltfilt, fixed    {statistics.median(peer) / samples * 1e9:7.2f} ns/sample"
+        f"  {name}  floatref {statistics.median(times) / x.size * 1e9:6.2f} ns/sample"
+        f"    sosfiltfilt, fixed {statistics.median(peer) / x.size * 1e9:6.2f} ns/sample"
         f"    ratio {ratio:.2f}"
     )
 

@@ -55,6 +55,8 @@ STAGES: tuple[type[Stage], ...] = (
     timer.DistortTimer,
     varying.StateHighPassB3S1R,
     varying.StateHighPassB3S2R,
+    varying.VaryingHighPassB3,
+    varying.VaryingHighPassB3R,
     varying.VaryingHighPassB3S1,
     varying.VaryingHighPassB3S1R,
     varying.VaryingHighPassB3S2,

@@ -33,10 +33,10 @@ from floatref.stages.suppression import SuppressLocally
 from floatref.stages.varying import (
     StateHighPassB3S1R,
     StateHighPassB3S2R,
+    VaryingHighPassB3,
+    VaryingHighPassB3R,
     VaryingHighPassB3S1,
-    VaryingHighPassB3S1R,
     VaryingHighPassB3S2,
-    VaryingHighPassB3S2R,
 )
 
 
@@ -119,19 +119,13 @@ def second_integration_adaptive(question: Question) -> Sequence[Stage]:
 
 def combine_forward(question: Question) -> Sequence[Stage]:
     """HPF_B3 of the height at the varying cut-off, and subtraction (5.7)."""
-    return (
-        VaryingHighPassB3S1(HEIGHT),
-        VaryingHighPassB3S2(HEIGHT),
-        Drop(CUTOFF),
-        Combine(),
-    )
+    return VaryingHighPassB3(HEIGHT), Drop(CUTOFF), Combine()
 
 
 def combine_adaptive(question: Question) -> Sequence[Stage]:
     """The same with the backward stages in time (5.7)."""
-    height = VaryingHighPassB3S1(HEIGHT), VaryingHighPassB3S2(HEIGHT)
-    backward = VaryingHighPassB3S2R(ELEVATION), VaryingHighPassB3S1R(ELEVATION)
-    return (*height, Combine(), *backward, Drop(CUTOFF))
+    height, backward = VaryingHighPassB3(HEIGHT), VaryingHighPassB3R(ELEVATION)
+    return height, Combine(), backward, Drop(CUTOFF)
 
 
 def finish_backward(question: Question) -> Sequence[Stage]:
@@ -139,8 +133,7 @@ def finish_backward(question: Question) -> Sequence[Stage]:
     return (
         ScheduleWaveNumber(_schedule(question)),
         Drop(TRAVEL_SPEED),
-        VaryingHighPassB3S2R(ELEVATION),
-        VaryingHighPassB3S1R(ELEVATION),
+        VaryingHighPassB3R(ELEVATION),
         Drop(CUTOFF),
     )
 

@@ -1,4 +1,8 @@
-"""The zero-phase high-pass at a cut-off that follows the speed (5.7), on whole arrays."""
+"""The zero-phase high-pass at a cut-off that follows the speed (5.7), on whole arrays.
+
+It is the array form of what the stages of section 5.7 do block by block with the same kernels,
+and gives the same bits: without blocks, flags and states it shows what the filter itself costs.
+"""
 
 import numpy as np
 

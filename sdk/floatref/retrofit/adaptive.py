@@ -12,15 +12,13 @@ from floatref.stages.protocol import Stage
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, TRAVEL_SPEED, VELOCITY
 from floatref.stages.varying import (
+    VaryingHighPassB3,
+    VaryingHighPassB3R,
     VaryingHighPassB3S1,
-    VaryingHighPassB3S1R,
     VaryingHighPassB3S2,
-    VaryingHighPassB3S2R,
 )
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Header
-
-BACKWARD = VaryingHighPassB3S2R, VaryingHighPassB3S1R
 
 
 class AdaptiveHighPass:
@@ -50,11 +48,11 @@ class AdaptiveHighPass:
             low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
         )
         self._calls = Calls(type(self).__name__)
-        axis, both = in_time(rate_hz), (VaryingHighPassB3S1, VaryingHighPassB3S2)
+        axis = in_time(rate_hz)
         self._acceleration = self._forward(axis, ACCELERATION, VaryingHighPassB3S1)
         self._velocity = self._forward(axis, VELOCITY, VaryingHighPassB3S2)
-        self._height = self._forward(axis, HEIGHT, FromFirst, *both)
-        self._reverse = backward(axis, ScheduleCutOff(self.schedule), *BACKWARD)
+        self._height = self._forward(axis, HEIGHT, FromFirst, VaryingHighPassB3)
+        self._reverse = backward(axis, ScheduleCutOff(self.schedule), VaryingHighPassB3R)
 
     @property
     def bridged(self) -> int:
@@ -141,7 +139,7 @@ class AdaptiveHighPass:
         call = "AdaptiveHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
         scheduled = ScheduleWaveNumber(self.schedule)
-        back = backward(over_distance(interval_m), scheduled, *BACKWARD)
+        back = backward(over_distance(interval_m), scheduled, VaryingHighPassB3R)
         self._calls.end("reverse_over_distance")
         return back(z, v_x)
 

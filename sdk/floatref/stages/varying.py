@@ -1,5 +1,6 @@
 """The high-pass stages of appendix A with a cut-off that varies from sample to sample."""
 
+from types import ModuleType
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from floatref.values.channels import ChannelId
 
 
 class VaryingHighPass(Stage):
-    """One stage of HPF_B3 applied to one channel of every track at `high_pass_cutoff`.
+    """Sections of HPF_B3 applied to one channel of every track at `high_pass_cutoff`.
 
     At every sample the recursion (A.9) takes the coefficients of Table A.1 from the cut-off of
     that sample, in Hz on the time axis or cycles/m on the distance axis. A missing sample, or
@@ -23,7 +24,8 @@ class VaryingHighPass(Stage):
     from where it starts are its run-in.
     """
 
-    order: ClassVar[int]
+    orders: ClassVar[str]
+    """The order of each section that is passed, first to last, as its kernel is named."""
 
     def __init__(self, channel: str) -> None:
         """Filter ``channel`` of every track."""
@@ -36,7 +38,7 @@ class VaryingHighPass(Stage):
         channels = [ChannelId(self.channel, track) for track in header.tracks]
         header.require(self.name, *channels, ChannelId(CUTOFF))
         self._step = header.step
-        self.memory = {track: np.zeros(8) for track in header.tracks}
+        self.memory = {track: np.zeros((len(self.orders), 8)) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -52,12 +54,16 @@ class VaryingHighPass(Stage):
         return block.setting(values, flags)
 
     def _filtered(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+        y = np.empty(x.size)
+        kernel = getattr(self._kernels(), f"high_pass_{self.orders}")
+        kernel(x, y, c, *memory, self.direction is Direction.BACKWARD)
+        return y
+
+    @staticmethod
+    def _kernels() -> ModuleType:
         from floatref.kernels import varying
 
-        y = np.empty(x.size)
-        kernel = varying.high_pass_1 if self.order == 1 else varying.high_pass_2
-        kernel(x, y, c, memory, self.direction is Direction.BACKWARD)
-        return y
+        return varying
 
 
 class VaryingHighPassB3S1(VaryingHighPass):
@@ -66,7 +72,7 @@ class VaryingHighPassB3S1(VaryingHighPass):
     It removes content below the cut-off from every point.
     """
 
-    order = 1
+    orders = "1"
 
 
 class VaryingHighPassB3S2(VaryingHighPass):
@@ -75,7 +81,7 @@ class VaryingHighPassB3S2(VaryingHighPass):
     It removes content below the cut-off from every point.
     """
 
-    order = 2
+    orders = "2"
 
 
 class VaryingHighPassB3S1R(VaryingHighPassB3S1):
@@ -96,22 +102,39 @@ class VaryingHighPassB3S2R(VaryingHighPassB3S2):
     direction = Direction.BACKWARD
 
 
+class VaryingHighPassB3(VaryingHighPass):
+    """HPF_B3: VaryingHighPassB3S1, then VaryingHighPassB3S2, in one loop.
+
+    It removes content below the cut-off from every point.
+    """
+
+    orders = "12"
+
+
+class VaryingHighPassB3R(VaryingHighPass):
+    """HPF_B3 in reverse: VaryingHighPassB3S2R, then VaryingHighPassB3S1R, in one loop.
+
+    It removes content below the cut-off from every point.
+    """
+
+    orders = "21"
+    direction = Direction.BACKWARD
+
+
 class StateHighPassB3S1R(VaryingHighPass):
     """HPF_B3S1R in state-variable form: at a varying cut-off s' = w hp, hp = x - s.
 
     It removes content below the cut-off from every point.
     """
 
-    order = 1
+    orders = "1"
     direction = Direction.BACKWARD
 
-    def _filtered(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+    @staticmethod
+    def _kernels() -> ModuleType:
         from floatref.kernels import varying_states
 
-        y = np.empty(x.size)
-        kernel = varying_states.high_pass_1 if self.order == 1 else varying_states.high_pass_2
-        kernel(x, y, c, memory, self.direction is Direction.BACKWARD)
-        return y
+        return varying_states
 
 
 class StateHighPassB3S2R(StateHighPassB3S1R):
@@ -121,7 +144,7 @@ class StateHighPassB3S2R(StateHighPassB3S1R):
     does on the way back from a stop. It removes content below the cut-off from every point.
     """
 
-    order = 2
+    orders = "2"
 
 
 def tangents(cutoff: FloatArray, step: float, stage: str) -> FloatArray:

@@ -2,13 +2,19 @@
 
 import itertools
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floatref.architectures import flow
 from floatref.kernels import adaptive, state_variable, varying
+from floatref.stages import schedule, signals
+from floatref.stages import varying as stages_varying
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
 from floatref_reference.appendix_a import varying as literal
 from floatref_reference.chapter_5 import section_5_7
 
@@ -161,3 +167,24 @@ def test_the_whole_pass_is_schedule_and_printed_stages(monkeypatch):
     for stage in ("s1", "s2", "s2r", "s1r"):
         y = getattr(literal, f"hpf_b3{stage}_varying")(y, cutoff, 0.01)
     assert np.abs(adaptive.adaptive_high_pass(x, speed, 0.01) - y).max() <= 1e-10
+
+
+@FEW
+@given(seed=SEEDS, cuts=st.lists(st.integers(1, 299), max_size=4))
+def test_the_array_form_gives_the_bits_of_the_stages(seed, cuts):
+    rng = np.random.default_rng(seed)
+    x, speed = rng.standard_normal(300), rng.uniform(0.0, 15.0, 300)
+    elevation, travel = ChannelId("elevation", "main"), ChannelId(signals.TRAVEL_SPEED)
+    header = Header(Axis.TIME, 0.01, 0.0, Fraction(100), frozenset({elevation, travel}), ("main",))
+    stages = (
+        schedule.ScheduleCutOff(),
+        stages_varying.VaryingHighPassB3("elevation"),
+        stages_varying.VaryingHighPassB3R("elevation"),
+    )
+    blocks = [
+        Block(part.start, {elevation: x[part], travel: speed[part]})
+        for part in pieces(300, set(cuts), False)
+    ]
+    _, out = flow.run(stages, header, blocks)
+    found = np.concatenate([block[elevation] for block in out])
+    np.testing.assert_array_equal(found, adaptive.adaptive_high_pass(x, speed, 0.01))

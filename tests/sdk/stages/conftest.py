@@ -55,7 +55,7 @@ MAKERS = {
     **{
         name: lambda name=name: getattr(varying, name)("elevation")
         for name in dir(varying)
-        if name.startswith(("VaryingHighPassB3S", "StateHighPassB3S"))
+        if name.startswith(("VaryingHighPassB3", "StateHighPassB3"))
     },
 }
 OVER_DISTANCE = {"DistortTimer", "IntegrateReflecting", "ScheduleWaveNumber", "TimeStep"}

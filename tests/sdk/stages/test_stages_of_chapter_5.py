@@ -21,7 +21,19 @@ RATE = 200.0
 INTERVAL = 0.05
 FEW = settings(deadline=None, max_examples=10)
 SEEDS = st.integers(0, 2**32 - 1)
+
+
+def both(x, cutoff, step):
+    return literal.hpf_b3s2_varying(literal.hpf_b3s1_varying(x, cutoff, step), cutoff, step)
+
+
+def both_reversed(x, cutoff, step):
+    return literal.hpf_b3s1r_varying(literal.hpf_b3s2r_varying(x, cutoff, step), cutoff, step)
+
+
 STAGES = {
+    "B3": (varying.VaryingHighPassB3, both),
+    "B3R": (varying.VaryingHighPassB3R, both_reversed),
     "S1": (varying.VaryingHighPassB3S1, literal.hpf_b3s1_varying),
     "S2": (varying.VaryingHighPassB3S2, literal.hpf_b3s2_varying),
     "S1R": (varying.VaryingHighPassB3S1R, literal.hpf_b3s1r_varying),
