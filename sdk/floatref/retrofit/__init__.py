@@ -5,9 +5,10 @@ state from one to the next, and gives the numbers of the pipelines' stages, bit 
 the run is cut. Arrays are float64 of shape (N,), the answer is a new array of the same length,
 and what is passed in is left as it was. `copy.deepcopy` saves the state.
 
-A missing sample is NaN. It is bridged by the one before it, so the answer has no NaN; ``bridged``
-counts such samples, and `numpy.isnan` of the chunk tells which they are. An infinite sample, or
-signals of different length in one call, raise InputError. A set of calls that belongs together
+A missing sample is NaN, or masked. It is bridged by the one before it, so the answer has no NaN;
+``bridged`` counts such samples, and `numpy.isnan` of the chunk tells which they are. An infinite
+sample, signals of different length in one call, or a speed without a possible cut-off raise
+InputError, and a refused chunk counts for nothing. A set of calls that belongs together
 (acceleration, velocity and height) is counted, and an incomplete one raises StageError.
 
 The algorithms are linear in the vertical signals, so these may be in any unit, the same for

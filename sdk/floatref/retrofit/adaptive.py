@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
 from floatref.retrofit.calls import Calls
+from floatref.retrofit.cut_off import Band, require_profile
 from floatref.stages.datum import FromFirst
 from floatref.stages.protocol import Stage
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
@@ -49,6 +50,7 @@ class AdaptiveHighPass:
         )
         self._calls = Calls(type(self).__name__)
         axis = in_time(rate_hz)
+        self._band = Band(self.schedule, axis.step)
         self._acceleration = self._forward(axis, ACCELERATION, VaryingHighPassB3S1)
         self._velocity = self._forward(axis, VELOCITY, VaryingHighPassB3S2)
         self._height = self._forward(axis, HEIGHT, FromFirst, VaryingHighPassB3)
@@ -56,8 +58,9 @@ class AdaptiveHighPass:
 
     @property
     def bridged(self) -> int:
-        """How many samples of the three signals were bridged so far, they or their speed NaN."""
-        return self._acceleration.bridged + self._velocity.bridged + self._height.bridged
+        """How many samples were bridged so far, of the signals and the profile, or their speed."""
+        all_of = self._acceleration, self._velocity, self._height, self._reverse
+        return sum(each.bridged for each in all_of)
 
     def acceleration(self, a: ArrayLike, speed: ArrayLike) -> FloatArray:
         """Return HPF_B3S1 of the acceleration with 1 g removed, before the first integration.
@@ -67,10 +70,13 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
+                is not below half the rate.
             StageError: after the end of the run.
         """
-        x, v_x = chunks("AdaptiveHighPass.acceleration", a=a, speed=speed)
+        call = "AdaptiveHighPass.acceleration"
+        x, v_x = chunks(call, a=a, speed=speed)
+        self._band.require(call, v_x)
         self._calls.add("acceleration", x.size, v_x)
         return self._acceleration(x, v_x)
 
@@ -82,10 +88,13 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
+                is not below half the rate.
             StageError: beyond the samples of the acceleration so far; after the end of the run.
         """
-        x, v_x = chunks("AdaptiveHighPass.velocity", v=v, speed=speed)
+        call = "AdaptiveHighPass.velocity"
+        x, v_x = chunks(call, v=v, speed=speed)
+        self._band.require(call, v_x)
         self._calls.add("velocity", x.size, v_x)
         return self._velocity(x, v_x)
 
@@ -97,10 +106,13 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
+                is not below half the rate.
             StageError: after the end of the run.
         """
-        x, v_x = chunks("AdaptiveHighPass.height", h=h, speed=speed)
+        call = "AdaptiveHighPass.height"
+        x, v_x = chunks(call, h=h, speed=speed)
+        self._band.require(call, v_x)
         self._calls.add("height", x.size, v_x)
         return self._height(x, v_x)
 
@@ -112,11 +124,15 @@ class AdaptiveHighPass:
             speed: the speed of all forward calls in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone;
+                for a speed whose cut-off is not below half the rate.
             StageError: unless N samples of all three signals have passed, at this speed; the
                 second time.
         """
-        z, v_x = chunks("AdaptiveHighPass.reverse", profile=profile, speed=speed)
+        call = "AdaptiveHighPass.reverse"
+        z, v_x = chunks(call, profile=profile, speed=speed)
+        require_profile(call, z)
+        self._band.require(call, v_x)
         self._calls.end_in_time(z.size, v_x)
         return self._reverse(z, v_x)
 
@@ -133,14 +149,18 @@ class AdaptiveHighPass:
             interval_m: distance between points in m.
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; an interval not above zero.
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone; an
+                interval not above zero; a speed without a cut-off.
             StageError: unless all three signals have come as far; the second time.
         """
         call = "AdaptiveHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
+        require_profile(call, z)
         scheduled = ScheduleWaveNumber(self.schedule)
         back = backward(over_distance(interval_m), scheduled, VaryingHighPassB3R)
+        self._band.require_over_distance(call, v_x, interval_m)
         self._calls.end("reverse_over_distance")
+        self._reverse = back
         return back(z, v_x)
 
     def finish(self) -> None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +13,7 @@ from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
+from floatref.values.plain import above_zero, numbers
 
 TRACK = "main"
 SHARED = frozenset({DISTANCE, TIME_STEP, TRAVEL_SPEED, TRUE_TIME_STEP})
@@ -55,27 +55,22 @@ class Alone:
 
 def in_time(rate_hz: float | Fraction) -> Header:
     """Return the time axis of ``rate_hz``, no signals yet; InputError for an unlikely rate."""
-    rate = UniformClock.of(rate_hz).rate if not isinstance(rate_hz, Fraction) else rate_hz
-    return Header(Axis.TIME, float(1 / UniformClock(rate).rate), 0.0, rate, frozenset(), (TRACK,))
+    rate = UniformClock(_rational(rate_hz)).rate
+    return Header(Axis.TIME, float(1 / rate), 0.0, rate, frozenset(), (TRACK,))
 
 
 def over_distance(interval_m: float) -> Header:
     """Return the distance axis of ``interval_m``, no signals yet; InputError unless above zero."""
-    require_above_zero("interval_m", interval_m)
-    return Header(Axis.DISTANCE, float(interval_m), 0.0, Fraction(1), frozenset(), (TRACK,))
-
-
-def require_above_zero(name: str, value: float) -> None:
-    """Raise InputError unless ``value``, called ``name``, is finite and above zero."""
-    if not (isfinite(value) and value > 0.0):
-        raise InputError(f"{name} is {value}; give a number above zero")
+    interval_m = above_zero("interval_m", interval_m)
+    return Header(Axis.DISTANCE, interval_m, 0.0, Fraction(1), frozenset(), (TRACK,))
 
 
 def chunks(call: str, **signals: ArrayLike) -> tuple[FloatArray, ...]:
-    """Return ``signals`` as float64 arrays of one common shape (N,).
+    """Return ``signals`` as read-only contiguous float64 arrays of one common shape (N,).
 
-    Raises InputError in the name of ``call`` for what is no such array, for an infinite sample,
-    and for signals of different length.
+    They are all of one layout, since filters are compiled anew for every other one. Raises
+    InputError in the name of ``call`` for what is no such array, for an infinite sample, and for
+    signals of different length.
     """
     arrays = {name: _chunk(f"{call}: {name}", values) for name, values in signals.items()}
     lengths = {array.size for array in arrays.values()}
@@ -86,20 +81,25 @@ def chunks(call: str, **signals: ArrayLike) -> tuple[FloatArray, ...]:
 
 
 def _chunk(name: str, values: ArrayLike) -> FloatArray:
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} is not an array of numbers; give float64, shape (N,)") from error
+    array = numbers(name, values)
     if array.ndim != 1:
         raise InputError(
             f"{name} has shape {array.shape}; give one wheel path, shape (N,), which is (1,) for "
             "a single sample"
         )
-    infinite = np.isinf(array)
-    if infinite.any():
-        where = int(infinite.argmax())
-        raise InputError(f"{name} sample {where} is {array[where]}; give NaN for a missing one")
     return array
+
+
+def _rational(rate_hz: float | Fraction) -> Fraction:
+    if isinstance(rate_hz, Fraction):
+        return rate_hz
+    # Single precision has rounded the rate, and a time axis must not drift.
+    if isinstance(rate_hz, bool) or not isinstance(rate_hz, int | float | np.integer):
+        kind = type(rate_hz).__name__
+        raise InputError(f"rate_hz is {rate_hz!r}, {kind}; give int, float or Fraction, in Hz")
+    if isinstance(rate_hz, float):
+        return UniformClock.of(rate_hz).rate
+    return Fraction(int(rate_hz))
 
 
 def _channel(name: str) -> ChannelId:

@@ -5,8 +5,9 @@ from fractions import Fraction
 from numpy.typing import ArrayLike
 
 from floatref.kernels.cut_off import high_pass_setting
-from floatref.retrofit.alone import Alone, chunks, in_time, over_distance, require_above_zero
+from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
 from floatref.retrofit.calls import Calls
+from floatref.retrofit.cut_off import require_profile
 from floatref.stages.butterworth import (
     HighPassB3S1,
     HighPassB3S1R,
@@ -18,6 +19,7 @@ from floatref.stages.datum import FromFirst
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, VELOCITY
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Header
+from floatref.values.plain import above_zero
 
 
 class FixedHighPass:
@@ -40,8 +42,9 @@ class FixedHighPass:
 
     @property
     def bridged(self) -> int:
-        """How many missing (NaN) samples of the three signals were bridged so far."""
-        return self._acceleration.bridged + self._velocity.bridged + self._height.bridged
+        """How many missing (NaN) samples of the signals and the profile were bridged so far."""
+        all_of = self._acceleration, self._velocity, self._height, self._reverse
+        return sum(each.bridged for each in all_of)
 
     def acceleration(self, a: ArrayLike) -> FloatArray:
         """Return HPF_B3S1 of the acceleration with 1 g removed, before the first integration.
@@ -92,10 +95,13 @@ class FixedHighPass:
             profile: the second integral minus the filtered height in m, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN.
+            InputError: for what is no one-dimensional array of finite numbers and NaN, or of NaN
+                alone.
             StageError: unless N samples of all three signals have passed; the second time.
         """
-        (z,) = chunks(f"{type(self).__name__}.reverse", profile=profile)
+        call = f"{type(self).__name__}.reverse"
+        (z,) = chunks(call, profile=profile)
+        require_profile(call, z)
         self._calls.end_in_time(z.size)
         return self._reverse(z)
 
@@ -119,7 +125,7 @@ class HighPass(FixedHighPass):
 
         Raises InputError for an unlikely rate or a cut-off outside 0 to half of it.
         """
-        super().__init__(in_time(rate_hz), cutoff_hz)
+        super().__init__(in_time(rate_hz), above_zero("cutoff_hz", cutoff_hz))
 
 
 class SpatialHighPass(FixedHighPass):
@@ -134,5 +140,5 @@ class SpatialHighPass(FixedHighPass):
 
         Raises InputError unless the interval is above zero and the wavelength above two of it.
         """
-        require_above_zero("cutoff_wavelength_m", cutoff_wavelength_m)
-        super().__init__(over_distance(interval_m), 1.0 / cutoff_wavelength_m)
+        wavelength = above_zero("cutoff_wavelength_m", cutoff_wavelength_m)
+        super().__init__(over_distance(interval_m), 1.0 / wavelength)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
-from floatref.retrofit.alone import Alone, chunks, in_time, over_distance, require_above_zero
+from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
 from floatref.stages.reflection import IntegrateReflecting
 from floatref.stages.signals import (
     HEIGHT,
@@ -18,6 +18,7 @@ from floatref.stages.signals import (
 from floatref.stages.suppression import SuppressLocally
 from floatref.stages.timer import adjusted_time_step
 from floatref.values.arrays import FloatArray
+from floatref.values.plain import above_zero
 
 
 class LocalSuppression:
@@ -38,9 +39,9 @@ class LocalSuppression:
 
         Raises InputError for an unlikely rate, or unless the others are above zero.
         """
-        require_above_zero("below_mps", below_mps)
-        require_above_zero("proportional", proportional)
-        require_above_zero("integral_per_s", integral_per_s)
+        above_zero("below_mps", below_mps)
+        above_zero("proportional", proportional)
+        above_zero("integral_per_s", integral_per_s)
         stages = (SuppressLocally(VELOCITY, below_mps, proportional, integral_per_s),)
         self._control = Alone(in_time(rate_hz), (VELOCITY, TRAVEL_SPEED), VELOCITY, stages)
 
@@ -81,9 +82,9 @@ class TimerDistortion:
 
         Raises InputError unless all are above zero.
         """
-        require_above_zero("interval_m", interval_m)
-        require_above_zero("slow_speed_mps", slow_speed_mps)
-        require_above_zero("sharpness", sharpness)
+        above_zero("interval_m", interval_m)
+        above_zero("slow_speed_mps", slow_speed_mps)
+        above_zero("sharpness", sharpness)
         self.limit_s, self._sharpness = interval_m / slow_speed_mps, sharpness
 
     def time_step(self, dt: ArrayLike) -> FloatArray:

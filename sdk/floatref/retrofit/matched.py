@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from floatref.retrofit.adaptive import backward
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
 from floatref.retrofit.calls import Calls
+from floatref.retrofit.cut_off import Band, require_profile
 from floatref.stages.observer import MatchedHighPass as Observer
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
 from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
@@ -43,6 +44,7 @@ class MatchedHighPass:
             low_speed_cutoff_hz, cutoff_wavelength_m, transition_speed_mps, transition_steepness
         )
         axis = in_time(rate_hz)
+        self._band = Band(self.schedule, axis.step)
         self._calls = Calls(type(self).__name__, ("reference_height",))
         signals = ACCELERATION, HEIGHT, TRAVEL_SPEED
         stages = ScheduleCutOff(self.schedule), Observer()
@@ -51,8 +53,8 @@ class MatchedHighPass:
 
     @property
     def bridged(self) -> int:
-        """How many samples so far lacked (NaN) acceleration, height or speed and were bridged."""
-        return self._observer.bridged
+        """How many samples so far lacked (NaN) a signal, profile or speed and were bridged."""
+        return self._observer.bridged + self._reverse.bridged
 
     def reference_height(self, a: ArrayLike, h: ArrayLike, speed: ArrayLike) -> FloatArray:
         """Return the floating reference height in m, shape (N,); minus ``h`` it is the elevation.
@@ -63,10 +65,13 @@ class MatchedHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
+                is not below half the rate.
             StageError: after the end of the run.
         """
-        x, height, v_x = chunks("MatchedHighPass.reference_height", a=a, h=h, speed=speed)
+        call = "MatchedHighPass.reference_height"
+        x, height, v_x = chunks(call, a=a, h=h, speed=speed)
+        self._band.require(call, v_x)
         self._calls.add("reference_height", x.size, v_x)
         return self._observer(x, height, v_x)
 
@@ -80,10 +85,14 @@ class MatchedHighPass:
             speed: the speed of all forward calls in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples.
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone;
+                for a speed whose cut-off is not below half the rate.
             StageError: unless N samples were observed at this speed; the second time.
         """
-        z, v_x = chunks("MatchedHighPass.reverse", profile=profile, speed=speed)
+        call = "MatchedHighPass.reverse"
+        z, v_x = chunks(call, profile=profile, speed=speed)
+        require_profile(call, z)
+        self._band.require(call, v_x)
         self._calls.end_in_time(z.size, v_x)
         return self._reverse(z, v_x)
 
@@ -98,12 +107,16 @@ class MatchedHighPass:
             interval_m: distance between points in m.
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; an interval not above zero.
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone; an
+                interval not above zero; a speed without a cut-off.
             StageError: before anything was observed; the second time.
         """
         call = "MatchedHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
+        require_profile(call, z)
         scheduled = ScheduleWaveNumber(self.schedule)
         back = backward(over_distance(interval_m), scheduled, *BACKWARD)
+        self._band.require_over_distance(call, v_x, interval_m)
         self._calls.end("reverse_over_distance")
+        self._reverse = back
         return back(z, v_x)

@@ -1,9 +1,9 @@
 """The cut-off that follows the travel speed (5.3), in time and over distance."""
 
 from dataclasses import dataclass, fields
-from math import isfinite
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.stages.marking import flags_of
@@ -12,6 +12,7 @@ from floatref.stages.signals import CUTOFF, TRAVEL_SPEED
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
+from floatref.values.plain import above_zero, numbers
 
 SHORTEST = 4.0
 """Shortest cut-off wavelength over distance, in intervals of the profile."""
@@ -33,12 +34,42 @@ class AdaptiveCutOff:
     def __post_init__(self) -> None:
         """Refuse numbers that are no cut-off."""
         for field in fields(self):
-            value = getattr(self, field.name)
-            if not (isfinite(value) and value > 0.0):
-                raise InputError(f"cut-off schedule: {field.name} {value} must be above zero")
+            above_zero(f"cut-off schedule: {field.name}", getattr(self, field.name))
 
-    def frequency(self, speed: FloatArray) -> FloatArray:
-        """Return f_c in Hz, shape (N,), at ``speed`` in m/s: (5.3)."""
+    def frequency(self, speed: ArrayLike) -> FloatArray:
+        """Return f_c in Hz at ``speed`` in m/s: (5.3).
+
+        Args:
+            speed: travel speed in m/s, any shape; NaN where it is missing.
+
+        Returns:
+            An array of the shape of ``speed``, so () for a number; NaN where the speed is.
+
+        Raises:
+            InputError: for what holds no real numbers, or an infinite one.
+        """
+        values = numbers("AdaptiveCutOff.frequency: speed", speed)
+        return self._frequency(values.reshape(-1)).reshape(values.shape)
+
+    def wave_number(self, speed: ArrayLike, interval_m: float) -> FloatArray:
+        """Return f_c / v in cycles/m, at most one cycle in four of ``interval_m``.
+
+        Args:
+            speed: travel speed in m/s, any shape; NaN where it is missing.
+            interval_m: distance between points in m.
+
+        Returns:
+            An array of the shape of ``speed``, so () for a number; NaN where the speed is.
+
+        Raises:
+            InputError: for what holds no real numbers, or an infinite one; an interval not above
+                zero.
+        """
+        values = numbers("AdaptiveCutOff.wave_number: speed", speed)
+        interval_m = above_zero("AdaptiveCutOff.wave_number: interval_m", interval_m)
+        return self._wave_number(values.reshape(-1), interval_m).reshape(values.shape)
+
+    def _frequency(self, speed: FloatArray) -> FloatArray:
         from floatref.kernels import schedule
 
         frequency = np.empty(speed.size)
@@ -52,11 +83,10 @@ class AdaptiveCutOff:
         )
         return frequency
 
-    def wave_number(self, speed: FloatArray, interval_m: float) -> FloatArray:
-        """Return f_c / v in cycles/m, shape (N,), at most one cycle in four of ``interval_m``."""
+    def _wave_number(self, speed: FloatArray, interval_m: float) -> FloatArray:
         from floatref.kernels import schedule
 
-        values = self.frequency(speed)
+        values = self._frequency(speed)
         schedule.wave_numbers(speed, values, 1.0 / (SHORTEST * interval_m))
         return values
 

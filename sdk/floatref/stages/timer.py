@@ -66,4 +66,5 @@ class DistortTimer(Stage):
         adjusted = adjusted_time_step(block[step], self._limit_s, self.sharpness)
         flags = flags_of(block, step)
         marks = {} if flags is None else {step: flags, true: flags}
-        return block.setting({step: adjusted, true: block[step]}, marks)
+        # A view is frozen in its place: the steps are the caller's.
+        return block.setting({step: adjusted, true: block[step].view()}, marks)

@@ -1,4 +1,4 @@
-"""What a class alone refuses: incomplete sets of calls, and arrays that cannot be."""
+"""What a class alone refuses: incomplete sets of calls; a refused chunk counts for nothing."""
 
 import numpy as np
 import pytest
@@ -12,8 +12,6 @@ from floatref import (
     MatchedHighPass,
     SpatialHighPass,
     StageError,
-    TimerDistortion,
-    TravelSpeed,
 )
 
 X = np.linspace(0.0, 1.0, 10)
@@ -161,48 +159,73 @@ def test_a_refused_chunk_counts_for_nothing(name):
     stage.finish()
 
 
-@pytest.mark.parametrize("value", [np.inf, -np.inf])
-def test_an_infinite_sample_is_refused_by_number(value):
-    bad = np.where(np.arange(10) == 6, value, X)
-    with pytest.raises(InputError, match=r"HighPass.height: h sample 6 is -?inf; give NaN"):
-        HighPass(100.0).height(bad)
+FAST = np.where(np.arange(10) == 5, 1e6, SPEED)
+NAMED = r"%s: speed sample 5 is 1e\+06 m/s: its cut-off is .* outside 0 to 50, half the"
 
 
-def test_what_is_no_number_is_refused():
-    with pytest.raises(InputError, match=r"TravelSpeed.of: distance is not an array of numbers"):
-        TravelSpeed(100.0).of(["here", "there"])
+@pytest.mark.parametrize("signal", SIGNALS)
+def test_a_chunk_refused_for_its_speed_counts_for_nothing(signal):
+    stage, other = AdaptiveHighPass(100.0), AdaptiveHighPass(100.0)
+    for each in SIGNALS:
+        if each == signal:
+            with pytest.raises(InputError, match=NAMED % f"AdaptiveHighPass.{each}") as error:
+                getattr(stage, each)(X, FAST)
+            said(error)
+        found = getattr(stage, each)(X, SPEED)
+        np.testing.assert_array_equal(found, getattr(other, each)(X, SPEED))
+    np.testing.assert_array_equal(stage.reverse(X, SPEED), other.reverse(X, SPEED))
 
 
-@pytest.mark.parametrize("wrong", [-0.001, np.nan])
-def test_a_step_that_goes_back_or_is_missing_is_refused(wrong):
-    steps = np.array([0.0, 0.01, wrong])
-    with pytest.raises(InputError, match=r"dt sample 2 is (-0.001|nan) s; a step is zero"):
-        TimerDistortion(0.05).time_step(steps)
-    for given in ((X[:3], steps, X[:3], X[:3]), (X[:3], X[:3], steps, X[:3])):
-        with pytest.raises(InputError, match="time_step sample 2"):
-            HeightReflection().reference_height(*given)
+def test_a_chunk_refused_by_the_observer_for_its_speed_counts_for_nothing():
+    stage, other = MatchedHighPass(100.0), MatchedHighPass(100.0)
+    with pytest.raises(InputError, match=NAMED % "MatchedHighPass.reference_height"):
+        stage.reference_height(X, X, FAST)
+    found = stage.reference_height(X, X, SPEED)
+    np.testing.assert_array_equal(found, other.reference_height(X, X, SPEED))
+    np.testing.assert_array_equal(stage.reverse(X, SPEED), other.reverse(X, SPEED))
 
 
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: HighPass(0.0),
-        lambda: HighPass(np.nan),
-        lambda: HighPass(100.0, cutoff_hz=50.0),
-        lambda: HighPass(100.0, cutoff_hz=0.0),
-        lambda: SpatialHighPass(-0.05),
-        lambda: SpatialHighPass(0.05, cutoff_wavelength_m=0.1),
-        lambda: SpatialHighPass(0.05, cutoff_wavelength_m=0.0),
-        lambda: AdaptiveHighPass(100.0, low_speed_cutoff_hz=0.0),
-        lambda: MatchedHighPass(np.inf),
-        lambda: LocalSuppression(100.0, below_mps=-1.0),
-        lambda: LocalSuppression(100.0, integral_per_s=0.0),
-        lambda: TimerDistortion(0.05, slow_speed_mps=0.0),
-        lambda: TimerDistortion(0.0),
-        lambda: TravelSpeed(100.0, window_s=0.0),
-    ],
-)
-def test_settings_that_make_no_sense_are_refused(make):
-    with pytest.raises(InputError) as error:
-        make()
-    said(error)
+def passed(make):
+    """Return a stage that all forward samples have passed."""
+    stage = make(100.0)
+    if isinstance(stage, MatchedHighPass):
+        stage.reference_height(X, X, SPEED)
+    else:
+        for signal in SIGNALS:
+            getattr(stage, signal)(X, SPEED)
+    return stage
+
+
+@pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
+def test_a_backward_pass_refused_for_its_arrays_does_not_end_the_run(make):
+    stage, nothing = passed(make), np.full(10, np.nan)
+    with pytest.raises(InputError, match=NAMED % f"{make.__name__}.reverse"):
+        stage.reverse(X, FAST)
+    for call in (
+        lambda: stage.reverse(nothing, SPEED),
+        lambda: stage.reverse_over_distance(nothing, SPEED, 0.05),
+    ):
+        with pytest.raises(InputError, match=r"reverse\w*: all 10 samples of profile are missing"):
+            call()
+    stage.reverse(X, SPEED)
+
+
+@pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
+def test_a_speed_without_a_cut_off_over_distance_does_not_end_the_run(make):
+    # A schedule so flat that (5.3) is below zero for a vehicle that moves backward.
+    stage = passed(lambda rate: make(rate, cutoff_wavelength_m=0.06, transition_steepness=1e-3))
+    backward = np.where(np.arange(10) == 5, -3.0, SPEED)
+    call = f"{make.__name__}.reverse_over_distance"
+    with pytest.raises(InputError, match=f"{call}: speed sample 5 is -3 m/s"):
+        stage.reverse_over_distance(X, backward, 0.1)
+    stage.reverse_over_distance(X, SPEED, 0.1)
+
+
+@pytest.mark.parametrize("name", ["HighPass", "SpatialHighPass"])
+def test_a_profile_of_nothing_does_not_end_the_run(name):
+    stage = HIGH_PASSES[name][0]()
+    for signal in SIGNALS:
+        getattr(stage, signal)(X)
+    with pytest.raises(InputError, match=f"{name}.reverse: all 10 samples of profile are missing"):
+        stage.reverse(np.full(10, np.nan))
+    stage.reverse(X)

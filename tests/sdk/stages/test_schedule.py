@@ -27,6 +27,43 @@ def test_a_schedule_of_no_cut_off_is_refused(name, value):
         schedule.AdaptiveCutOff(**{name: value})
 
 
+@pytest.mark.parametrize("value", ["0.45", None, True, 1j])
+def test_a_setting_that_is_no_number_is_refused(value):
+    with pytest.raises(InputError, match=r"low_speed_hz is .*, no number; give one above zero"):
+        schedule.AdaptiveCutOff(low_speed_hz=value)
+
+
+@pytest.mark.parametrize("speed", [3, 3.0, np.float64(3.0), [0, 3.0], (3.0,), [[1.0, 2.0], [3, 9]]])
+def test_speeds_of_any_shape_have_a_cut_off_each(speed):
+    cut_off, array = schedule.AdaptiveCutOff(), np.array(speed, dtype=float)
+    hertz, cycles = cut_off.frequency(speed), cut_off.wave_number(speed, 0.05)
+    assert hertz.shape == cycles.shape == array.shape
+    for where in np.ndindex(array.shape):
+        one = array[where]
+        expected = one / 105.91 + (0.45 - one / 105.91) / (1.0 + np.exp(2.5 * (one - 2.778)))
+        assert hertz[where] == pytest.approx(expected, rel=1e-9)
+        assert cycles[where] == pytest.approx(min(expected / max(one, 1e-9), 5.0), rel=1e-9)
+
+
+def test_a_missing_speed_has_no_cut_off_and_a_vehicle_that_rolls_back_has_that_of_a_stop():
+    cut_off = schedule.AdaptiveCutOff()
+    np.testing.assert_array_equal(np.isnan(cut_off.frequency([1.0, np.nan])), [False, True])
+    assert cut_off.frequency(-20.0) == pytest.approx(0.45)
+    assert cut_off.wave_number(-20.0, 0.05) == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("interval", [0.0, -0.05, float("nan"), "0.05", None])
+def test_an_interval_that_is_none_is_refused(interval):
+    with pytest.raises(InputError, match=r"wave_number: interval_m is .*above zero"):
+        schedule.AdaptiveCutOff().wave_number([1.0], interval)
+
+
+@pytest.mark.parametrize("speed", ["fast", None, [1.0, 2.0j], [[1.0], [1.0, 2.0]]])
+def test_a_speed_that_is_no_number_is_refused(speed):
+    with pytest.raises(InputError, match="frequency: speed is not an array of numbers"):
+        schedule.AdaptiveCutOff().frequency(speed)
+
+
 @pytest.mark.parametrize(
     ("stage", "axis"),
     [(schedule.ScheduleCutOff, Axis.DISTANCE), (schedule.ScheduleWaveNumber, Axis.TIME)],

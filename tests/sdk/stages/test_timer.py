@@ -1,12 +1,16 @@
 """The adjusted time step keeps its two limits however long the stop."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.stages.timer import adjusted_time_step
+from floatref.stages.timer import DistortTimer, adjusted_time_step
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
 
 LIMIT = 0.0014205
 
@@ -58,3 +62,14 @@ def test_it_grows_with_the_step_and_never_beyond_it_or_the_limit(steps, sharpnes
 def test_numbers_that_limit_nothing_or_all_are_refused(limit, sharpness, message):
     with pytest.raises(InputError, match=message):
         adjusted_time_step(np.ones(2), limit, sharpness)
+
+
+def test_the_step_as_it_was_is_kept_and_stays_its_owners():
+    step = ChannelId("time_step")
+    stage, given = DistortTimer(), np.array([0.0, 0.01, 3.0])
+    stage.start(Header(Axis.DISTANCE, 0.05, 0.0, Fraction(10), frozenset({step}), ("main",)))
+    out = stage.push(Block(0, {step: given}))
+    assert given.flags.writeable
+    kept = out[ChannelId("true_time_step")]
+    np.testing.assert_array_equal(kept, given)
+    assert not kept.flags.writeable
