@@ -41,12 +41,12 @@ from floatref.stages.varying import (
 
 
 def _cutoff(question: Question) -> float:
-    return high_pass_setting(question.setting("collective_cutoff_hz"))
+    return high_pass_setting(steps.cutoff_setting(question, "collective_cutoff_hz"))
 
 
 def _schedule(question: Question) -> AdaptiveCutOff:
     return AdaptiveCutOff(
-        low_speed_hz=question.setting("low_speed_cutoff_hz"),
+        low_speed_hz=steps.cutoff_setting(question, "low_speed_cutoff_hz"),
         wavelength_m=question.setting("cutoff_wavelength_m"),
         transition_speed=question.setting("transition_speed_mps"),
         steepness=question.setting("transition_steepness"),

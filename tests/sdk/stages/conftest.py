@@ -179,6 +179,10 @@ def same(one, two):
     assert one.values.keys() == two.values.keys()
     for channel, values in one.values.items():
         np.testing.assert_array_equal(values, two[channel], err_msg=str(channel))
+    blank = np.zeros(len(one), np.uint8)
+    for channel in one.values:
+        marks = (b.flags.get(channel, blank) for b in (one, two))
+        np.testing.assert_array_equal(*marks, err_msg=f"flags of {channel}")
 
 
 @pytest.fixture
