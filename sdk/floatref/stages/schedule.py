@@ -1,5 +1,6 @@
 """The cut-off that follows the travel speed (5.3), in time and over distance."""
 
+from abc import abstractmethod
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -121,8 +122,9 @@ class Schedule(Stage):
         marks = {} if flags is None else {target: flags}
         return block.setting({target: self._cutoff(block[source])}, marks)
 
+    @abstractmethod
     def _cutoff(self, speed: FloatArray) -> FloatArray:
-        raise NotImplementedError
+        """Return the cut-off in cycles per unit of the axis."""
 
 
 class ScheduleCutOff(Schedule):
