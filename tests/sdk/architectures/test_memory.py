@@ -69,11 +69,12 @@ def drives(tmp_path_factory):
         samples.unlink()
 
 
-@pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
+@pytest.mark.parametrize(
+    "pipeline", ["temporal-basic", "spatial-basic", "temporal-adaptive-hpf-spatial-backward"]
+)
 def test_a_long_drive_takes_its_profile_and_some_room(drives, pipeline):
     command = [sys.executable, "-c", IN_A_FRESH_PROCESS, pipeline, *map(str, drives)]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    print("G", done.stdout)
     grown, points = map(int, done.stdout.split())
     assert points == pytest.approx(SPEED * SECONDS / INTERVAL_M, rel=1e-4)
     assert POINT_BYTES * points > ROOM
