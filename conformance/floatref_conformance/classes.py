@@ -23,9 +23,19 @@ class Effort(StrEnum):
     QUICK = "quick"
     CERTIFICATION = "certification"
 
+    @property
+    def searched(self) -> int:
+        """How many cases the search draws for each check."""
+        return {Effort.QUICK: 3, Effort.CERTIFICATION: 30}[self]
+
+    @property
+    def shrunk(self) -> int:
+        """How many cases at most are tried to make a failing one simpler."""
+        return {Effort.QUICK: 12, Effort.CERTIFICATION: 60}[self]
+
 
 Limits = Mapping[DeviceClass, float]
-"""The largest value allowed in each class, above zero."""
+"""The largest value allowed in each class, above zero; a class that is missing has no limit."""
 
 
 def same_limit(nominal: float, reference: float) -> Limits:

@@ -1,7 +1,8 @@
 """What happens during a run, one value after another; renderers turn them into output."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
@@ -21,7 +22,7 @@ class RunStarted:
 
 @dataclass(frozen=True)
 class CheckStarted:
-    """A check begins; it has ``cases`` cases."""
+    """A check begins; it has ``cases`` seeded cases."""
 
     id: str
     cases: int
@@ -29,10 +30,33 @@ class CheckStarted:
 
 @dataclass(frozen=True)
 class CaseFinished:
-    """One case of check ``id`` has been judged."""
+    """One case of check ``id`` has been judged: seeded, drawn by the search, or a simpler one."""
 
     id: str
     result: CaseResult
+
+
+@dataclass(frozen=True)
+class SearchStarted:
+    """The seeded cases of check ``id`` are done; the search tries up to ``cases`` more."""
+
+    id: str
+    cases: int
+
+
+@dataclass(frozen=True)
+class ShrinkStarted:
+    """A case of check ``id`` fails; up to ``cases`` are tried to make it simpler."""
+
+    id: str
+    cases: int
+
+
+@dataclass(frozen=True)
+class CaseReplayed:
+    """A case kept from an earlier run has been judged."""
+
+    replayed: Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -49,7 +73,16 @@ class RunFinished:
     result: RunResult
 
 
-Event = RunStarted | CheckStarted | CaseFinished | CheckFinished | RunFinished
+Event = (
+    RunStarted
+    | CheckStarted
+    | SearchStarted
+    | ShrinkStarted
+    | CaseFinished
+    | CaseReplayed
+    | CheckFinished
+    | RunFinished
+)
 
 
 class Renderer(Protocol):

@@ -98,3 +98,10 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
                 f"profile from {profile.start_m:.3f} m over {profile.length_m:.3f} m; "
                 f"the recording goes from {distance[0]:.3f} m to {distance[-1]:.3f} m"
             )
+
+
+def close(device: Device) -> None:
+    """Let ``device`` end what it has started, if it has something to end."""
+    ending = getattr(device, "close", None)
+    if ending is not None:
+        ending()

@@ -3,10 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
-from floatref.values.profile import Profile
 from floatref_conformance import oracle
+from floatref_conformance.case_files import name_of
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, lowest
@@ -14,36 +13,58 @@ from floatref_conformance.verdict import CaseResult, CheckResult, Measurement, O
 
 
 def check_result(
-    check: Check, cases: Sequence[CaseResult], device_class: DeviceClass
+    check: Check,
+    cases: Sequence[CaseResult],
+    device_class: DeviceClass,
+    simpler: tuple[Case, CaseResult] | None = None,
 ) -> CheckResult:
     """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
 
-    A faulty device is an error; else the worst measurement decides. Raises SuiteError if the
-    oracle does not confirm the worst IRI.
+    A faulty device is an error; else the worst measurement decides. ``simpler`` is the simplest
+    failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
     """
-    measured = [m for case in cases for m in case.measurements]
-    _confirm_worst(check.id, measured, device_class)
     worst_case = max(cases, key=lambda case: case.ratio(device_class))
-    worst = max(measured, key=lambda m: m.ratio(device_class), default=None)
+    worst = max(
+        (m for case in cases if (m := case.worst(device_class)) is not None),
+        key=lambda m: m.ratio(device_class),
+        default=None,
+    )
+    if worst is not None:
+        oracle.confirm(check.id, worst)
     outcome, reason = _outcome(cases, worst, device_class)
+    failed = outcome in (Outcome.FAIL, Outcome.ERROR)
     return CheckResult(
         id=check.id,
         clause=check.clause,
         outcome=outcome,
         reason=reason,
-        class_reached=(
-            None if outcome is Outcome.ERROR else lowest([m.class_reached for m in measured])
-        ),
+        class_reached=_class_reached(cases, outcome),
         cases=len(cases),
         worst=worst,
-        counterexample=None if outcome is Outcome.PASS else _counterexample(worst_case, reason),
+        worst_case=worst_case.name,
+        counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
         flagged_m=max(case.flagged_m for case in cases),
+        passes=simpler[1].passes if failed and simpler else (),
     )
 
 
-def flagged_m(profile: Profile) -> float:
-    """Return the largest length in m of a wheel path in ``profile`` that is flagged invalid."""
-    return max(profile.interval_m * float(np.sum(~track.valid)) for track in profile.tracks)
+def failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:
+    """Return the worst of ``cases`` that fails; None if none does."""
+    worst = max(cases, key=lambda case: case.ratio(device_class))
+    return worst if worst.ratio(device_class) > 1.0 else None
+
+
+def why(case: CaseResult, device_class: DeviceClass) -> str:
+    """Return in one line what is wrong with ``case``; empty if nothing is."""
+    if case.fault is not None:
+        return case.fault
+    worst = case.worst(device_class)
+    if worst is None or worst.within(device_class):
+        return ""
+    return (
+        f"{worst.quantity}, track {worst.track}: {worst.value:.4g} {worst.unit}, "
+        f"limit {worst.limits[device_class]:.4g} {worst.unit}"
+    )
 
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
@@ -57,27 +78,38 @@ def left_out_result(left_out: LeftOut) -> CheckResult:
     return CheckResult(left_out.id, left_out.clause, Outcome.SKIP, left_out.reason)
 
 
-def _confirm_worst(id_: str, measured: Sequence[Measurement], device_class: DeviceClass) -> None:
-    shown = [m for m in measured if m.evidence is not None]
-    if shown:
-        oracle.confirm(id_, max(shown, key=lambda m: m.ratio(device_class)))
+def given_up_result(check: Check, reason: str) -> CheckResult:
+    """Return the result of a check whose device is not asked any more."""
+    return CheckResult(check.id, check.clause, Outcome.ERROR, reason)
+
+
+def _class_reached(cases: Sequence[CaseResult], outcome: Outcome) -> DeviceClass | None:
+    if outcome not in (Outcome.PASS, Outcome.FAIL):
+        return None
+    return lowest([m.class_reached for case in cases for m in case.measurements])
 
 
 def _outcome(
     cases: Sequence[CaseResult], worst: Measurement | None, device_class: DeviceClass
 ) -> tuple[Outcome, str]:
     faults = [case for case in cases if case.fault is not None]
-    if faults or worst is None:
-        first = faults[0] if faults else cases[0]
-        return Outcome.ERROR, f"{first.name}: {first.fault or 'nothing was measured'}"
-    if worst.within(device_class):
-        return Outcome.PASS, ""
-    limit = worst.limits[device_class]
-    return Outcome.FAIL, (
-        f"{worst.quantity}, track {worst.track}: {worst.value:.4g} {worst.unit}, "
-        f"limit {limit:.4g} {worst.unit}"
-    )
+    if faults:
+        return Outcome.ERROR, f"{faults[0].name}: {faults[0].fault}"
+    failed = failing(cases, device_class)
+    if failed is not None:
+        return Outcome.FAIL, why(failed, device_class)
+    skipped = [case for case in cases if case.skipped is not None]
+    if skipped:
+        return Outcome.SKIP, f"{skipped[0].name}: {skipped[0].skipped}"
+    if worst is None:
+        return Outcome.ERROR, f"{cases[0].name}: nothing was measured"
+    return Outcome.PASS, ""
 
 
-def _counterexample(case: CaseResult, reason: str) -> Mapping[str, Any]:
-    return {"case": case.name, "parameters": dict(case.parameters), "reason": reason}
+def _counterexample(case: Case, result: CaseResult, device_class: DeviceClass) -> Mapping[str, Any]:
+    return {
+        "case": result.name,
+        "parameters": dict(result.parameters),
+        "reason": why(result, device_class),
+        "file": name_of(case),
+    }

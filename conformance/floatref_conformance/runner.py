@@ -1,107 +1,150 @@
-"""Running checks on a device: a stream of events that ends with the verdict."""
+"""Running checks on a device: events on the way, a result at the end."""
 
-from collections.abc import Generator, Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
+from floatref.errors import InputError
+from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
-from floatref_conformance.checks.interface import Case, Check
+from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.events import (
-    CaseFinished,
     CheckFinished,
-    CheckStarted,
     Event,
     RunFinished,
     RunStarted,
 )
-from floatref_conformance.exercise import describe, exercise
+from floatref_conformance.exercise import close, describe
 from floatref_conformance.judging import (
-    check_result,
-    flagged_m,
+    given_up_result,
     left_out_result,
     not_applicable_result,
 )
-from floatref_conformance.verdict import CaseResult, CheckResult, RunResult
+from floatref_conformance.trial import Trial
+from floatref_conformance.verdict import CheckResult, Outcome, RunResult
+
+UNDESCRIBED = Description("unknown", "unknown", "unknown", ())
+"""What is said of a device that does not say it itself."""
+
+
+FAILED = (Outcome.FAIL, Outcome.ERROR)
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A device, the checks to run on it, and those that are left out."""
+    """A device, the checks to run on it, and those that are left out.
+
+    Attributes:
+        spec: how the user names the device.
+        device: what is judged.
+        checks: what is run, in order.
+        left_out: what is not, and why.
+        device_class: whose limits decide.
+        seed: draws roads, noise and the search.
+        effort: sets the number of cases.
+        kept: cases from earlier runs, to be run again.
+        searching: whether cases are drawn that depend on the device's answers.
+        settle: what becomes of a check's result before it is shown, such as a waiver.
+    """
 
     spec: str
     device: Device
     checks: tuple[Check, ...]
-    left_out: tuple[LeftOut, ...]
+    left_out: tuple[LeftOut, ...] = ()
     device_class: DeviceClass = DeviceClass.NOMINAL
     seed: int = 0
     effort: Effort = Effort.QUICK
+    kept: tuple[KeptCase, ...] = ()
+    searching: bool = True
+    settle: Callable[[CheckResult], CheckResult] = field(default=lambda result: result)
 
 
-def run(plan: Plan) -> Iterator[Event]:
-    """Yield what happens. Raises SuiteError, sys.exit included, and then there is no verdict."""
+def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
+    """Return the result of ``plan``; ``emit`` is given what happens on the way.
+
+    Raises SuiteError, for sys.exit in a check as well, and then there is no verdict. Whatever
+    happens, the device is closed.
+    """
     try:
-        yield from _run(plan)
-    except SuiteError:
+        return _run(plan, emit)
+    except (SuiteError, BrokenPipeError):
         raise
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
         raise SuiteError(f"{type(error).__name__}: {text}") from error
+    finally:
+        close(plan.device)
 
 
-def _run(plan: Plan) -> Iterator[Event]:
+def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     description, fault = _described(plan.device)
-    yield RunStarted(plan.spec, description, plan.checks, plan.left_out)
-    results = []
+    emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
+    trial = Trial(plan.device, description, plan.device_class, emit, fault)
+    results: list[CheckResult] = []
+    replayed: list[Mapping[str, Any]] = []
     for check in plan.checks:
-        missing = check.needs - set(description.capabilities)
-        if missing:
-            result = not_applicable_result(check, missing)
-        else:
-            result = yield from _check(plan, check, description, fault)
+        result = plan.settle(_checked(plan, check, trial))
+        replayed += _replayed(plan, check, result, trial)
         results.append(result)
-        yield CheckFinished(result)
+        emit(CheckFinished(result))
     results += [left_out_result(left_out) for left_out in plan.left_out]
-    yield RunFinished(_run_result(plan, description, results))
+    unrun = {result.id: result for result in results if not result.cases}
+    judged = {check.id for check in plan.checks}
+    replayed += [
+        _not_replayed(kept, Outcome.SKIP, unrun[kept.case.check].reason)
+        for kept in plan.kept
+        if kept.case.check not in judged and kept.case.check in unrun
+    ]
+    finished = _result(plan, description, results, replayed)
+    emit(RunFinished(finished))
+    return finished
+
+
+def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
+    missing = check.needs - set(trial.description.capabilities)
+    if missing:
+        return not_applicable_result(check, missing)
+    if trial.given_up:
+        return given_up_result(check, trial.given_up)
+    return trial.check(check, plan.seed, plan.effort, plan.searching)
+
+
+def _replayed(
+    plan: Plan, check: Check, result: CheckResult, trial: Trial
+) -> list[Mapping[str, Any]]:
+    """Return what the kept cases of ``check`` come to, unless it was not run or is waived."""
+    kept = [one for one in plan.kept if one.case.check == check.id]
+    if not result.cases:
+        return [_not_replayed(one, result.outcome, result.reason) for one in kept]
+    again = [trial.replay(check, one) for one in kept]
+    if result.outcome is Outcome.WAIVED:
+        return [{**r, "outcome": "waived"} if r["outcome"] in FAILED else r for r in again]
+    return again
+
+
+def _not_replayed(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:
+    told = {"file": kept.file, "check": kept.case.check, "outcome": outcome.value}
+    return {**told, "reason": reason, "value": None, "limit": None, "unit": None}
 
 
 def _described(device: Device) -> tuple[Description, str | None]:
     try:
         return describe(device), None
+    except InputError:
+        raise
     except DeviceError as fault:
-        return Description("unknown", "unknown", "unknown", ()), str(fault)
+        return UNDESCRIBED, str(fault)
 
 
-def _check(
-    plan: Plan, check: Check, description: Description, fault: str | None
-) -> Generator[Event, None, CheckResult]:
-    """Yield the events of one check; its generator returns the result."""
-    cases = check.cases(plan.seed, plan.effort)
-    yield CheckStarted(check.id, len(cases))
-    results = []
-    for case in cases:
-        result = (
-            CaseResult(case.name, case.parameters, fault=fault)
-            if fault
-            else _case(plan.device, description, check, case)
-        )
-        results.append(result)
-        yield CaseFinished(check.id, result)
-    return check_result(check, results, plan.device_class)
-
-
-def _case(device: Device, description: Description, check: Check, case: Case) -> CaseResult:
-    simulated = case.simulate()
-    try:
-        profile = exercise(device, description, simulated.recording)
-        measured = check.judge(case, profile, simulated)
-    except DeviceError as error:
-        return CaseResult(case.name, case.parameters, fault=str(error))
-    return CaseResult(case.name, case.parameters, measured, flagged_m=flagged_m(profile))
-
-
-def _run_result(plan: Plan, description: Description, results: list[CheckResult]) -> RunResult:
+def _result(
+    plan: Plan,
+    description: Description,
+    results: list[CheckResult],
+    replayed: list[Mapping[str, Any]],
+) -> RunResult:
     order = [*IDS, *(r.id for r in results if r.id not in IDS)]
     return RunResult(
         device={"spec": plan.spec, **asdict(description)},
@@ -109,4 +152,5 @@ def _run_result(plan: Plan, description: Description, results: list[CheckResult]
         seed=plan.seed,
         effort=plan.effort.value,
         checks=tuple(sorted(results, key=lambda r: order.index(r.id))),
+        replayed=tuple(replayed),
     )

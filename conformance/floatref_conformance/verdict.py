@@ -1,13 +1,15 @@
 """What is measured, what a check makes of it, and what the run makes of its checks."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, isnan
 from typing import Any
 
-from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
 from floatref_conformance.classes import DeviceClass, Limits, lowest
+from floatref_conformance.evidence import Evidence
+from floatref_conformance.proving_ground.scenario import Scenario
 
 
 class Outcome(StrEnum):
@@ -35,16 +37,11 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
-    """The elevations in m, at ``interval_m``, whose IRI was taken as a measured value."""
-
-    elevation: FloatArray
-    interval_m: float
-
-
-@dataclass(frozen=True, eq=False)
 class Measurement:
-    """One number of one wheel path against the largest value allowed in each class."""
+    """One number of one wheel path against the largest value allowed in each class.
+
+    A class that ``limits`` lacks does not limit this quantity.
+    """
 
     quantity: str
     track: str
@@ -54,7 +51,12 @@ class Measurement:
     evidence: Evidence | None = None
 
     def ratio(self, device_class: DeviceClass) -> float:
-        """Return value over limit: above 1 is a failure; a value that is NaN is one too."""
+        """Return value over limit: above 1 is a failure; a value that is NaN is one too.
+
+        0 where ``device_class`` has no limit.
+        """
+        if device_class not in self.limits:
+            return 0.0
         return inf if isnan(self.value) else self.value / self.limits[device_class]
 
     def within(self, device_class: DeviceClass) -> bool:
@@ -73,30 +75,69 @@ class Measurement:
 
 
 @dataclass(frozen=True, eq=False)
-class CaseResult:
-    """What one case came to; ``fault`` says what the device did wrong, if it did.
+class Pass:
+    """One recording that the device processed: what it should have found, and what it found.
 
-    ``flagged_m`` is the largest length of a wheel path that the device flagged invalid, in m.
+    ``truth`` is the unfiltered elevation along the laser's path.
+    """
+
+    label: str
+    truth: Profile
+    result: Profile
+    scenario: Scenario
+
+
+@dataclass(frozen=True, eq=False)
+class CaseResult:
+    """What one case came to.
+
+    Attributes:
+        name: within its check.
+        parameters: the numbers that make the case again.
+        measurements: of every wheel path.
+        fault: what the device did wrong, if it did.
+        hung: whether it did not answer in time.
+        skipped: why the device did not take the case, if it did not.
+        flagged_m: largest length of a wheel path that the device flagged invalid, in m.
+        passes: what it processed, kept for the pictures of a case that fails.
     """
 
     name: str
     parameters: Mapping[str, Any]
     measurements: tuple[Measurement, ...] = ()
     fault: str | None = None
+    hung: bool = False
+    skipped: str | None = None
     flagged_m: float = 0.0
+    passes: tuple[Pass, ...] = ()
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return the largest ratio of value to limit; infinite for a faulty device."""
         if self.fault is not None:
             return inf
-        return max(m.ratio(device_class) for m in self.measurements)
+        return max((m.ratio(device_class) for m in self.measurements), default=0.0)
+
+    def worst(self, device_class: DeviceClass) -> Measurement | None:
+        """Return the measurement nearest to its limit, or farthest beyond; None without any."""
+        return max(self.measurements, key=lambda m: m.ratio(device_class), default=None)
 
 
 @dataclass(frozen=True, eq=False)
 class CheckResult:
     """What one check came to; ``reason`` says in one line why it did not pass.
 
-    ``flagged_m`` is the largest of its cases'.
+    Attributes:
+        id, clause: of the check.
+        outcome: what became of it.
+        reason: in one line why it did not pass.
+        class_reached: the strictest class whose limits every case keeps.
+        cases: how many were judged, seeded and found by the search.
+        worst: the measurement nearest to its limit, or farthest beyond.
+        worst_case: name of its case.
+        counterexample: the simplest case found that fails: ``case``, ``parameters``,
+            ``reason``, and ``file``, its name in a report directory.
+        flagged_m: the largest of its cases'.
+        passes: of the counterexample.
     """
 
     id: str
@@ -106,25 +147,32 @@ class CheckResult:
     class_reached: DeviceClass | None = None
     cases: int = 0
     worst: Measurement | None = None
+    worst_case: str = ""
     counterexample: Mapping[str, Any] | None = None
     flagged_m: float = 0.0
+    passes: tuple[Pass, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class RunResult:
-    """The verdict on a device, and the checks that it rests on."""
+    """The verdict on a device, and the checks that it rests on.
+
+    ``replayed`` says of every case kept from an earlier run what it came to: ``file``, ``check``,
+    ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
+    """
 
     device: Mapping[str, Any]
     device_class: DeviceClass
     seed: int
     effort: str
     checks: tuple[CheckResult, ...]
-    replayed: tuple[Mapping[str, Any], ...] = field(default_factory=tuple)
+    replayed: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def verdict(self) -> Verdict:
-        """FAIL if a check failed, INCOMPLETE if one was left out, else PASS."""
-        return verdict_on([check.outcome for check in self.checks])
+        """FAIL if a check or a kept case failed, INCOMPLETE if one was left out, else PASS."""
+        outcomes = [check.outcome for check in self.checks]
+        return verdict_on([*outcomes, *(Outcome(case["outcome"]) for case in self.replayed)])
 
     @property
     def class_reached(self) -> DeviceClass | None:

@@ -1,39 +1,47 @@
-"""What a check is: it draws cases from a seed and measures the profiles that come back."""
+"""What a check is: it draws cases and measures the profiles that a device makes of them."""
 
 from collections.abc import Mapping
-from typing import Any, Protocol
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
 
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
+from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
 
-
-class Truth(Protocol):
-    """A recording as the sensors made it, and the road that was under the laser."""
-
-    @property
-    def recording(self) -> Recording:
-        """All channels that were simulated."""
-
-    @property
-    def truth(self) -> Profile:
-        """Unfiltered elevation in m along the laser's path, one track per wheel path."""
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
 
 
-class Case(Protocol):
-    """One recording to be made: a few rounded numbers and a noise seed."""
+@dataclass(frozen=True, eq=False)
+class Taken:
+    """A recording as the sensors made it, and the road that was under the laser.
 
-    @property
-    def name(self) -> str:
-        """Name within its check, for the user; a device never sees it."""
+    Attributes:
+        recording: what the device is given, of it the channels that it may have.
+        truth: unfiltered elevation in m along the laser's path, one track per wheel path.
+        scenario: what was simulated.
+    """
 
-    @property
-    def parameters(self) -> Mapping[str, Any]:
-        """The numbers that make the case again, ready for JSON."""
+    recording: Recording
+    truth: Profile
+    scenario: Scenario
 
-    def simulate(self) -> Truth:
-        """Return the recording and its truth; the same numbers make the same recording."""
+
+class Bench(Protocol):
+    """Where a check has its recordings made, and processed by the device under test."""
+
+    def simulate(self, scenario: Scenario) -> Taken:
+        """Return the recording of ``scenario``, with the channels that the device may have."""
+
+    def run(self, taken: Taken, label: str = "") -> Profile:
+        """Return the profile that the device makes of ``taken.recording``.
+
+        Raises DeviceError if it delivers none that can be used, DeviceSkipped if it does not
+        take the recording. ``label`` names the recording among those of one case.
+        """
 
 
 class Check(Protocol):
@@ -61,14 +69,21 @@ class Check(Protocol):
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
-        """For each measured quantity, the limit of each class with its unit."""
+        """For each measured quantity, the limit of each class with its unit, in words."""
 
     @property
     def needs(self) -> frozenset[str]:
         """Capabilities without which the check is not applicable."""
 
-    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
-        """Return the cases that ``seed`` draws; ``effort`` sets how many."""
+    @property
+    def simplest(self) -> Case:
+        """The simplest case of all: a failing one is made simpler by taking its numbers."""
 
-    def judge(self, case: Case, profile: Profile, simulated: Truth) -> tuple[Measurement, ...]:
-        """Measure ``profile``; DeviceError if it lacks a point that counts."""
+    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
+        """Return the cases whose manoeuvres the edition fixes; ``seed`` draws road and noise."""
+
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return the Hypothesis strategy of all cases that the check may ask for."""
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
+        """Have ``case`` processed and measure it; DeviceError if a point that counts lacks."""

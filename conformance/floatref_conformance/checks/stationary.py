@@ -2,51 +2,31 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from itertools import cycle
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.checks import plate
-from floatref_conformance.checks.interface import Case, Truth
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
-from floatref_conformance.verdict import Evidence, Measurement
+from floatref_conformance.evidence import Roughness
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.verdict import Measurement
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
 
 RATES_HZ = (16000.0, 4000.0)
 """The rates of the cases, in turn: with and without need of an anti-alias filter."""
+SEARCHED_RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 END_M = 106.0
 """At each end of the run the high-pass (105.91 m) may leave points without elevation."""
-
-
-@dataclass(frozen=True)
-class StationaryCase:
-    """A parked vehicle, ``kind`` quiescent or bounce, with plates and noise of one seed."""
-
-    name: str
-    kind: str
-    seed: int
-    rate_hz: float
-
-    @property
-    def parameters(self) -> Mapping[str, Any]:
-        """The numbers that make the case again."""
-        return {"kind": self.kind, "seed": self.seed, "rate_hz": self.rate_hz}
-
-    def simulate(self) -> Truth:
-        """Return the recording and the flat ground with its plates, from the cache if it can be.
-
-        A folder that cannot be written, or no package to find one, costs time and nothing else.
-        """
-        from floatref_conformance.proving_ground import Scenario, simulate, simulate_cached
-
-        scenario = Scenario(seed=self.seed, manoeuvre=self.kind, rate_hz=self.rate_hz)
-        try:
-            return simulate_cached(scenario)
-        except (OSError, ImportError):
-            return simulate(scenario)
 
 
 @dataclass(frozen=True)
@@ -76,30 +56,50 @@ class StationaryCheck:
             "plate displacement": {c: f"{limit:.4g} m" for c, limit in plate.PLACE_LIMITS.items()},
         }
 
+    @property
+    def simplest(self) -> Case:
+        """The stationary test as the proving ground has it."""
+        return Case(self.id, Scenario(manoeuvre=self.id))
+
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return the cases, each with its own noise; every rate comes in turn."""
         source = np.random.SeedSequence([seed, *self.id.encode()])
+        noises = source.generate_state(COUNT[effort])
         return tuple(
-            StationaryCase(f"{self.id}-{n + 1}", self.id, int(noise), RATES_HZ[n % len(RATES_HZ)])
-            for n, noise in enumerate(source.generate_state(COUNT[effort]))
+            Case(self.id, self._scenario(int(noise), rate_hz), name=f"{self.id}-{n + 1}")
+            for n, (noise, rate_hz) in enumerate(zip(noises, cycle(RATES_HZ), strict=False))
         )
 
-    def judge(self, case: Case, profile: Profile, simulated: Truth) -> tuple[Measurement, ...]:
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return any noise and plate at any of `SEARCHED_RATES_HZ`."""
+        from hypothesis import strategies as st
+
+        scenarios = st.builds(
+            self._scenario, st.integers(0, 2**32 - 1), st.sampled_from(SEARCHED_RATES_HZ)
+        )
+        return scenarios.map(lambda scenario: Case(self.id, scenario))
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.
 
         Raises DeviceError for a point without elevation more than `END_M` from both ends.
         """
+        taken = bench.simulate(case.scenario)
+        profile = bench.run(taken)
         measured: list[Measurement] = []
-        for track in simulated.truth.tracks:
-            stretch(profile, track.name, END_M, simulated.truth.distance_m[-1] - END_M)
+        for track in taken.truth.tracks:
+            stretch(profile, track.name, END_M, taken.truth.distance_m[-1] - END_M)
             measured.append(self._roughness(profile, track.name))
-            measured += plate.measure_plate(profile, simulated.truth, track.name)
+            measured += plate.measure_plate(profile, taken.truth, track.name)
         return tuple(measured)
+
+    def _scenario(self, seed: int, rate_hz: float) -> Scenario:
+        return Scenario(seed=seed, manoeuvre=self.id, rate_hz=rate_hz)
 
     def _roughness(self, profile: Profile, track: str) -> Measurement:
         elevation = stretch(profile, track, self.start_m, self.end_m)
         value = iri(elevation, profile.interval_m)
-        evidence = Evidence(elevation, profile.interval_m)
+        evidence = Roughness(elevation, profile.interval_m)
         return Measurement("IRI", track, value, "m/km", self.iri_limits, evidence)
 
 

@@ -8,7 +8,16 @@ from typing import Any
 import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
+
+RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
+"""What is judged unless another device is named: suppression for a temporal profiler."""
+CLAIMS: Mapping[str, DeviceClass] = {
+    RECOMMENDED: DeviceClass.NOMINAL,
+    "spatial-hpf-timer-distortion-reflection": DeviceClass.NOMINAL,
+}
+"""The classes that pipelines claim to keep; the others claim none."""
 
 
 @dataclass(frozen=True)
@@ -16,6 +25,11 @@ class BuiltinDevice:
     """Pipeline ``pipeline`` of floatref with its own settings and nominal channels alone."""
 
     pipeline: str
+
+    @property
+    def claims(self) -> DeviceClass:
+        """The class by whose limits the pipeline is judged unless another is asked for."""
+        return CLAIMS.get(self.pipeline, DeviceClass.NOMINAL)
 
     def describe(self) -> Mapping[str, Any]:
         """Return what the pipeline is; its name begins with its architecture."""

@@ -1,0 +1,73 @@
+"""A case: the few numbers of a scenario and of a check's own, from which all else follows."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+from typing import Any
+
+from floatref.errors import InputError
+from floatref_conformance.proving_ground.scenario import Scenario
+
+Number = float | int | str | bool
+CHANNELS_BY_NEED = ("imu", "gnss")
+"""Fields of a scenario that follow from the device's capabilities, and are no part of a case."""
+DEFAULT = Scenario()
+
+
+@dataclass(frozen=True)
+class Case:
+    """One thing that a check asks of a device.
+
+    Attributes:
+        check: id of the check.
+        scenario: what is simulated.
+        variation: numbers of the check's own: which fault, where, how long.
+        name: within its check, for the user; a device never sees it.
+    """
+
+    check: str
+    scenario: Scenario
+    variation: Mapping[str, Number] = field(default_factory=dict)
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        """Keep the variation from being changed."""
+        object.__setattr__(self, "variation", MappingProxyType(dict(self.variation)))
+
+    def __hash__(self) -> int:
+        """Cases are equal by their numbers and names."""
+        return hash((self.check, self.scenario, self.name))
+
+    @property
+    def parameters(self) -> Mapping[str, Any]:
+        """The numbers that make the case again: those that differ from the defaults."""
+        return {"scenario": _differing(self.scenario), "variation": dict(self.variation)}
+
+    @property
+    def digest(self) -> str:
+        """Eight hexadecimal digits that tell the case from others."""
+        text = json.dumps([self.check, self.parameters], sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:8]
+
+    @classmethod
+    def of(cls, check: str, parameters: object, name: str = "") -> "Case":
+        """Return the case that ``parameters`` make; InputError if they make none."""
+        if not isinstance(parameters, Mapping):
+            raise InputError("a case is a JSON object with scenario and variation")
+        variation = parameters.get("variation", {})
+        if not isinstance(variation, Mapping) or not all(
+            isinstance(value, (float, int, str)) for value in variation.values()
+        ):
+            raise InputError("variation is not an object of numbers and names")
+        return cls(check, Scenario.from_dict(parameters.get("scenario", {})), variation, name)
+
+
+def _differing(scenario: Scenario) -> dict[str, Any]:
+    values = scenario.to_dict()
+    return {
+        f.name: values[f.name]
+        for f in fields(scenario)
+        if f.name not in CHANNELS_BY_NEED and getattr(scenario, f.name) != getattr(DEFAULT, f.name)
+    }

@@ -1,0 +1,60 @@
+"""Following a run: the terminal sees it all, the reports are written at its end."""
+
+import traceback
+from collections.abc import Sequence
+from typing import NoReturn
+
+import click
+
+from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, INTERRUPTED, in_one_line
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.events import Event, Renderer, RunFinished
+from floatref_conformance.render.terminal import TerminalRenderer
+from floatref_conformance.runner import Plan, run
+from floatref_conformance.verdict import RunResult
+
+
+def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
+    """Run ``plan``, show it, have it written by ``writers``, and return the result.
+
+    Without a verdict, or without a report of it, the command ends here with its exit code.
+    """
+    terminal = TerminalRenderer()
+    finished: list[RunFinished] = []
+
+    def emit(event: Event) -> None:
+        terminal.handle(event)
+        if isinstance(event, RunFinished):
+            finished.append(event)
+
+    try:
+        result = run(plan, emit)
+    except SuiteError as fault:
+        terminal.close()
+        _end_at_fault(fault)
+    except KeyboardInterrupt:
+        terminal.close()
+        click.echo("Interrupted: no verdict", err=True)
+        raise click.exceptions.Exit(INTERRUPTED) from None
+    finally:
+        terminal.close()
+    for event in finished:
+        _write(event, writers)
+    return result
+
+
+def _write(event: RunFinished, writers: Sequence[Renderer]) -> None:
+    """Write the reports of a verdict that is already shown."""
+    try:
+        for writer in writers:
+            writer.handle(event)
+    except Exception as error:
+        click.echo(f"Error: no report: {in_one_line(error)}", err=True)
+        raise click.exceptions.Exit(FAULT_OF_THE_SUITE) from error
+
+
+def _end_at_fault(fault: SuiteError) -> NoReturn:
+    if fault.__cause__ is not None:
+        click.echo("".join(traceback.format_exception(fault.__cause__)), err=True, nl=False)
+    click.echo(f"Error: the suite itself is at fault, no verdict: {fault}", err=True)
+    raise click.exceptions.Exit(FAULT_OF_THE_SUITE)

@@ -1,0 +1,28 @@
+"""What the options of `run` and `replay` stand for."""
+
+from pathlib import Path
+
+from floatref_conformance.classes import DeviceClass
+from floatref_conformance.devices.interface import Device
+from floatref_conformance.events import Renderer
+from floatref_conformance.render.cases import CaseFiles
+from floatref_conformance.render.report import JsonReport
+
+
+def class_of(device: Device, asked: str | None) -> DeviceClass:
+    """Return the class that was ``asked`` for, else the one ``device`` claims, else nominal."""
+    claimed = getattr(device, "claims", DeviceClass.NOMINAL)
+    return DeviceClass(asked) if asked else DeviceClass(claimed)
+
+
+def limit_time(device: Device, seconds: float | None) -> None:
+    """Give ``device`` that long for a recording, if it is one whose time is limited."""
+    if seconds is not None and hasattr(device, "timeout_s"):
+        device.timeout_s = seconds
+
+
+def writers_into(folder: Path | None) -> list[Renderer]:
+    """Return what writes the reports into ``folder``, made if need be; none without one."""
+    if folder is None:
+        return []
+    return [CaseFiles.into(folder), JsonReport.into(folder)]

@@ -1,0 +1,42 @@
+"""`cases/*.json`: the failing cases, to be replayed and run again."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from floatref.files.atomic import replacing_file
+from floatref_conformance.case_files import FOLDER, document, name_of
+from floatref_conformance.checks.case import Case
+from floatref_conformance.events import Event, RunFinished
+from floatref_conformance.verdict import CheckResult, RunResult
+
+
+@dataclass(frozen=True)
+class CaseFiles:
+    """Writes the simplest failing case of every check into ``folder`` when the run is over."""
+
+    folder: Path
+
+    @classmethod
+    def into(cls, folder: Path) -> "CaseFiles":
+        """Return a writer into ``folder``, made if need be; OSError if it cannot be."""
+        (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+        return cls(folder)
+
+    def handle(self, event: Event) -> None:
+        """Write what the finished run found."""
+        if isinstance(event, RunFinished):
+            for check in event.result.checks:
+                self._write(check, event.result)
+
+    def _write(self, check: CheckResult, result: RunResult) -> None:
+        found = check.counterexample
+        if found is None:
+            return
+        case = Case.of(check.id, found["parameters"])
+        spec = str(result.device["spec"])
+        text = json.dumps(
+            document(case, result.device_class, spec, found["reason"]), indent=2, ensure_ascii=False
+        )
+        with replacing_file(self.folder / name_of(case), overwrite=True) as beside:
+            beside.write_text(text + "\n", encoding="utf-8")

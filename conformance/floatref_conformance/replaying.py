@@ -1,0 +1,35 @@
+"""One case on one device: what a check measures of it, and what the device did wrong."""
+
+from dataclasses import replace
+
+from floatref_conformance.bench import DeviceBench
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.devices.interface import Device
+from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
+from floatref_conformance.exercise import close, describe
+from floatref_conformance.verdict import CaseResult
+
+
+def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
+    """Return what the device on ``bench`` makes of ``case``; its faults are in the result."""
+    result = CaseResult(case.name, case.parameters)
+    try:
+        measured = check.judge(case, bench)
+    except DeviceSkipped as skipped:
+        return replace(result, skipped=str(skipped))
+    except DeviceError as error:
+        hung, passes = isinstance(error, DeviceHung), tuple(bench.passes)
+        return replace(result, fault=str(error), hung=hung, passes=passes)
+    flagged, passes = bench.flagged_m, tuple(bench.passes)
+    return replace(result, measurements=tuple(measured), flagged_m=flagged, passes=passes)
+
+
+def replay(device: Device, check: Check, case: Case) -> CaseResult:
+    """Return what ``device`` makes of ``case`` outside any run, and close the device."""
+    try:
+        return judged(check, case, DeviceBench(device, describe(device)))
+    except DeviceError as fault:
+        return CaseResult(case.name, case.parameters, fault=str(fault))
+    finally:
+        close(device)

@@ -1,0 +1,78 @@
+"""Making a failing case simpler: fewer numbers that differ from the check's simplest case.
+
+The budget is a number of cases, so that the same run gives the same case on any machine;
+Hypothesis' own shrinking stops by the clock, and does not count numbers.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+
+from floatref.errors import InputError
+from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
+
+
+def simplest(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
+    """Return a case that still ``fails``, with as few numbers unlike those of ``base`` as found.
+
+    All numbers are taken from ``base`` at once, then halves of them, down to single ones, until
+    nothing more can go or ``budget`` cases have been tried.
+    """
+    shrinker = _Shrinker(base, budget, fails)
+    names = _unlike(case, base)
+    size = len(names)
+    while size and shrinker.left:
+        for start in range(0, len(names), size):
+            case = shrinker.without(case, names[start : start + size])
+        names = _unlike(case, base)
+        size = min(size // 2, len(names)) if size > 1 else 0
+    return case
+
+
+@dataclass
+class _Shrinker:
+    base: Case
+    left: int
+    fails: Callable[[Case], bool]
+
+    def without(self, case: Case, names: Sequence[str]) -> Case:
+        """Return ``case`` with ``names`` as in the base, if that still fails."""
+        try:
+            simpler = _taking(case, self.base, names)
+        except InputError:
+            return case
+        if not names or not self.left or simpler == case:
+            return case
+        self.left -= 1
+        return simpler if self._fails(simpler) else case
+
+    def _fails(self, case: Case) -> bool:
+        """Return whether a case fails; numbers that make no drive do not."""
+        try:
+            return self.fails(case)
+        except InputError:
+            return False
+
+
+def _unlike(case: Case, base: Case) -> list[str]:
+    """Return the names of the numbers in which two cases differ."""
+    names = [
+        f.name
+        for f in fields(case.scenario)
+        if f.name not in CHANNELS_BY_NEED
+        and getattr(case.scenario, f.name) != getattr(base.scenario, f.name)
+    ]
+    own = {*case.variation, *base.variation}
+    return names + sorted(n for n in own if case.variation.get(n) != base.variation.get(n))
+
+
+def _taking(case: Case, base: Case, names: Sequence[str]) -> Case:
+    """Return ``case`` with the numbers called ``names`` of ``base``."""
+    known = {f.name for f in fields(case.scenario)}
+    scenario = {n: getattr(base.scenario, n) for n in names if n in known}
+    variation = dict(case.variation)
+    for name in names:
+        if name not in known:
+            variation.pop(name, None)
+            if name in base.variation:
+                variation[name] = base.variation[name]
+    return replace(case, scenario=replace(case.scenario, **scenario), variation=variation)

@@ -1,0 +1,58 @@
+"""Waivers: failures that the user knows of. One a line: the check's id, then why."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from floatref.errors import InputError
+from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.verdict import CheckResult, Outcome
+
+MOST_BYTES = 1 << 20
+
+
+def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
+    """Return why each check in file ``path`` is waived.
+
+    A line holds an id and, after a space, the reason; what follows a # is a comment, and the
+    reason if there is no other. Raises InputError for a check that is not in ``known``, named
+    twice, or no text.
+    """
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"{path}: larger than any list of waivers; name another file")
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8; write a check's id and why, one a line") from error
+    waivers: dict[str, str] = {}
+    for number, line in enumerate(lines, start=1):
+        text, _, comment = line.partition("#")
+        id_, _, reason = text.strip().partition(" ")
+        if not id_:
+            continue
+        if id_ in waivers or id_ not in {**known, **IDS}:
+            what = "waived twice" if id_ in waivers else "unknown check"
+            raise InputError(f"{path}, line {number}: {id_}: {what}; known: {', '.join(known)}")
+        waivers[id_] = reason.strip() or comment.strip() or "no reason given"
+    return waivers
+
+
+def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
+    """Return ``result``, waived if it failed and ``waivers`` say so."""
+    if result.id not in waivers or result.outcome not in (Outcome.FAIL, Outcome.ERROR):
+        return result
+    return replace(
+        result,
+        outcome=Outcome.WAIVED,
+        reason=f"waived ({waivers[result.id]}): {result.reason}",
+    )
+
+
+def check_used(waivers: Mapping[str, str], results: tuple[CheckResult, ...], path: Path) -> None:
+    """Raise InputError naming a waiver of ``path`` that no failure needed."""
+    used = {result.id for result in results if result.outcome is Outcome.WAIVED}
+    for id_ in waivers:
+        if id_ not in used:
+            raise InputError(f"{path}: {id_}: did not fail: nothing to waive; take the line out")
