@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, floor, log10
 
 import numpy as np
@@ -77,7 +78,7 @@ def decimated(values: FloatArray, most: int) -> list[NDArray[np.int64]]:
         bins = finite // size
         edges = np.concatenate([[0], np.flatnonzero(np.diff(bins)) + 1, [finite.size]])
         kept: set[int] = set()
-        for start, end in zip(edges[:-1], edges[1:], strict=True):
+        for start, end in pairwise(edges.tolist()):
             part = finite[start:end]
             kept |= {int(part[np.argmin(values[part])]), int(part[np.argmax(values[part])])}
         finite = np.array(sorted(kept), dtype=np.int64)

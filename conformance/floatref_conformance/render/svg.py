@@ -4,7 +4,6 @@ A picture is a string of at most a few ten kilobytes that depends on its numbers
 colours are those of the page's style sheet, by class.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -194,18 +193,3 @@ def _n(value: float) -> str:
     """Return a coordinate with one decimal and no needless zero."""
     text = f"{value:.1f}"
     return "0" if text in ("-0.0", "0.0") else text.removesuffix(".0")
-
-
-def flagged_stretches(
-    distance: FloatArray, flagged: Sequence[bool] | np.ndarray, columns: int = int(WIDTH)
-) -> tuple[tuple[float, float], ...]:
-    """Return the stretches of ``distance`` that are flagged, seen in ``columns`` columns."""
-    mask = np.asarray(flagged, dtype=np.bool_)
-    if not mask.any():
-        return ()
-    size = max(1, -(-mask.size // columns))
-    firsts = np.arange(0, mask.size, size)
-    columns_flagged = np.logical_or.reduceat(mask, firsts)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], columns_flagged, [False]])))
-    ends = np.minimum(edges * size, mask.size) - np.arange(edges.size) % 2
-    return tuple((float(distance[a]), float(distance[b])) for a, b in ends.reshape(-1, 2))

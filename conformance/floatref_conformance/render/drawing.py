@@ -1,0 +1,152 @@
+"""The drawing of a manoeuvre: speed along the distance, and what lies where."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref_conformance.proving_ground.artificial import DURATION_S, Stationary
+from floatref_conformance.proving_ground.artificial import Bounce as Push
+from floatref_conformance.proving_ground.runs import KMH
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.render import places
+from floatref_conformance.render.places import Place
+from floatref_conformance.render.scales import Scale, label, scale_of, ticks
+from floatref_conformance.render.svg import Figure, Line, Mark, Panel, Shade, drawn
+
+COLUMNS, ROWS = 78, 7
+INDENT = 7
+"""Columns left of the axis, for its numbers."""
+LONGEST = 36
+"""Characters of a name below the axis."""
+SAMPLES = 2000
+
+
+def drawing(scenario: Scenario) -> list[str]:
+    """Return lines of at most 88 columns of ASCII: speed, and below what lies where.
+
+    Along the axis runs distance in m, for a parked vehicle time in s.
+    """
+    parked = places.is_parked(scenario)
+    x, speed = places.speed_along(scenario)
+    factor = 1.0 / (scenario.speed_kmh * KMH) if parked else 1.0
+    across = Scale(0.0, float(x[-1]) * factor, 0.0, COLUMNS - 1.0)
+    lines = _plotted(x * factor, speed, across)
+    lines += _axis(across, "s" if parked else "m")
+    for place in _placed(scenario):
+        lines.append(
+            _marked(Place(place.start_m * factor, place.end_m * factor, place.name), across)
+        )
+    return lines
+
+
+def drawing_svg(scenario: Scenario, name: str = "drawing") -> str:
+    """Return the drawing as one SVG element whose ids begin with ``name``."""
+    return drawn(_parked(scenario, name) if places.is_parked(scenario) else _drive(scenario, name))
+
+
+def _placed(scenario: Scenario) -> list[Place]:
+    found = [places.scored(scenario), places.bounced(scenario)]
+    events = places.events(scenario)
+    return [p for p in found if p] + [*events[:3], *places.bumps(scenario)]
+
+
+def _plotted(x: FloatArray, speed: FloatArray, across: Scale) -> list[str]:
+    """Return the rows of the plot, each column filled from its lowest to its highest speed."""
+    up = scale_of([speed], ROWS - 1.0, 0.0, from_zero=True)
+    field = [[" "] * COLUMNS for _ in range(ROWS)]
+    edges = np.linspace(across.low, across.high, COLUMNS + 1)
+    for column in range(COLUMNS):
+        inside = speed[(x >= edges[column]) & (x <= edges[column + 1])]
+        ends = np.interp(edges[column : column + 2], x, speed)
+        both = np.concatenate([inside, ends])
+        for row in range(round(up(float(both.max()))), round(up(float(both.min()))) + 1):
+            field[row][column] = "*"
+    numbers = {round(up(value)): label(value) for value in ticks(up.low, up.high, 4)}
+    rows = (f"{numbers.get(k, ''):>6} |{''.join(f)}".rstrip() for k, f in enumerate(field))
+    return ["  km/h", *rows]
+
+
+def _axis(across: Scale, unit: str) -> list[str]:
+    rule, below = ["-"] * COLUMNS, [" "] * COLUMNS
+    for value in ticks(across.low, across.high, 10):
+        column, text = round(across(value)), label(value)
+        rule[column] = "+"
+        start = min(max(0, column - len(text) // 2), COLUMNS - len(text))
+        below[start : start + len(text)] = text
+    return [f"{'':>{INDENT}}+{''.join(rule)}", f"{unit:>{INDENT}} {''.join(below).rstrip()}"]
+
+
+def _marked(place: Place, across: Scale) -> str:
+    """Return a row with ``place`` between brackets, or at a caret, and its name beside it."""
+    ends = (min(max(x, 0.0), across.high) for x in (place.start_m, place.end_m))
+    first, last = (round(across(end)) for end in ends)
+    shape = "^" if last - first < 2 else f"[{'=' * (last - first - 1)}]"
+    text = f"{place.name}, {_numbers(place)}"[:LONGEST]
+    if first + len(shape) + 1 + len(text) <= COLUMNS:
+        row = f"{'':{first}}{shape} {text}"
+    elif first > len(text):
+        row = f"{'':{first - 1 - len(text)}}{text} {shape}"
+    else:
+        row = f"{'':{first}}[{f' {text} '.center(last - first - 1, '=')}]"
+    return f"{'':{INDENT}} {row}"
+
+
+def _numbers(place: Place) -> str:
+    if place.end_m == place.start_m:
+        return f"{place.start_m:.4g}"
+    return f"{place.start_m:.4g} to {place.end_m:.4g}"
+
+
+def _drive(scenario: Scenario, name: str) -> Figure:
+    x, speed = places.speed_along(scenario)
+    whole, bumps = places.scored(scenario), places.bumps(scenario)
+    found = _in_words([place for place in (whole, *places.events(scenario), *bumps) if place])
+    return Figure(
+        name,
+        f"Speed along the drive, {scenario.manoeuvre}",
+        f"From {speed[0]:.0f} km/h, between {speed.min():.0f} and {speed.max():.0f} km/h. {found}",
+        (Panel("speed", "km/h", (Line("speed", x, speed, "speed"),), 110.0, from_zero=True),),
+        "distance in m",
+        0.0,
+        float(x[-1]),
+        (_shade("scored as a whole", "scored", [whole] if whole else []), _shade_bumps(bumps)),
+        tuple(Mark(place.start_m, place.name) for place in places.events(scenario)),
+    )
+
+
+def _parked(scenario: Scenario, name: str) -> Figure:
+    """Return what happens in time to a vehicle that stands."""
+    t = np.linspace(0.0, DURATION_S, SAMPLES)
+    speed = scenario.speed_kmh * KMH
+    told = np.full(t.size, scenario.speed_kmh)
+    body = Stationary(Push() if scenario.manoeuvre == "bounce" else None).body(t).height * 1000
+    plates = [Place(p.start_m / speed, p.end_m / speed, p.name) for p in places.bumps(scenario)]
+    return Figure(
+        name,
+        f"A parked vehicle, {scenario.manoeuvre}",
+        f"The artificial encoder tells {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; the body "
+        f"moves between {body.min():.2g} and {body.max():.2g} mm. {_in_words(plates)}",
+        (
+            Panel("told speed", "km/h", (Line("speed", t, told, "speed"),), 70.0, from_zero=True),
+            Panel("body height", "mm", (Line("body", t, body, "result"),), 80.0),
+        ),
+        "time in s",
+        0.0,
+        DURATION_S,
+        (_shade_bumps(plates, "plates under the lasers"),),
+    )
+
+
+def _shade_bumps(bumps: Sequence[Place], name: str = "known bump") -> Shade:
+    return _shade(name, "bump", bumps)
+
+
+def _shade(name: str, style: str, found: Sequence[Place]) -> Shade:
+    return Shade(name, tuple((place.start_m, place.end_m) for place in found), style)
+
+
+def _in_words(found: Sequence[Place]) -> str:
+    return " ".join(
+        f"{place.name[:1].upper()}{place.name[1:]}: {_numbers(place)}." for place in found
+    )

@@ -1,0 +1,33 @@
+"""Text that came from a device or a file, made fit to be shown anywhere."""
+
+import unicodedata
+
+HIDDEN = ("Cc", "Cs", "Co", "Cn")
+"""Categories of characters without a picture: controls, surrogates, unassigned."""
+KEPT = "\n\t"
+TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
+"""They turn the direction of what follows, and so make a text read as another."""
+
+
+def printable(text: str) -> str:
+    """Return ``text`` with every character that cannot be shown written as an escape.
+
+    What remains may stand in any XML or HTML document and can be encoded. Line breaks and tabs
+    are kept.
+    """
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(c if _shown(c) else _escape(c) for c in text)
+
+
+def _shown(character: str) -> bool:
+    if character in KEPT:
+        return True
+    return unicodedata.category(character) not in HIDDEN and character not in TURNING
+
+
+def _escape(character: str) -> str:
+    code = ord(character)
+    if code < 0x100:
+        return f"\\x{code:02x}"
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"

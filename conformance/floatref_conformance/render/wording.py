@@ -1,0 +1,115 @@
+"""What is said of a result in words, the same in the terminal and in every report."""
+
+import shlex
+from collections.abc import Mapping
+from math import isfinite
+from pathlib import PurePosixPath
+from typing import Any
+
+from floatref_conformance.case_files import FOLDER
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
+
+FAILED = (Outcome.FAIL, Outcome.ERROR)
+UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
+"""Outcomes that say nothing of what the device can do."""
+
+
+def margin(worst: Measurement, device_class: DeviceClass) -> float | None:
+    """Return how far ``worst`` is from its limit, as a share of it; below 0 it is beyond.
+
+    None for a value that is no number and for one that ``device_class`` does not limit.
+    """
+    ratio = worst.ratio(device_class)
+    return 1.0 - ratio if isfinite(ratio) and device_class in worst.limits else None
+
+
+def share_in_words(worst: Measurement, device_class: DeviceClass) -> str:
+    """Return what share of its limit ``worst`` is."""
+    if device_class not in worst.limits:
+        return f"class {device_class} has no limit"
+    ratio = worst.ratio(device_class)
+    return f"{100 * ratio:.3g} % of the limit" if isfinite(ratio) else "not a number"
+
+
+def margin_in_words(worst: Measurement, device_class: DeviceClass) -> str:
+    """Return how far ``worst`` is from its limit, in percent of it; negative beyond it."""
+    left = margin(worst, device_class)
+    return "none" if left is None else f"{left:.0%}"
+
+
+def quantity(value: float, unit: str) -> str:
+    """Return three significant digits and the unit; one without dimension is left out."""
+    return f"{value:.3g} {unit}".strip()
+
+
+def limit_in_words(worst: Measurement, device_class: DeviceClass) -> str:
+    """Return the limit that ``device_class`` sets to ``worst``."""
+    limit = worst.limits.get(device_class)
+    return "none" if limit is None else quantity(limit, worst.unit)
+
+
+def measured(check: CheckResult) -> str:
+    """Return what the worst value of a check is a value of, and in which case it was found."""
+    worst = check.worst
+    if worst is None:
+        return ""
+    case = f", case {check.worst_case}" if check.worst_case else ""
+    return f"worst is the {worst.quantity} of track {worst.track}{case}"
+
+
+def flagged(check: CheckResult) -> str:
+    """Return how much of a profile was flagged invalid."""
+    return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid"
+
+
+def not_run_lines(result: RunResult) -> list[str]:
+    """Return one line per reason for which checks were left out, naming them."""
+    reasons: dict[str, list[str]] = {}
+    for check in result.checks:
+        if check.outcome is Outcome.SKIP:
+            reasons.setdefault(check.reason, []).append(check.id)
+    return [f"Not run ({reason}): {', '.join(ids)}" for reason, ids in reasons.items()]
+
+
+def summary(result: RunResult) -> str:
+    """Return how many checks passed; what was not run is never called passed."""
+    judged = [c for c in result.checks if c.outcome not in UNJUDGED]
+    passed = sum(c.outcome is Outcome.PASS for c in judged)
+    text = f"{passed} of {len(judged)} checks that ran passed"
+    left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
+    if left_out:
+        text += f"; {left_out} were not run, and nothing is said of them"
+    again = sum(case["outcome"] in FAILED for case in result.replayed)
+    if again:
+        text += f"; {again} of {len(result.replayed)} kept cases still fail"
+    return text
+
+
+def verdict_line(result: RunResult) -> str:
+    """Return the verdict in one line."""
+    settings = f"class {result.device_class}, seed {result.seed}, effort {result.effort}"
+    return f"{result.verdict}: {summary(result)} ({settings})"
+
+
+def replayed_line(replayed: Mapping[str, Any]) -> str:
+    """Return what a kept case came to."""
+    reason = f" ({replayed['reason']})" if replayed.get("reason") else ""
+    return f"Replayed {replayed['file']}: {replayed['outcome']}{reason}"
+
+
+def reproduction(result: RunResult, *ids: str) -> str:
+    """Return the command that runs checks ``ids`` again, or else all that failed."""
+    words = ["conformance", "run", "--device", str(result.device["spec"])]
+    words += ["--class", result.device_class.value, "--seed", str(result.seed)]
+    if result.effort != Effort.QUICK:
+        words += ["--effort", result.effort]
+    for id_ in ids or [c.id for c in result.checks if c.outcome in FAILED]:
+        words += ["--check", id_]
+    return shlex.join(words)
+
+
+def replay_command(file: str, result: RunResult) -> str:
+    """Return the command, given in the report's folder, that runs the case in ``file`` again."""
+    path = f"{FOLDER}/{PurePosixPath(file).name}"
+    return shlex.join(["conformance", "replay", path, "--device", str(result.device["spec"])])
