@@ -133,7 +133,8 @@ class Chain:
         """
         suite, motion = self.suite, self.motion
         rng = stream(self.seed, "distance")
-        travel = motion.distance * (1.0 + suite.encoder_scale * rng.uniform(-1.0, 1.0))
+        drawn_scale = suite.encoder_scale * rng.uniform(-1.0, 1.0)
+        travel = motion.distance * (1.0 + drawn_scale + suite.encoder_error)
         if suite.slip_per_g > 0:
             gain = motion.speed**2
             gain -= gain[0]

@@ -43,12 +43,16 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "deceleration_g": (0.01, 1.0),
         "dwell_s": (0.0, 600.0),
         "event_at_m": (0.0, 1e5),
+        "stops": (1, 100),
+        "stop_spacing_m": (1.0, 1e4),
         "final_speed_kmh": (0.0, 150.0),
         "length_m": (10.0, 1e5),
         "grade_percent": (-20.0, 20.0),
         "cross_slope_percent": (-15.0, 15.0),
         "curvature_per_km": (-50.0, 50.0),
         "sensors": (0.0, 100.0),
+        "encoder_error_percent": (-50.0, 50.0),
+        "slip_percent_per_g": (0.0, 100.0),
         "rate_hz": (1000.0, 64000.0),
         "profile_interval_m": (0.001, 1.0),
     }
@@ -73,12 +77,16 @@ class Scenario:
         deceleration_g: of brakes; of coasting and throttle the (de)celeration.
         dwell_s: at a standstill, or coasting after a near stop.
         event_at_m: where the brake is released, the stop lies, or coast and throttle begin.
+        stops, stop_spacing_m: how often the vehicle stops, and how far apart; the first stop lies
+            at ``event_at_m``.
         final_speed_kmh: after the event.
         length_m: true distance driven.
         grade_percent: uphill positive.
         cross_slope_percent: left side up positive.
         curvature_per_km: of the course, left turn positive, in 1/km.
         sensors: factor on all errors of `SensorSuite`; 0 is ideal.
+        encoder_error_percent: scale error of the encoder beside the one that is drawn.
+        slip_percent_per_g: of the encoder's wheel, at the factor ``sensors`` of 1.
         imu, gnss: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
@@ -97,12 +105,16 @@ class Scenario:
     deceleration_g: float = 0.2
     dwell_s: float = 5.0
     event_at_m: float = 316.0
+    stops: int = 1
+    stop_spacing_m: float = 80.0
     final_speed_kmh: float = 58.0
     length_m: float = 500.0
     grade_percent: float = 0.0
     cross_slope_percent: float = 0.0
     curvature_per_km: float = 0.0
     sensors: float = 1.0
+    encoder_error_percent: float = 0.0
+    slip_percent_per_g: float = 0.3
     imu: bool = True
     gnss: bool = True
     tracks: tuple[str, ...] = ("left", "right")

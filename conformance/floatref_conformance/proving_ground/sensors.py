@@ -39,6 +39,7 @@ class SensorSuite:
         range_rate_hz: of the laser; samples are held in between. 0: as the accelerometers'.
         encoder_step_m: travel per count, in m.
         encoder_scale: scale error, relative; drawn up to it.
+        encoder_error: scale error beside the one that is drawn, relative.
         slip_per_g: relative error of the encoder's speed per g of longitudinal acceleration.
         gyro_noise: in rad/s/√Hz.
         gyro_bias: in rad/s; drawn as the accelerometers' is.
@@ -67,6 +68,7 @@ class SensorSuite:
     range_rate_hz: float = 3240.0
     encoder_step_m: float = 0.3e-3
     encoder_scale: float = 3e-4
+    encoder_error: float = 0.0
     slip_per_g: float = 3e-3
     gyro_noise: float = radians(7.7e-3) / 100**0.5
     gyro_bias: float = radians(0.01)

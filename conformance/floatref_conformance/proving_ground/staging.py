@@ -1,6 +1,7 @@
 """What a scenario stands for: its road, its drive, its course and its sensors' places."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import atan
 from types import MappingProxyType
 
@@ -79,9 +80,12 @@ def course_of(scenario: Scenario) -> Course:
 
 def suite_of(scenario: Scenario) -> SensorSuite:
     """Return the scenario's sensors; a factor of 0 is the ideal suite."""
-    if scenario.sensors == 0:
-        return SensorSuite.ideal()
-    return SensorSuite().scaled(scenario.sensors)
+    suite = SensorSuite.ideal() if scenario.sensors == 0 else SensorSuite()
+    return replace(
+        suite.scaled(scenario.sensors),
+        slip_per_g=scenario.sensors * scenario.slip_percent_per_g / 100,
+        encoder_error=scenario.encoder_error_percent / 100,
+    )
 
 
 def setup_of(scenario: Scenario, vehicle: Vehicle, lateral_m: Mapping[str, float]) -> Setup:
@@ -129,10 +133,10 @@ def _throttle(s: Scenario) -> Drive:
 
 
 def _stop(s: Scenario) -> Drive:
-    return manoeuvres.stop(
+    return manoeuvres.stops(
         s.speed_kmh * KMH,
         s.deceleration_g * STANDARD_GRAVITY,
-        s.event_at_m,
+        [s.event_at_m + n * s.stop_spacing_m for n in range(s.stops)],
         s.dwell_s,
         s.final_speed_kmh * KMH,
         s.length_m,

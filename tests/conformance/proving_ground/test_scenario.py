@@ -62,6 +62,7 @@ def test_every_field_changes_the_hash() -> None:
         "tracks": ("left",),
         "imu": False,
         "gnss": False,
+        "stops": 3,
     }
     plain = Scenario()
     hashes = {plain.hash}

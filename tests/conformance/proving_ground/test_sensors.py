@@ -71,7 +71,7 @@ def test_scaling_is_linear_and_leaves_rates_alone() -> None:
     larger = suite.scaled(3.0)
     for name, value in vars(suite).items():
         assert getattr(larger, name) == pytest.approx(value if name in UNSCALED else 3 * value)
-        assert value > 0
+        assert value > 0 or name == "encoder_error"
 
 
 @pytest.mark.parametrize("rate", [1000.0, 16000.0])
