@@ -90,13 +90,14 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
             f"interval_m is {profile.interval_m:g}; an IRI needs {MAX_INTERVAL_M} m or less"
         )
     distance = recording.channel("distance").values
+    first, farthest = distance[~np.isnan(distance)][0], np.nanmax(distance)
     slack = 2.0 * max(profile.interval_m, recording.setup.profile_interval_m)
-    ends = ((profile.start_m, distance[0]), (profile.start_m + profile.length_m, distance[-1]))
+    ends = ((profile.start_m, first), (profile.start_m + profile.length_m, farthest))
     for delivered, recorded in ends:
         if abs(delivered - recorded) > slack:
             raise DeviceError(
                 f"profile from {profile.start_m:.3f} m over {profile.length_m:.3f} m; "
-                f"the recording goes from {distance[0]:.3f} m to {distance[-1]:.3f} m"
+                f"the recording goes from {first:.3f} m to {farthest:.3f} m"
             )
 
 
