@@ -1,0 +1,206 @@
+"""The laws of the stage protocol, for any stage."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import ClassVar
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import StageError
+from floatref.stages.protocol import Stage
+from floatref.values.arrays import Flag, FloatArray
+from floatref.values.block import Axis, Block
+from floatref.values.channels import ChannelId
+from floatref_conformance.testing.streams import LENGTH, Stream, joined, marks_of
+
+SEEDS = st.integers(0, 2**32 - 1)
+CUTS = st.lists(st.integers(0, LENGTH), max_size=6)
+laws = settings(
+    deadline=None,
+    max_examples=15,
+    suppress_health_check=[HealthCheck.differing_executors, HealthCheck.too_slow],
+)
+
+
+class StageLaws:
+    """Subclass it under a name that pytest collects, and say how the stage is made.
+
+    Attributes:
+        reads: names of the channels of every wheel path that the stage computes from.
+        shared: names of the channels that belong to no wheel path, and that steer it.
+        ranges: smallest and largest sample by channel name; others are standard normal.
+        tracks: the wheel paths.
+        axis: of the stream.
+        keeps_index: whether an output sample has the index of an input sample.
+        tolerance: of linearity, relative to the largest output.
+    """
+
+    reads: ClassVar[tuple[str, ...]] = ()
+    shared: ClassVar[tuple[str, ...]] = ()
+    ranges: ClassVar[Mapping[str, tuple[float, float]]] = {}
+    tracks: ClassVar[tuple[str, ...]] = ("left", "right")
+    axis: ClassVar[Axis] = Axis.TIME
+    keeps_index: ClassVar[bool] = True
+    tolerance: ClassVar[float] = 1e-9
+
+    def make(self) -> Stage:
+        """Return a new stage."""
+        raise NotImplementedError(f"{type(self).__name__}: write make(), which returns a stage")
+
+    def stream(self, seed: int = 0) -> Stream:
+        """Return a drawn stream for the stage."""
+        rng = np.random.default_rng(seed)
+        channels = [ChannelId(name, track) for name in self.reads for track in self.tracks]
+        channels += [ChannelId(name) for name in self.shared]
+        samples = {channel: self._drawn(rng, channel.name) for channel in channels}
+        return Stream(self.make, samples, self.tracks, self.axis)
+
+    def _drawn(self, rng: np.random.Generator, name: str) -> FloatArray:
+        if name in self.ranges:
+            return rng.uniform(*self.ranges[name], LENGTH)
+        return rng.standard_normal(LENGTH)
+
+    @laws
+    @given(seed=SEEDS, cuts=CUTS)
+    def test_1_any_split_gives_the_same_output(self, seed: int, cuts: list[int]) -> None:
+        """Law 1: bit for bit."""
+        stream = self.stream(seed)
+        _same(stream.run(), stream.run(cuts))
+
+    @laws
+    @given(seed=SEEDS, cuts=CUTS)
+    def test_2_indices_are_contiguous_and_totals_equal(self, seed: int, cuts: list[int]) -> None:
+        """Law 2: nothing is held back longer than declared, and all is out after finish."""
+        stream = self.stream(seed)
+        blocks = stream.blocks(cuts)
+        stage = stream.begun(blocks)
+        out, held = [], 0
+        for block in stream.ordered(blocks):
+            out.append(stage.push(block))
+            held += len(block) - len(out[-1])
+            if self.keeps_index:
+                assert 0 <= held <= stage.declared.delay, f"{held} samples held back"
+        filled = sorted((b for b in [*out, *stage.finish()] if len(b)), key=lambda b: b.first)
+        for before, after in pairwise(filled):
+            assert after.first == before.first + len(before), f"a gap at {after.first}"
+        if self.keeps_index:
+            assert sum(map(len, filled)) == LENGTH, "not all samples came out"
+
+    def test_3_the_input_is_left_as_it_was(self) -> None:
+        """Law 3."""
+        stream = self.stream()
+        before = {channel: values.copy() for channel, values in stream.samples.items()}
+        stream.run()
+        for channel, values in before.items():
+            assert np.array_equal(values, stream.samples[channel]), f"{channel} was changed"
+
+    @laws
+    @given(seed=SEEDS, at=st.integers(1, 3))
+    def test_4_saving_and_restoring_changes_nothing(self, seed: int, at: int) -> None:
+        """Law 4: a state that was saved in the middle starts another stage there."""
+        stream = self.stream(seed)
+        blocks = stream.blocks([60, 120, 180])
+        order, stage = stream.ordered(blocks), stream.begun(blocks)
+        out = [stage.push(block) for block in order[:at]]
+        saved = stage.state()
+        for block in order[at:]:
+            stage.push(block)
+        other = self.make()
+        other.start(stream.header)
+        other.restore(saved)
+        out += [other.push(block) for block in order[at:]]
+        _same(joined([*out, *other.finish()]), stream.run())
+
+    @laws
+    @given(seed=SEEDS, at=st.integers(1, LENGTH - 2))
+    def test_5_a_missing_sample_is_flagged_on_the_way_out(self, seed: int, at: int) -> None:
+        """Law 5: it is NaN or flagged in whatever the stage computes from it."""
+        stream = self.stream(seed)
+
+        def lose(channel: ChannelId, values: FloatArray) -> FloatArray:
+            lost = values.copy()
+            if channel.track is not None:
+                lost[at] = np.nan
+            return lost
+
+        whole, out = stream.run(), stream.changed(lose).run()
+        for channel, values in out.values.items():
+            differs = ~np.isclose(values, whole[channel], rtol=0, atol=0, equal_nan=True)
+            told = np.isnan(values) | (marks_of(out, channel) != 0)
+            assert not differs.any() or told.any(), f"{channel}: changed and not flagged"
+
+    @laws
+    @given(seed=SEEDS, at=st.integers(LENGTH // 4, 3 * LENGTH // 4))
+    def test_5_a_flag_comes_out_again(self, seed: int, at: int) -> None:
+        """Law 5: what was not to be trusted before is not afterwards; tried away from the ends."""
+        stream = self.stream(seed)
+        marks = np.zeros(LENGTH, np.uint8)
+        marks[at] = Flag.DRIFT
+        flags = {channel: marks for channel in stream.samples if channel.track is not None}
+        flagged = Stream(stream.make, stream.samples, self.tracks, self.axis, flags=flags)
+        out = flagged.run()
+        seen = [c for c in out.values if c.track is not None and marks_of(out, c).any()]
+        assert seen or not flags, "the flag was lost"
+
+    def test_6_after_finish_nothing_is_taken(self) -> None:
+        """Law 6."""
+        stream = self.stream()
+        blocks = stream.blocks()
+        stage = stream.begun(blocks)
+        stage.push(blocks[0])
+        stage.finish()
+        try:
+            stage.push(blocks[0])
+        except StageError:
+            return
+        raise AssertionError("push after finish raises no StageError")
+
+    @laws
+    @given(seed=SEEDS, other=SEEDS, factor=st.floats(-3.0, 3.0))
+    def test_7_it_is_linear_if_it_says_so(self, seed: int, other: int, factor: float) -> None:
+        """Law 7: the output of a sum is the sum of the outputs; what steers it is held fixed."""
+        if not self.make().declared.linear:
+            return
+        one, two = self.stream(seed), self.stream(other)
+        steady = two.changed(lambda c, x: one.samples[c] if c.track is None else x)
+        summed = one.changed(lambda c, x: x if c.track is None else x + factor * two.samples[c])
+        first, second, out = one.run(), steady.run(), summed.run()
+        for channel in (c for c in out.values if c.track is not None):
+            expected = first[channel] + factor * second[channel]
+            scale = max(1.0, float(np.abs(expected).max()))
+            error = float(np.abs(out[channel] - expected).max())
+            assert error <= self.tolerance * scale, f"{channel}: off by {error:.3g}"
+
+    def test_7_zero_in_is_zero_out_if_it_says_so(self) -> None:
+        """Law 7."""
+        if not self.make().declared.zero_in_zero_out:
+            return
+        zeros = self.stream().changed(lambda c, x: x if c.track is None else np.zeros(x.size))
+        out = zeros.run()
+        for channel in (c for c in out.values if c.track is not None):
+            assert not out[channel].any(), f"{channel}: not zero"
+
+    @laws
+    @given(seed=SEEDS, later=st.integers(1, 10**9))
+    def test_7_the_index_does_not_matter_if_it_says_so(self, seed: int, later: int) -> None:
+        """Law 7: the same samples at other indices give the same output there."""
+        if not self.make().declared.shift_invariant:
+            return
+        stream = self.stream(seed)
+        moved = Stream(stream.make, stream.samples, self.tracks, self.axis, first=later).run()
+        out = stream.run()
+        assert moved.first == out.first + later, f"begins at {moved.first}"
+        _same(moved, out, at=later)
+
+
+def _same(one: Block, two: Block, at: int = 0) -> None:
+    """Raise AssertionError unless both blocks are equal, the first ``at`` samples later."""
+    assert one.first == two.first + at, f"one begins at {one.first}, the other at {two.first}"
+    assert one.values.keys() == two.values.keys(), "the channels differ"
+    for channel, values in one.values.items():
+        assert np.array_equal(values, two[channel], equal_nan=True), f"{channel} differs"
+        assert np.array_equal(marks_of(one, channel), marks_of(two, channel)), (
+            f"flags of {channel} differ"
+        )
