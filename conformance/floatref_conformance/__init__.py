@@ -5,5 +5,5 @@ test what a profiler's sensors would have recorded, and measures the profile tha
 Units and axes are those of `floatref`: SI, ISO 8855, IRI in m/km.
 """
 
-EDITION = "0.1"
+EDITION = "2026.1"
 """Edition of the checks: it fixes the manoeuvres and the limits; the seed draws the rest."""

@@ -10,6 +10,7 @@ COMMANDS = {
     "list": ("floatref_conformance.cli.list:list_", "list the checks and the devices"),
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
+    "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "say what a check asks, and why"),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
 }

@@ -1,0 +1,78 @@
+"""`conformance export`: write the recordings that a `files:` device has to process."""
+
+import json
+from pathlib import Path
+
+import click
+
+from floatref_conformance.classes import Effort
+from floatref_conformance.devices.interface import ARCHITECTURES, CAPABILITIES, Description
+from floatref_conformance.plugins import load_registry
+
+DESCRIPTION = "device.json"
+
+
+@click.command()
+@click.option(
+    "--out", "out", type=click.Path(path_type=Path), required=True, help="New folder to write."
+)
+@click.option(
+    "--effort",
+    type=click.Choice([e.value for e in Effort]),
+    default=Effort.QUICK.value,
+    show_default=True,
+    help="How many cases each check draws.",
+)
+@click.option(
+    "--check", "ids", metavar="ID", multiple=True, help="For this check alone; may be repeated."
+)
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@click.option(
+    "--architecture",
+    type=click.Choice(ARCHITECTURES),
+    default=ARCHITECTURES[0],
+    show_default=True,
+    help="Of the device that will process them.",
+)
+@click.option(
+    "--capability",
+    "capabilities",
+    type=click.Choice(list(CAPABILITIES)),
+    multiple=True,
+    help="Record the channels of this capability, too; may be repeated.",
+)
+def export(
+    out: Path,
+    effort: str,
+    ids: tuple[str, ...],
+    seed: int,
+    architecture: str,
+    capabilities: tuple[str, ...],
+) -> None:
+    """Write the recordings of all checks; the truth stays here.
+
+    Process OUT/<case>/recording.json into OUT/<case>/profile.json and its files, then run
+    `conformance run --device files:OUT` with the same seed and effort. OUT/golden holds input
+    and output of single stages. Quick effort takes several GB.
+    """
+    from floatref_conformance import golden
+    from floatref_conformance.exporting import export as write
+
+    registry = load_registry()
+    checks, _ = registry.select(ids)
+    description = Description(out.name, "unknown", architecture, tuple(capabilities))
+    count = write(checks, out, description, seed, Effort(effort), _tell)
+    golden.copy_to(out / "golden")
+    document = {
+        "name": description.name,
+        "version": description.version,
+        "architecture": architecture,
+        "capabilities": list(capabilities),
+    }
+    (out / DESCRIPTION).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+    command = f"conformance run --device files:{out} --seed {seed} --effort {effort}"
+    click.echo(f"{count} recordings in {out}; after processing: {command}")
+
+
+def _tell(id_: str, count: int) -> None:
+    click.echo(f"{id_}: {count} recordings so far")
