@@ -1,0 +1,76 @@
+#include "channel.h"
+
+#include <math.h>
+
+#include "window.h"
+
+/* Keep the good samples on either side of the gap that sample `index` lies in. */
+static void find_gap(struct channel *channel, long index)
+{
+    struct window *ahead = &channel->ahead;
+    channel->left = index - 1;
+    while (channel->left >= 0 && isnan(window_at(ahead, channel->left)))
+        channel->left--;
+    channel->right = index + 1;
+    while (channel->right < ahead->count && isnan(window_at(ahead, channel->right)))
+        channel->right++;
+}
+
+static struct reading bridged(struct channel *channel, long index)
+{
+    if (!(channel->left < index && index < channel->right))
+        find_gap(channel, index);
+    long left = channel->left, right = channel->right;
+    bool open = left < 0 || right >= channel->values.count;
+    struct reading reading = {0.0, true, open || right - left - 1 > channel->bridge};
+    double before = left < 0 ? 0.0 : window_at(&channel->ahead, left);
+    double after = right >= channel->values.count ? before : window_at(&channel->ahead, right);
+    if (left < 0)
+        before = after;
+    reading.value = before + (after - before) / (double)(right - left) * (double)(index - left);
+    return reading;
+}
+
+struct reading channel_sample(struct channel *channel, long index)
+{
+    double value = window_at(&channel->values, index);
+    if (isnan(value))
+        return bridged(channel, index);
+    return (struct reading){value, false, false};
+}
+
+/* Where the channel is at `time`, in samples. */
+static double place_at(struct channel *channel, double time)
+{
+    long last = channel->values.count - 1;
+    if (channel->times.file == NULL)
+        return fmin(fmax((time - channel->start_s) * channel->rate_hz, 0.0), (double)last);
+    while (channel->stamp < last && channel_time(channel, channel->stamp + 1) <= time)
+        channel->stamp++;
+    double before = channel_time(channel, channel->stamp);
+    if (channel->stamp == last || time <= before)
+        return (double)channel->stamp;
+    double after = channel_time(channel, channel->stamp + 1);
+    return (double)channel->stamp + (time - before) / (after - before);
+}
+
+struct reading channel_read(struct channel *channel, long index, double time)
+{
+    if (channel->same_grid)
+        return channel_sample(channel, index + channel->offset);
+    double place = place_at(channel, time), whole = floor(place);
+    long before = (long)whole;
+    struct reading reading = channel_sample(channel, before);
+    if (place > whole) {
+        struct reading after = channel_sample(channel, before + 1);
+        reading.value += (place - whole) * (after.value - reading.value);
+        reading.missing = reading.missing || after.missing;
+        reading.lost = reading.lost || after.lost;
+        if (channel->times.file != NULL) {
+            double apart = channel_time(channel, before + 1) - channel_time(channel, before);
+            reading.missing = reading.missing || apart > channel->hole_s;
+            reading.lost = reading.lost || apart > fmax(channel->hole_s, channel->bridge_s);
+        }
+    }
+    return reading;
+}

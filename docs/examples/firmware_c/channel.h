@@ -1,0 +1,60 @@
+/* One channel as a stream on the accelerometer's clock, read through small windows of its file.
+
+   A sample is passed on where the two clocks agree, else interpolated linearly. A missing (NaN)
+   sample is bridged by the line between its neighbours, which the reader looks ahead for, and
+   marked. Nothing is allocated but the channel itself. */
+#ifndef CHANNEL_H
+#define CHANNEL_H
+
+#include <stdio.h>
+
+#include "recording.h"
+
+enum { WINDOW = 1024 };
+
+/* A piece of a file of float64, moved to where it is looked at. */
+struct window {
+    FILE *file;
+    long count, first, held;
+    double samples[WINDOW];
+};
+
+struct channel {
+    struct window values, ahead, times;
+    char name[TRACK_SIZE + 32];
+    double rate_hz, start_s; /* of a uniform clock; the rate is 0 with a time_file */
+    double hole_s;           /* time stamps farther apart have something missing between them */
+    double bridge_s;         /* a longer gap is lost, not just missing */
+    long bridge;             /* the same in samples */
+    long left, right;        /* the good samples on either side of the latest gap */
+    long stamp;              /* the latest time stamp that was reached */
+    bool same_grid;          /* as the accelerometer's clock, `offset` samples later */
+    long offset;
+};
+
+struct reading {
+    double value;
+    bool missing, lost;
+};
+
+/* Open the channel's files and look through them once; false and why if they cannot be used. */
+bool channel_open(struct channel *channel, const struct recording *recording,
+                  const struct entry *entry, struct failure *failure);
+void channel_close(struct channel *channel);
+
+/* Time of a sample in s. */
+double channel_time(struct channel *channel, long index);
+
+/* Turn time stamps that keep a constant rate into that rate; false if they do not. */
+bool channel_steady(struct channel *channel, struct failure *failure);
+
+/* Find out whether the channel's samples lie where those of `clock` do. */
+void channel_align(struct channel *channel, const struct channel *clock);
+
+/* What the channel says at sample `index` of `clock`, at `time`. Times must not go back. */
+struct reading channel_read(struct channel *channel, long index, double time);
+
+/* Sample `index` of the channel itself, bridged if it is missing. */
+struct reading channel_sample(struct channel *channel, long index);
+
+#endif

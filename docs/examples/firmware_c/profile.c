@@ -1,0 +1,97 @@
+#define _POSIX_C_SOURCE 200112L
+
+#include "profile.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <string.h>
+#ifdef _WIN32
+#include <direct.h>
+#define make_folder(path) _mkdir(path)
+#else
+#include <sys/stat.h>
+#define make_folder(path) mkdir(path, 0777)
+#endif
+
+#include "json.h"
+
+static FILE *create(const char *folder, const char *name, struct failure *failure)
+{
+    char path[2 * FILE_SIZE];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "wb");
+    if (file == NULL)
+        fail(failure, "%s: cannot be written", path);
+    return file;
+}
+
+static bool finish(FILE *file, const char *name, struct failure *failure)
+{
+    bool failed = ferror(file) != 0;
+    failed = fclose(file) != 0 || failed;
+    return !failed || fail(failure, "%s: cannot be written; is the disk full?", name);
+}
+
+static void write_double(FILE *file, double value)
+{
+    uint64_t bits;
+    unsigned char bytes[8];
+    memcpy(&bits, &value, sizeof bits);
+    for (int i = 0; i < 8; i++)
+        bytes[i] = (unsigned char)(bits >> 8 * i);
+    fwrite(bytes, 1, sizeof bytes, file);
+}
+
+/* The two files of wheel path `i`, named by its number: any name will do for a track. */
+static bool write_track(const char *folder, const struct points *points, int i,
+                        struct failure *failure)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%d.f64", i);
+    FILE *file = create(folder, name, failure);
+    if (file == NULL)
+        return false;
+    for (long k = 0; k < points->count; k++)
+        write_double(file, (double)points->elevation[i][k]);
+    if (!finish(file, name, failure))
+        return false;
+    snprintf(name, sizeof name, "%d.valid.u8", i);
+    file = create(folder, name, failure);
+    if (file == NULL)
+        return false;
+    fwrite(points->flags[i], 1, (size_t)points->count, file);
+    return finish(file, name, failure);
+}
+
+static bool write_document(const char *folder, const struct recording *recording,
+                           const struct points *points, struct failure *failure)
+{
+    FILE *file = create(folder, "profile.json", failure);
+    if (file == NULL)
+        return false;
+    fprintf(file, "{\"format\": \"floatref-profile/1\", \"interval_m\": %.17g, ", points->interval_m);
+    fprintf(file, "\"start_m\": %.17g,\n \"pipeline\": \"firmware_c\",\n ", points->start_m);
+    fprintf(file, "\"settings\": {\"low_speed_cutoff_hz\": %.17g, \"cutoff_wavelength_m\": %.17g, ",
+            LOW_SPEED_HZ, CUTOFF_WAVELENGTH_M);
+    fprintf(file, "\"transition_speed_mps\": %.17g, \"transition_steepness\": %.17g},\n ",
+            TRANSITION_MPS, TRANSITION_STEEPNESS);
+    fprintf(file, "\"provenance\": {\"real_bytes\": %d},\n \"tracks\": [", (int)sizeof(real));
+    for (int i = 0; i < points->tracks; i++) {
+        fprintf(file, "%s\n  {\"name\": ", i > 0 ? "," : "");
+        json_write_text(file, recording->track[i]);
+        fprintf(file, ", \"elevation_file\": \"%d.f64\", \"valid_file\": \"%d.valid.u8\"}", i, i);
+    }
+    fprintf(file, "]}\n");
+    return finish(file, "profile.json", failure);
+}
+
+bool profile_write(const char *path, const struct recording *recording,
+                   const struct points *points, struct failure *failure)
+{
+    if (make_folder(path) != 0)
+        return fail(failure, "%s: cannot be made: %s", path, strerror(errno));
+    for (int i = 0; i < points->tracks; i++)
+        if (!write_track(path, points, i, failure))
+            return false;
+    return write_document(path, recording, points, failure);
+}

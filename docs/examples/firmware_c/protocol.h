@@ -1,0 +1,18 @@
+/* The exec protocol: one JSON object per line on stdin, one on stdout. */
+#ifndef PROTOCOL_H
+#define PROTOCOL_H
+
+#include "failure.h"
+
+struct device {
+    const char *name, *version, *architecture;
+    /* Process a recording into a profile; false and why if it cannot. */
+    bool (*run)(const char *recording, const char *profile, struct failure *failure);
+    /* If not NULL, every run is answered by this reason for leaving it out. */
+    const char *skips;
+};
+
+/* Answer requests until `stop` or the end of the input; return the exit code. */
+int serve(const struct device *device);
+
+#endif
