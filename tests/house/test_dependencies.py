@@ -25,7 +25,7 @@ ALLOWED = {
         "rich",
         "scipy",
     },
-    "conformance/floatref_conformance/render": {"matplotlib"},
+    "conformance/floatref_conformance/render": {"jinja2", "matplotlib"},
 }
 """Distributions that a folder may use beside those of the folder around it."""
 

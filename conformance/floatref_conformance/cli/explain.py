@@ -7,6 +7,7 @@ import click
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.plugins import load_registry
+from floatref_conformance.render.drawing import drawing
 
 
 @click.command()
@@ -25,11 +26,18 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
         row = ", ".join(f"{c.value} {limits[c]}" for c in DeviceClass)
         lines.append(f"  {quantity}: {row}")
     lines += ["", "Derivation", *_wrapped(check.derivation), "", "Floor", *_wrapped(check.floor)]
+    lines += ["", *_drawn(check)]
     cases = ", ".join(f"{len(check.cases(0, effort))} at effort {effort}" for effort in Effort)
     lines += ["", f"Cases: {cases}"]
     if check.needs:
         lines.append(f"Needs: {', '.join(sorted(check.needs))}")
     return [*lines, f"Must fail: {', '.join(killers) or 'no device yet'}"]
+
+
+def _drawn(check: Check) -> list[str]:
+    """Return the drawing of the first case; a check may have none."""
+    cases = check.cases(0, Effort.QUICK)
+    return [f"Drawing of {cases[0].name}", *drawing(cases[0].scenario)] if cases else []
 
 
 def _wrapped(text: str) -> list[str]:

@@ -137,7 +137,7 @@ def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
     if check.clause:
         lines.append(f"clause: {check.clause}")
     if check.counterexample is not None:
-        lines.append(f"case: {check.counterexample['parameters']}")
+        lines.append(wording.simplest(check.counterexample))
         if "file" in check.counterexample:
             command = wording.replay_command(check.counterexample["file"], result)
             lines.append(f"in the folder of this report: {command}")

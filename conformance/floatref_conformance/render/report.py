@@ -11,8 +11,9 @@ from typing import Any
 from floatref_conformance import EDITION
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.events import Event, RunFinished
+from floatref_conformance.render.wording import margin
 from floatref_conformance.schemas import enforce
-from floatref_conformance.verdict import CheckResult, RunResult
+from floatref_conformance.verdict import CheckResult, Measurement, RunResult
 
 NAME = "report.json"
 
@@ -61,27 +62,37 @@ def write(document: dict[str, Any], path: Path) -> None:
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        beside.write_text(text, encoding="utf-8")
+        # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.
+        beside.write_bytes(text.encode("utf-8", "backslashreplace"))
         beside.replace(path)
     finally:
         beside.unlink(missing_ok=True)
 
 
 def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
-    worst = check.worst
     return {
         "id": check.id,
         "outcome": check.outcome.value,
+        "reason": check.reason,
         "class_reached": _name(check.class_reached),
         "cases": check.cases,
-        "worst": worst
-        and {
-            "value": _plain(worst.value),
-            "limit": worst.limits[device_class],
-            "unit": worst.unit,
-        },
+        "worst": check.worst and _worst(check.worst, check.worst_case, device_class),
         "clause": check.clause,
+        "flagged_m": check.flagged_m,
         "counterexample": _plain(check.counterexample),
+    }
+
+
+def _worst(worst: Measurement, case: str, device_class: DeviceClass) -> dict[str, Any]:
+    """Return the worst value; its limit is null in a class that does not limit it."""
+    return {
+        "value": _plain(worst.value),
+        "limit": worst.limits.get(device_class),
+        "unit": worst.unit,
+        "quantity": worst.quantity,
+        "track": worst.track,
+        "case": case,
+        "margin": margin(worst, device_class),
     }
 
 

@@ -14,6 +14,10 @@ MARGIN = 0.06
 """Share of the range left empty above and below the lines."""
 FARTHEST = 1e300
 """Values beyond this are drawn at it, so that differences stay finite."""
+NARROWEST = 1e-9
+"""Smallest range that is shown, as a share of the largest value."""
+NEGLIGIBLE = 1e-200
+"""A range below this is that of a line at 0."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,9 @@ def scale_of(
         return Scale(0.0, 1.0, first, last)
     low, high = np.clip([present.min(), present.max()], -FARTHEST, FARTHEST).tolist()
     low = min(low, 0.0) if from_zero else low
-    spread = high - low or abs(high) or 1.0
+    largest = max(abs(low), abs(high))
+    spread = max(high - low, NARROWEST * largest)
+    spread = spread if spread > NEGLIGIBLE else 1.0
     bottom = 0.0 if from_zero and low == 0 else low - MARGIN * spread
     return Scale(bottom, high + MARGIN * spread, first, last)
 

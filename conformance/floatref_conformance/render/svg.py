@@ -5,12 +5,13 @@ colours are those of the page's style sheet, by class.
 """
 
 from dataclasses import dataclass
-from html import escape
+from html import escape as escaped
 
 import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.render.scales import Scale, decimated, label, scale_of, ticks
+from floatref_conformance.render.text import printable
 
 WIDTH, LEFT, RIGHT, TOP, BOTTOM = 760.0, 64.0, 12.0, 30.0, 44.0
 GAP = 16.0
@@ -97,12 +98,12 @@ def drawn(figure: Figure) -> str:
 
 
 def _opening(figure: Figure, height: float) -> str:
-    name = escape(figure.name)
+    name = _text(figure.name)
     return (
         f'<svg class="plot" viewBox="0 0 {_n(WIDTH)} {_n(height)}" role="img" '
         f'aria-labelledby="{name}-title {name}-desc">\n'
-        f'<title id="{name}-title">{escape(figure.title)}</title>\n'
-        f'<desc id="{name}-desc">{escape(figure.description)}</desc>'
+        f'<title id="{name}-title">{_text(figure.title)}</title>\n'
+        f'<desc id="{name}-desc">{_text(figure.description)}</desc>'
     )
 
 
@@ -120,7 +121,7 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
         f'<path class="grid" d="{"".join(grid)}"/>',
         f'<g class="numbers up">{"".join(numbers)}</g>',
         f'<text class="axis" transform="translate(12 {_n(middle)}) rotate(-90)">'
-        f"{escape(name)}</text>",
+        f"{_text(name)}</text>",
         *(_line(line, across, up) for line in panel.lines),
         f'<rect class="frame" x="{_n(across.first)}" y="{_n(top)}" '
         f'width="{_n(across.last - across.first)}" height="{_n(panel.height)}"/>',
@@ -155,7 +156,7 @@ def _mark(mark: Mark, across: Scale, bottom: float) -> str:
     return (
         f'<path class="mark" d="M{_n(x)} {_n(TOP)}V{_n(bottom)}"/>'
         f'<text class="marked" x="{_n(x + dx)}" y="{_n(TOP + 11)}" text-anchor="{side}">'
-        f"{escape(mark.label)}</text>"
+        f"{_text(mark.label)}</text>"
     )
 
 
@@ -169,7 +170,7 @@ def _ticks_along(figure: Figure, across: Scale, bottom: float) -> str:
     middle = (across.first + across.last) / 2
     return (
         f'<path class="tick" d="{strokes}"/><g class="numbers along">{numbers}</g>'
-        f'<text class="axis" x="{_n(middle)}" y="{_n(bottom + 36)}">{escape(figure.along)}</text>'
+        f'<text class="axis" x="{_n(middle)}" y="{_n(bottom + 36)}">{_text(figure.along)}</text>'
     )
 
 
@@ -184,9 +185,13 @@ def _legend(figure: Figure) -> str:
     for name, style in (*entries.items(), *((shade.label, shade.style) for shade in shown)):
         sample = f"M{_n(x)} 14h18" if style.startswith("line") else f"M{_n(x)} 8h18v12h-18z"
         parts.append(f'<path class="{style}" d="{sample}"/>')
-        parts.append(f'<text x="{_n(x + 24)}" y="14" dy=".32em">{escape(name)}</text>')
-        x += 46 + 6.4 * len(name)
+        parts.append(f'<text x="{_n(x + 24)}" y="14" dy=".32em">{_text(name)}</text>')
+        x += 48 + 5.8 * len(name)
     return f'<g class="legend">{"".join(parts)}</g>' if parts else ""
+
+
+def _text(text: str) -> str:
+    return escaped(printable(text))
 
 
 def _n(value: float) -> str:

@@ -1,8 +1,6 @@
 """The terminal: a progress bar or plain lines while it runs, then a table and the verdict."""
 
-import shlex
 from errno import EPIPE
-from math import isfinite
 from typing import Any
 
 from rich.box import SIMPLE_HEAD
@@ -11,15 +9,19 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
-from floatref_conformance.classes import Effort
 from floatref_conformance.events import (
     CaseFinished,
+    CaseReplayed,
     CheckFinished,
     CheckStarted,
     Event,
     RunFinished,
     RunStarted,
+    SearchStarted,
+    ShrinkStarted,
 )
+from floatref_conformance.render import wording
+from floatref_conformance.render.text import printable
 from floatref_conformance.verdict import CheckResult, Outcome, RunResult, Verdict
 
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
@@ -53,14 +55,16 @@ class TerminalRenderer:
         match event:
             case RunStarted():
                 self._start(event)
-            case CheckStarted():
-                self._check(event)
-            case CaseFinished() if self._progress:
+            case CaseFinished() if self._progress and self._task is not None:
                 self._progress.advance(self._task)
+            case CaseReplayed():
+                self._print(wording.replayed_line(event.replayed))
             case CheckFinished():
                 self._finish_check(event.result)
             case RunFinished():
                 self._print_result(event.result)
+            case CheckStarted() | SearchStarted() | ShrinkStarted():
+                self._stage(event)
 
     def close(self) -> None:
         """Take the progress bar away, also after an error."""
@@ -78,96 +82,90 @@ class TerminalRenderer:
             )
             self._progress.start()
 
-    def _check(self, event: CheckStarted) -> None:
-        if self._progress:
+    def _stage(self, event: CheckStarted | SearchStarted | ShrinkStarted) -> None:
+        """Tell that up to so many cases are judged from now on."""
+        doing = {SearchStarted: ", searching", ShrinkStarted: ", simplifying"}.get(type(event), "")
+        if not self._progress:
+            self._print(f"{event.id}{doing}: {event.cases} cases")
+        elif self._task is None:
             self._task = self._progress.add_task(event.id, total=event.cases)
         else:
-            self._print(f"{event.id}: {event.cases} cases")
+            told = f"{event.id}{doing}"
+            self._progress.update(self._task, description=told, completed=0, total=event.cases)
 
     def _finish_check(self, result: CheckResult) -> None:
-        if not self._progress:
-            self._print(f"{result.id}: {_in_words(result)}")
+        if self._progress and self._task is not None:
+            self._progress.remove_task(self._task)
+            self._task = None
+        self._print(f"{result.id}: {_in_words(result)}")
 
     def _print_result(self, result: RunResult) -> None:
         self.close()
         self.console.print(_table(result))
-        for check in result.checks:
-            if check.outcome is not Outcome.SKIP:
-                self._print(f"{check.id}: {check.reason or measured(check)} [{check.clause}]")
-            if check.flagged_m:
-                self._print(f"{check.id}: {flagged(check)}")
-        for line in not_run_lines(result):
+        for line in result_lines(result):
             self._print(line)
-        self._print(verdict_line(result))
-        if result.verdict is Verdict.FAIL:
-            self._print(f"Reproduce with: {reproduction(result)}")
 
     def _print(self, text: str) -> None:
-        self.console.print(text, markup=False, highlight=False, soft_wrap=True)
+        self.console.print(printable(text), markup=False, highlight=False, soft_wrap=True)
 
 
-def not_run_lines(result: RunResult) -> list[str]:
-    """Return one line per reason for which checks were left out, naming them."""
-    reasons: dict[str, list[str]] = {}
+def result_lines(result: RunResult) -> list[str]:
+    """Return what is said of ``result`` below the table: every check, the verdict, what to do."""
+    lines: list[str] = []
     for check in result.checks:
-        if check.outcome is Outcome.SKIP:
-            reasons.setdefault(check.reason, []).append(check.id)
-    return [f"Not run ({reason}): {', '.join(ids)}" for reason, ids in reasons.items()]
+        if check.outcome is not Outcome.SKIP or check.cases:
+            lines += _check_lines(check)
+    lines += [wording.replayed_line(replayed) for replayed in result.replayed]
+    lines += [*wording.not_run_lines(result), wording.verdict_line(result)]
+    if result.verdict is Verdict.FAIL:
+        lines += _what_to_do(result)
+    return lines
 
 
-def verdict_line(result: RunResult) -> str:
-    """Return the verdict in one line; what was not run is never called passed."""
-    judged = [c for c in result.checks if c.outcome not in (Outcome.SKIP, Outcome.NOT_APPLICABLE)]
-    passed = sum(c.outcome is Outcome.PASS for c in judged)
-    text = f"{result.verdict}: {passed} of {len(judged)} checks that ran passed"
-    left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
-    if left_out:
-        text += f"; {left_out} were not run, and nothing is said of them"
-    return f"{text} (class {result.device_class}, seed {result.seed}, effort {result.effort})"
+def _check_lines(check: CheckResult) -> list[str]:
+    said = [part for part in (check.reason, wording.measured(check)) if part]
+    lines = [f"{check.id}: {'; '.join(said)} [{check.clause}]"]
+    if check.flagged_m:
+        lines.append(f"{check.id}: {wording.flagged(check)}")
+    if check.counterexample is not None:
+        lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
+    return lines
 
 
-def reproduction(result: RunResult) -> str:
-    """Return the command that runs the failed checks again."""
-    words = ["conformance", "run", "--device", str(result.device["spec"])]
-    words += ["--class", result.device_class.value, "--seed", str(result.seed)]
-    if result.effort != Effort.QUICK:
-        words += ["--effort", result.effort]
-    for check in result.checks:
-        if check.outcome in (Outcome.FAIL, Outcome.ERROR):
-            words += ["--check", check.id]
-    return shlex.join(words)
-
-
-def measured(check: CheckResult) -> str:
-    """Return what the worst value of a check is a value of."""
-    worst = check.worst
-    return "" if worst is None else f"worst is the {worst.quantity} of track {worst.track}"
-
-
-def flagged(check: CheckResult) -> str:
-    """Return how much of a profile was flagged invalid, and that it counted all the same."""
-    return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid; every point counted"
+def _what_to_do(result: RunResult) -> list[str]:
+    """Return the commands that show the failures again, those of kept cases first."""
+    lines = [
+        f"In the folder of the report: {wording.replay_command(kept['file'], result)}"
+        for kept in result.replayed
+        if kept["outcome"] in wording.FAILED
+    ]
+    if any(check.outcome in wording.FAILED for check in result.checks):
+        lines.append(f"Reproduce with: {wording.reproduction(result)}")
+    return lines
 
 
 def _in_words(result: CheckResult) -> str:
-    return f"{result.outcome}" + (f" ({result.reason})" if result.reason else "")
+    said = wording.outcome_in_words(result)
+    return said + (f" ({result.reason})" if result.reason else "")
 
 
 def _table(result: RunResult) -> Table:
     table = Table(*COLUMNS, box=SIMPLE_HEAD, pad_edge=False)
     for check in result.checks:
-        if check.outcome is not Outcome.SKIP:
+        if check.outcome is not Outcome.SKIP or check.cases:
+            word = Text(wording.outcome_in_words(check), COLOURS.get(check.outcome, "yellow"))
             cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
-            outcome = Text(check.outcome, COLOURS.get(check.outcome, "yellow"))
-            table.add_row(Text(check.id), outcome, *map(Text, cells))
+            table.add_row(Text(check.id), word, *map(Text, cells))
     return table
 
 
 def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
-    worst = check.worst
+    worst, device_class = check.worst, result.device_class
     if worst is None:
         return "", "", ""
-    limit = worst.limits[result.device_class]
-    ratio = worst.ratio(result.device_class)
-    margin = f"{1.0 - ratio:.0%}" if isfinite(ratio) else "none"
-    return f"{worst.value:.3g} {worst.unit}", f"{limit:.3g} {worst.unit}", margin
+    left = wording.margin(worst, device_class)
+    return (
+        wording.quantity(worst.value, worst.unit),
+        wording.limit_in_words(worst, device_class),
+        "none" if left is None else f"{left:.0%}",
+    )

@@ -2,7 +2,7 @@
 
 import shlex
 from collections.abc import Mapping
-from math import isfinite
+from math import isfinite, isnan
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -32,14 +32,17 @@ def share_in_words(worst: Measurement, device_class: DeviceClass) -> str:
     return f"{100 * ratio:.3g} % of the limit" if isfinite(ratio) else "not a number"
 
 
-def margin_in_words(worst: Measurement, device_class: DeviceClass) -> str:
-    """Return how far ``worst`` is from its limit, in percent of it; negative beyond it."""
-    left = margin(worst, device_class)
-    return "none" if left is None else f"{left:.0%}"
+def outcome_in_words(check: CheckResult) -> str:
+    """Return the outcome; a check that a device skipped differs from one that was not run."""
+    if check.outcome is Outcome.SKIP:
+        return "skipped" if check.cases else "not run"
+    return check.outcome.value.replace("-", " ")
 
 
 def quantity(value: float, unit: str) -> str:
-    """Return three significant digits and the unit; one without dimension is left out."""
+    """Return three significant digits and the unit, if there is one."""
+    if isnan(value):
+        return "not a number"
     return f"{value:.3g} {unit}".strip()
 
 
@@ -90,6 +93,21 @@ def verdict_line(result: RunResult) -> str:
     """Return the verdict in one line."""
     settings = f"class {result.device_class}, seed {result.seed}, effort {result.effort}"
     return f"{result.verdict}: {summary(result)} ({settings})"
+
+
+def simplest(counterexample: Mapping[str, Any]) -> str:
+    """Return the numbers of the simplest case that fails, as far as they are not the defaults."""
+    parameters = counterexample["parameters"]
+    numbers = [*parameters.get("scenario", {}).items(), *parameters.get("variation", {}).items()]
+    told = ", ".join(f"{name} {in_words(value)}" for name, value in numbers)
+    return f"the simplest case that fails: {told or 'all numbers as by default'}"
+
+
+def in_words(value: Any) -> str:
+    """Return a number of a case without needless zeros."""
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(in_words, value))
+    return f"{value:.12g}" if isinstance(value, float) else str(value)
 
 
 def replayed_line(replayed: Mapping[str, Any]) -> str:

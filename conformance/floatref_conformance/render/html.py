@@ -1,0 +1,74 @@
+"""`report.html`: one file that needs nothing else, for the person who has to act on it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.files.atomic import replacing_file
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.events import Event, RunFinished, RunStarted
+from floatref_conformance.render.page import page_of
+from floatref_conformance.render.text import printable
+from floatref_conformance.verdict import RunResult
+
+NAME = "report.html"
+TEMPLATE = "report.html.j2"
+
+
+@dataclass
+class HtmlReport:
+    """Writes ``report.html`` into ``folder`` when the verdict is there.
+
+    What each check asks is told of the checks that the first event of a run names.
+    """
+
+    folder: Path
+    _checks: tuple[Check, ...] = field(default=())
+
+    @classmethod
+    def into(cls, folder: Path) -> "HtmlReport":
+        """Return a writer into ``folder``, made if need be; OSError if it cannot be.
+
+        The report of an earlier run goes away now, so that it is never taken for this one's.
+        Raises InputError where the package that fills in the page is not installed.
+        """
+        if find_spec("jinja2") is None:
+            raise InputError("report.html needs Jinja; pip install 'floatref[conformance]'")
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / NAME).unlink(missing_ok=True)
+        return cls(folder)
+
+    def handle(self, event: Event) -> None:
+        """Keep the checks of a run that starts; write the page of one that has finished."""
+        if isinstance(event, RunStarted):
+            self._checks = event.checks
+        elif isinstance(event, RunFinished):
+            with replacing_file(self.folder / NAME, overwrite=True) as beside:
+                beside.write_text(as_html(event.result, self._checks), encoding="utf-8")
+
+
+def as_html(result: RunResult, checks: Sequence[Check] = ()) -> str:
+    """Return the page that shows ``result``; it explains ``checks``.
+
+    Whatever a device or a file said is text in it, never markup, and nothing in it leads to
+    another file.
+    """
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader(__package__, "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=_shown,
+    )
+    return environment.get_template(TEMPLATE).render(page=page_of(result, checks)) + "\n"
+
+
+def _shown(value: Any) -> Any:
+    """Return ``value`` with what cannot be shown in a string escaped; markup is sound already."""
+    return printable(value) if type(value) is str else value

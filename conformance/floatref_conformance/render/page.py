@@ -1,0 +1,188 @@
+"""What `report.html` shows, put into words and in order before the template lays it out."""
+
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.metadata import version
+from math import isfinite
+from typing import Any
+
+from floatref_conformance import EDITION
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.classes import DeviceClass
+from floatref_conformance.render import wording
+from floatref_conformance.render.asked import Asked, asked
+from floatref_conformance.render.failures import Failure, failure
+from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
+
+FULL_SCALE = 1.5
+"""Share of the limit at the end of a bar."""
+NEAR = 0.85
+"""Above this share of the limit a bar warns."""
+SHOWN = (*wording.FAILED, Outcome.WAIVED)
+"""Outcomes that are shown in full."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One check in the table; ``bar`` is the width of its bar in percent, None without one."""
+
+    id: str
+    target: str
+    outcome: str
+    word: str
+    judged: bool
+    reason: str
+    class_reached: str
+    cases: int
+    value: str = ""
+    notes: tuple[str, ...] = ()
+    limit: str = ""
+    percent: str = ""
+    margin: str = ""
+    bar: float | None = None
+    colour: str = ""
+
+
+@dataclass(frozen=True)
+class KeptRow:
+    """One case kept from an earlier run."""
+
+    file: str
+    check: str
+    outcome: str
+    value: str
+    limit: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Page:
+    """All that the template needs."""
+
+    verdict: str
+    device: str
+    device_class: str
+    edition: str
+    summary: str
+    facts: tuple[tuple[str, str], ...]
+    rows: tuple[Row, ...]
+    failures: tuple[Failure, ...]
+    replayed: tuple[KeptRow, ...]
+    asked: tuple[Asked, ...]
+    classes: tuple[str, ...]
+    versions: str
+
+
+def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
+    """Return the page of ``result``; ``checks`` are those that are explained in it."""
+    explained = {check.id: asked(check, f"asked-{n}") for n, check in enumerate(checks, start=1)}
+    titles = {id_: one.title for id_, one in explained.items()}
+    ordered = sorted(result.checks, key=lambda check: _urgency(check, result.device_class))
+    shown = [check for check in ordered if check.outcome in SHOWN]
+    anchors = {check.id: f"failure-{n}" for n, check in enumerate(shown, start=1)}
+    targets = {id_: one.anchor for id_, one in explained.items()} | anchors
+    return Page(
+        verdict=result.verdict.value,
+        device=str(result.device["spec"]),
+        device_class=result.device_class.value,
+        edition=EDITION,
+        summary=wording.summary(result),
+        facts=_facts(result),
+        rows=tuple(_row(c, result.device_class, targets.get(c.id, "checks")) for c in ordered),
+        failures=tuple(failure(c, result, anchors[c.id], titles.get(c.id, "")) for c in shown),
+        replayed=tuple(_kept(replayed) for replayed in result.replayed),
+        asked=tuple(explained.values()),
+        classes=tuple(DeviceClass),
+        versions=_versions(),
+    )
+
+
+def _urgency(check: CheckResult, device_class: DeviceClass) -> tuple[int, float]:
+    """Return what sorts the checks: judged ones by margin, faults first, those not run last."""
+    if check.outcome in wording.UNJUDGED:
+        return 2 if check.outcome is Outcome.SKIP else 1, 0.0
+    if check.outcome is Outcome.ERROR or check.worst is None:
+        return -1, 0.0
+    return 0, -check.worst.ratio(device_class)
+
+
+def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
+    device = result.device
+    capabilities = ", ".join(device["capabilities"]) or "nominal sensors alone"
+    return (
+        ("Class judged", result.device_class.value),
+        ("Class reached", result.class_reached or "none"),
+        ("Edition", EDITION),
+        ("Effort", result.effort),
+        ("Seed", str(result.seed)),
+        ("Device", f"{device['name']} {device['version']}"),
+        ("Architecture", str(device["architecture"])),
+        ("Capabilities", capabilities),
+    )
+
+
+def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
+    row = Row(
+        id=check.id,
+        target=target,
+        outcome=check.outcome.value,
+        word=wording.outcome_in_words(check),
+        judged=check.outcome not in wording.UNJUDGED,
+        reason=check.reason or "not run",
+        class_reached=check.class_reached or "none",
+        cases=check.cases,
+    )
+    worst = check.worst
+    if worst is None:
+        return row
+    ratio = worst.ratio(device_class)
+    limited = device_class in worst.limits
+    return replace(
+        row,
+        value=wording.quantity(worst.value, worst.unit),
+        notes=_notes(check, worst),
+        limit=wording.limit_in_words(worst, device_class),
+        percent=_percent(ratio) if limited else f"class {device_class} has no limit",
+        margin=_margin(wording.margin(worst, device_class)),
+        bar=round(100 * min(ratio / FULL_SCALE, 1.0), 1) if limited else None,
+        colour="over" if ratio > 1 else "near" if ratio > NEAR else "good",
+    )
+
+
+def _notes(check: CheckResult, worst: Measurement) -> tuple[str, ...]:
+    """Return what the worst value is a value of, in which case, and what was flagged."""
+    case = f"case {check.worst_case}" if check.worst_case else ""
+    flagged = wording.flagged(check) if check.flagged_m else ""
+    notes = (f"{worst.quantity}, track {worst.track}", case, flagged)
+    return tuple(note for note in notes if note)
+
+
+def _percent(ratio: float) -> str:
+    if not isfinite(ratio):
+        return "no number"
+    return f"{100 * ratio:.0f} %" if ratio < FULL_SCALE * 10 else f"{ratio:.3g} times"
+
+
+def _margin(left: float | None) -> str:
+    """Return how far it is to the limit, or beyond."""
+    if left is None:
+        return ""
+    return f"{100 * left:.0f} % left" if left >= 0 else f"{-100 * left:,.0f} % beyond"
+
+
+def _kept(replayed: Mapping[str, Any]) -> KeptRow:
+    unit = replayed.get("unit") or ""
+    value, limit = (
+        "" if number is None else wording.quantity(number, unit)
+        for number in (replayed.get("value"), replayed.get("limit"))
+    )
+    reason = str(replayed.get("reason") or "")
+    return KeptRow(replayed["file"], replayed["check"], replayed["outcome"], value, limit, reason)
+
+
+def _versions() -> str:
+    return (
+        f"floatref {version('floatref')}, edition {EDITION}, "
+        f"Python {platform.python_version()}, NumPy {version('numpy')}"
+    )

@@ -1,0 +1,101 @@
+"""The drawing of a manoeuvre: it fits a terminal and shows the drive as it is."""
+
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref_conformance.proving_ground.parked import plates_of
+from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.scenario import MANOEUVRES, Scenario
+from floatref_conformance.render.drawing import drawing, drawing_svg
+from floatref_conformance.render.places import events, scored, speed_along
+
+AXIS = 8
+"""Columns left of the plot."""
+EVENTFUL = {"braking", "near-stop", "stop", "coasting", "throttle", "dead-start"}
+SPEEDS = {
+    "creeping": {"speed_kmh": 4.0, "event_speed_kmh": 9.0},
+    "throttle": {"speed_kmh": 40.0, "final_speed_kmh": 70.0},
+}
+
+
+def scenario(manoeuvre, **changes):
+    return Scenario(manoeuvre=manoeuvre, **{**SPEEDS.get(manoeuvre, {}), **changes})
+
+
+def rows(lines):
+    """Return the rows of the plot, left out the axis and what is below."""
+    return [line[AXIS:] for line in lines if line[AXIS - 1 : AXIS] == "|"]
+
+
+@pytest.mark.parametrize("manoeuvre", MANOEUVRES)
+def test_every_manoeuvre_fits_a_terminal_and_a_page(manoeuvre):
+    lines = drawing(scenario(manoeuvre, bump_mm=20.0, bump_at_m=130.0))
+    assert len(lines) <= 16
+    assert all(len(line) <= 88 and line.isascii() for line in lines)
+    ElementTree.fromstring(drawing_svg(scenario(manoeuvre)))
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(30, 110), st.integers(20, 80), st.integers(300, 420))
+def test_a_stop_touches_the_ground_where_it_lies_and_nowhere_else(initial, final, at):
+    stop = scenario("stop", speed_kmh=initial, final_speed_kmh=final, event_at_m=at, length_m=700.0)
+    lines = drawing(stop)
+    ground = rows(lines)[-1]
+    (mark,) = [line.index("^") for line in lines if "stop," in line]
+    assert ground[mark - AXIS] == "*"
+    assert "*" not in ground[: mark - AXIS - 8] + ground[mark - AXIS + 8 :]
+    assert str(at) in next(line for line in lines if "stop," in line)
+
+
+def test_the_speed_falls_from_left_to_right_while_a_vehicle_coasts():
+    plot = rows(drawing(scenario("coasting")))
+    height = [
+        min(k for k, row in enumerate(plot) if row[column : column + 1] == "*")
+        for column in range(70)
+    ]
+    assert height == sorted(height)
+    assert height[0] < height[-1]
+
+
+def test_every_stop_of_several_is_marked():
+    places = events(scenario("stop", stops=3, stop_spacing_m=300.0, length_m=1200.0))
+    assert [place.start_m for place in places] == pytest.approx([316.0, 616.0, 916.0])
+
+
+@pytest.mark.parametrize("manoeuvre", MANOEUVRES)
+def test_an_event_lies_where_the_speed_begins_or_ceases_to_change(manoeuvre):
+    asked = scenario(manoeuvre)
+    kind = RUNS[manoeuvre].kind if manoeuvre in RUNS else manoeuvre
+    found = events(asked)
+    assert bool(found) == (kind in EVENTFUL)
+    if found and kind not in ("dead-start", "coasting", "throttle"):
+        distance, speed = speed_along(asked)
+        before = speed[(distance > found[0].start_m - 20) & (distance <= found[0].start_m)]
+        assert before[0] > before[-1]
+
+
+@pytest.mark.parametrize("manoeuvre", ["stop", "braking", "constant", *RUNS])
+def test_a_tenth_of_a_mile_is_scored_that_holds_the_event(manoeuvre):
+    asked = scenario(manoeuvre)
+    whole = scored(asked)
+    assert whole.end_m - whole.start_m == pytest.approx(160.9)
+    assert all(whole.start_m < place.start_m < whole.end_m for place in events(asked))
+
+
+def test_a_parked_vehicle_is_drawn_over_time_with_its_plates_and_its_bounce():
+    lines = drawing(scenario("bounce"))
+    assert any(line.lstrip().startswith("s 0") for line in lines)
+    assert any("pushed" in line and "10 to 16.5" in line for line in lines)
+    for track, plate in plates_of(scenario("bounce")).items():
+        (row,) = [line for line in lines if f"plate, {track}" in line]
+        assert f"{plate.start_m / 20:.4g}" in row
+
+
+def test_the_picture_tells_in_words_what_it_shows():
+    root = ElementTree.fromstring(drawing_svg(scenario("stop", bump_mm=20.0, bump_at_m=130.0)))
+    said = root.find("desc").text
+    assert "Stop: 316" in said
+    assert "Bump of 20 mm: 128.5 to 131.5" in said

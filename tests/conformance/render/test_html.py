@@ -1,0 +1,225 @@
+"""`report.html`: one sound file that leads nowhere else and says what was found."""
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from itertools import pairwise
+from math import nan
+
+import numpy as np
+import pytest
+
+from floatref.errors import InputError
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.events import RunFinished, RunStarted
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.render import html
+from floatref_conformance.render.figures import stretches
+from floatref_conformance.render.html import HtmlReport, as_html
+from floatref_conformance.verdict import Outcome
+
+VOID = {"meta", "link", "br", "hr", "img", "input"}
+LEADING = {"src", "href", "action", "data", "poster", "srcset", "formaction", "xlink:href"}
+HEADINGS = ("h1", "h2", "h3", "h4")
+
+
+class Page(HTMLParser):
+    """Collects the elements of a page, and what does not close as it opened."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.elements, self.open, self.crossed, self.words = [], [], [], []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.elements.append((tag, dict(attributes)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.elements.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.crossed.append(tag)
+
+    def handle_data(self, data):
+        if not self.open or self.open[-1] != "style":
+            self.words.append(data)
+
+    def all(self, *tags):
+        return [attributes for tag, attributes in self.elements if tag in tags]
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.words).split())
+
+
+@pytest.fixture
+def page():
+    """Return a function that makes the page of a result and reads it."""
+    return lambda result, checks=(): Page(as_html(result, checks))
+
+
+@pytest.fixture(scope="module")
+def suite_checks():
+    return tuple(load_registry().checks.values())
+
+
+def test_the_page_is_sound_and_leads_nowhere_else(page, every, suite_checks):
+    text = as_html(every, suite_checks)
+    found = Page(text)
+    assert found.crossed == found.open == []
+    leading = [v for _, a in found.elements for name, v in a.items() if name in LEADING]
+    assert leading
+    assert all(value.startswith("#") or value == "data:," for value in leading)
+    assert not re.search(r"https?://|@import|url\(", text)
+    assert found.all("script", "iframe", "object", "embed", "base", "form") == []
+
+
+def test_what_a_device_says_is_text(page, every, hostile):
+    found = page(every)
+    assert "<script>alert('x')</script>" in found.text
+    assert not [name for _, a in found.elements for name in a if name.startswith("on")]
+    as_html(every).encode("utf-8")
+
+
+def test_every_link_has_its_target_and_every_id_is_the_only_one(page, every, suite_checks):
+    found = page(every, suite_checks)
+    ids = [a["id"] for _, a in found.elements if "id" in a]
+    assert len(ids) == len(set(ids))
+    named = [a[k] for _, a in found.elements for k in ("aria-labelledby",) if k in a]
+    linked = [a["href"][1:] for a in found.all("a")]
+    assert {id_ for words in named for id_ in words.split()} | set(linked) <= set(ids)
+
+
+def test_who_hears_the_page_is_told_the_same(page, every, suite_checks):
+    found = page(every, suite_checks)
+    assert found.all("html") == [{"lang": "en"}]
+    assert all(a.get("scope") in ("col", "row") for a in found.all("th"))
+    assert all(a.get("role") == "img" for a in found.all("svg"))
+    assert len(found.all("svg")) == len(found.all("desc"))
+    levels = [HEADINGS.index(tag) for tag, _ in found.elements if tag in HEADINGS]
+    assert levels[0] == 0
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+def test_the_verdict_comes_first_with_what_it_rests_on(page, check, result):
+    words = page(result(check(Outcome.FAIL), check(Outcome.PASS, "bounce"))).text
+    order = ["FAIL", "1 of 2 checks that ran passed", "Class judged nominal", "Seed 7", "Checks"]
+    places = [words.index(part, 60) for part in order]
+    assert places == sorted(places)
+
+
+def test_the_worst_check_comes_first_and_what_was_not_run_last(check, result):
+    made = result(
+        check(Outcome.SKIP, "not-run", reason="not selected"),
+        check(Outcome.PASS, "easy", 0.1),
+        check(Outcome.PASS, "close", 0.9),
+        check(Outcome.FAIL, "far", 9.0),
+        check(Outcome.FAIL, "numberless", nan),
+        check(Outcome.ERROR, "broken", reason="garbage"),
+    )
+    rows = re.findall(r'<th scope="row"><a href="[^"]*">([^<]*)</a>', as_html(made))
+    assert rows == ["broken", "numberless", "far", "close", "easy", "not-run"]
+
+
+def test_a_bar_is_as_long_as_the_share_of_the_limit(check, result):
+    text = as_html(result(check(Outcome.PASS, "a", 0.3), check(Outcome.FAIL, "b", 600.0)))
+    assert [float(width) for width in re.findall(r"width:([\d.]+)%", text)] == [100.0, 20.0]
+
+
+def test_a_class_that_sets_no_limit_is_said_to_set_none(page, check, result):
+    made = result(check(Outcome.PASS, limits={}))
+    assert "class nominal has no limit" in page(made).text
+
+
+@pytest.mark.parametrize("outcome", [Outcome.SKIP, Outcome.NOT_APPLICABLE])
+def test_what_was_not_run_is_never_called_passed(page, check, result, outcome):
+    words = page(result(check(outcome, "later", reason="not selected"))).text
+    assert "INCOMPLETE" in words
+    assert "0 of 0 checks that ran passed" in words
+    assert "pass " not in words[words.index("Checks") :].split("What was not run")[0]
+
+
+def test_a_failure_shows_numbers_picture_and_commands(page, check, result, stopped):
+    found = page(result(check(Outcome.FAIL, reason="IRI error: 3 m/km, limit 1 m/km")))
+    words = found.text
+    for part in ("IRI error: 3 m/km", "manoeuvre stop", "bump_mm 20", "gap_s 0.25"):
+        assert part in words
+    assert "conformance replay cases/stop-1a2b3c4d.json --device" in words
+    assert "--class nominal --seed 7 --check stop" in words
+    assert len(found.all("svg")) == 2
+    for part in ("elevation (mm)", "roughness (m/km)", "speed (km/h)", "flagged invalid", "stop"):
+        assert part in words
+    left = stopped.result.track("left")
+    flagged, missing = 0.05 * (~left.valid).sum(), np.isnan(left.elevation).sum()
+    told = f"{flagged:.1f} m are flagged invalid, {missing} points have no elevation."
+    assert f"{told} stop at 316 m" in words
+
+
+def test_a_profile_of_which_nothing_was_measured_is_pictured_all_the_same(
+    page, check, result, stopped
+):
+    nothing = ProfileTrack.of("left", np.full(10, np.nan))
+    empty = replace(stopped, result=Profile(0.05, (nothing,)))
+    assert len(page(result(check(Outcome.FAIL, passes=(empty,)))).all("svg")) == 1
+
+
+def test_recordings_without_a_picture_are_counted(page, check, result, stopped):
+    words = page(result(check(Outcome.FAIL, passes=(stopped,) * 5))).text
+    assert "3 more recordings of this case are not pictured" in words
+
+
+def test_kept_cases_are_listed_with_what_they_came_to(page, check, result, kept):
+    made = result(check(Outcome.PASS), replayed=[kept(Outcome.FAIL, "too rough")])
+    words = page(made).text
+    assert words.index("FAIL") < words.index("1 of 1 kept cases still fail")
+    assert "stop-0000aaaa.json stop fail 1.5 m/km 1 m/km too rough" in words
+
+
+def test_what_a_check_asks_is_told_with_its_limits_and_its_drawing(page, result, suite_checks):
+    found = page(result(), suite_checks)
+    for asked in suite_checks:
+        for part in (asked.title, asked.clause, asked.derivation, *asked.limits):
+            assert " ".join(part.split()) in found.text
+    assert len(found.all("svg")) == len(suite_checks)
+
+
+def test_one_result_makes_one_page(every, suite_checks):
+    assert as_html(every, suite_checks) == as_html(every, suite_checks)
+
+
+def test_the_report_explains_the_checks_of_its_run_and_replaces_an_older_one(
+    tmp_path, check, result, suite_checks
+):
+    (tmp_path / "report.html").write_text("old", encoding="utf-8")
+    report = HtmlReport.into(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+    report.handle(RunStarted("x", Description("x", "1", "temporal", ()), suite_checks, ()))
+    report.handle(RunFinished(result(check(Outcome.PASS))))
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert text == as_html(result(check(Outcome.PASS)), suite_checks)
+
+
+def test_without_the_template_engine_the_user_is_told_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setattr(html, "find_spec", lambda name: None)
+    with pytest.raises(InputError, match=r"pip install 'floatref\[conformance\]'"):
+        HtmlReport.into(tmp_path)
+
+
+@pytest.mark.parametrize("size", [1, 7, 760, 5000])
+def test_flagged_stretches_hold_every_flagged_point(size):
+    flags = np.random.default_rng(size).random(size) < 0.05
+    flags[-1] = True
+    distance = np.arange(size, dtype=float)
+    found = stretches(distance, flags, 100)
+    held = np.zeros(size, dtype=bool)
+    for start, end in found:
+        held |= (distance >= start) & (distance <= end)
+    assert held[flags].all()
+    assert len(found) <= 100
+    if size <= 100:
+        assert (held == flags).all()
