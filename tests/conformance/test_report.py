@@ -1,6 +1,7 @@
 """`report.json` as other programs read it."""
 
 import json
+from dataclasses import replace
 from math import nan
 
 import pytest
@@ -17,23 +18,24 @@ KEYS = {
     "format", "edition", "device", "class", "class_reached", "seed", "effort", "verdict",
     "checks", "replayed",
 }  # fmt: skip
-CHECK_KEYS = {"id", "outcome", "class_reached", "cases", "worst", "clause", "counterexample"}
+CHECK_KEYS = {
+    "id", "outcome", "reason", "class_reached", "cases", "worst", "clause", "flagged_m",
+    "counterexample",
+}  # fmt: skip
 
 
-def result(*checks):
+def result(*checks, replayed=()):
     device = {
         "spec": "fake:x", "name": "x", "version": "1", "architecture": "spatial",
         "capabilities": (),
     }  # fmt: skip
-    return RunResult(device, DeviceClass.NOMINAL, 3, "quick", checks)
+    return RunResult(device, DeviceClass.NOMINAL, 3, "quick", checks, replayed)
 
 
 def failed(value=0.2):
     worst = Measurement("IRI", "left", value, "m/km", same_limit(0.1, 0.05))
     found = {"case": "toy-1", "parameters": {"seed": 5, "gap": nan}, "reason": "too rough"}
-    return CheckResult(
-        "toy", "Toy 1.2", Outcome.FAIL, "too rough", None, 2, worst, counterexample=found
-    )
+    return CheckResult("toy", "Toy 1.2", Outcome.FAIL, "too rough", None, 2, worst, "toy-2", found)
 
 
 def test_the_report_has_the_keys_of_its_format_and_no_others():
@@ -42,7 +44,12 @@ def test_the_report_has_the_keys_of_its_format_and_no_others():
     assert all(set(check) == CHECK_KEYS for check in report["checks"])
     assert report["format"] == "conformance-report/1"
     assert report["replayed"] == []
-    assert report["checks"][0]["worst"] == {"value": 0.2, "limit": 0.1, "unit": "m/km"}
+    worst = report["checks"][0]["worst"]
+    assert {key: worst[key] for key in ("value", "limit", "unit", "quantity", "track", "case")} == {
+        "value": 0.2, "limit": 0.1, "unit": "m/km", "quantity": "IRI", "track": "left",
+        "case": "toy-2",
+    }  # fmt: skip
+    assert worst["margin"] == pytest.approx(-1.0)
     assert (report["class"], report["seed"], report["effort"]) == ("nominal", 3, "quick")
 
 
@@ -51,6 +58,29 @@ def test_the_report_keeps_the_shipped_schema_which_is_itself_sound(tmp_path):
     Draft202012Validator.check_schema(schema)
     JsonReport.into(tmp_path).handle(RunFinished(result(failed())))
     Draft202012Validator(schema).validate(json.loads((tmp_path / "report.json").read_text()))
+
+
+def test_a_class_without_limit_has_none_in_the_report_either():
+    free = Measurement("IRI", "left", 5.0, "m/km", {})
+    report = as_json(result(replace(failed(), worst=free)))
+    assert report["checks"][0]["worst"]["limit"] is None
+    assert report["checks"][0]["worst"]["margin"] is None
+
+
+def test_a_kept_case_is_listed_with_what_it_came_to(tmp_path):
+    kept = {
+        "file": "toy-1a2b3c4d.json", "check": "toy", "outcome": "fail", "reason": "too rough",
+        "value": nan, "limit": 0.1, "unit": "m/km",
+    }  # fmt: skip
+    JsonReport.into(tmp_path).handle(RunFinished(result(failed(), replayed=(kept,))))
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert report["replayed"] == [{**kept, "value": None}]
+
+
+def test_half_a_character_from_a_device_does_not_keep_the_report_from_being_written(tmp_path):
+    odd = replace(failed(), reason="half \ud83d and whole \U0001f600")
+    JsonReport.into(tmp_path).handle(RunFinished(result(odd)))
+    assert json.loads((tmp_path / "report.json").read_bytes())["checks"][0]["reason"] == odd.reason
 
 
 def test_nan_is_written_as_null(tmp_path):

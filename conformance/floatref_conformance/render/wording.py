@@ -67,26 +67,36 @@ def flagged(check: CheckResult) -> str:
 
 
 def not_run_lines(result: RunResult) -> list[str]:
-    """Return one line per reason for which checks were left out, naming them."""
+    """Return one line per reason for which checks were left out or skipped, naming them."""
     reasons: dict[str, list[str]] = {}
     for check in result.checks:
         if check.outcome is Outcome.SKIP:
-            reasons.setdefault(check.reason, []).append(check.id)
-    return [f"Not run ({reason}): {', '.join(ids)}" for reason, ids in reasons.items()]
+            what = "Skipped by the device" if check.cases else "Not run"
+            reasons.setdefault(f"{what} ({check.reason})", []).append(check.id)
+    return [f"{reason}: {', '.join(ids)}" for reason, ids in reasons.items()]
 
 
 def summary(result: RunResult) -> str:
     """Return how many checks passed; what was not run is never called passed."""
     judged = [c for c in result.checks if c.outcome not in UNJUDGED]
     passed = sum(c.outcome is Outcome.PASS for c in judged)
-    text = f"{passed} of {len(judged)} checks that ran passed"
+    parts = [f"{passed} of {len(judged)} checks that ran passed"]
+    waived = sum(c.outcome is Outcome.WAIVED for c in judged)
+    if waived:
+        parts.append(f"{waived} failed and {_be(waived)} waived")
     left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
     if left_out:
-        text += f"; {left_out} were not run, and nothing is said of them"
+        whom = "it" if left_out == 1 else "them"
+        parts.append(f"{left_out} {_be(left_out)} not run, and nothing is said of {whom}")
     again = sum(case["outcome"] in FAILED for case in result.replayed)
     if again:
-        text += f"; {again} of {len(result.replayed)} kept cases still fail"
-    return text
+        verb = "fails" if again == 1 else "fail"
+        parts.append(f"{again} of {len(result.replayed)} kept cases still {verb}")
+    return "; ".join(parts)
+
+
+def _be(number: int) -> str:
+    return "was" if number == 1 else "were"
 
 
 def verdict_line(result: RunResult) -> str:

@@ -1,0 +1,103 @@
+"""What the terminal says of a result: how far from the limit, in which case, what to do."""
+
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.events import (
+    CaseReplayed,
+    CheckFinished,
+    CheckStarted,
+    RunFinished,
+    RunStarted,
+    SearchStarted,
+    ShrinkStarted,
+)
+from floatref_conformance.render.terminal import TerminalRenderer
+from floatref_conformance.verdict import Outcome
+
+
+def shown(*events, terminal=False):
+    file = StringIO()
+    renderer = TerminalRenderer(Console(file=file, force_terminal=terminal, width=150))
+    for event in events:
+        renderer.handle(event)
+    renderer.close()
+    return file.getvalue()
+
+
+def test_a_failure_names_its_case_and_the_simplest_one(check, result):
+    text = shown(RunFinished(result(check(Outcome.FAIL, reason="3 m/km, limit 1 m/km"))))
+    assert "stop: 3 m/km, limit 1 m/km; worst is the IRI error of track left, case stop-2" in text
+    simplest = "manoeuvre stop, speed_kmh 60, bump_mm 20, bump_at_m 150, gap_s 0.25"
+    told = next(line for line in text.splitlines() if "the simplest case that fails" in line)
+    assert sorted(told.partition("fails: ")[2].split(", ")) == sorted(simplest.split(", "))
+    assert text.splitlines()[-1].startswith("Reproduce with: conformance run --device")
+
+
+@pytest.mark.parametrize(("value", "margin"), [(0.25, "75%"), (1.0, "0%"), (3.0, "-200%")])
+def test_the_margin_is_what_is_left_of_the_limit(check, result, value, margin):
+    outcome = Outcome.PASS if value <= 1 else Outcome.FAIL
+    text = shown(RunFinished(result(check(outcome, value=value))))
+    row = next(line for line in text.splitlines() if line.startswith(" stop"))
+    assert row.split()[-1] == margin
+
+
+def test_a_kept_case_that_still_fails_is_told_with_the_command_that_runs_it(check, result, kept):
+    again = kept(Outcome.FAIL, "too rough")
+    made = result(check(Outcome.PASS), replayed=[again])
+    lines = shown(CaseReplayed(again), RunFinished(made)).splitlines()
+    assert lines[0] == "Replayed stop-0000aaaa.json: fail (too rough)"
+    assert any(
+        line.startswith("FAIL: 1 of 1 checks that ran passed; 1 of 1 kept") for line in lines
+    )
+    assert "conformance replay cases/stop-0000aaaa.json --device" in lines[-1]
+
+
+def test_what_was_not_run_differs_from_what_a_device_skipped(check, result):
+    not_run = check(Outcome.SKIP, "later", reason="not selected")
+    skipped = check(Outcome.SKIP, "gap", reason="too long", cases=4)
+    text = shown(RunFinished(result(not_run, skipped, check(Outcome.PASS))))
+    rows = [line.split() for line in text.splitlines() if line.startswith((" gap", " later"))]
+    assert [row[:2] for row in rows] == [["gap", "skipped"]]
+    assert "Not run (not selected): later\n" in text
+    assert "Skipped by the device (too long): gap\n" in text
+    assert "INCOMPLETE: 1 of 1 checks that ran passed; 2 were not run" in text
+
+
+def test_a_pipe_gets_one_plain_line_for_every_step(check, hostile):
+    about = Description("x", "1", "temporal", ())
+    text = shown(
+        RunStarted(hostile, about, (), ()),
+        CheckStarted("stop", 4),
+        SearchStarted("stop", 3),
+        ShrinkStarted("stop", 12),
+        CheckFinished(check(Outcome.FAIL, reason="[red]3 m/km")),
+    )
+    lines = text.splitlines()[-4:]
+    assert lines == [
+        "stop: 4 cases",
+        "stop, searching: 3 cases",
+        "stop, simplifying: 12 cases",
+        "stop: fail ([red]3 m/km)",
+    ]
+    assert not {"\x00", "\x1b", "\u202e", "\r"} & set(text)
+
+
+def test_a_terminal_shows_the_outcome_of_a_check_when_its_bar_is_gone(check):
+    about = Description("x", "1", "temporal", ())
+    text = shown(
+        RunStarted("x", about, (), ()),
+        CheckStarted("stop", 4),
+        SearchStarted("stop", 3),
+        CheckFinished(check(Outcome.PASS)),
+        terminal=True,
+    )
+    assert "stop: pass" in text
+
+
+def test_a_waived_failure_is_told_in_the_verdict(check, result):
+    text = shown(RunFinished(result(check(Outcome.PASS, "bounce"), check(Outcome.WAIVED))))
+    assert "INCOMPLETE: 1 of 2 checks that ran passed; 1 failed and was waived" in text
