@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from typing import Any
 
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import CAPABILITIES, DeviceEntry, DeviceKind
@@ -14,8 +15,10 @@ def sound_check(check: Check) -> Check:
     what = f"check {_text(check, 'id', 'a check')}"
     for name in ("title", "clause", "derivation", "floor"):
         _text(check, name, what)
-    for name in ("cases", "judge"):
+    for name in ("cases", "strategy", "judge"):
         _function(check, name, what)
+    if not isinstance(_member(check, "simplest", what), Case):
+        raise TypeError(f"{what}: simplest is {check.simplest!r}, not a Case")
     needs = _member(check, "needs", what)
     if not isinstance(needs, AbstractSet) or not needs <= set(CAPABILITIES):
         raise TypeError(f"{what}: needs is {needs!r}, not a set of {', '.join(CAPABILITIES)}")
