@@ -18,7 +18,7 @@ DEFAULT = Scenario()
 
 @dataclass(frozen=True)
 class Case:
-    """One thing that a check asks of a device.
+    """One thing that a check asks of a device; cases are equal by their numbers alone.
 
     Attributes:
         check: id of the check.
@@ -30,15 +30,15 @@ class Case:
     check: str
     scenario: Scenario
     variation: Mapping[str, Number] = field(default_factory=dict)
-    name: str = ""
+    name: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         """Keep the variation from being changed."""
         object.__setattr__(self, "variation", MappingProxyType(dict(self.variation)))
 
     def __hash__(self) -> int:
-        """Cases are equal by their numbers and names."""
-        return hash((self.check, self.scenario, self.name))
+        """A variation, which cannot be hashed, is left to the comparison."""
+        return hash((self.check, self.scenario))
 
     @property
     def parameters(self) -> Mapping[str, Any]:
