@@ -1,7 +1,7 @@
 """Cases as files, `floatref-case/1`: what failed once is kept and run again."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,11 +63,6 @@ def read_case(path: Path) -> KeptCase:
 def read_cases(folder: Path) -> tuple[KeptCase, ...]:
     """Return the cases kept in report directory ``folder``, by name; none if there are none."""
     return tuple(read_case(path) for path in sorted((folder / FOLDER).glob("*.json")))
-
-
-def of_checks(kept: Sequence[KeptCase], ids: Mapping[str, object]) -> tuple[KeptCase, ...]:
-    """Return those of ``kept`` whose check is among ``ids``."""
-    return tuple(one for one in kept if one.case.check in ids)
 
 
 def _kept(name: str, found: object) -> KeptCase:

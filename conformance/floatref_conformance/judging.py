@@ -23,11 +23,10 @@ def check_result(
     A faulty device is an error; else the worst measurement decides. ``simpler`` is the simplest
     failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
     """
-    worst_case = max(cases, key=lambda case: case.ratio(device_class))
-    worst = max(
-        (m for case in cases if (m := case.worst(device_class)) is not None),
-        key=lambda m: m.ratio(device_class),
-        default=None,
+    worst, worst_case = max(
+        ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
+        key=lambda measured: measured[0].ratio(device_class),
+        default=(None, ""),
     )
     if worst is not None:
         oracle.confirm(check.id, worst)
@@ -41,7 +40,7 @@ def check_result(
         class_reached=_class_reached(cases, outcome),
         cases=len(cases),
         worst=worst,
-        worst_case=worst_case.name,
+        worst_case=worst_case,
         counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
         flagged_m=max(case.flagged_m for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
@@ -69,8 +68,12 @@ def why(case: CaseResult, device_class: DeviceClass) -> str:
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
     """Return the result of a check that needs capabilities ``missing`` from the device."""
-    reason = f"needs {', '.join(sorted(missing))}, which the device does not declare"
-    return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, reason)
+    return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, lacking(missing))
+
+
+def lacking(missing: frozenset[str]) -> str:
+    """Return in words that a device lacks capabilities ``missing``."""
+    return f"needs {', '.join(sorted(missing))}, which the device does not declare"
 
 
 def left_out_result(left_out: LeftOut) -> CheckResult:

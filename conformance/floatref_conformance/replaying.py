@@ -8,6 +8,7 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.exercise import close, describe
+from floatref_conformance.judging import lacking
 from floatref_conformance.verdict import CaseResult
 
 
@@ -26,9 +27,16 @@ def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
 
 
 def replay(device: Device, check: Check, case: Case) -> CaseResult:
-    """Return what ``device`` makes of ``case`` outside any run, and close the device."""
+    """Return what ``device`` makes of ``case`` outside any run, and close the device.
+
+    It is skipped for a device without the capabilities that ``check`` needs.
+    """
     try:
-        return judged(check, case, DeviceBench(device, describe(device)))
+        description = describe(device)
+        missing = check.needs - set(description.capabilities)
+        if missing:
+            return CaseResult(case.name, case.parameters, skipped=lacking(missing))
+        return judged(check, case, DeviceBench(device, description))
     except DeviceError as fault:
         return CaseResult(case.name, case.parameters, fault=str(fault))
     finally:

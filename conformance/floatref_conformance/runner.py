@@ -1,6 +1,6 @@
 """Running checks on a device: events on the way, a result at the end."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -12,6 +12,7 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.events import (
+    CaseReplayed,
     CheckFinished,
     Event,
     RunFinished,
@@ -25,6 +26,7 @@ from floatref_conformance.judging import (
 )
 from floatref_conformance.trial import Trial
 from floatref_conformance.verdict import CheckResult, Outcome, RunResult
+from floatref_conformance.waivers import waived
 
 UNDESCRIBED = Description("unknown", "unknown", "unknown", ())
 """What is said of a device that does not say it itself."""
@@ -47,7 +49,7 @@ class Plan:
         effort: sets the number of cases.
         kept: cases from earlier runs, to be run again.
         searching: whether cases are drawn that depend on the device's answers.
-        settle: what becomes of a check's result before it is shown, such as a waiver.
+        waivers: why a failure of a check is known, by its id.
     """
 
     spec: str
@@ -59,7 +61,7 @@ class Plan:
     effort: Effort = Effort.QUICK
     kept: tuple[KeptCase, ...] = ()
     searching: bool = True
-    settle: Callable[[CheckResult], CheckResult] = field(default=lambda result: result)
+    waivers: Mapping[str, str] = field(default_factory=dict)
 
 
 def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
@@ -86,18 +88,14 @@ def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     results: list[CheckResult] = []
     replayed: list[Mapping[str, Any]] = []
     for check in plan.checks:
-        result = plan.settle(_checked(plan, check, trial))
-        replayed += _replayed(plan, check, result, trial)
+        result = waived(_checked(plan, check, trial), plan.waivers)
+        for again in _replayed(plan, check, result, trial):
+            replayed.append(again)
+            emit(CaseReplayed(again))
         results.append(result)
         emit(CheckFinished(result))
     results += [left_out_result(left_out) for left_out in plan.left_out]
-    unrun = {result.id: result for result in results if not result.cases}
-    judged = {check.id for check in plan.checks}
-    replayed += [
-        _not_replayed(kept, Outcome.SKIP, unrun[kept.case.check].reason)
-        for kept in plan.kept
-        if kept.case.check not in judged and kept.case.check in unrun
-    ]
+    replayed += _left_out(plan)
     finished = _result(plan, description, results, replayed)
     emit(RunFinished(finished))
     return finished
@@ -114,15 +112,28 @@ def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
 
 def _replayed(
     plan: Plan, check: Check, result: CheckResult, trial: Trial
-) -> list[Mapping[str, Any]]:
-    """Return what the kept cases of ``check`` come to, unless it was not run or is waived."""
-    kept = [one for one in plan.kept if one.case.check == check.id]
-    if not result.cases:
-        return [_not_replayed(one, result.outcome, result.reason) for one in kept]
-    again = [trial.replay(check, one) for one in kept]
-    if result.outcome is Outcome.WAIVED:
-        return [{**r, "outcome": "waived"} if r["outcome"] in FAILED else r for r in again]
-    return again
+) -> Iterator[Mapping[str, Any]]:
+    """Yield what each kept case of ``check`` comes to, if the check was run at all."""
+    for kept in plan.kept:
+        if kept.case.check != check.id:
+            continue
+        if not result.cases:
+            yield _not_replayed(kept, result.outcome, result.reason)
+            continue
+        again = trial.replay(check, kept)
+        is_waived = check.id in plan.waivers and again["outcome"] in FAILED
+        yield {**again, "outcome": Outcome.WAIVED.value} if is_waived else again
+
+
+def _left_out(plan: Plan) -> list[Mapping[str, Any]]:
+    """Return the kept cases of checks that are not run; those of unknown checks are among them."""
+    run = {check.id for check in plan.checks}
+    reasons = {left_out.id: left_out.reason for left_out in plan.left_out}
+    return [
+        _not_replayed(kept, Outcome.SKIP, reasons.get(kept.case.check, "unknown check"))
+        for kept in plan.kept
+        if kept.case.check not in run
+    ]
 
 
 def _not_replayed(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from floatref.errors import InputError
 from floatref_conformance.bench import DeviceBench
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.case import Case
@@ -12,7 +13,6 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.events import (
     CaseFinished,
-    CaseReplayed,
     CheckStarted,
     Event,
     SearchStarted,
@@ -68,18 +68,22 @@ class Trial:
         return check_result(check, tuple(cases.values()), self.device_class, simpler)
 
     def replay(self, check: Check, kept: KeptCase) -> Mapping[str, Any]:
-        """Return what the device makes of a case that was kept, by the limits of its class."""
-        result = self._judge(check, kept.case)
+        """Return what the device makes of a case that was kept, by the limits of its class.
+
+        Numbers that make no drive in this edition are skipped.
+        """
+        try:
+            result = self._judge(check, kept.case)
+        except InputError as error:
+            result = CaseResult(kept.case.name, kept.case.parameters, skipped=str(error))
         reason = result.skipped or why(result, kept.device_class)
-        replayed = {
+        return {
             "file": kept.file,
             "check": check.id,
             "outcome": _outcome(result, reason).value,
             "reason": reason,
             **_figures(result.worst(kept.device_class), kept.device_class),
         }
-        self.emit(CaseReplayed(replayed))
-        return replayed
 
     def _found(self, check: Check, case: Case) -> float:
         named = replace(case, name=f"{check.id}-search-{len(self._judged) + 1}")
@@ -120,6 +124,8 @@ class Trial:
         found = {start: worst}
 
         def fails(case: Case) -> bool:
+            if self._is_hopeless():
+                return False
             result = self._judge(check, replace(case, name=f"{start.name}, simplified"))
             failed = result.ratio(self.device_class) > 1.0
             if failed:

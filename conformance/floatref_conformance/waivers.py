@@ -6,7 +6,7 @@ from pathlib import Path
 
 from floatref.errors import InputError
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.verdict import CheckResult, Outcome
+from floatref_conformance.verdict import CheckResult, Outcome, RunResult
 
 MOST_BYTES = 1 << 20
 
@@ -14,7 +14,7 @@ MOST_BYTES = 1 << 20
 def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     """Return why each check in file ``path`` is waived.
 
-    A line holds an id and, after a space, the reason; what follows a # is a comment, and the
+    A line holds an id and, after white space, the reason; what follows a # is a comment, and the
     reason if there is no other. Raises InputError for a check that is not in ``known``, named
     twice, or no text.
     """
@@ -29,7 +29,7 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     waivers: dict[str, str] = {}
     for number, line in enumerate(lines, start=1):
         text, _, comment = line.partition("#")
-        id_, _, reason = text.strip().partition(" ")
+        id_, reason = [*text.split(maxsplit=1), "", ""][:2]
         if not id_:
             continue
         if id_ in waivers or id_ not in {**known, **IDS}:
@@ -50,9 +50,10 @@ def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
     )
 
 
-def check_used(waivers: Mapping[str, str], results: tuple[CheckResult, ...], path: Path) -> None:
-    """Raise InputError naming a waiver of ``path`` that no failure needed."""
-    used = {result.id for result in results if result.outcome is Outcome.WAIVED}
+def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> None:
+    """Raise InputError naming a waiver of ``path`` that no failure of ``result`` needed."""
+    used = {check.id for check in result.checks if check.outcome is Outcome.WAIVED}
+    used |= {case["check"] for case in result.replayed if case["outcome"] == Outcome.WAIVED}
     for id_ in waivers:
         if id_ not in used:
             raise InputError(f"{path}: {id_}: did not fail: nothing to waive; take the line out")

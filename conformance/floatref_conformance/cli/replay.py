@@ -7,6 +7,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 from rich.text import Text
 
+from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
@@ -50,7 +51,10 @@ def replay(
     device = registry.device(spec)
     limit_time(device, device_timeout)
     decisive = kept.device_class if device_class is None else class_of(device, device_class)
-    result = replayed(device, check, kept.case)
+    try:
+        result = replayed(device, check, kept.case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from error
     verdict = _verdict(result, decisive)
     _show(kept, result, decisive)
     click.echo(f"{verdict}: {_reason(result, decisive)} (class {decisive}, device {spec})")

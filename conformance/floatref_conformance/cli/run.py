@@ -1,6 +1,5 @@
 """`conformance run`: judge a device."""
 
-from functools import partial
 from pathlib import Path
 
 import click
@@ -11,7 +10,7 @@ from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.runner import Plan
-from floatref_conformance.waivers import check_used, read_waivers, waived
+from floatref_conformance.waivers import check_used, read_waivers
 
 RECOMMENDED = "builtin:temporal-adaptive-hpf-spatial-backward"
 
@@ -95,9 +94,9 @@ def run(
         Effort(effort),
         kept,
         searching=getattr(device, "searchable", True),
-        settle=partial(waived, waivers=waivers),
+        waivers=waivers,
     )
     finished = follow(plan, writers_into(report))
     if waive is not None:
-        check_used(waivers, finished.checks, waive)
+        check_used(waivers, finished, waive)
     context.exit(finished.verdict.exit_code)

@@ -10,7 +10,7 @@ from floatref_conformance.devices.interface import Device
 from floatref_conformance.events import Event
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
-from floatref_conformance.render.terminal import reproduction
+from floatref_conformance.render.wording import reproduction
 from floatref_conformance.runner import Plan, run
 from floatref_conformance.verdict import Outcome
 
