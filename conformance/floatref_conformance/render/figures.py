@@ -14,6 +14,8 @@ from floatref_conformance.verdict import Pass
 
 HIGH_PASS_M = 91.44
 """The truth is shown as a profile is delivered: −3 dB at this wavelength."""
+END_M = 106.0
+"""At each end of a run the high-pass (105.91 m) has not run in."""
 TRUTH, RESULT = "truth, filtered alike", "result"
 
 
@@ -30,8 +32,9 @@ def figure_of(done: Pass, track: str, name: str) -> str:
         (done.result, found.elevation, RESULT, "result"),
     )
     x, speed = places.speed_along(done.scenario)
+    elevation = tuple(_elevation(*pair) for pair in pairs)
     panels = (
-        Panel("elevation", "mm", tuple(_elevation(*pair) for pair in pairs), 150.0),
+        Panel("elevation", "mm", elevation, 150.0, held=_between_the_ends(elevation)),
         Panel("roughness", "m/km", tuple(_roughness(*pair) for pair in pairs), 110.0, True),
         Panel("speed", "km/h", (Line("speed", x, speed, "speed"),), 70.0, True),
     )
@@ -75,6 +78,16 @@ def stretches(
 
 def _elevation(profile: Profile, elevation: FloatArray, label: str, style: str) -> Line:
     return Line(label, profile.distance_m, 1000.0 * elevation, style)
+
+
+def _between_the_ends(lines: tuple[Line, ...]) -> FloatArray | None:
+    """Return the values that lie away from both ends of a run; None if it is too short.
+
+    What the high-pass makes of the ends would leave nothing to be seen of the rest.
+    """
+    inner = [line.y[(line.x > END_M) & (line.x < line.x[-1] - END_M)] for line in lines]
+    held = np.concatenate(inner)
+    return held if np.isfinite(held).any() else None
 
 
 def _roughness(profile: Profile, elevation: FloatArray, label: str, style: str) -> Line:

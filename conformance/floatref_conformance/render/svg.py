@@ -35,7 +35,8 @@ class Line:
 class Panel:
     """Lines on one vertical axis, with its name and unit; ``height`` is in pixels.
 
-    With ``from_zero`` the axis begins at 0.
+    With ``from_zero`` the axis begins at 0. It holds all values of the lines, or else those of
+    ``held``; what lies beyond is not drawn.
     """
 
     label: str
@@ -43,6 +44,7 @@ class Panel:
     lines: tuple[Line, ...]
     height: float = 120.0
     from_zero: bool = False
+    held: FloatArray | None = None
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,8 @@ def _opening(figure: Figure, height: float) -> str:
 
 def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
     bottom = top + panel.height
-    up = scale_of([line.y for line in panel.lines], bottom, top, panel.from_zero)
+    held = [line.y for line in panel.lines] if panel.held is None else [panel.held]
+    up = scale_of(held, bottom, top, panel.from_zero)
     grid, numbers = [], []
     for value in ticks(up.low, up.high, TICKS_UP):
         y = _n(up(value))
@@ -131,6 +134,7 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
 def _line(line: Line, across: Scale, up: Scale) -> str:
     """Return the path of ``line``; a point between two missing ones is a dot."""
     inside = (line.x >= across.low) & (line.x <= across.high)
+    inside &= (line.y >= up.low) & (line.y <= up.high)
     strokes = decimated(np.where(inside, line.y, np.nan), MOST_POINTS)
     path = []
     for stroke in strokes:

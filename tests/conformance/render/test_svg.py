@@ -104,6 +104,15 @@ def test_points_beyond_the_axis_are_not_drawn():
     assert len(re.findall(r"\d+\.?\d* \d+\.?\d*", d)) == 6
 
 
+def test_an_axis_that_holds_some_values_leaves_out_what_lies_beyond():
+    values = np.array([0.0, 1.0, 1000.0, 1.0, 0.0])
+    panel = Panel("elevation", "mm", (line(values),), held=values[:2])
+    (d,) = path(drawn(Figure("plot", "", "", (panel,), "m", 0.0, 100.0)))
+    assert d.count("M") == 2
+    (whole,) = path(drawn(figure(line(values))))
+    assert whole.count("M") == 1
+
+
 def test_a_shade_lies_where_it_says_and_a_mark_too():
     shade = Shade("flagged", ((25.0, 50.0),), "flagged")
     svg = drawn(figure(line([0, 1]), shades=(shade,), marks=(Mark(50.0, "stop"),)))
