@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref.files import read_profile, write_recording
 from floatref.measures import iri
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
+from floatref_conformance.devices.executable import make
 
 PIPELINE = "temporal-adaptive-hpf-spatial-backward"
 STOP = {"manoeuvre": "stop", "length_m": 450.0, "event_at_m": 230.0, "deceleration_g": 0.3}
@@ -82,6 +84,15 @@ def assert_same(found, wanted, within_m=1e-9):
 def test_a_profile_is_that_of_the_pipeline(start, drives, drive, tmp_path):
     found = start().profile_of(drives[drive], tmp_path / "run")
     assert_same(found, expected(drives[drive]))
+
+
+def test_the_judge_gets_that_profile_too(build, drives, tmp_path):
+    write_recording(drives["stop"], tmp_path / "run")
+    device = make(str(build("firmware")))
+    assert device.describe()["capabilities"] == []
+    device.run(tmp_path / "run" / "recording.json", tmp_path / "profile")
+    device.close()
+    assert_same(read_profile(tmp_path / "profile"), expected(drives["stop"]))
 
 
 @pytest.mark.parametrize("change", [with_gaps, on_other_clocks, on_time_stamps, starting_late])

@@ -1,0 +1,34 @@
+"""The tutorial of the firmware in C prints what it shows, and shows what is in the sources."""
+
+import importlib
+import re
+import shutil
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+SOURCE = ROOT / "docs" / "examples" / "firmware_c"
+PAGE = ROOT / "docs" / "firmware.md"
+
+
+def test_every_command_of_the_page_prints_what_the_page_shows(monkeypatch, tmp_path):
+    monkeypatch.syspath_prepend(str(ROOT / ".ci"))
+    consoles = importlib.import_module("consoles")
+    shutil.copytree(SOURCE, tmp_path / "firmware_c")
+    text = PAGE.read_text(encoding="utf-8")
+    found = consoles.performed(text, consoles.Shell(tmp_path / "firmware_c"))
+    assert consoles.differences(text, found) == []
+
+
+def test_every_piece_of_c_on_the_page_is_in_the_sources():
+    sources = "\n".join(file.read_text(encoding="ascii") for file in SOURCE.glob("*.[ch]"))
+    pieces = re.findall(r"^```c\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+    assert len(pieces) >= 5
+    for piece in pieces:
+        assert piece in sources
+
+
+def test_the_readme_lists_every_source_file_once():
+    readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+    files = re.findall(r"`(\w+\.c)`", re.search(r"\| file .*?\n\n", readme, re.S)[0])
+    unlisted = {"failure.c"}
+    assert sorted(files) == sorted({file.name for file in SOURCE.glob("*.c")} - unlisted)
