@@ -41,14 +41,18 @@ static bool check_stamps(struct channel *channel, struct failure *failure)
     return true;
 }
 
-/* Samples must be finite or NaN, and at least half of them there. */
-static bool check_samples(struct channel *channel, struct failure *failure)
+/* Samples must be finite or NaN, at least half of them there, and a distance never go back. */
+static bool check_samples(struct channel *channel, bool encoder, struct failure *failure)
 {
     long missing = 0;
+    double before = -INFINITY;
     for (long i = 0; i < channel->values.count; i++) {
         double value = window_at(&channel->values, i);
         if (isinf(value))
             return fail(failure, "%s: sample %ld is infinite", channel->name, i);
+        if (encoder && value < before)
+            return fail(failure, "%s: sample %ld goes back to %g m", channel->name, i, value);
+        before = fmax(before, value);
         missing += isnan(value) ? 1 : 0;
     }
     if (2 * missing > channel->values.count)
@@ -73,7 +77,7 @@ bool channel_open(struct channel *channel, const struct recording *recording,
     channel->times.file = channel->ahead.file = NULL;
     if (!window_open(&channel->values, recording->folder, entry->file, failure) ||
         !window_open(&channel->ahead, recording->folder, entry->file, failure) ||
-        !check_samples(channel, failure))
+        !check_samples(channel, encoder, failure))
         return false;
     double rate = channel->rate_hz = entry->rate_hz;
     channel->start_s = entry->start_s;

@@ -17,7 +17,6 @@ bool drive_open(struct drive *drive, double rate_hz, struct failure *failure)
     drive->window_samples = (long)fmax(1.0, rint(WINDOW_S * rate_hz));
     drive->size = 2 * drive->window_samples + 1;
     drive->next = drive->seen = 0;
-    drive->farthest = -INFINITY;
     drive->past = malloc((size_t)drive->size * sizeof *drive->past);
     return drive->past != NULL || fail(failure, "out of memory");
 }
@@ -64,16 +63,13 @@ static unsigned marks(const struct drive *drive)
 struct motion drive_step(struct drive *drive, double distance_m)
 {
     struct motion motion = {distance_m, 0.0, 0, 0};
-    if (distance_m < drive->farthest)
-        motion.marks |= MISSING;
-    drive->farthest = motion.distance_m = fmax(distance_m, drive->farthest);
-    drive->past[drive->next] = motion.distance_m;
+    drive->past[drive->next] = distance_m;
     drive->next = (drive->next + 1) % drive->size;
     drive->seen += drive->seen < drive->size ? 1 : 0;
-    motion.speed_mps = (motion.distance_m - distance_before(drive, drive->speed_samples)) /
+    motion.speed_mps = (distance_m - distance_before(drive, drive->speed_samples)) /
                        ((double)drive->speed_samples * drive->step_s);
     motion.c = cutoff_to_c(cutoff_hz(motion.speed_mps), drive->step_s);
-    motion.marks |= marks(drive);
+    motion.marks = marks(drive);
     return motion;
 }
 

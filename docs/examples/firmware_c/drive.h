@@ -17,14 +17,13 @@ struct drive {
     double *past; /* distances of the last half second, in a ring */
     long size, next, seen;
     long speed_samples, window_samples;
-    double farthest; /* an encoder that counts backward is held where it has been */
 };
 
 /* What the vehicle does at one sample. */
 struct motion {
     double distance_m, speed_mps;
     real c;         /* of the high-pass stages, (A.11) */
-    unsigned marks; /* SLOW, BRAKING, MISSING */
+    unsigned marks; /* SLOW, BRAKING */
 };
 
 /* Make the ring for a sampling rate; this is the only memory that a drive takes. */

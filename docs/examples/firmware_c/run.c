@@ -82,7 +82,7 @@ static bool align(struct session *session, struct failure *failure)
     return true;
 }
 
-/* How far the distance goes from its first value; it need not end there. */
+/* How far the distance goes; its last samples may be missing. */
 static double length_of(struct session *session)
 {
     struct channel *clock = &session->paths[0].force;

@@ -66,18 +66,30 @@ def mostly_missing(path):
     x.tofile(path)
 
 
-SPOILT = {"whole number": cut, "infinite": infinite, "missing": mostly_missing}
-SPOILT["cannot be opened"] = Path.unlink
+def back(path):
+    x = np.fromfile(path)
+    x[500:] -= 0.01
+    x.tofile(path)
+
+
+SPOILT = {
+    "whole number": ("left.height", cut),
+    "infinite": ("right.height", infinite),
+    "samples are missing": ("left.vertical_specific_force", mostly_missing),
+    "cannot be opened": ("right.vertical_specific_force", Path.unlink),
+    "sample 500 goes back": ("distance", back),
+}
 
 
 @pytest.mark.parametrize("reason", SPOILT)
 def test_samples_that_cannot_be_used_are_refused_by_name(sanitized, reason, tmp_path):
     firmware, folder = sanitized
     shutil.copytree(folder, tmp_path / "run")
-    SPOILT[reason](tmp_path / "run" / "left.height.f64")
+    channel, spoil = SPOILT[reason]
+    spoil(tmp_path / "run" / f"{channel}.f64")
     answer, profile = firmware.run(tmp_path / "run")
     assert reason in answer["error"]
-    assert "left.height" in answer["error"]
+    assert channel in answer["error"]
     assert not profile.exists()
 
 
