@@ -26,6 +26,7 @@ ALLOWED = {
         "scipy",
     },
     "conformance/floatref_conformance/render": {"jinja2", "matplotlib"},
+    "conformance/floatref_conformance/testing": {"pytest"},
 }
 """Distributions that a folder may use beside those of the folder around it."""
 

@@ -26,6 +26,8 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
         terminal.handle(event)
         if isinstance(event, RunFinished):
             finished.append(event)
+        else:
+            _tell(event, writers)
 
     try:
         result = run(plan, emit)
@@ -39,12 +41,12 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
     finally:
         terminal.close()
     for event in finished:
-        _write(event, writers)
+        _tell(event, writers)
     return result
 
 
-def _write(event: RunFinished, writers: Sequence[Renderer]) -> None:
-    """Write the reports of a verdict that is already shown."""
+def _tell(event: Event, writers: Sequence[Renderer]) -> None:
+    """Hand ``event`` to the writers; the last one, with the verdict, when that is shown."""
     try:
         for writer in writers:
             writer.handle(event)

@@ -6,6 +6,8 @@ from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.events import Renderer
 from floatref_conformance.render.cases import CaseFiles
+from floatref_conformance.render.html import HtmlReport
+from floatref_conformance.render.junit import JUnitReport
 from floatref_conformance.render.report import JsonReport
 
 
@@ -25,4 +27,5 @@ def writers_into(folder: Path | None) -> list[Renderer]:
     """Return what writes the reports into ``folder``, made if need be; none without one."""
     if folder is None:
         return []
-    return [CaseFiles.into(folder), JsonReport.into(folder)]
+    writers = (CaseFiles, JsonReport, JUnitReport, HtmlReport)
+    return [writer.into(folder) for writer in writers]
