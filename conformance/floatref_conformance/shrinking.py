@@ -5,7 +5,7 @@ Hypothesis' own shrinking stops by the clock, and does not count numbers.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 from floatref.errors import InputError
 from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
@@ -33,6 +33,7 @@ class _Shrinker:
     base: Case
     left: int
     fails: Callable[[Case], bool]
+    tried: set[Case] = field(default_factory=set)
 
     def without(self, case: Case, names: Sequence[str]) -> Case:
         """Return ``case`` with ``names`` as in the base, if that still fails."""
@@ -40,9 +41,10 @@ class _Shrinker:
             simpler = _taking(case, self.base, names)
         except InputError:
             return case
-        if not names or not self.left or simpler == case:
+        if not names or not self.left or simpler == case or simpler in self.tried:
             return case
         self.left -= 1
+        self.tried.add(simpler)
         return simpler if self._fails(simpler) else case
 
     def _fails(self, case: Case) -> bool:
