@@ -1,22 +1,24 @@
 """A toy check and toy devices, so that the judge is tested apart from the proving ground."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from types import SimpleNamespace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
 
 from floatref.files import read_recording, write_profile
-from floatref.measures import iri
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
+from floatref_conformance.checks.interface import Taken
+from floatref_conformance.checks.scoring import roughness_within
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.runner import Plan
-from floatref_conformance.verdict import Evidence, Measurement
+from floatref_conformance.evidence import Pair
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.runner import Plan, run
 
 RATE, SPEED, SECONDS, INTERVAL = 1000.0, 20.0, 3.0, 0.05
 CHANNELS = {
@@ -29,38 +31,33 @@ CHANNELS = {
 }
 
 
-def road(distance, seed):
-    return 0.003 * np.sin(2 * np.pi * distance / (15.0 + seed % 7))
+def road(distance, scenario):
+    """A sine of 3 mm at the default 1.8 m/km; the seed gives its wavelength."""
+    amplitude = scenario.iri_m_per_km / 600.0
+    return amplitude * np.sin(2 * np.pi * distance / (15.0 + scenario.seed % 7))
 
 
-@dataclass(frozen=True)
-class ToyCase:
-    """A road that the height sensor sees directly, since the body hangs still at 1 m."""
-
-    seed: int
-    name: str = "toy"
-
-    @property
-    def parameters(self):
-        return {"seed": self.seed}
-
-    def simulate(self):
-        times = np.arange(int(RATE * SECONDS)) / RATE
-        samples = {"distance": SPEED * times, "height": 1.0 - road(SPEED * times, self.seed)}
-        channels = [
-            Channel.of(name, samples.get(name, np.zeros(times.size)), UniformClock.of(RATE), track)
-            for name, tracks in CHANNELS.items()
-            for track in (tracks.split() or [None])
-        ]
-        recording = Recording(tuple(channels), Setup(INTERVAL), "telling", "names")
-        points = np.arange(int(SPEED * times[-1] / INTERVAL) + 1) * INTERVAL
-        tracks = tuple(ProfileTrack.of(t, road(points, self.seed)) for t in recording.tracks)
-        return SimpleNamespace(recording=recording, truth=Profile(INTERVAL, tracks))
+def drive(scenario):
+    """Return a recording whose height sensor sees the road: the body hangs still at 1 m."""
+    times = np.arange(int(RATE * SECONDS)) / RATE
+    samples = {"distance": SPEED * times, "height": 1.0 - road(SPEED * times, scenario)}
+    channels = [
+        Channel.of(name, samples.get(name, np.zeros(times.size)), UniformClock.of(RATE), track)
+        for name, tracks in CHANNELS.items()
+        for track in (tracks.split() or [None])
+    ]
+    recording = Recording(tuple(channels), Setup(INTERVAL), "telling", "names")
+    points = np.arange(int(SPEED * times[-1] / INTERVAL) + 1) * INTERVAL
+    tracks = tuple(ProfileTrack.of(t, road(points, scenario)) for t in recording.tracks)
+    return Taken(recording, Profile(INTERVAL, tracks), scenario)
 
 
 @dataclass(frozen=True)
 class ToyCheck:
-    """Limits the difference of IRI between the delivered profile and the truth."""
+    """Limits the difference of IRI between the delivered profile and the truth.
+
+    Its variation may ask for several ``runs`` of a case. ``skew`` is added to every value.
+    """
 
     id: str = "toy"
     needs: frozenset = frozenset()
@@ -72,24 +69,41 @@ class ToyCheck:
     skew: float = 0.0
     limits: dict = field(default_factory=dict)
 
-    def cases(self, seed, effort):
-        return tuple(ToyCase(100 * seed + n, f"toy-{n + 1}") for n in range(self.count))
+    @property
+    def simplest(self):
+        return Case(self.id, Scenario())
 
-    def judge(self, case, profile, simulated):
-        limits = dict(zip(DeviceClass, (0.1, 0.05, 0.01), strict=True))
-        measured = []
-        for truth in simulated.truth.tracks:
-            z = stretch(profile, truth.name, 10.0, 50.0)
-            value = iri(z, profile.interval_m)
-            error = abs(value - iri(stretch(simulated.truth, truth.name, 10.0, 50.0), INTERVAL))
-            measured += [
-                Measurement("IRI error", truth.name, error, "m/km", limits),
-                Measurement(
-                    "IRI", truth.name, value + self.skew, "m/km",
-                    dict.fromkeys(DeviceClass, 1e9), Evidence(z, profile.interval_m),
-                ),
-            ]  # fmt: skip
-        return tuple(measured)
+    def cases(self, seed, effort):
+        return tuple(
+            Case(self.id, Scenario(seed=100 * seed + n), name=f"{self.id}-{n + 1}")
+            for n in range(self.count)
+        )
+
+    def strategy(self):
+        from hypothesis import strategies as st
+
+        return st.builds(self._drawn, st.integers(0, 2**31), st.integers(10, 60))
+
+    def judge(self, case, bench):
+        taken = drive(case.scenario)
+        for run_number in range(int(case.variation.get("runs", 1))):
+            profile = bench.run(taken, f"run {run_number + 1}")
+        return tuple(self._measured(taken.truth, profile, t.name) for t in taken.truth.tracks)
+
+    def _drawn(self, seed, tenths):
+        return Case(self.id, Scenario(seed=seed, iri_m_per_km=tenths / 10))
+
+    def _measured(self, truth, profile, track):
+        found = stretch(profile, track, 10.0, 50.0)
+        true = np.interp(
+            10.0 + profile.interval_m * np.arange(found.size),
+            truth.distance_m,
+            truth.track(track).elevation,
+        )
+        pair = Pair(true, found, profile.interval_m, np.ones(found.size - 1, dtype=bool))
+        either = {c: (0.0, limit) for c, limit in zip(DeviceClass, (0.1, 0.05, 0.01), strict=True)}
+        measured = roughness_within(pair, track, "IRI error", either)
+        return replace(measured, value=measured.value + self.skew)
 
 
 @dataclass
@@ -101,6 +115,7 @@ class FakeDevice:
     said: object = None
     interval_m: float = INTERVAL
     seen: list = field(default_factory=list)
+    closed: int = 0
 
     def describe(self):
         if self.said is not None:
@@ -124,6 +139,9 @@ class FakeDevice:
         made = tuple(ProfileTrack.of(t, z) for t, z in self.spoil(tracks).items())
         write_profile(Profile(self.interval_m, made), profile)
 
+    def close(self):
+        self.closed += 1
+
 
 @pytest.fixture
 def toy_check():
@@ -136,6 +154,18 @@ def fake_device():
 
 
 @pytest.fixture
+def clipping(fake_device):
+    """A device that saturates: roads beyond 4 mm, 2.4 m/km, lose their tops."""
+    return fake_device(lambda t: {name: np.clip(z, -0.004, 0.004) for name, z in t.items()})
+
+
+@pytest.fixture
+def halving(fake_device):
+    """A device that delivers half of every elevation."""
+    return fake_device(lambda t: {name: 0.5 * z for name, z in t.items()})
+
+
+@pytest.fixture
 def plan():
     """Return a function that plans one toy check on a device; nothing is left out."""
 
@@ -144,3 +174,22 @@ def plan():
         return Plan("fake:device", device, checks or (ToyCheck(),), names, **settings)
 
     return make
+
+
+@pytest.fixture
+def events_of():
+    """Return a function that runs a plan and returns its events and its result."""
+
+    def make(planned):
+        events = []
+        result = run(planned, events.append)
+        assert events[-1].result is result
+        return events, result
+
+    return make
+
+
+@pytest.fixture
+def result_of(events_of):
+    """Return a function that runs a plan and returns its result."""
+    return lambda planned: events_of(planned)[1]

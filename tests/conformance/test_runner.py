@@ -1,56 +1,87 @@
 """The run: its events, and what the outcomes of its checks make together."""
 
 import json
-import sys
 from dataclasses import replace
 
 import pytest
 
-from floatref_conformance.classes import DeviceClass
+from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.events import CaseFinished, RunFinished
+from floatref_conformance.events import CaseFinished
 from floatref_conformance.render.report import as_json
 from floatref_conformance.runner import run
 from floatref_conformance.verdict import Outcome, Verdict
 
 
-def result_of(plan):
-    last = list(run(plan))[-1]
-    assert isinstance(last, RunFinished)
-    return last.result
+def ignore(event):
+    """Take no note of ``event``."""
 
 
 def scaled(gain):
     return lambda tracks: {name: gain * z for name, z in tracks.items()}
 
 
-def test_a_device_that_delivers_the_road_passes_and_reaches_the_strictest_class(plan, fake_device):
+def test_a_device_that_delivers_the_road_passes_and_reaches_the_strictest_class(
+    plan, result_of, fake_device
+):
     result = result_of(plan(fake_device()))
     assert result.verdict is Verdict.PASS
     assert result.class_reached is DeviceClass.REFERENCE
     assert result.checks[0].counterexample is None
 
 
-def test_the_events_come_in_order_and_count_the_cases(plan, fake_device, toy_check):
-    names = [type(e).__name__ for e in run(plan(fake_device(), toy_check(count=2)))]
-    assert names == [
-        "RunStarted", "CheckStarted", "CaseFinished", "CaseFinished", "CheckFinished",
+def test_the_events_of_a_device_that_passes_come_in_order(plan, events_of, fake_device, toy_check):
+    events, _ = events_of(plan(fake_device(), toy_check(count=2)))
+    assert [type(e).__name__ for e in events] == [
+        "RunStarted",
+        "CheckStarted",
+        *2 * ["CaseFinished"],
+        "SearchStarted",
+        *Effort.QUICK.searched * ["CaseFinished"],
+        "CheckFinished",
         "RunFinished",
-    ]  # fmt: skip
+    ]
+    assert (events[1].cases, events[4].cases) == (2, Effort.QUICK.searched)
 
 
-def test_a_device_beyond_the_limit_fails_with_value_limit_and_case(plan, fake_device):
-    result = result_of(plan(fake_device(scaled(0.5))))
+def test_a_failing_case_is_made_simpler_instead_of_searching(plan, events_of, halving):
+    events, result = events_of(plan(halving, seed=1))
+    names = [type(e).__name__ for e in events]
+    assert names[:5] == [
+        "RunStarted",
+        "CheckStarted",
+        "CaseFinished",
+        "CaseFinished",
+        "ShrinkStarted",
+    ]
+    assert names[-2:] == ["CheckFinished", "RunFinished"]
+    assert 1 <= len(names[5:-2]) <= Effort.QUICK.shrunk
+    assert set(names[5:-2]) == {"CaseFinished"}
+    assert result.checks[0].cases == 2
+
+
+def test_a_device_beyond_the_limit_fails_with_value_limit_and_case(plan, result_of, halving):
+    result = result_of(plan(halving, seed=1))
     check = result.checks[0]
     assert result.verdict is Verdict.FAIL
     assert check.outcome is Outcome.FAIL
     assert check.worst.value > check.worst.limits[DeviceClass.NOMINAL]
+    assert check.worst_case in ("toy-1", "toy-2")
     assert check.class_reached is None
-    assert check.counterexample["parameters"]["seed"] in (0, 1)
     assert "limit 0.1 m/km" in check.reason
 
 
-def test_the_class_decides_and_an_easier_class_may_be_reached(plan, fake_device):
+def test_the_counterexample_is_the_simplest_case_with_its_pass(plan, result_of, halving):
+    check = result_of(plan(halving, seed=1)).checks[0]
+    assert check.counterexample["parameters"] == {"scenario": {}, "variation": {}}
+    assert "IRI error" in check.counterexample["reason"]
+    assert check.counterexample["file"].startswith("cases/toy-")
+    (shown,) = check.passes
+    half = 0.5 * shown.truth.track("left").elevation
+    assert shown.result.track("left").elevation == pytest.approx(half, abs=1e-6)
+
+
+def test_the_class_decides_and_an_easier_class_may_be_reached(plan, result_of, fake_device):
     device = fake_device(scaled(0.99))
     value = result_of(plan(device)).checks[0].worst.value
     assert 0.01 < value < 0.05
@@ -61,7 +92,7 @@ def test_the_class_decides_and_an_easier_class_may_be_reached(plan, fake_device)
 
 
 def test_a_check_that_needs_an_undeclared_capability_leaves_the_verdict_alone(
-    plan, fake_device, toy_check
+    plan, result_of, fake_device, toy_check
 ):
     needy = toy_check(id="needy", needs=frozenset({"gnss"}))
     result = result_of(plan(fake_device(), toy_check(), needy))
@@ -69,58 +100,108 @@ def test_a_check_that_needs_an_undeclared_capability_leaves_the_verdict_alone(
     assert outcomes == {"toy": Outcome.PASS, "needy": Outcome.NOT_APPLICABLE}
     assert result.verdict is Verdict.PASS
     assert result_of(plan(fake_device(), needy)).verdict is Verdict.INCOMPLETE
+    able = result_of(plan(fake_device(capabilities=("gnss",)), needy))
+    assert able.checks[0].outcome is Outcome.PASS
 
 
-def test_what_is_left_out_makes_a_pass_incomplete_but_not_a_failure(plan, fake_device):
+def test_what_is_left_out_makes_a_pass_incomplete_but_not_a_failure(
+    plan, result_of, fake_device, halving
+):
     good = result_of(plan(fake_device(), left_out=("other",)))
     assert good.verdict is Verdict.INCOMPLETE
     assert good.class_reached is None
     assert {c.id: c.outcome for c in good.checks}["other"] is Outcome.SKIP
-    bad = result_of(plan(fake_device(scaled(0.5)), left_out=("other",)))
-    assert bad.verdict is Verdict.FAIL
+    assert result_of(plan(halving, left_out=("other",))).verdict is Verdict.FAIL
 
 
-def test_the_oracle_overrules_a_wrong_measure(plan, fake_device, toy_check):
-    with pytest.raises(SuiteError, match=r"IRI is .* by the reference"):
-        list(run(plan(fake_device(), toy_check(skew=0.01))))
-    assert result_of(plan(fake_device(), toy_check(skew=1e-5))).verdict is Verdict.PASS
+def test_the_checks_of_a_result_are_in_the_order_of_the_suites_list(
+    plan, result_of, fake_device, toy_check
+):
+    checks = [toy_check(id=id_, count=1) for id_ in ("mine", "bounce", "quiescent")]
+    result = result_of(plan(fake_device(), *checks, left_out=("stop",), searching=False))
+    assert [c.id for c in result.checks] == ["quiescent", "bounce", "stop", "mine"]
 
 
-def test_it_is_the_worst_case_that_the_oracle_measures_again(plan, fake_device, toy_check):
-    class SkewedAbove(toy_check):
-        def judge(self, case, profile, simulated):
-            measured = super().judge(case, profile, simulated)
-            return [replace(m, value=m.value * (1.01 if m.value > 0.95 else 1)) for m in measured]
+def test_a_measurement_of_the_suite_that_the_reference_denies_is_no_verdict(
+    plan, result_of, fake_device, toy_check
+):
+    with pytest.raises(SuiteError, match=r"IRI error is .* by the reference"):
+        run(plan(fake_device(), toy_check(skew=0.01)), ignore)
+    assert result_of(plan(fake_device(), toy_check(skew=1e-7))).verdict is Verdict.PASS
 
-    values = []
-    for event in run(plan(fake_device(), toy_check(count=4))):
-        if isinstance(event, CaseFinished):
-            values.append(event.result.measurements[1].value)
-    assert sum(value > 0.95 for value in values) == 1
+
+def test_it_is_the_worst_measurement_that_is_made_again(
+    plan, events_of, result_of, fake_device, toy_check
+):
+    class Skewed(toy_check):
+        """Adds to the largest value alone, or to all others."""
+
+        largest: float
+        worst: bool
+
+        def judge(self, case, bench):
+            return tuple(
+                replace(m, value=m.value + 1e-3 * ((m.value == self.largest) == self.worst))
+                for m in super().judge(case, bench)
+            )
+
+    events, _ = events_of(plan(fake_device(scaled(0.98))))
+    values = [m.value for e in events if isinstance(e, CaseFinished) for m in e.result.measurements]
+    Skewed.largest = max(values)
+    assert sorted(set(values))[-2] < Skewed.largest - 2e-3
+    Skewed.worst = False
+    assert result_of(plan(fake_device(scaled(0.98)), Skewed())).verdict is Verdict.PASS
+    Skewed.worst = True
     with pytest.raises(SuiteError):
-        list(run(plan(fake_device(), SkewedAbove(count=4))))
+        run(plan(fake_device(scaled(0.98)), Skewed()), ignore)
 
 
-def test_an_error_of_the_suite_is_not_blamed_on_the_device(plan, fake_device, toy_check):
+@pytest.mark.parametrize("searched", [False, True])
+@pytest.mark.parametrize("error", [KeyError("left"), SystemExit(0), ValueError("bad\nnumber")])
+def test_an_error_of_the_suite_is_not_blamed_on_the_device(
+    plan, fake_device, toy_check, error, searched
+):
     class Broken(toy_check):
-        def judge(self, case, profile, simulated):
-            raise KeyError("left")
+        def judge(self, case, bench):
+            if searched == case.name.startswith("toy-search"):
+                raise error
+            return super().judge(case, bench)
 
-    with pytest.raises(SuiteError, match="KeyError"):
-        list(run(plan(fake_device(), Broken())))
-
-
-def test_a_check_that_ends_the_process_is_no_verdict(plan, fake_device, toy_check):
-    class Leaving(toy_check):
-        def judge(self, case, profile, simulated):
-            sys.exit(0)
-
-    with pytest.raises(SuiteError, match="SystemExit"):
-        list(run(plan(fake_device(), Leaving())))
+    device = fake_device()
+    with pytest.raises(SuiteError) as caught:
+        run(plan(device, Broken()), ignore)
+    assert str(caught.value) == f"{type(error).__name__}: {' '.join(str(error).split())}"
+    assert device.closed == 1
 
 
-def test_the_same_seed_makes_the_same_report_and_another_seed_another(plan, fake_device):
-    device = fake_device(scaled(0.5))
-    reports = [as_json(result_of(plan(device, seed=seed))) for seed in (4, 4, 5)]
-    assert json.dumps(reports[0]) == json.dumps(reports[1])
-    assert reports[0]["checks"][0]["worst"] != reports[2]["checks"][0]["worst"]
+@pytest.mark.parametrize("error", [KeyboardInterrupt, BrokenPipeError])
+def test_an_interruption_goes_to_the_caller_and_the_device_is_closed(plan, fake_device, error):
+    device, told = fake_device(), []
+
+    def emit(event):
+        told.append(event)
+        if len(told) == 5:
+            raise error
+
+    with pytest.raises(error):
+        run(plan(device), emit)
+    assert device.closed == 1
+
+
+def test_a_device_is_closed_once_after_a_verdict_and_need_not_be_able_to(plan, result_of, halving):
+    result_of(plan(halving))
+    assert halving.closed == 1
+    halving.close = None
+    assert result_of(plan(halving)).verdict is Verdict.FAIL
+
+
+@pytest.mark.parametrize("gain", [1.0, 0.95, 0.5])
+def test_the_same_seed_makes_the_same_report_and_another_seed_another(
+    plan, result_of, fake_device, gain
+):
+    texts = [
+        json.dumps(as_json(result_of(plan(fake_device(scaled(gain)), seed=seed))))
+        for seed in (4, 4, 5)
+    ]
+    assert texts[0] == texts[1]
+    assert texts[0].replace('"seed": 4', '"seed": 5') != texts[2]
