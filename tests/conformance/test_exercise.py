@@ -6,12 +6,8 @@ import sys
 import numpy as np
 import pytest
 
-from floatref_conformance.runner import run
+from floatref_conformance.classes import Effort
 from floatref_conformance.verdict import Outcome, Verdict
-
-
-def result_of(plan):
-    return list(run(plan))[-1].result
 
 
 @pytest.mark.parametrize(
@@ -22,18 +18,20 @@ def result_of(plan):
         (("gnss",), {"gnss_height"}),
     ],
 )
-def test_a_device_sees_nominal_and_declared_channels_alone(plan, fake_device, capabilities, more):
+def test_a_device_sees_nominal_and_declared_channels_alone(
+    plan, result_of, fake_device, capabilities, more
+):
     device = fake_device(capabilities=capabilities)
-    list(run(plan(device)))
+    result_of(plan(device))
     seen = {c.id.name for c in device.seen[0][3].channels}
     assert seen == {"vertical_specific_force", "height", "distance"} | more
 
 
-def test_paths_are_neutral_hold_no_truth_and_are_new_in_every_case(plan, fake_device):
+def test_paths_are_neutral_hold_no_truth_and_are_new_in_every_case(plan, result_of, fake_device):
     device = fake_device()
-    list(run(plan(device)))
+    result_of(plan(device))
     paths = [recording for recording, *_ in device.seen]
-    assert len(set(paths)) == len(paths) == 2
+    assert len(set(paths)) == len(paths) == 2 + Effort.QUICK.searched
     for recording, profile, existed, given in device.seen:
         assert not existed
         assert recording.name == "recording.json"
@@ -44,7 +42,7 @@ def test_paths_are_neutral_hold_no_truth_and_are_new_in_every_case(plan, fake_de
         assert (given.vendor, given.model) == ("", "")
 
 
-def test_truth_is_nowhere_under_the_paths_that_a_device_gets(plan, fake_device):
+def test_truth_is_nowhere_under_the_paths_that_a_device_gets(plan, result_of, fake_device):
     files = []
 
     class Nosy(fake_device):
@@ -52,7 +50,7 @@ def test_truth_is_nowhere_under_the_paths_that_a_device_gets(plan, fake_device):
             files.extend(p.name for p in profile.parent.rglob("*") if p.is_file())
             super().run(recording, profile)
 
-    list(run(plan(Nosy())))
+    result_of(plan(Nosy()))
     channels = {"vertical_specific_force", "height", "distance"}
     assert {name.removesuffix(".f64").split(".")[-1] for name in files} - channels == {"json"}
 
@@ -108,7 +106,7 @@ class Mute:
         (FileMaker, "no profile directory"),
     ],
 )
-def test_a_device_that_crashes_or_babbles_is_an_error_and_fails(plan, device, words):
+def test_a_device_that_crashes_or_babbles_is_an_error_and_fails(plan, result_of, device, words):
     result = result_of(plan(device()))
     assert result.verdict is Verdict.FAIL
     assert result.checks[0].outcome is Outcome.ERROR
@@ -150,7 +148,7 @@ def absurd(tracks):
     ],
 )
 def test_an_incomplete_profile_is_an_error_that_names_what_is_missing(
-    plan, fake_device, spoil, words
+    plan, result_of, fake_device, spoil, words
 ):
     result = result_of(plan(fake_device(spoil)))
     assert result.verdict is Verdict.FAIL
@@ -158,14 +156,16 @@ def test_an_incomplete_profile_is_an_error_that_names_what_is_missing(
     assert words in result.checks[0].reason
 
 
-def test_a_missing_elevation_where_nothing_counts_is_no_error(plan, fake_device):
+def test_a_missing_elevation_where_nothing_counts_is_no_error(plan, result_of, fake_device):
     def spoil(tracks):
         return {name: np.where(np.arange(z.size) < 10, np.nan, z) for name, z in tracks.items()}
 
     assert result_of(plan(fake_device(spoil))).verdict is Verdict.PASS
 
 
-def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(plan, fake_device):
+def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(
+    plan, result_of, fake_device
+):
     assert result_of(plan(fake_device(interval_m=0.04))).verdict is Verdict.PASS
     wide = result_of(plan(fake_device(interval_m=0.3)))
     assert "interval_m is 0.3" in wide.checks[0].reason
@@ -182,7 +182,7 @@ def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(plan, fa
         {"name": "x", "version": "1", "architecture": "spatial"},
     ],
 )
-def test_a_device_that_describes_itself_wrongly_is_an_error(plan, fake_device, said):
+def test_a_device_that_describes_itself_wrongly_is_an_error(plan, result_of, fake_device, said):
     device = fake_device(said=said)
     result = result_of(plan(device))
     assert result.verdict is Verdict.FAIL
@@ -190,6 +190,6 @@ def test_a_device_that_describes_itself_wrongly_is_an_error(plan, fake_device, s
     assert device.seen == []
 
 
-def test_faults_reported_twice_are_the_same_text(plan):
+def test_faults_reported_twice_are_the_same_text(plan, result_of):
     texts = [result_of(plan(Babbler())).checks[0].reason for _ in range(2)]
     assert texts[0] == texts[1]
