@@ -166,6 +166,22 @@ def halving(fake_device):
 
 
 @pytest.fixture
+def raising(fake_device):
+    """Return a function that makes a device which raises ``error`` in the runs ``when`` says."""
+
+    def make(error, when=lambda number: True):
+        class Raising(fake_device):
+            def run(self, recording, profile):
+                super().run(recording, profile)
+                if when(len(self.seen)):
+                    raise error
+
+        return Raising()
+
+    return make
+
+
+@pytest.fixture
 def plan():
     """Return a function that plans one toy check on a device; nothing is left out."""
 
