@@ -6,15 +6,21 @@ from floatref_conformance.checks.bounce import BOUNCE
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.quiescent import QUIESCENT
 from floatref_conformance.devices.builtin import BUILTIN
+from floatref_conformance.devices.executable import EXEC
 from floatref_conformance.devices.interface import DeviceKind
 from floatref_conformance.devices.mutants import MUTANT
+from floatref_conformance.devices.python_device import PYTHON
+from floatref_conformance.devices.recorded import FILES
 from floatref_conformance.hookspecs import hookimpl
 
 
 @hookimpl
 def conformance_register_devices(register: Callable[[DeviceKind], None]) -> None:
-    """Register the kinds `builtin` and `mutant`."""
+    """Register the suite's own kinds of devices."""
     register(BUILTIN)
+    register(PYTHON)
+    register(EXEC)
+    register(FILES)
     register(MUTANT)
 
 

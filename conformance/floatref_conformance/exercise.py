@@ -10,8 +10,9 @@ import numpy as np
 from floatref.files import read_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
+from floatref_conformance.devices.delivered import take
 from floatref_conformance.devices.interface import Description, Device, visible
-from floatref_conformance.errors import DeviceError
+from floatref_conformance.errors import DeviceError, DeviceSkipped
 
 MAX_INTERVAL_M = 0.25
 """Widest profile interval that still carries the IRI, in m."""
@@ -27,7 +28,10 @@ def describe(device: Device) -> Description:
 
 
 def exercise(device: Device, description: Description, recording: Recording) -> Profile:
-    """Return the profile that ``device`` makes of ``recording``; DeviceError if unusable.
+    """Return the profile that ``device`` makes of ``recording``.
+
+    Raises DeviceError if it is unusable, DeviceHung if there is none in time, DeviceSkipped if
+    the device does not take the recording.
 
     The device sees a fresh folder of neutral name with the channels that it may have.
     """
@@ -41,32 +45,39 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
             profile = _read(target)
             _check_tracks(profile, given)
             _check_axis(profile, given)
-        except DeviceError as fault:
-            raise DeviceError(str(fault).replace(str(folder), "…")) from fault
+        except (DeviceError, DeviceSkipped) as fault:
+            raise type(fault)(str(fault).replace(str(folder), "…")) from fault
     return profile
 
 
 def _asked(question: Callable[[], Answer]) -> Answer:
-    """Return the device's answer; DeviceError for whatever it raises, sys.exit included."""
+    """Return the device's answer; DeviceError for whatever it raises, sys.exit included.
+
+    What it says of itself, DeviceHung and DeviceSkipped, is let through.
+    """
     try:
         return question()
+    except (DeviceError, DeviceSkipped):
+        raise
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
         raise DeviceError(f"raised {type(error).__name__}: {text}") from error
 
 
 def _read(target: Path) -> Profile:
-    """Return the profile in ``target``, its arrays in memory, since the folder goes away."""
-    if not target.is_dir():
-        raise DeviceError("delivered no profile directory")
-    try:
-        profile = read_profile(target)
-    except Exception as error:
-        text = " ".join(str(error).split())
-        raise DeviceError(f"delivered an unusable profile: {text}") from error
-    tracks = tuple(
-        ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid)) for t in profile.tracks
-    )
+    """Return the profile in ``target``, read from a copy and held in memory."""
+    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
+        copy = Path(name).resolve() / target.name
+        take(target, copy)
+        try:
+            profile = read_profile(copy)
+        except Exception as error:
+            text = " ".join(str(error).split()).replace(str(copy.parent), "…")
+            raise DeviceError(f"delivered an unusable profile: {text}") from error
+        tracks = tuple(
+            ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid))
+            for t in profile.tracks
+        )
     return Profile(profile.interval_m, tracks, profile.start_m)
 
 
@@ -101,8 +112,13 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
             )
 
 
-def close(device: Device) -> None:
-    """Let ``device`` end what it has started, if it has something to end."""
+def close(device: Device) -> str:
+    """Let ``device`` end what it has started, and return what went wrong, empty if nothing."""
     ending = getattr(device, "close", None)
-    if ending is not None:
-        ending()
+    if ending is None:
+        return ""
+    try:
+        _asked(ending)
+    except (DeviceError, DeviceSkipped) as fault:
+        return str(fault)
+    return ""

@@ -36,7 +36,7 @@ def kind(fake_device):
 
 def test_the_suites_own_devices_and_checks_come_from_a_plugin():
     registry = collected()
-    assert set(registry.kinds) == {"builtin", "mutant"}
+    assert set(registry.kinds) == {"builtin", "python", "exec", "files", "mutant"}
     assert list(registry.checks) == ["quiescent", "bounce"]
     assert registry.broken == ()
 
@@ -142,7 +142,7 @@ def test_a_class_in_place_of_a_check_is_left_out(toy_check):
 def test_a_kind_with_an_unusable_member_is_left_out_and_reported(kind, changes, words):
     changed = replace(kind, **changes)
     registry = collected(vendor=plugin(lambda register: register(changed)))
-    assert set(registry.kinds) == {"builtin", "mutant"}
+    assert set(registry.kinds) == {"builtin", "python", "exec", "files", "mutant"}
     assert words in registry.broken[0]
 
 
@@ -193,9 +193,11 @@ def test_every_hook_is_documented_fits_one_screen_and_is_never_firstresult():
     assert len(inspect.getsource(hookspecs).splitlines()) <= 50
 
 
-@pytest.mark.parametrize("spec", ["exec:./mine", "python:a:b", "files:x", "mutant", "", "builtin:"])
+@pytest.mark.parametrize("spec", ["serial:COM1", "exec", "mutant", "", "builtin:"])
 def test_a_kind_that_does_not_work_is_refused_with_those_that_do(spec):
-    with pytest.raises(InputError, match=r"builtin:PIPELINE, mutant:NAME"):
+    with pytest.raises(
+        InputError, match=r"builtin:PIPELINE, .* exec:COMMAND LINE, files:DIR, mutant:NAME"
+    ):
         collected().device(spec)
 
 

@@ -1,0 +1,70 @@
+"""What a device delivers: a folder of plain files, copied away before anything reads it.
+
+A copy cannot change while it is read, as a file of the device's can.
+"""
+
+import os
+import stat
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from floatref_conformance.devices.process import readable
+from floatref_conformance.errors import DeviceError
+
+MAX_FILES = 1000
+"""Most files in a profile directory."""
+MAX_BYTES = 256 << 20
+"""Most bytes in a profile directory: 13 million points with their flags and sigma."""
+
+CHUNK = 1 << 20
+FLAGS = os.O_RDONLY | getattr(os, "O_BINARY", 0)
+FLAGS |= getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+"""Of a file that may have become a link or a pipe since it was looked at."""
+
+
+def take(source: Path, target: Path, without: Collection[str] = ()) -> None:
+    """Copy the profile directory ``source`` to a new folder ``target``.
+
+    Names in ``without`` stay behind. Raises DeviceError if there is no such folder, if it is a
+    symbolic link, if it holds a link, pipe or the like, or if it is too large; folders in it
+    stay behind.
+    """
+    try:
+        if source.is_symlink():
+            raise DeviceError("delivered a symbolic link in place of a profile directory")
+        if not source.is_dir():
+            raise DeviceError("delivered no profile directory")
+        target.mkdir()
+        left = MAX_BYTES
+        for name in _names(source):
+            if name not in without:
+                left -= _copy(source / name, target / name, left)
+    except OSError as error:
+        raise DeviceError(f"delivered what cannot be read: {error.strerror}") from error
+
+
+def _names(folder: Path) -> Iterator[str]:
+    """Return the names in ``folder`` as they are found; DeviceError if there are too many."""
+    with os.scandir(folder) as entries:
+        for number, entry in enumerate(entries):
+            if number == MAX_FILES:
+                raise DeviceError(f"delivered more than {MAX_FILES} files")
+            yield entry.name
+
+
+def _copy(source: Path, target: Path, left: int) -> int:
+    """Copy ``source``, which may have ``left`` bytes, and return how many it has."""
+    kind = source.lstat().st_mode
+    if stat.S_ISDIR(kind):
+        return 0
+    if not stat.S_ISREG(kind):
+        what = "a symbolic link" if stat.S_ISLNK(kind) else "no plain file"
+        raise DeviceError(f"delivered {readable(source.name)}, which is {what}")
+    copied = 0
+    with os.fdopen(os.open(source, FLAGS), "rb") as stream, open(target, "wb") as copy:
+        # The file may grow while it is read.
+        while chunk := stream.read(min(CHUNK, left + 1 - copied)):
+            copied += copy.write(chunk)
+    if copied > left:
+        raise DeviceError(f"delivered more than {MAX_BYTES >> 20} MiB")
+    return copied

@@ -1,0 +1,131 @@
+"""The process of a `python:` device: a vendor's object behind the protocol of programs.
+
+`python -m floatref_conformance.devices.host package.module:factory`. Whatever the vendor's code
+prints goes to standard error, and it reads nothing from standard input.
+"""
+
+import json
+import os
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from importlib import import_module
+from io import TextIOWrapper
+from operator import attrgetter
+from pathlib import Path
+from typing import Any
+
+from floatref_conformance.errors import DeviceSkipped
+
+FIND = "--find"
+"""Option that has the host say whether it finds the factory, and end."""
+
+
+class Missing(Exception):
+    """The module or the factory does not exist; the text is one line."""
+
+
+def main(words: Sequence[str]) -> None:
+    """Answer commands, or with `FIND` whether the factory that ``words`` name is there."""
+    spec, *options = words
+    commands, answers = _pipes()
+    if os.getcwd() not in sys.path:
+        sys.path.insert(0, os.getcwd())
+    if FIND in options:
+        _write(answers, {"missing": missing(spec)})
+        return
+    serve(spec, map(json.loads, commands), partial(_write, answers))
+
+
+def serve(
+    spec: str,
+    commands: Iterable[Mapping[str, Any]],
+    answer: Callable[[Mapping[str, Any]], None],
+) -> None:
+    """Answer ``commands`` with what the object of the factory ``spec`` does, until `stop`."""
+    device: Any = None
+    told: Mapping[str, Any]
+    for command in commands:
+        if command["cmd"] == "stop":
+            break
+        try:
+            if command["cmd"] == "start":
+                device = found(spec)()
+                told = {"version": 1, "device": dict(device.describe())}
+            else:
+                paths = Path(command["recording"]), Path(command["profile"])
+                told = _outcome(device.run(*paths))
+            answer({"seq": command["seq"], **told})
+        except BaseException as error:
+            answer({"seq": command["seq"], **_fault(error)})
+    if hasattr(device, "close"):
+        device.close()
+
+
+def found(spec: str) -> Callable[[], Any]:
+    """Return the factory that ``spec`` names; Missing if there is none.
+
+    What the vendor's module raises while it is imported is let through.
+    """
+    name, _, attribute = spec.partition(":")
+    try:
+        module = import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+            raise
+        raise Missing(f"no module {error.name} in the current folder or installed") from error
+    try:
+        factory = attrgetter(attribute)(module)
+    except AttributeError as error:
+        raise Missing(f"module {name} has no {attribute}") from error
+    if not callable(factory):
+        raise Missing(f"{attribute} of {name} is a {type(factory).__name__}, not a function")
+    made: Callable[[], Any] = factory
+    return made
+
+
+def missing(spec: str) -> str | None:
+    """Return why there is no factory of that name; None if there is, or if it cannot be told."""
+    try:
+        found(spec)
+    except Missing as reason:
+        return str(reason)
+    except BaseException:
+        return None
+    return None
+
+
+def _outcome(done: object) -> Mapping[str, Any]:
+    if isinstance(done, Mapping) and "skipped" in done:
+        return {"skipped": str(done["skipped"])}
+    return {"ok": True}
+
+
+def _fault(error: BaseException) -> Mapping[str, Any]:
+    if isinstance(error, DeviceSkipped):
+        return {"skipped": str(error)}
+    traceback.print_exception(error, file=sys.stderr)
+    sys.stderr.flush()
+    return {"error": f"{type(error).__name__}: {error}"}
+
+
+def _pipes() -> tuple[TextIOWrapper, TextIOWrapper]:
+    """Return standard input and output, and put others in their place."""
+    commands = os.fdopen(os.dup(0), encoding="utf-8")
+    answers = os.fdopen(os.dup(1), "w", encoding="ascii")
+    empty = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(empty, 0)
+    os.close(empty)
+    os.dup2(2, 1)
+    sys.stdout = sys.stderr
+    return commands, answers
+
+
+def _write(answers: TextIOWrapper, answer: Mapping[str, Any]) -> None:
+    answers.write(json.dumps(answer, allow_nan=False) + "\n")
+    answers.flush()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

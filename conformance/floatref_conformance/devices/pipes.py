@@ -1,0 +1,134 @@
+"""The three pipes of a device: each has a thread, so that neither side ever waits for the other."""
+
+import os
+from collections import deque
+from queue import SimpleQueue
+from threading import Condition, Thread
+from time import monotonic, sleep
+from typing import IO
+
+MAX_LINE = 1 << 20
+"""Longest line that a device may write, in bytes."""
+MAX_OUTPUT = 64 << 20
+"""Most that a device may write to its standard output from start to stop, in bytes."""
+MAX_UNREAD = 2 * MAX_LINE
+"""Most that it may write before it is asked again, in bytes."""
+KEPT = 64 << 10
+"""How much is kept of the end of standard error, in bytes."""
+CHUNK = 64 << 10
+
+
+class Lines:
+    """Lines of a stream, taken one by one; a stream that goes too far is read no further.
+
+    Attributes:
+        ended: nothing more will come.
+        fault: how the stream went too far; empty if it did not.
+        rest: what has come since the last line's end.
+    """
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        """Begin to read ``stream``."""
+        self.ended = False
+        self.fault = ""
+        self.rest = b""
+        self._stream = stream
+        self._lines: deque[bytes] = deque()
+        self._unread = self._total = 0
+        self._changed = Condition()
+        self.thread = Thread(target=self._follow, daemon=True)
+        self.thread.start()
+
+    def take(self, wait_s: float) -> bytes | None:
+        """Return the next line without its end; None if none comes within ``wait_s``."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._lines or self.ended, wait_s)
+            if not self._lines:
+                return None
+            line = self._lines.popleft()
+            self._unread -= len(line) + 1
+            return line
+
+    def _follow(self) -> None:
+        while not self.ended:
+            chunk = _read(self._stream)
+            with self._changed:
+                self._add(chunk)
+                self.ended = not chunk or bool(self.fault)
+                self._changed.notify_all()
+
+    def _add(self, chunk: bytes) -> None:
+        *lines, self.rest = (self.rest + chunk).split(b"\n")
+        self._total += len(chunk)
+        for line in lines:
+            if len(line) > MAX_LINE:
+                break
+            self._lines.append(line)
+            self._unread += len(line) + 1
+        if any(len(line) > MAX_LINE for line in (*lines, self.rest)):
+            self.fault = f"wrote a line longer than {MAX_LINE >> 20} MiB"
+        elif self._total > MAX_OUTPUT:
+            self.fault = f"wrote more than {MAX_OUTPUT >> 20} MiB"
+        elif self._unread > MAX_UNREAD:
+            self.fault = "wrote far more than it was asked for"
+
+
+class Tail:
+    """The last of a stream, which is read for as long as it lasts."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        """Begin to read ``stream``."""
+        self.kept = b""
+        self._stream = stream
+        self._last_s = monotonic()
+        self.thread = Thread(target=self._follow, daemon=True)
+        self.thread.start()
+
+    def settle(self, quiet_s: float = 0.02, limit_s: float = 0.2) -> None:
+        """Wait until nothing has come for ``quiet_s``, but no longer than ``limit_s``."""
+        begin = monotonic()
+        while self.thread.is_alive() and monotonic() < begin + limit_s:
+            if monotonic() > max(begin, self._last_s) + quiet_s:
+                return
+            sleep(quiet_s / 4)
+
+    def _follow(self) -> None:
+        while chunk := _read(self._stream):
+            self.kept = (self.kept + chunk)[-KEPT:]
+            self._last_s = monotonic()
+
+
+class Feed:
+    """Writes to a stream without ever keeping the caller; a reader that is gone is no error."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        """Begin to wait for what is to be written to ``stream``."""
+        self._stream = stream
+        self._waiting: SimpleQueue[bytes | None] = SimpleQueue()
+        self.thread = Thread(target=self._follow, daemon=True)
+        self.thread.start()
+
+    def put(self, line: bytes) -> None:
+        """Write ``line`` as soon as the reader takes it."""
+        self._waiting.put(line)
+
+    def close(self) -> None:
+        """Close the stream after what has been put."""
+        self._waiting.put(None)
+
+    def _follow(self) -> None:
+        try:
+            while (line := self._waiting.get()) is not None:
+                while line:
+                    line = line[self._stream.write(line) :]
+            self._stream.close()
+        except OSError:
+            # Whoever does not read does not answer either, and that is noticed.
+            return
+
+
+def _read(stream: IO[bytes]) -> bytes:
+    try:
+        return os.read(stream.fileno(), CHUNK)
+    except OSError:
+        return b""

@@ -1,0 +1,145 @@
+"""The protocol of devices that are programs: one JSON object per line, version 1."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
+
+from floatref_conformance.devices.process import Child, readable, start
+from floatref_conformance.errors import DeviceError, DeviceSkipped
+
+VERSION = 1
+START_S = 10.0
+"""Time for `start`."""
+STOP_S = 5.0
+"""Time for `stop`."""
+RUN_S = 60.0
+"""Time for `run`, beside `RUN_PER_LENGTH` times the length of the recording."""
+RUN_PER_LENGTH = 2.0
+
+
+class Session:
+    """A started device from `start` to `stop`; any fault ends it at once.
+
+    Attributes:
+        device: what the device says of itself.
+        is_over: nothing more can be asked.
+    """
+
+    def __init__(self, argv: Sequence[str], folder: Path, limit_s: float = START_S) -> None:
+        """Start ``argv`` in ``folder`` and have it describe itself within ``limit_s``.
+
+        Raises DeviceError, in one line, or DeviceHung.
+        """
+        self.is_over = False
+        self._seq = 0
+        try:
+            self._child: Child = start(argv, folder)
+        except DeviceError as fault:
+            raise DeviceError(f"start: {fault}") from fault
+        with self._step("start"):
+            answer = self._ask({"cmd": "start", "version": VERSION}, limit_s)
+            if "error" in answer:
+                raise DeviceError(f"answered an error: {_text(answer, 'error')}")
+            self.device = _description(answer)
+
+    def run(self, recording: Path, profile: Path, limit_s: float) -> None:
+        """Have ``recording`` processed into ``profile`` within ``limit_s``.
+
+        Raises DeviceSkipped if the device does not take it, DeviceError if it fails, in one
+        line, or DeviceHung.
+        """
+        with self._step("run"):
+            command = {"cmd": "run", "recording": str(recording), "profile": str(profile)}
+            answer = self._ask(command, limit_s)
+            failed = _text(answer, "error") if "error" in answer else None
+            skipped = _text(answer, "skipped") if "skipped" in answer else None
+            if failed is None and skipped is None and answer.get("ok") is not True:
+                raise DeviceError("answered neither ok, nor skipped, nor error")
+        if failed is not None:
+            raise DeviceError(f"run: answered an error: {failed}{self._child.said()}")
+        if skipped is not None:
+            raise DeviceSkipped(skipped)
+
+    def stop(self, limit_s: float = STOP_S) -> None:
+        """Have the device end within ``limit_s``; afterwards none of its processes is left.
+
+        It may answer before it ends. Raises DeviceError, in one line, or DeviceHung.
+        """
+        if self.is_over:
+            return
+        with self._step("stop"):
+            self._send({"cmd": "stop"})
+            for line in self._child.finish(limit_s):
+                self._check(line)
+        self.is_over = True
+
+    @contextmanager
+    def _step(self, name: str) -> Iterator[None]:
+        """Put ``name`` before a fault and standard error behind it; end the device."""
+        try:
+            yield
+        except BaseException as fault:
+            self.is_over = True
+            self._child.kill()
+            if isinstance(fault, DeviceError):
+                raise type(fault)(f"{name}: {fault}{self._child.said()}") from fault
+            raise
+
+    def _ask(self, command: Mapping[str, Any], limit_s: float) -> Mapping[str, Any]:
+        self._send(command)
+        return self._check(self._child.receive(limit_s))
+
+    def _send(self, command: Mapping[str, Any]) -> None:
+        self._seq += 1
+        self._child.send(json.dumps({"seq": self._seq, **command}).encode("ascii") + b"\n")
+
+    def _check(self, line: bytes) -> Mapping[str, Any]:
+        """Return the object on ``line``; DeviceError unless it answers the last command."""
+        answer = parsed(line)
+        seq = answer.get("seq")
+        if isinstance(seq, bool) or not isinstance(seq, int) or seq != self._seq:
+            told = f"seq {readable(repr(seq), 40)}" if "seq" in answer else "without a seq"
+            raise DeviceError(f"answered {told}, asked {self._seq}")
+        return answer
+
+
+def parsed(line: bytes) -> Mapping[str, Any]:
+    """Return the JSON object on ``line``; DeviceError, in one line, for anything else."""
+    try:
+        found = json.loads(line.decode("utf-8"), parse_constant=_refused)
+    except UnicodeDecodeError as error:
+        raise DeviceError(f"answered what is not UTF-8: {readable(line)}") from error
+    except (ValueError, RecursionError) as error:
+        raise DeviceError(
+            f"answered what is not JSON: {readable(line) or 'an empty line'}"
+        ) from error
+    if not isinstance(found, Mapping):
+        raise DeviceError(f"answered what is not a JSON object: {readable(line)}")
+    return found
+
+
+def _refused(literal: str) -> NoReturn:
+    raise ValueError(f"{literal} is not JSON")
+
+
+def _description(answer: Mapping[str, Any]) -> Mapping[str, Any]:
+    version, device = answer.get("version"), answer.get("device")
+    if version != VERSION or isinstance(version, bool):
+        raise DeviceError(f"answered version {readable(repr(version), 40)}, asked {VERSION}")
+    if not isinstance(device, Mapping):
+        raise DeviceError("answered without a device")
+    for key in ("name", "version"):
+        value = device.get(key)
+        if isinstance(value, str) and readable(value) != value:
+            raise DeviceError(f"the device's {key} is too long or cannot be printed")
+    return device
+
+
+def _text(answer: Mapping[str, Any], key: str) -> str:
+    """Return the reason in ``answer``; DeviceError unless it is a text."""
+    text = answer[key]
+    if not isinstance(text, str) or not readable(text):
+        raise DeviceError(f"answered {key} without saying why")
+    return readable(text, 500)

@@ -1,0 +1,47 @@
+"""Devices that are Python objects of a vendor, in a process of their own."""
+
+import sys
+from pathlib import Path
+
+from floatref.errors import InputError
+from floatref_conformance.devices import process
+from floatref_conformance.devices.executable import ExecDevice
+from floatref_conformance.devices.host import FIND
+from floatref_conformance.devices.interface import DeviceKind
+from floatref_conformance.devices.protocol import START_S, parsed
+from floatref_conformance.errors import DeviceError
+
+HOST = (sys.executable, "-m", "floatref_conformance.devices.host")
+
+
+def make(spec: str) -> ExecDevice:
+    """Return the device that the factory ``spec``, as `package.module:factory`, makes.
+
+    Raises InputError if there is no such module or factory. The vendor's code runs in the
+    device's process alone, and the factory is not called yet.
+    """
+    module, _, factory = spec.partition(":")
+    if not all(word.isidentifier() for word in (*module.split("."), *factory.split("."))):
+        raise InputError(f"device python:{spec}: not of the form package.module:factory")
+    missing = _missing(spec)
+    if missing is not None:
+        raise InputError(f"device python:{spec}: {missing}; check the name, or install it")
+    return ExecDevice((*HOST, spec), Path.cwd())
+
+
+def _missing(spec: str) -> str | None:
+    """Return why there is no such factory; None if there is, or if starting it has to tell."""
+    try:
+        child = process.start((*HOST, spec, FIND), Path.cwd())
+    except DeviceError as error:
+        raise InputError(f"device python:{spec}: {error}") from error
+    try:
+        missing = parsed(child.receive(START_S)).get("missing")
+    except DeviceError:
+        return None
+    finally:
+        child.kill()
+    return None if missing is None else process.readable(str(missing))
+
+
+PYTHON = DeviceKind("python", "package.module:factory", make)

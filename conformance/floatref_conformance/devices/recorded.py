@@ -1,0 +1,100 @@
+"""Devices that are not at hand: their profiles of exported recordings, from a folder."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.files import fingerprint
+from floatref.files.document import read_document
+from floatref_conformance.devices.delivered import take
+from floatref_conformance.devices.interface import DeviceKind
+from floatref_conformance.errors import DeviceSkipped
+
+RECORDING = "recording.json"
+PROFILE = "profile.json"
+DESCRIPTION = "device.json"
+
+Digests = Mapping[str, str]
+
+
+@dataclass(eq=False)
+class RecordedDevice:
+    """Profiles in ``folder``, beside the recordings that they were made of.
+
+    Which is whose is told by the recording's content, whatever its folder is called.
+
+    Attributes:
+        folder: holds `<case>/recording.json`, `<case>/profile.json` and their files.
+        said: what the device says of itself.
+        searchable: no; a search asks for recordings that follow from the answers.
+    """
+
+    folder: Path
+    said: Mapping[str, Any]
+    searchable: bool = field(default=False, init=False)
+    _digests: dict[Path, Digests] = field(default_factory=dict, init=False, repr=False)
+
+    def describe(self) -> Mapping[str, Any]:
+        """Return the content of device.json, or the folder's name and nominal sensors."""
+        return self.said
+
+    def run(self, recording: Path, profile: Path) -> None:
+        """Copy what was made of ``recording`` to ``profile``; DeviceSkipped if nothing was."""
+        wanted = fingerprint(recording)
+        case = next((c for c in self._like(recording, wanted) if self._of(c) == wanted), None)
+        if case is None:
+            raise DeviceSkipped(f"{self.folder}: holds no such recording; export with this seed")
+        if not (case / PROFILE).is_file():
+            raise DeviceSkipped(f"{case}: holds no {PROFILE}; process its {RECORDING}")
+        take(case, profile, without=wanted)
+
+    def _like(self, recording: Path, wanted: Digests) -> Iterator[Path]:
+        """Yield the cases whose files have the names and sizes of those of ``recording``."""
+        sizes = {name: (recording.parent / name).stat().st_size for name in wanted}
+        for case in cases(self.folder):
+            files = {name: case / name for name in wanted}
+            if all(p.is_file() and p.stat().st_size == sizes[n] for n, p in files.items()):
+                yield case
+
+    def _of(self, case: Path) -> Digests:
+        """Return the fingerprint of the recording in ``case``; empty if it cannot be read."""
+        if case not in self._digests:
+            try:
+                self._digests[case] = fingerprint(case)
+            except InputError:
+                self._digests[case] = {}
+        return self._digests[case]
+
+
+def cases(folder: Path) -> list[Path]:
+    """Return the folders in ``folder`` that hold a recording, sorted by name."""
+    return sorted(path.parent for path in folder.glob(f"*/{RECORDING}"))
+
+
+def make(name: str) -> RecordedDevice:
+    """Return the device of folder ``name``.
+
+    Raises InputError if there is no such folder, if it holds no recording, or if its
+    device.json is unusable.
+    """
+    folder = Path(name).absolute()
+    if not folder.is_dir():
+        raise InputError(f"device files:{name}: no such folder; `conformance export` makes one")
+    if not cases(folder):
+        raise InputError(
+            f"device files:{name}: no <case>/{RECORDING} in it; give the folder of an export"
+        )
+    said = _said(folder)
+    if not isinstance(said, Mapping):
+        raise InputError(f"{folder / DESCRIPTION}: not a JSON object; give name and version in one")
+    default = {"version": "unknown", "architecture": "temporal", "capabilities": []}
+    return RecordedDevice(folder, {"name": folder.name, **default, **said})
+
+
+def _said(folder: Path) -> Any:
+    return read_document(folder / DESCRIPTION) if (folder / DESCRIPTION).exists() else {}
+
+
+FILES = DeviceKind("files", "DIR", make)

@@ -1,0 +1,130 @@
+"""Programs written for one test, a recording for them, and that none of them is left."""
+
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floatref.files import write_profile, write_recording
+from floatref.values.clock import UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording, Setup
+from floatref_conformance.devices.executable import ExecDevice
+
+RATE_HZ, LENGTH_S, SPEED_MPS, INTERVAL_M = 200.0, 2.0, 10.0, 0.05
+PRELUDE = """\
+import json, os, shutil, signal, subprocess, sys, time
+SAID = {"name": "written", "version": "1", "architecture": "temporal", "capabilities": []}
+
+def ask():
+    line = sys.stdin.readline()
+    return json.loads(line) if line else sys.exit(0)
+
+def tell(command, **said):
+    print(json.dumps({"seq": command["seq"], **said}), flush=True)
+
+def start():
+    tell(ask(), version=1, device=SAID)
+
+def sound(command):
+    if command["cmd"] == "stop":
+        sys.exit(0)
+    shutil.copytree(sys.argv[1], command["profile"])
+    tell(command, ok=True)
+
+def hang():
+    while True:
+        time.sleep(3600)
+
+def escape(then):
+    if os.fork() == 0:
+        os.setsid()
+        if os.fork() == 0:
+            signal.signal(signal.SIGTERM, signal.SIG_IGN)
+            signal.signal(signal.SIGHUP, signal.SIG_IGN)
+            then()
+            os._exit(0)
+        os._exit(0)
+    os.wait()
+
+"""
+
+
+def children():
+    """Return the processes whose parent is this one, dead ones that nobody waited for too."""
+    found = set()
+    for entry in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            words = Path("/proc", entry, "stat").read_text(errors="replace").rpartition(")")[2]
+        except OSError:
+            continue
+        if int(words.split()[1]) == os.getpid():
+            found.add(int(entry))
+    return found
+
+
+@pytest.fixture(autouse=True)
+def no_process_is_left():
+    before = children()
+    yield
+    assert children() <= before
+
+
+@pytest.fixture
+def recording():
+    times = np.arange(int(RATE_HZ * LENGTH_S)) / RATE_HZ
+    samples = {"vertical_specific_force": 9.80665 + 0 * times, "height": 0.3 + 0.01 * np.sin(times)}
+    channels = [
+        Channel.of(name, values, UniformClock.of(RATE_HZ), track)
+        for name, values in samples.items()
+        for track in ("left", "right")
+    ]
+    channels.append(Channel.of("distance", SPEED_MPS * times, UniformClock.of(RATE_HZ)))
+    return Recording(tuple(channels), Setup(INTERVAL_M))
+
+
+@pytest.fixture
+def recorded(recording, tmp_path):
+    """The recording.json of the recording."""
+    write_recording(recording, tmp_path / "recorded")
+    return tmp_path / "recorded" / "recording.json"
+
+
+@pytest.fixture
+def sound(recording, tmp_path):
+    """A profile directory that can be made of the recording."""
+    distance = recording.channel("distance").values
+    elevation = np.sin(np.arange(int(distance[-1] / INTERVAL_M) + 1) * INTERVAL_M)
+    tracks = tuple(ProfileTrack.of(name, elevation) for name in ("left", "right"))
+    write_profile(Profile(INTERVAL_M, tracks), tmp_path / "sound")
+    return tmp_path / "sound"
+
+
+@pytest.fixture
+def written(sound, tmp_path):
+    """Return a function that writes a program and returns how it is started."""
+
+    def write(body):
+        number = len(list(tmp_path.glob("program*.py")))
+        program = tmp_path / f"program{number}.py"
+        program.write_text(PRELUDE + body, encoding="utf-8")
+        return (sys.executable, str(program), str(sound))
+
+    return write
+
+
+@pytest.fixture
+def device(written, tmp_path):
+    """Return a function that makes the device of a program; all are closed at the end."""
+    made = []
+
+    def make(body, **settings):
+        made.append(ExecDevice(written(body), tmp_path, **settings))
+        return made[-1]
+
+    yield make
+    for one in made:
+        if one._session is not None:
+            one._session._child.kill()
