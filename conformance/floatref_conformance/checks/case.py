@@ -4,6 +4,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from math import isfinite
 from types import MappingProxyType
 from typing import Any
 
@@ -57,11 +58,13 @@ class Case:
         if not isinstance(parameters, Mapping):
             raise InputError("a case is a JSON object with scenario and variation")
         variation = parameters.get("variation", {})
-        if not isinstance(variation, Mapping) or not all(
-            isinstance(value, (float, int, str)) for value in variation.values()
-        ):
+        if not isinstance(variation, Mapping) or not all(map(_is_plain, variation.values())):
             raise InputError("variation is not an object of numbers and names")
         return cls(check, Scenario.from_dict(parameters.get("scenario", {})), variation, name)
+
+
+def _is_plain(value: object) -> bool:
+    return isinstance(value, (int, str)) or (isinstance(value, float) and isfinite(value))
 
 
 def _differing(scenario: Scenario) -> dict[str, Any]:
