@@ -5,7 +5,8 @@ A copy cannot change while it is read, as a file of the device's can.
 
 import os
 import stat
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
+from itertools import islice
 from pathlib import Path
 
 from floatref_conformance.devices.process import readable
@@ -43,28 +44,37 @@ def take(source: Path, target: Path, without: Collection[str] = ()) -> None:
         raise DeviceError(f"delivered what cannot be read: {error.strerror}") from error
 
 
-def _names(folder: Path) -> Iterator[str]:
-    """Return the names in ``folder`` as they are found; DeviceError if there are too many."""
+def _names(folder: Path) -> list[str]:
+    """Return the names in ``folder``; DeviceError if there are too many."""
     with os.scandir(folder) as entries:
-        for number, entry in enumerate(entries):
-            if number == MAX_FILES:
-                raise DeviceError(f"delivered more than {MAX_FILES} files")
-            yield entry.name
+        names = [entry.name for entry in islice(entries, MAX_FILES + 1)]
+    if len(names) > MAX_FILES:
+        raise DeviceError(f"delivered more than {MAX_FILES} files")
+    return names
 
 
 def _copy(source: Path, target: Path, left: int) -> int:
     """Copy ``source``, which may have ``left`` bytes, and return how many it has."""
-    kind = source.lstat().st_mode
+    found = source.lstat()
+    kind = found.st_mode
     if stat.S_ISDIR(kind):
         return 0
     if not stat.S_ISREG(kind):
         what = "a symbolic link" if stat.S_ISLNK(kind) else "no plain file"
         raise DeviceError(f"delivered {readable(source.name)}, which is {what}")
+    size = found.st_size
+    if size <= left:
+        # The file may grow while it is read.
+        size = _read_into(target, source, left + 1)
+    if size > left:
+        raise DeviceError(f"delivered more than {MAX_BYTES >> 20} MiB")
+    return size
+
+
+def _read_into(target: Path, source: Path, most: int) -> int:
+    """Copy ``most`` bytes of ``source`` at most, and return how many it were."""
     copied = 0
     with os.fdopen(os.open(source, FLAGS), "rb") as stream, open(target, "wb") as copy:
-        # The file may grow while it is read.
-        while chunk := stream.read(min(CHUNK, left + 1 - copied)):
+        while chunk := stream.read(min(CHUNK, most - copied)):
             copied += copy.write(chunk)
-    if copied > left:
-        raise DeviceError(f"delivered more than {MAX_BYTES >> 20} MiB")
     return copied

@@ -120,7 +120,8 @@ class Child:
     def said(self) -> str:
         """Return the last lines of standard error, to be put behind a fault; empty without."""
         self._tail.settle()
-        lines = [line for line in map(readable, self._tail.kept.splitlines()) if line]
+        shown = map(readable, self._tail.kept.splitlines())
+        lines = [line for line in shown if any(map(str.isalnum, line))]
         return f" ; stderr: {' | '.join(lines[-SHOWN_LINES:])}" if lines else ""
 
     def _last(self) -> bytes:
