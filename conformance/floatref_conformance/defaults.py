@@ -3,8 +3,11 @@
 from collections.abc import Callable
 
 from floatref_conformance.checks.bounce import BOUNCE
+from floatref_conformance.checks.distance import DISTANCE
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.quiescent import QUIESCENT
+from floatref_conformance.checks.repeatability import REPEATABILITY
+from floatref_conformance.checks.waveband import WAVEBAND
 from floatref_conformance.devices.builtin import BUILTIN
 from floatref_conformance.devices.executable import EXEC
 from floatref_conformance.devices.interface import DeviceKind
@@ -29,3 +32,6 @@ def conformance_register_checks(register: Callable[[Check], None]) -> None:
     """Register the checks that are built, in the order of the suite's list."""
     register(QUIESCENT)
     register(BOUNCE)
+    register(WAVEBAND)
+    register(REPEATABILITY)
+    register(DISTANCE)

@@ -29,12 +29,14 @@ MANOEUVRES = (
 ROADS = (
     "flat",
     "measured",
+    "sines",
     *(f"sayers-{name}" for name in CASES),
     *(f"iso-{name}" for name in CLASSES),
 )
 LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         "seed": (0, 2**63 - 1),
+        "road_seed": (-1, 2**63 - 1),
         "iri_m_per_km": (0.0, 30.0),
         "bump_mm": (-100.0, 100.0),
         "bump_at_m": (0.0, 1e5),
@@ -66,8 +68,9 @@ class Scenario:
 
     Attributes:
         seed: draws the road and every sensor's errors.
-        road: one of `ROADS`: flat, a measured profile, of Sayers' spectrum, or of an ISO 8608
-            class.
+        road_seed: draws the road in its place, so that other errors meet the same road; -1: none.
+        road: one of `ROADS`: flat, a measured profile, sine waves, of Sayers' spectrum, or of an
+            ISO 8608 class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
         bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
         vehicle: a name of `vehicles.VEHICLES`.
@@ -94,6 +97,7 @@ class Scenario:
     """
 
     seed: int = 0
+    road_seed: int = -1
     road: str = "sayers-normal"
     iri_m_per_km: float = 1.8
     bump_mm: float = 0.0

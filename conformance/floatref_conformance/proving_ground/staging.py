@@ -25,6 +25,7 @@ from floatref_conformance.proving_ground.sayers import sayers_road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.sensors import SensorSuite
 from floatref_conformance.proving_ground.shaping import scaled_to, with_bump
+from floatref_conformance.proving_ground.sines import sines_road
 from floatref_conformance.proving_ground.vehicle import Vehicle
 
 BUMP_LENGTH_M = 3.0
@@ -38,16 +39,19 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
     """Return the scenario's road, usable up to ``length_m`` or more, scaled and with its bump."""
     length_m = max(length_m, FULL_FROM_M + SCALED_OVER_M)
     kind, _, which = scenario.road.partition("-")
+    seed = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
     if kind == "flat":
         road = flat_road(length_m, tracks=scenario.tracks)
     elif kind == "measured":
         road = measured_road(
-            shipped_profile(), SHIPPED_INTERVAL_M, length_m, scenario.seed, tracks=scenario.tracks
+            shipped_profile(), SHIPPED_INTERVAL_M, length_m, seed, tracks=scenario.tracks
         )
+    elif kind == "sines":
+        road = sines_road(length_m, seed, tracks=scenario.tracks)
     elif kind == "iso":
-        road = iso8608_road(which, length_m, scenario.seed, tracks=scenario.tracks)
+        road = iso8608_road(which, length_m, seed, tracks=scenario.tracks)
     else:
-        road = sayers_road(which, length_m, scenario.seed, tracks=scenario.tracks)
+        road = sayers_road(which, length_m, seed, tracks=scenario.tracks)
     if kind != "flat" and scenario.iri_m_per_km > 0:
         road = scaled_to(road, scenario.iri_m_per_km)
     if scenario.bump_mm:

@@ -56,6 +56,7 @@ def test_scenario_survives_json(scenario: Scenario) -> None:
 
 def test_every_field_changes_the_hash() -> None:
     changes: dict[str, Any] = {
+        "road_seed": 3,
         "road": "flat",
         "vehicle": "pickup",
         "manoeuvre": "stop",
@@ -73,6 +74,19 @@ def test_every_field_changes_the_hash() -> None:
 
 def _other(value: Any) -> Any:
     return not value if isinstance(value, bool) else value + (1 if value in (0, 72) else value / 8)
+
+
+def test_a_road_seed_draws_the_road_whatever_the_seed() -> None:
+    drawn = [
+        road_of(s, 120.0).elevation["left"]
+        for s in (
+            Scenario(seed=7),
+            Scenario(seed=8, road_seed=7),
+            Scenario(seed=7, road_seed=8),
+        )
+    ]
+    assert np.array_equal(drawn[0], drawn[1])
+    assert not np.array_equal(drawn[0], drawn[2])
 
 
 def test_equal_numbers_have_one_hash() -> None:

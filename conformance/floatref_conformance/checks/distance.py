@@ -1,0 +1,240 @@
+"""`distance`: features lie where the encoder tells, though it be wrong, slip and stand still."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import cycle
+from math import ceil
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.encoder_axis import EncoderAxis
+from floatref_conformance.checks.features import (
+    BESIDE_EVENT_M,
+    END_M,
+    FARTHEST_M,
+    FEATURE_M,
+    Feature,
+    find_features,
+    middles,
+    place,
+)
+from floatref_conformance.checks.interface import Bench
+from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
+from floatref_conformance.proving_ground.runs import KMH
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
+from floatref_conformance.verdict import Measurement
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
+
+START_LIMITS: Limits = same_limit(0.05, 0.025)
+SCALE_LIMITS: Limits = same_limit(0.15, 0.05)
+STEP_LIMITS: Limits = same_limit(0.05, 0.025)
+REST_LIMITS: Limits = same_limit(0.05, 0.025)
+LOSS_LIMITS: Limits = {
+    DeviceClass.NOMINAL: 0.2,
+    DeviceClass.ADEQUATE: 0.1,
+    DeviceClass.REFERENCE: 0.05,
+}
+QUANTITIES = (
+    ("displacement of the start", "m", START_LIMITS),
+    ("error of distances", "%", SCALE_LIMITS),
+    ("step at the event", "m", STEP_LIMITS),
+    ("displacement of a feature", "m", REST_LIMITS),
+    ("loss of a feature", "", LOSS_LIMITS),
+)
+"""What is measured, its unit, and its limits."""
+FEATURES = 4
+"""So many features lie ahead of an event, and behind it."""
+SMOOTHEST, ROUGHEST = 1.5, 4.0
+"""IRI of the roads, in m/km."""
+DRIVES: tuple[Mapping[str, Any], ...] = (
+    {
+        "manoeuvre": "stop",
+        "speed_kmh": 72.0,
+        "deceleration_g": 0.3,
+        "slip_percent_per_g": 3.0,
+    },
+    {"manoeuvre": "constant", "speed_kmh": 72.0, "encoder_error_percent": 1.0},
+    {
+        "manoeuvre": "braking",
+        "speed_kmh": 80.0,
+        "event_speed_kmh": 30.0,
+        "deceleration_g": 0.4,
+        "encoder_error_percent": -1.0,
+        "slip_percent_per_g": 3.0,
+    },
+    {
+        "manoeuvre": "stop",
+        "speed_kmh": 50.0,
+        "deceleration_g": 0.15,
+        "dwell_s": 15.0,
+        "final_speed_kmh": 40.0,
+        "encoder_error_percent": -0.5,
+        "slip_percent_per_g": 1.0,
+    },
+)
+"""The drives of the cases, in turn."""
+VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
+COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
+
+
+@dataclass(frozen=True)
+class DistanceCheck:
+    """Looks for features of the road on the axis that the encoder gives."""
+
+    id: str = "distance"
+    title: str = "features lie where the encoder tells"
+    clause: str = (
+        "Derived: what the encoder tells is the profile's axis (Karamihas 2021, sections 3.3.9, "
+        "4.1.3 and 5.1); limits from the sensors' delays and the loss of correlation"
+    )
+    needs: frozenset[str] = frozenset()
+
+    @property
+    def derivation(self) -> str:
+        """How features are found, and how far from their places they may lie."""
+        return DERIVATION
+
+    @property
+    def floor(self) -> str:
+        """Every feature has to be there."""
+        return FLOOR
+
+    @property
+    def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
+        """The limits of the five quantities."""
+        return {
+            name: {c: f"{limit:.4g} {unit}".strip() for c, limit in limits.items()}
+            for name, unit, limits in QUANTITIES
+        }
+
+    @property
+    def simplest(self) -> Case:
+        """One stop from 72 km/h; the encoder's errors are those of the nominal sensor."""
+        return Case(self.id, _scenario({"manoeuvre": "stop"}))
+
+    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
+        """Return the cases: `DRIVES` and vehicles in turn; roads and noise are drawn."""
+        source = np.random.SeedSequence([seed, *self.id.encode()])
+        roads = source.generate_state(COUNT[effort])
+        return tuple(
+            self._seeded(number, int(road), drive)
+            for number, (road, drive) in enumerate(zip(roads, cycle(DRIVES), strict=False))
+        )
+
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return any of the manoeuvres with any error of the encoder up to the largest."""
+        from hypothesis import strategies as st
+
+        def tenths(low: float, high: float) -> "SearchStrategy[float]":
+            return st.integers(round(10 * low), round(10 * high)).map(lambda n: n / 10)
+
+        shared = {
+            "seed": st.integers(0, 2**31 - 1),
+            "vehicle": st.sampled_from(VEHICLES),
+            "iri_m_per_km": tenths(SMOOTHEST, ROUGHEST),
+            "speed_kmh": st.integers(40, 90).map(float),
+            "encoder_error_percent": tenths(-1.0, 1.0),
+            "slip_percent_per_g": tenths(0.0, 3.0),
+        }
+        slowing = {"deceleration_g": st.integers(10, 40).map(lambda n: n / 100)}
+        after = {"dwell_s": tenths(0.5, 20.0), "final_speed_kmh": st.integers(30, 70).map(float)}
+        release = {"event_speed_kmh": st.integers(20, 30).map(float)}
+        drives = (
+            {"manoeuvre": st.just("constant"), **shared},
+            {"manoeuvre": st.just("stop"), **shared, **slowing, **after},
+            {"manoeuvre": st.just("braking"), **shared, **slowing, **release},
+        )
+        numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
+        return numbers.map(lambda given: Case(self.id, _scenario(given)))
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
+        """Return how far from their places the features of every wheel path lie.
+
+        Raises DeviceError for a point without elevation in one of them.
+        """
+        taken = bench.simulate(case.scenario)
+        profile = bench.run(taken)
+        axis, event_m = EncoderAxis.of(taken), _event_m(case.scenario)
+        at = middles(drive_of(case.scenario).length_m, event_m)
+        told_m = None if event_m is None else float(axis.told(np.array([event_m]))[0])
+        measured: list[Measurement] = []
+        for track in taken.truth.tracks:
+            features = find_features(profile, taken.truth, track.name, axis, at)
+            measured += _measured(track.name, features, told_m)
+        return tuple(measured)
+
+    def _seeded(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
+        roughness = np.random.default_rng(road).uniform(SMOOTHEST, ROUGHEST)
+        numbers = {
+            **drive,
+            "seed": road,
+            "iri_m_per_km": round(roughness, 1),
+            "vehicle": VEHICLES[(number + number // len(DRIVES)) % len(VEHICLES)],
+        }
+        return Case(self.id, _scenario(numbers), name=f"{self.id}-{number + 1}")
+
+
+def _scenario(numbers: Mapping[str, Any]) -> Scenario:
+    """Return the scenario of ``numbers``, its event and its end clear of the features."""
+    wanted = Scenario(**numbers)
+    braking_m = (wanted.speed_kmh * KMH) ** 2 / (2 * STANDARD_GRAVITY * wanted.deceleration_g)
+    room_m = BESIDE_EVENT_M + FEATURES * FEATURE_M + END_M
+    event_m = max(room_m, BESIDE_EVENT_M + 10.0 * ceil(0.13 * braking_m))
+    return Scenario(**{**numbers, "event_at_m": event_m, "length_m": event_m + room_m})
+
+
+def _event_m(scenario: Scenario) -> float | None:
+    return None if scenario.manoeuvre == "constant" else scenario.event_at_m
+
+
+def _measured(
+    track: str, features: tuple[Feature, ...], event_m: float | None
+) -> list[Measurement]:
+    placed = place(features, event_m)
+    values = (
+        abs(placed.start_m),
+        100.0 * abs(placed.scale),
+        abs(placed.step_m),
+        placed.rest_m,
+        max(feature.loss for feature in features),
+    )
+    return [
+        Measurement(name, track, value, unit, limits)
+        for (name, unit, limits), value in zip(QUANTITIES, values, strict=True)
+    ]
+
+
+DERIVATION = (
+    f"Features are stretches of {FEATURE_M:g} m of a rough road, {END_M:g} m or more from both "
+    f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
+    "event moves them. The truth is laid on the encoder's axis: at every sample the drive tells "
+    "where the vehicle was, and the recording what the encoder told. The encoder is up to 1 % "
+    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and stands "
+    "still at stops; a device that knows better from another sensor still owes the profile on "
+    "this axis. Slopes in the waveband of 1.6 to 8 m are cross-correlated with those of the truth "
+    f"at lags of up to {FARTHEST_M:g} m. A line through the lags, with a step at the event, gives "
+    "the four displacements. Start, step and rest: delays turn into distance. At 90 km/h the "
+    "anti-alias filter of 1000 Hz (2/ω, 0.32 ms) is worth 8 mm, the mean age of a laser reading "
+    "held at 3.24 kHz (0.155 ms) 4 mm, a sample at 16 kHz 1.6 mm, an interval of the profile 5 mm, "
+    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm, of which the "
+    "slower half of a drive keeps a part. Nominal and adequate allow twice that, 0.05 m, and "
+    "reference 0.025 m. Distances: with 0.15 % the ends of 160.9 m lie 0.12 m off when the middle "
+    "fits, a phase of 20 degrees at 2.1 m, where the car of the IRI has its axle hop at 80 km/h; "
+    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class reference "
+    "is allowed a third. A profile that does not cover the recorded distance is refused as such."
+)
+"""How features are found, and where the limits come from."""
+FLOOR = (
+    "Every feature has to be found: its correlation with the truth, by (2.16) and so by its "
+    "height as well, may fall short of 1 by 0.2 in class nominal, 0.1 in adequate, 0.05 in "
+    "reference. Lags, noise and slip cost sound software 0.01. A flat profile loses 1; a moving "
+    "average over 2 m takes all of the waves of 2 m and a tenth of those of 8 m."
+)
+"""What must be in the profile."""
+DISTANCE = DistanceCheck()

@@ -1,0 +1,117 @@
+"""Where the features of a profile lie: stretches of road found again by their shape."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.measures import cross_correlation, on_common_grid, waveband_slope
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.encoder_axis import EncoderAxis
+from floatref_conformance.checks.scoring import bridged
+from floatref_conformance.checks.stretches import points, stretch
+
+FEATURE_M = 25.0
+"""Length of road that makes a feature."""
+FARTHEST_M = 3.0
+"""A feature is looked for so far to both sides of its place."""
+BAND = "medium"
+"""1.6 to 8 m (section 2.1.5.2): no event disturbs such short waves beyond `BESIDE_EVENT_M`."""
+END_M = 110.0
+"""Features lie so far from both ends of the run, where a filter may leave points out."""
+BESIDE_EVENT_M = 60.0
+"""Features lie so far from a stop or a release of the brake."""
+
+
+@dataclass(frozen=True)
+class Feature:
+    """A stretch of road on the encoder's axis.
+
+    Attributes:
+        at_m: where its middle belongs, in m.
+        lag_m: how much farther along the profile has it, in m.
+        loss: one minus (2.16) at that lag.
+    """
+
+    at_m: float
+    lag_m: float
+    loss: float
+
+
+@dataclass(frozen=True)
+class Placement:
+    """The lags of features as a line along the axis, with a step at an event.
+
+    Attributes:
+        start_m: lag at distance 0, in m.
+        scale: gain of lag per distance.
+        step_m: gain of lag at the event, in m.
+        rest_m: largest lag beside the line and its step, in m.
+    """
+
+    start_m: float
+    scale: float
+    step_m: float
+    rest_m: float
+
+
+def middles(length_m: float, event_m: float | None) -> FloatArray:
+    """Return where the middles of the features of a drive truly lie, in m."""
+    end_m = length_m - END_M
+    if event_m is None:
+        return _side_by_side(END_M, end_m)
+    ahead, behind = event_m - BESIDE_EVENT_M, event_m + BESIDE_EVENT_M
+    return np.concatenate([_side_by_side(END_M, ahead), _side_by_side(behind, end_m)])
+
+
+def find_features(
+    profile: Profile, truth: Profile, track: str, axis: EncoderAxis, middles_m: FloatArray
+) -> tuple[Feature, ...]:
+    """Return the features whose middles truly lie at ``middles_m``, in m.
+
+    Raises DeviceError if a point of one of them has no elevation.
+    """
+    wanted = _on_encoder_axis(truth, track, axis)
+    true, found = on_common_grid(wanted, profile)
+    places = [float(told) for told in axis.told(middles_m)]
+    for at in places:
+        stretch(found, track, at - FEATURE_M / 2, at + FEATURE_M / 2)
+    z = true.track(track).elevation
+    both = (z, bridged(found.track(track).elevation, z))
+    slopes = [waveband_slope(elevation, true.interval_m, BAND) for elevation in both]
+    return tuple(_found(slopes, true, at) for at in places)
+
+
+def place(features: Sequence[Feature], event_m: float | None) -> Placement:
+    """Return the line that fits the lags best; ``event_m`` is on the encoder's axis, too."""
+    at, lag = np.array([(f.at_m, f.lag_m) for f in features]).T
+    columns = [np.ones_like(at), at]
+    if event_m is not None:
+        columns.append(np.where(at > event_m, 1.0, 0.0))
+    matrix = np.stack(columns, axis=1)
+    line = np.linalg.lstsq(matrix, lag, rcond=None)[0]
+    rest = float(np.max(np.abs(lag - matrix @ line)))
+    step = 0.0 if event_m is None else float(line[2])
+    return Placement(float(line[0]), float(line[1]), step, rest)
+
+
+def _side_by_side(start_m: float, end_m: float) -> FloatArray:
+    """Return the middles of the features that fit between two distances, in m."""
+    count = int((end_m - start_m) / FEATURE_M + 1e-6)
+    return start_m + FEATURE_M * (np.arange(count) + 0.5)
+
+
+def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:
+    """Return one wheel path of ``truth`` against the distance that the encoder told."""
+    count = int((axis.told_m[-1] - axis.told_m[0]) / truth.interval_m) + 1
+    told = axis.told_m[0] + truth.interval_m * np.arange(count)
+    z = np.interp(axis.true(told), truth.distance_m, truth.track(track).elevation)
+    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.told_m[0]))
+
+
+def _found(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
+    inside = points(profile, at_m - FEATURE_M / 2, at_m + FEATURE_M / 2)
+    true, found = (slope[inside] for slope in slopes)
+    agreed = cross_correlation(true, found, profile.interval_m, FARTHEST_M)
+    return Feature(at_m, agreed.offset_m, 1.0 - agreed.cross_correlation)
