@@ -1,7 +1,9 @@
 """What the options of `run` and `replay` stand for."""
 
+from math import isfinite
 from pathlib import Path
 
+from floatref.errors import InputError
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.events import Renderer
@@ -18,7 +20,12 @@ def class_of(device: Device, asked: str | None) -> DeviceClass:
 
 
 def limit_time(device: Device, seconds: float | None) -> None:
-    """Give ``device`` that long for a recording, if it is one whose time is limited."""
+    """Give ``device`` that long for a recording, if it is one whose time is limited.
+
+    Raises InputError for a time that is no number.
+    """
+    if seconds is not None and not isfinite(seconds):
+        raise InputError(f"--device-timeout is {seconds}; give a number of seconds")
     if seconds is not None and hasattr(device, "timeout_s"):
         device.timeout_s = seconds
 
