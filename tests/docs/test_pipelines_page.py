@@ -39,15 +39,15 @@ def test_how_far_off_valid_elevation_is_in_the_picture_of_a_stop() -> None:
     found = {}
     for name in ("temporal-basic", "temporal-adaptive-hpf-spatial-backward"):
         profile = floatref.process(simulation.recording, name)
-        track, place = profile.track("left"), round(250.0 / profile.interval_m)
+        track, place = profile.track("left"), round(262.0 / profile.interval_m)
         true = high_pass(simulation.truth.track("left").elevation, profile.interval_m)
         error = np.abs(track.elevation - true[: track.elevation.size])
         assert track.valid[place]
         found[name] = error[place], error[track.valid].max()
         flagged = place + int(np.argmin(track.valid[place:]))
         if name == "temporal-basic":
-            assert flagged * profile.interval_m - 250.0 == pytest.approx(4.0, abs=0.5)
-    assert f"is {found['temporal-basic'][0]:.1f} m off at 250 m" in PAGE
+            assert flagged * profile.interval_m - 262.0 == pytest.approx(5.0, abs=0.5)
+    assert f"is {found['temporal-basic'][0]:.1f} m off at 262 m" in PAGE
     worst = found["temporal-adaptive-hpf-spatial-backward"][1]
     assert f"valid points are off by up to {1000.0 * worst:.0f} mm" in PAGE
 

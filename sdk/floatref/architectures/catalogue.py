@@ -7,10 +7,10 @@ from floatref.architectures.question import Answer, Pipeline
 
 VALIDITY: dict[str, float | None] = {
     "slow_mps": 4.444444,
-    "braking_g": 0.16,
+    "stopping_time_s": 5.0,
     "before_slow_m": 15.0,
     "after_slow_m": 30.0,
-    "after_braking_m": 15.0,
+    "after_braking_m": 30.0,
 }
 UNSUPPRESSED = {"before_slow_m": 47.0, "after_slow_m": 76.0, "after_braking_m": 47.0}
 UNLIMITED = {"before_slow_m": 158.865, "after_slow_m": 158.865, "after_braking_m": 47.0}

@@ -7,7 +7,7 @@ from floatref.errors import InputError
 from floatref.stages.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.combining import Combine
 from floatref.stages.conditioning import RemoveGravity
-from floatref.stages.drive_marks import BRAKING_G, SLOW_MPS, MarkDrive
+from floatref.stages.drive_marks import SLOW_MPS, STOPPING_TIME_S, MarkDrive
 from floatref.stages.integration import Integrate
 from floatref.stages.mean_removal import RemoveMean
 from floatref.stages.protocol import Stage
@@ -29,8 +29,8 @@ def nothing(question: Question) -> Sequence[Stage]:
 
 def condition(question: Question) -> Sequence[Stage]:
     """Remove 1 g, mark the drive; LPF_B3 at 1000 Hz on both sensors where the rate allows it."""
-    braking = question.settings.get("braking_g") or BRAKING_G
-    stages: list[Stage] = [RemoveGravity(), MarkDrive(_slow_mps(question), braking)]
+    stopping = question.settings.get("stopping_time_s") or STOPPING_TIME_S
+    stages: list[Stage] = [RemoveGravity(), MarkDrive(_slow_mps(question), stopping)]
     if question.header.rate > LEAST_RATE_HZ:
         cutoff = cutoff_setting(question, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)

@@ -170,23 +170,23 @@ def mark_drive(
     distance: FloatArray,
     window: int,
     slow: float,
-    braking: float,
+    stopping: float,
     marks: tuple[int, int],
     flags: FlagArray,
 ) -> None:
-    """Write to ``flags`` the first of ``marks`` for slow travel, the second for hard braking.
+    """Write to ``flags`` the first of ``marks`` for slow travel, the second for braking.
 
     ``distance`` holds two windows of ``window`` samples before the first flag. Travel is slow if
-    the progress over both windows is below ``slow``, and the braking is hard if that over the
-    last is ``braking`` below that over the one before. Where a distance is missing (NaN), so is
-    the mark.
+    the progress over both windows is below ``slow``; a brake counts if, at more than that, it is
+    below ``stopping`` times what the last window is short of the one before. Where a distance is
+    missing (NaN), so is the mark.
     """
     for i in range(flags.size):
         last = distance[i + 2 * window] - distance[i + window]
         before = distance[i + window] - distance[i]
         mark = 0
         if last + before < slow:
-            mark |= marks[0]
-        if before - last > braking:
-            mark |= marks[1]
+            mark = marks[0]
+        elif last + before < stopping * (before - last):
+            mark = marks[1]
         flags[i] = mark

@@ -1,4 +1,4 @@
-"""Marks for slow travel and hard braking, from the encoder."""
+"""Marks for slow travel and for braking near a standstill, from the encoder."""
 
 import numpy as np
 
@@ -8,15 +8,16 @@ from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ACCELERATION, DISTANCE
 from floatref.values.arrays import Flag, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
-from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+from floatref.values.channels import ChannelId
 
 WINDOW_S = 0.25
 """Two such windows are compared: short enough to mark a brake where it begins, long enough that
 coarse encoder counts do not flicker."""
 SLOW_MPS = 16 / 3.6
 """16 km/h, below which every suppression algorithm gives the profile up (section 5.1)."""
-BRAKING_G = 0.16
-"""Braking up to here rarely raised the roughness (section 3.3.1.3)."""
+STOPPING_TIME_S = 5.0
+"""0.16 g, up to which braking rarely raised the roughness (section 3.3.1.3), takes so long to a
+standstill from 28 km/h; the brakes behind that figure were released at 24 and 32 km/h."""
 
 
 class MarkDrive(Stage):
@@ -25,20 +26,26 @@ class MarkDrive(Stage):
     `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a
     basic algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI
     control (section 5.6) removes the road's longer waves, and timer distortion with reflection
-    (section 5.10) removes all of it. `Flag.BRAKING` where the speed fell by more than
-    ``braking_g`` allows between the two halves of it: there the accelerometer's axis is tilted
-    and sees the deceleration (1.4). A mark comes up to half a second late. Within the first half
-    second of a run nothing is marked, since there is nothing to compare with; filter run-in
-    covers it. Values stay as they are.
+    (section 5.10) removes all of it. Else `Flag.BRAKING` where, braking on as between the two
+    halves of it, the vehicle would stand within ``stopping_time_s``. The accelerometer's axis
+    tilts in proportion to the deceleration a and sees that part of it, an error as a² (1.5); at
+    the speed v the profile is bent falsely by as much over v². So it is the time v/a to a
+    standstill that counts, and the same brake spoils more the slower the vehicle (section 2.3.2).
+
+    A mark comes up to half a second late. Within the first half second of a run nothing is
+    marked, since there is nothing to compare with; filter run-in covers it. Values stay as they
+    are.
     """
 
     declared = Declared(shift_invariant=True)
 
-    def __init__(self, slow_mps: float = SLOW_MPS, braking_g: float = BRAKING_G) -> None:
-        """Mark travel below ``slow_mps`` and braking beyond ``braking_g``."""
+    def __init__(
+        self, slow_mps: float = SLOW_MPS, stopping_time_s: float = STOPPING_TIME_S
+    ) -> None:
+        """Mark travel below ``slow_mps``, else braking within ``stopping_time_s`` of a stand."""
         super().__init__()
-        self.slow_mps, self.braking_g = slow_mps, braking_g
-        self._window, self._slow, self._braking = 1, 0.0, 0.0
+        self.slow_mps, self.stopping_time_s = slow_mps, stopping_time_s
+        self._window, self._slow, self._windows = 1, 0.0, 0.0
 
     def open(self, header: Header) -> Header:
         """Ask for the distance in time, and for the acceleration of every track."""
@@ -50,7 +57,7 @@ class MarkDrive(Stage):
         self._window = max(1, round(WINDOW_S * float(header.rate)))
         window_s = self._window / float(header.rate)
         self._slow = self.slow_mps * 2 * window_s
-        self._braking = self.braking_g * STANDARD_GRAVITY * window_s**2
+        self._windows = 2 * self.stopping_time_s / window_s
         self.memory = {"past": np.full(2 * self._window, np.nan)}
         return header
 
@@ -73,5 +80,5 @@ class MarkDrive(Stage):
         self.memory["past"] = wide[distance.size :].copy()
         flags = np.empty(distance.size, np.uint8)
         kinds = int(Flag.SLOW), int(Flag.BRAKING)
-        motion.mark_drive(wide, self._window, self._slow, self._braking, kinds, flags)
+        motion.mark_drive(wide, self._window, self._slow, self._windows, kinds, flags)
         return flags

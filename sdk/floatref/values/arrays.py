@@ -23,7 +23,7 @@ class Flag(IntFlag):
     SLOW = 4
     """Travel so slow that stages remove content there, or drift is squeezed into one spot."""
     BRAKING = 8
-    """Braking so hard that the tilt of the accelerometer matters."""
+    """Braking so hard for the speed that the tilt of the accelerometer matters."""
 
 
 LASTING = Flag.DRIFT | Flag.SLOW | Flag.BRAKING

@@ -88,6 +88,35 @@ def test_a_stop_is_flagged_with_what_its_pipeline_spreads(steady, pipeline):
     assert lost.max() == pytest.approx(min(slow.max() + after, distance[-1] - 100.0), abs=2.0)
 
 
+@pytest.mark.parametrize("pipeline", floatref.pipelines())
+def test_a_brake_is_flagged_from_five_seconds_before_a_standstill_to_behind_its_release(
+    steady, pipeline
+):
+    times = np.arange(40_000) / 1000.0
+    speed = np.clip(30.0 - 3.0 * np.clip(times - 10.0, 0.0, None), 9.0, None)
+    distance = np.cumsum(speed) / 1000.0
+    recording = steady(seconds=40.0, distance=Channel.of("distance", distance, RATE))
+    lost = invalid_within(floatref.process(recording, pipeline))
+    late_m = 0.5 * 9.0
+    behind = 47.0 if pipeline in REACH else 30.0
+    begins, released = distance[speed < 5.0 * 3.0][0], distance[speed <= 9.0][0]
+    assert begins <= lost.min() <= begins + 0.25 * 15.0 + 0.1
+    assert released + behind <= lost.max() <= released + behind + late_m
+    assert lost.size == pytest.approx((lost.max() - lost.min()) / 0.05 + 1, abs=1)
+
+
+@pytest.mark.parametrize("stopping_time_s", [3.0, 7.0])
+def test_how_near_to_a_standstill_a_brake_is_flagged_is_a_setting(steady, stopping_time_s):
+    times = np.arange(40_000) / 1000.0
+    speed = np.clip(30.0 - 3.0 * np.clip(times - 10.0, 0.0, None), 6.0, None)
+    distance = np.cumsum(speed) / 1000.0
+    recording = steady(seconds=40.0, distance=Channel.of("distance", distance, RATE))
+    profile = floatref.process(recording, settings={"stopping_time_s": stopping_time_s})
+    begins = distance[speed < stopping_time_s * 3.0][0]
+    first = invalid_within(profile).min()
+    assert first == pytest.approx(begins, abs=0.3 * stopping_time_s * 3.0)
+
+
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-hpf-timer-distortion"])
 @pytest.mark.parametrize("lost", [slice(15_000, 16_250), slice(15_007, 15_018)])
 def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):

@@ -36,7 +36,7 @@ MAKERS = {
     "Drop": lambda: dropping.Drop("time_step", "elevation"),
     "FromFirst": lambda: datum.FromFirst("height"),
     "IntegrateReflecting": reflection.IntegrateReflecting,
-    "MarkDrive": lambda: drive_marks.MarkDrive(1e-6, 1e6),
+    "MarkDrive": lambda: drive_marks.MarkDrive(1e-6, 1e-6),
     "MatchedHighPass": observer.MatchedHighPass,
     "RemoveGravity": conditioning.RemoveGravity,
     "ScheduleCutOff": schedule.ScheduleCutOff,

@@ -1,4 +1,4 @@
-"""Marks for slow travel and hard braking."""
+"""Marks for slow travel and for braking near a standstill."""
 
 from fractions import Fraction
 
@@ -43,15 +43,42 @@ def test_a_steady_speed_is_slow_below_16_km_h_however_coarse_the_encoder(speed, 
         assert (flags == 0).all()
 
 
-@settings(deadline=None, max_examples=40)
-@given(st.floats(0.0, 0.9), st.sampled_from([0.0, 0.0003, 0.001]))
-def test_a_steady_brake_is_marked_beyond_its_limit(braking, count_m):
-    times = np.arange(3 * RATE) / RATE
-    flags = marked(40.0 - braking * G * times, count_m)[RATE:]
-    if braking > 0.17:
-        assert (flags == Flag.BRAKING).all()
-    elif braking < 0.15:
-        assert (flags == 0).all()
+@settings(deadline=None, max_examples=60)
+@given(
+    braking=st.floats(0.05, 0.9),
+    stopping_time=st.floats(1.0, 10.0),
+    count_m=st.sampled_from([0.0, 0.0003, 0.001]),
+)
+def test_a_brake_is_marked_once_it_would_stop_within_the_time(braking, stopping_time, count_m):
+    times = np.arange(12 * RATE) / RATE
+    speed = np.clip(40.0 - braking * G * times, 0.0, None)
+    flags = marked(speed, count_m, slow_mps=1e-6, stopping_time_s=stopping_time)
+    middle = times - 0.25
+    left = 40.0 / (braking * G) - middle
+    unsure = 0.05 + 2 * count_m / 0.25**2 / (braking * G) * stopping_time
+    inside = (middle > 0.5) & (left > 0.5)
+    assert (flags[inside & (left < stopping_time - unsure)] == Flag.BRAKING).all()
+    assert (flags[inside & (left > stopping_time + unsure)] == 0).all()
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.floats(5.0, 35.0), st.floats(0.1, 0.9))
+def test_twice_the_speed_bears_twice_the_brake(speed, braking):
+    times = np.arange(2 * RATE) / RATE
+    once = marked(speed - braking * times, slow_mps=1e-6, stopping_time_s=20.0)
+    twice = marked(2 * speed - 2 * braking * times, slow_mps=1e-6, stopping_time_s=20.0)
+    assert np.count_nonzero(once != twice) <= 1
+
+
+def test_staged_brakes_are_marked_where_released_if_they_nearly_always_raised_the_roughness():
+    def marked_at_the_end(from_kmh: float, to_kmh: float, braking: float) -> bool:
+        seconds = (from_kmh - to_kmh) / 3.6 / (braking * G)
+        times = np.arange(round(seconds * RATE)) / RATE
+        return bool(marked(from_kmh / 3.6 - braking * G * times)[-1] & Flag.BRAKING)
+
+    for speeds in ((72.0, 32.0), (48.0, 24.0)):
+        assert marked_at_the_end(*speeds, 0.26)
+        assert not marked_at_the_end(*speeds, 0.1)
 
 
 def test_a_standstill_is_slow_to_its_end_and_speeding_up_is_no_braking():
