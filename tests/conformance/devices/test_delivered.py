@@ -5,7 +5,6 @@ import os
 import shutil
 import socket
 import tempfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -191,19 +190,16 @@ def test_a_profile_that_is_cut_while_it_is_read_harms_nobody(recording, sound, m
 
 def test_a_file_that_grows_while_it_is_read_is_read_no_further(sound, tmp_path, monkeypatch):
     monkeypatch.setattr(delivered, "MAX_BYTES", 10_000)
-    monkeypatch.setattr(delivered, "FLAGS", os.O_RDONLY)
+    growing, grown, opens = sound / "left.f64", tmp_path / "grown", os.open
+    grown.write_bytes(bytes(100_000))
     (sound / "right.f64").unlink()
-    (sound / "left.f64").unlink()
-    (sound / "endless").touch()
-    real = os.open
+    os.truncate(growing, 8)
     monkeypatch.setattr(
-        os, "open", lambda path, flags, *rest: real(
-            "/dev/zero" if Path(path).name == "endless" else path, flags, *rest
-        )
-    )  # fmt: skip
+        os, "open", lambda path, *rest: opens(grown if path == growing else path, *rest)
+    )
     with pytest.raises(DeviceError, match="delivered more than"):
         take(sound, tmp_path / "copy")
-    assert (tmp_path / "copy" / "endless").stat().st_size <= 10_001
+    assert (tmp_path / "copy" / "left.f64").stat().st_size <= 10_001
 
 
 def test_files_that_are_named_stay_behind(sound, tmp_path):
