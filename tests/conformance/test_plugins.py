@@ -8,13 +8,11 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from floatref.errors import InputError
 from floatref_conformance import defaults, hookspecs, plugins
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.devices.interface import DeviceEntry, DeviceKind
 from floatref_conformance.hookspecs import hookimpl
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.registry import Registry
 
 
 def plugin(devices=None, checks=None):
@@ -177,17 +175,6 @@ def test_a_plugin_that_ends_the_process_is_left_out_and_reported():
     assert "bounce" in registry.checks
 
 
-@pytest.mark.parametrize("error", [KeyError("x"), SystemExit(0), OSError("no\nlink")])
-def test_a_kind_that_cannot_make_a_device_is_an_input_error(kind, error):
-    def make(name):
-        raise error
-
-    changed = replace(kind, make=make)
-    registry = collected(vendor=plugin(lambda register: register(changed)))
-    with pytest.raises(InputError, match=f"device fake:one: {type(error).__name__}: "):
-        registry.device("fake:one")
-
-
 def test_entry_points_are_loaded_one_at_a_time(monkeypatch, toy_check):
     good = ModuleType("good_conformance_plugin")
 
@@ -213,43 +200,3 @@ def test_every_hook_is_documented_fits_one_screen_and_is_never_firstresult():
     assert all("register" in hook.__doc__ for hook in hooks)
     assert "firstresult" not in inspect.getsource(hookspecs)
     assert len(inspect.getsource(hookspecs).splitlines()) <= 50
-
-
-@pytest.mark.parametrize("spec", ["serial:COM1", "exec", "mutant", "", "builtin:"])
-def test_a_kind_that_does_not_work_is_refused_with_those_that_do(spec):
-    with pytest.raises(
-        InputError, match=r"builtin:PIPELINE, .* exec:COMMAND LINE, files:DIR, mutant:NAME"
-    ):
-        collected().device(spec)
-
-
-def test_an_unknown_mutant_or_check_is_refused_with_the_known_ones():
-    with pytest.raises(InputError, match=r"mutant:nobody: unknown mutant; known: .*all-zeros"):
-        collected().device("mutant:nobody")
-    with pytest.raises(InputError, match=r"jumping: unknown check; .* quiescent, bounce"):
-        collected().check("jumping")
-
-
-@pytest.fixture
-def few(toy_check):
-    """A registry of three checks, one of them a plug-in's own."""
-    checks = {id_: toy_check(id=id_) for id_ in ("quiescent", "bounce", "mine")}
-    return Registry({}, checks)
-
-
-def test_a_check_that_is_not_built_is_told_from_one_that_is_unknown(few):
-    with pytest.raises(InputError, match=r"stop: not built yet; .* quiescent, bounce, mine"):
-        few.check("stop")
-    with pytest.raises(InputError, match=r"jumping: unknown check"):
-        few.check("jumping")
-
-
-def test_a_selection_keeps_the_suites_order_and_names_every_check_left_out(few):
-    chosen, left_out = few.select(["bounce", "quiescent", "bounce"])
-    assert [check.id for check in chosen] == ["quiescent", "bounce"]
-    reasons = {left.id: left.reason for left in left_out}
-    assert reasons.pop("mine") == "not selected"
-    assert reasons == dict.fromkeys({*IDS} - {"quiescent", "bounce"}, "not built yet")
-    chosen, left_out = few.select([])
-    assert [check.id for check in chosen] == ["quiescent", "bounce", "mine"]
-    assert {left.reason for left in left_out} == {"not built yet"}
