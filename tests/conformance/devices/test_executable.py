@@ -4,6 +4,7 @@ import json
 import os
 import shlex
 import signal
+import subprocess
 import sys
 
 import numpy as np
@@ -207,3 +208,23 @@ def test_a_command_that_is_not_found_is_wrong_usage():
     assert done.exit_code == 2
     assert "no-such-program not found" in done.output
     assert os.linesep not in done.output.strip()
+
+
+def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path):
+    body = (
+        "escape(lambda: (print(os.getpid(), file=open('pid', 'w'), flush=True), hang()))\n"
+        "while not (os.path.exists('pid') and open('pid').read()): time.sleep(0.01)\n"
+        "ask()\nos.kill(os.getppid(), signal.SIGINT)\nhang()"
+    )
+    judge = [sys.executable, "-m", "floatref_conformance", "run", "--check", "quiescent"]
+    done = subprocess.run(
+        [*judge, "--device", f"exec:{shlex.join(written(body))}"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 130, done.stderr
+    assert "Interrupted: no verdict" in done.stderr
+    with pytest.raises(ProcessLookupError):
+        os.kill(int((tmp_path / "pid").read_text()), 0)
