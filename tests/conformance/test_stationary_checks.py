@@ -1,49 +1,53 @@
 """`quiescent` and `bounce` on simulated recordings: what must pass and what must fail."""
 
-import json
-import subprocess
-import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from jsonschema import Draft202012Validator
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.bench import taken_of
 from floatref_conformance.checks.bounce import BOUNCE
 from floatref_conformance.checks.plate import Plate, measure_plate
 from floatref_conformance.checks.quiescent import QUIESCENT
+from floatref_conformance.checks.stationary import SEARCHED_RATES_HZ
 from floatref_conformance.classes import DeviceClass, Effort
-from floatref_conformance.cli.main import main
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.plugins import load_registry
-from floatref_conformance.proving_ground import cache, simulate
-from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.schemas import read_schema
 
 TRACKS = ("left", "right")
-BOTH = ["--check", "quiescent", "--check", "bounce"]
+
+
+def nominal(case):
+    """Return what is simulated of a case for a device of nominal channels."""
+    return replace(case.scenario, imu=False, gnss=False)
+
+
+@dataclass
+class TruthBench:
+    """A bench whose device knows the truth, and gets ``change`` of it wrong."""
+
+    change: Callable
+
+    def simulate(self, scenario):
+        return taken_of(replace(scenario, imu=False, gnss=False))
+
+    def run(self, taken, label=""):
+        return on_truths_grid(taken, self.change)
 
 
 @pytest.fixture(scope="module")
 def bounced():
-    """One bounce case and its simulation."""
+    """One bounce case and its recording."""
     case = BOUNCE.cases(0, Effort.QUICK)[1]
-    return case, case.simulate()
-
-
-@pytest.fixture(scope="module")
-def reported(tmp_path_factory):
-    """The report of the first command of the README, from a process of its own."""
-    folder = tmp_path_factory.mktemp("report")
-    command = [sys.executable, "-m", "floatref_conformance", "run", *BOTH, "--report", str(folder)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return done, (folder / "report.json").read_bytes()
+    return case, taken_of(nominal(case))
 
 
 def on_truths_grid(simulated, change):
-    """Return the profile of a device that knows the truth, and gets ``change`` of it wrong."""
+    """Return the truth, filtered alike, with ``change`` of it."""
     interval = simulated.truth.interval_m
     tracks = tuple(
         ProfileTrack.of(t.name, change(high_pass(t.elevation, interval), simulated))
@@ -52,19 +56,19 @@ def on_truths_grid(simulated, change):
     return Profile(interval, tracks)
 
 
-def failing(check, case, simulated, change):
-    measured = check.judge(case, on_truths_grid(simulated, change), simulated)
+def failing(check, case, change):
+    measured = check.judge(case, TruthBench(change))
     return {m.quantity for m in measured if not m.within(DeviceClass.NOMINAL)}
 
 
 def test_the_truth_itself_keeps_every_limit_of_the_strictest_class(bounced):
-    case, simulated = bounced
-    profile = on_truths_grid(simulated, lambda z, _: z)
-    assert all(m.within(DeviceClass.REFERENCE) for m in BOUNCE.judge(case, profile, simulated))
+    measured = BOUNCE.judge(bounced[0], TruthBench(lambda z, _: z))
+    assert {m.track for m in measured} == set(TRACKS)
+    assert all(m.within(DeviceClass.REFERENCE) for m in measured)
 
 
 def test_a_flat_profile_fails_by_the_plate_alone(bounced):
-    assert failing(BOUNCE, *bounced, lambda z, _: 0.0 * z) == {"plate height error"}
+    assert failing(BOUNCE, bounced[0], lambda z, _: 0.0 * z) == {"plate height error"}
 
 
 def test_a_profile_that_lets_the_bodys_motion_through_fails_by_the_iri_alone(bounced):
@@ -73,7 +77,7 @@ def test_a_profile_that_lets_the_bodys_motion_through_fails_by_the_iri_alone(bou
         bounce = np.sin(2 * np.pi * points / 10.0) * ((points > 200) & (points < 330))
         return z + 0.4e-3 * bounce
 
-    assert failing(BOUNCE, *bounced, leaky) == {"IRI"}
+    assert failing(BOUNCE, bounced[0], leaky) == {"IRI"}
 
 
 def test_smoothing_the_plate_away_fails_by_the_plate(bounced):
@@ -81,7 +85,7 @@ def test_smoothing_the_plate_away_fails_by_the_plate(bounced):
         window = round(10.0 / simulated.truth.interval_m)
         return np.convolve(z, np.full(window, 1.0 / window), mode="same")
 
-    assert failing(BOUNCE, *bounced, smooth) == {"plate height error"}
+    assert failing(BOUNCE, bounced[0], smooth) == {"plate height error"}
 
 
 def at_480_m(z, simulated):
@@ -90,7 +94,7 @@ def at_480_m(z, simulated):
 
 
 def of_the_case_before(z, simulated):
-    before = BOUNCE.cases(0, Effort.QUICK)[0].simulate().truth
+    before = taken_of(nominal(BOUNCE.cases(0, Effort.QUICK)[0])).truth
     return high_pass(before.track("left").elevation, before.interval_m)[: z.size]
 
 
@@ -107,14 +111,14 @@ def of_the_left_track(z, simulated):
     "cheat", [at_480_m, of_the_case_before, of_the_other_track, of_the_left_track]
 )
 def test_a_plate_from_elsewhere_fails_by_its_height(bounced, cheat):
-    assert "plate height error" in failing(BOUNCE, *bounced, cheat)
+    assert "plate height error" in failing(BOUNCE, bounced[0], cheat)
 
 
 def test_a_profile_shifted_by_two_hand_widths_fails_by_the_plates_place_alone(bounced):
     def shifted(z, simulated):
         return np.roll(z, round(0.2 / simulated.truth.interval_m))
 
-    assert failing(BOUNCE, *bounced, shifted) == {"plate displacement"}
+    assert failing(BOUNCE, bounced[0], shifted) == {"plate displacement"}
 
 
 @pytest.mark.parametrize("place", [107.0, 150.0, 400.0, 533.0])
@@ -122,9 +126,8 @@ def test_a_point_without_elevation_is_an_error_wherever_the_filter_has_run_in(bo
     def holed(z, simulated):
         return np.where(np.abs(simulated.truth.distance_m - place) < 0.004, np.nan, z)
 
-    case, simulated = bounced
     with pytest.raises(DeviceError, match=r"points without elevation from 106\.0 m to 534\.0 m"):
-        BOUNCE.judge(case, on_truths_grid(simulated, holed), simulated)
+        BOUNCE.judge(bounced[0], TruthBench(holed))
 
 
 def test_the_ends_of_the_run_may_lack_elevations(bounced):
@@ -132,30 +135,7 @@ def test_the_ends_of_the_run_may_lack_elevations(bounced):
         x = simulated.truth.distance_m
         return np.where((x < 105.9) | (x > 534.1), np.nan, z)
 
-    assert failing(BOUNCE, *bounced, without_ends) == set()
-
-
-def test_a_recording_comes_from_the_cache_and_is_the_one_simulated_anew(bounced, monkeypatch):
-    case, _ = bounced
-
-    def unexpected(*_):
-        raise AssertionError("simulated again")
-
-    monkeypatch.setattr(cache, "simulate", unexpected)
-    stored = case.simulate()
-    anew = simulate(Scenario(seed=case.seed, manoeuvre="bounce", rate_hz=case.rate_hz))
-    for channel in anew.recording.channels:
-        again = stored.recording.channel(*channel.id).values
-        assert np.array_equal(again, channel.values)
-    for track in anew.truth.tracks:
-        assert np.array_equal(stored.truth.track(track.name).elevation, track.elevation)
-
-
-def test_a_cache_that_cannot_be_written_is_done_without(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("FLOATREF_CACHE", str(tmp_path / "file" / "below"))
-    case = QUIESCENT.cases(5, Effort.QUICK)[1]
-    assert case.simulate().recording.channel("distance").values.size > 0
+    assert failing(BOUNCE, bounced[0], without_ends) == set()
 
 
 def test_the_plate_lies_outside_the_stretch_whose_iri_is_limited(bounced):
@@ -194,14 +174,15 @@ def test_a_left_over_acceleration_bends_the_rise_as_published(bounced):
         assert expected < acceleration * 0.0103
 
 
-def test_cases_follow_from_the_seed_and_differ_between_seeds_checks_and_each_other():
-    def seeds(check, seed):
-        return [case.parameters["seed"] for case in check.cases(seed, Effort.QUICK)]
+def seeds(check, seed, effort=Effort.QUICK):
+    return [case.scenario.seed for case in check.cases(seed, effort)]
 
-    assert seeds(QUIESCENT, 7) == seeds(QUIESCENT, 7)
+
+def test_cases_follow_from_the_seed_and_differ_between_seeds_checks_and_each_other():
+    assert QUIESCENT.cases(7, Effort.QUICK) == QUIESCENT.cases(7, Effort.QUICK)
     drawn = [*seeds(QUIESCENT, 7), *seeds(QUIESCENT, 8), *seeds(BOUNCE, 7)]
     assert len(set(drawn)) == len(drawn)
-    assert len({case.rate_hz for case in BOUNCE.cases(0, Effort.QUICK)}) == 2
+    assert len({case.scenario.rate_hz for case in BOUNCE.cases(0, Effort.QUICK)}) == 2
 
 
 def test_certification_draws_more_cases_and_those_of_a_quick_run_first():
@@ -211,14 +192,19 @@ def test_certification_draws_more_cases_and_those_of_a_quick_run_first():
         assert len(set(more)) == len(more) == 16
 
 
-def test_every_check_names_clause_derivation_floor_and_a_limit_per_class():
-    for check in load_registry().checks.values():
-        for text in (check.title, check.clause, check.derivation, check.floor):
-            assert text
-        assert check.limits
-        assert all(set(limits) == set(DeviceClass) for limits in check.limits.values())
-        words = CliRunner().invoke(main, ["explain", check.id]).output
-        assert f"Clause: {check.clause}" in words
+@settings(deadline=None, max_examples=30)
+@given(st.sampled_from([QUIESCENT, BOUNCE]).flatmap(lambda c: st.tuples(st.just(c), c.strategy())))
+def test_the_search_draws_cases_of_the_check_itself(drawn):
+    check, case = drawn
+    assert case.check == case.scenario.manoeuvre == check.id
+    assert case.scenario.rate_hz in SEARCHED_RATES_HZ
+    assert case.parameters["scenario"].keys() <= {"manoeuvre", "rate_hz", "seed"}
+
+
+def test_the_simplest_case_is_the_test_of_the_proving_ground_alone():
+    for check in (QUIESCENT, BOUNCE):
+        told = check.simplest.parameters
+        assert told == {"scenario": {"manoeuvre": check.id}, "variation": {}}
 
 
 def test_the_limits_are_those_of_r_57_and_half_of_them_for_class_reference():
@@ -226,19 +212,3 @@ def test_the_limits_are_those_of_r_57_and_half_of_them_for_class_reference():
         assert check.iri_limits[DeviceClass.NOMINAL] == limit
         assert check.iri_limits[DeviceClass.ADEQUATE] == limit
         assert check.iri_limits[DeviceClass.REFERENCE] == pytest.approx(limit / 2)
-
-
-def test_the_basic_pipeline_passes_both_and_the_run_is_incomplete(reported):
-    done, report = reported
-    assert done.returncode == 4, done.stderr
-    assert "INCOMPLETE: 2 of 2 checks that ran passed; 13 were not run" in done.stdout
-    document = json.loads(report)
-    Draft202012Validator(read_schema("conformance-report-1")).validate(document)
-    outcomes = {c["id"]: c["outcome"] for c in document["checks"]}
-    assert (outcomes.pop("quiescent"), outcomes.pop("bounce")) == ("pass", "pass")
-    assert set(outcomes.values()) == {"skip"}
-
-
-def test_another_process_with_the_same_seed_writes_the_same_bytes(reported, tmp_path):
-    CliRunner().invoke(main, ["run", *BOTH, "--report", str(tmp_path)])
-    assert (tmp_path / "report.json").read_bytes() == reported[1]
