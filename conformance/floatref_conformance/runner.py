@@ -1,7 +1,7 @@
 """Running checks on a device: events on the way, a result at the end."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from floatref.errors import InputError
@@ -72,13 +72,13 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     """
     try:
         return _run(plan, emit)
-    except (SuiteError, BrokenPipeError):
+    except (SuiteError, BrokenPipeError, KeyboardInterrupt):
+        close(plan.device)
         raise
     except (Exception, SystemExit) as error:
+        close(plan.device)
         text = " ".join(str(error).split())
         raise SuiteError(f"{type(error).__name__}: {text}") from error
-    finally:
-        close(plan.device)
 
 
 def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
@@ -92,6 +92,8 @@ def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
         for again in _replayed(plan, check, result, trial):
             replayed.append(again)
             emit(CaseReplayed(again))
+        if check is plan.checks[-1]:
+            result = waived(_ended(result, close(plan.device)), plan.waivers)
         results.append(result)
         emit(CheckFinished(result))
     results += [left_out_result(left_out) for left_out in plan.left_out]
@@ -99,6 +101,14 @@ def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     finished = _result(plan, description, results, replayed)
     emit(RunFinished(finished))
     return finished
+
+
+def _ended(result: CheckResult, fault: str) -> CheckResult:
+    """Return the last ``result``, an error if the device was at fault when it was to stop."""
+    if not fault or result.outcome is Outcome.NOT_APPLICABLE:
+        return result
+    reason = "; ".join(part for part in (result.reason, f"at its end the device {fault}") if part)
+    return replace(result, outcome=Outcome.ERROR, reason=reason, class_reached=None)
 
 
 def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from floatref_conformance.classes import DeviceClass, Effort
-from floatref_conformance.errors import SuiteError
+from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.events import CaseFinished
 from floatref_conformance.render.report import as_json
 from floatref_conformance.runner import run
@@ -205,3 +205,17 @@ def test_the_same_seed_makes_the_same_report_and_another_seed_another(
     ]
     assert texts[0] == texts[1]
     assert texts[0].replace('"seed": 4', '"seed": 5') != texts[2]
+
+
+@pytest.mark.parametrize("gain", [1.0, 0.5])
+def test_a_fault_at_the_end_makes_the_last_check_an_error(
+    plan, result_of, fake_device, toy_check, gain
+):
+    device = fake_device(scaled(gain))
+    device.close = lambda: (_ for _ in ()).throw(DeviceError("stop: was killed by SIGSEGV"))
+    result = result_of(plan(device, toy_check(), toy_check(id="last")))
+    outcomes = {check.id: check.outcome for check in result.checks}
+    assert outcomes["last"] is Outcome.ERROR
+    assert outcomes["toy"] is (Outcome.PASS if gain == 1.0 else Outcome.FAIL)
+    assert "SIGSEGV" in {check.id: check.reason for check in result.checks}["last"]
+    assert result.verdict is Verdict.FAIL
