@@ -1,7 +1,10 @@
 """Following a run: the terminal sees it all, the reports are written at its end."""
 
+import signal
+import threading
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import NoReturn
 
 import click
@@ -30,7 +33,8 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
             _tell(event, writers)
 
     try:
-        result = run(plan, emit)
+        with _ended_like_an_interrupt():
+            result = run(plan, emit)
     except SuiteError as fault:
         terminal.close()
         _end_at_fault(fault)
@@ -43,6 +47,19 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
     for event in finished:
         _tell(event, writers)
     return result
+
+
+@contextmanager
+def _ended_like_an_interrupt() -> Iterator[None]:
+    """Let SIGTERM end the run as Ctrl-C does, so that the device is ended with it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _tell(event: Event, writers: Sequence[Renderer]) -> None:

@@ -210,11 +210,12 @@ def test_a_command_that_is_not_found_is_wrong_usage():
     assert os.linesep not in done.output.strip()
 
 
-def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path):
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path, name):
     body = (
         "escape(lambda: (print(os.getpid(), file=open('pid', 'w'), flush=True), hang()))\n"
         "while not (os.path.exists('pid') and open('pid').read()): time.sleep(0.01)\n"
-        "ask()\nos.kill(os.getppid(), signal.SIGINT)\nhang()"
+        f"ask()\nos.kill(os.getppid(), signal.{name})\nhang()"
     )
     judge = [sys.executable, "-m", "floatref_conformance", "run", "--check", "quiescent"]
     done = subprocess.run(
