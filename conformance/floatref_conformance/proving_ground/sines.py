@@ -41,9 +41,11 @@ def sines_road(
     tracks: Sequence[str] | Mapping[str, float] = ("left", "right"),
     start_m: float = START_M,
 ) -> Road:
-    """Make a road of the waves of `WAVELENGTHS_M`, usable up to ``length_m``, with a level start.
+    """Make a road of the waves of `WAVELENGTHS_M`, usable up to ``length_m``.
 
-    ``seed`` draws the phases. Raises InputError for impossible lengths or wheel paths.
+    It fades in from the start of the grid on: under no sensor is it level, which to a device
+    would look as if the sensor were stuck. ``seed`` draws the phases. Raises InputError for
+    impossible lengths or wheel paths.
     """
     sides = lateral_positions(tracks)
     x = start_m + spacing_m * np.arange(points_of(length_m, spacing_m, start_m), dtype=np.float64)
@@ -52,7 +54,7 @@ def sines_road(
     for place, name in enumerate(sides):
         own = np.where(WAVELENGTHS_M >= SHARED_FROM_M, shared, _phases(seed, place + 1))
         elevation[name] = _sum(x, own)
-    return with_level_start(Road(start_m, spacing_m, elevation, sides))
+    return with_level_start(Road(start_m, spacing_m, elevation, sides), start_m)
 
 
 def _phases(seed: int, place: int = 0) -> FloatArray:
