@@ -32,12 +32,22 @@ def replay(device: Device, check: Check, case: Case) -> CaseResult:
     It is skipped for a device without the capabilities that ``check`` needs.
     """
     try:
+        result = _outside_a_run(device, check, case)
+    except BaseException:
+        close(device)
+        raise
+    fault = close(device)
+    if not fault or result.fault is not None:
+        return result
+    return replace(result, fault=f"at its end the device {fault}")
+
+
+def _outside_a_run(device: Device, check: Check, case: Case) -> CaseResult:
+    try:
         description = describe(device)
-        missing = check.needs - set(description.capabilities)
-        if missing:
-            return CaseResult(case.name, case.parameters, skipped=lacking(missing))
-        return judged(check, case, DeviceBench(device, description))
     except DeviceError as fault:
         return CaseResult(case.name, case.parameters, fault=str(fault))
-    finally:
-        close(device)
+    missing = check.needs - set(description.capabilities)
+    if missing:
+        return CaseResult(case.name, case.parameters, skipped=lacking(missing))
+    return judged(check, case, DeviceBench(device, description))

@@ -6,6 +6,7 @@ import pytest
 
 from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.errors import DeviceError
 
 
 @pytest.fixture
@@ -73,6 +74,26 @@ def test_a_case_that_needs_what_the_device_lacks_is_not_judged(replay, devices):
     assert answer.exit_code == 4
     assert "needs gnss" in answer.stdout
     assert devices["bad"].seen == []
+
+
+def test_a_device_at_fault_when_it_is_to_stop_fails(replay, devices):
+    def sticking():
+        raise DeviceError("did not stop within 5 s")
+
+    devices["good"].close = sticking
+    answer = replay("good")
+    assert answer.exit_code == 1
+    assert "at its end the device did not stop within 5 s" in answer.stdout
+    devices["broken"].close = sticking
+    assert "out of paper" in replay("broken").stdout
+
+
+def test_a_device_that_cannot_describe_itself_fails(replay, devices):
+    devices["good"].said = "a fine device"
+    answer = replay("good")
+    assert answer.exit_code == 1
+    assert "describes itself" in answer.stdout
+    assert devices["good"].closed == 1
 
 
 def test_a_case_of_a_report_fails_alike_and_passes_when_the_device_is_mended(
