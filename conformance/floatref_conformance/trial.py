@@ -68,7 +68,7 @@ class Trial:
         return check_result(check, tuple(cases.values()), self.device_class, simpler)
 
     def replay(self, check: Check, kept: KeptCase) -> Mapping[str, Any]:
-        """Return what the device makes of a case that was kept, by the limits of its class.
+        """Return what the device makes of a case that was kept, by the limits of this run.
 
         Numbers that make no drive in this edition are skipped.
         """
@@ -76,13 +76,13 @@ class Trial:
             result = self._judge(check, kept.case)
         except InputError as error:
             result = CaseResult(kept.case.name, kept.case.parameters, skipped=str(error))
-        reason = result.skipped or why(result, kept.device_class)
+        reason = result.skipped or why(result, self.device_class)
         return {
             "file": kept.file,
             "check": check.id,
             "outcome": _outcome(result, reason).value,
             "reason": reason,
-            **_figures(result.worst(kept.device_class), kept.device_class),
+            **_figures(result.worst(self.device_class), self.device_class),
         }
 
     def _found(self, check: Check, case: Case) -> float:

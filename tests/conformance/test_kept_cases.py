@@ -42,11 +42,12 @@ def test_a_kept_case_that_still_fails_makes_a_run_fail_whose_checks_all_pass(
     assert result.verdict is Verdict.FAIL
 
 
-def test_a_kept_case_is_judged_by_the_class_that_it_broke(plan, result_of, fake_device):
+def test_a_kept_case_is_judged_by_the_class_of_the_run(plan, result_of, fake_device):
     device = fake_device(lambda tracks: {name: 0.99 * z for name, z in tracks.items()})
+    again = (kept("toy", ROUGH, DeviceClass.REFERENCE),)
     for device_class, outcome in zip(DeviceClass, ("pass", "pass", "fail"), strict=True):
-        again = (kept("toy", ROUGH, device_class),)
-        assert outcomes(result_of(plan(device, kept=again))) == {"toy-1.json": outcome}
+        result = result_of(plan(device, kept=again, device_class=device_class))
+        assert outcomes(result) == {"toy-1.json": outcome}
 
 
 @pytest.mark.parametrize(
