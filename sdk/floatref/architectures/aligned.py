@@ -1,10 +1,12 @@
 """One channel on another clock: passed through, or linear between its samples."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.architectures.damage import Damage, within
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.clock import Clock, StampedClock, UniformClock
@@ -23,6 +25,8 @@ FAR = 1 << 40
 """Samples to the next known one, if there is none."""
 LOOK = 4096
 """Samples looked at in one go for the end of a gap."""
+Read = Callable[[int, int], FloatArray]
+"""What returns the samples of a channel from one index up to another, NaN if missing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +34,7 @@ class Stretch:
     """Samples of a channel on the clock of the blocks, and which of them are what.
 
     ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`,
-    of the encoder `BLIND_S`.
+    of the encoder `BLIND_S`, or in one of lasting damage. Samples of void damage are NaN.
     """
 
     values: FloatArray
@@ -42,9 +46,12 @@ class Stretch:
 class AlignedChannel:
     """A channel seen from ``clock``; ``first`` is the clock's sample that counts as 0."""
 
-    def __init__(self, channel: Channel, clock: UniformClock, first: int) -> None:
-        """Find out whether the two clocks agree."""
+    def __init__(
+        self, channel: Channel, clock: UniformClock, first: int, damage: Damage | None = None
+    ) -> None:
+        """Find out whether the two clocks agree; samples of ``damage`` count as missing."""
         self.channel = channel
+        self._damage = damage or Damage()
         self._clock, self._first = clock, first
         self._offset = _common_grid(channel.clock, clock)
         self._gap_s = _gap(channel)
@@ -55,14 +62,14 @@ class AlignedChannel:
         if self._offset is not None:
             low = begin + self._first + self._offset
             longest = int(self._bridge_s * float(self._clock.rate))
-            values, missing, lost = bridged(self.channel.values, low, low + end - begin, longest)
+            values, missing, lost = self._samples(low, low + end - begin, longest)
             return Stretch(values, missing=missing, lost=lost)
         before = max(begin - 1, 0)
         place = self._places(self._clock.times(end - before, self._first + before))
         low = int(place[0])
         high = min(math.ceil(place[-1]) + 1, self.channel.values.size)
         longest = int(self._bridge_s * self.channel.mean_rate_hz)
-        samples, missing, lost = bridged(self.channel.values, low, high, longest)
+        samples, missing, lost = self._samples(low, high, longest)
         values = np.interp(place, np.arange(low, high), samples)
         fresh = np.diff(np.floor(place), prepend=-1.0 if begin == before else np.nan) > 0
         skip = begin - before
@@ -78,6 +85,28 @@ class AlignedChannel:
         release(self.channel.values)
         if isinstance(self.channel.clock, StampedClock):
             release(self.channel.clock.times_s)
+
+    def _samples(
+        self, low: int, high: int, longest: int
+    ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
+        """Return samples ``low`` to ``high - 1``, which are missing, and which of these lost."""
+        values, missing, lost = bridged(self._sound, self.channel.values.size, low, high, longest)
+        void = within(self._damage.void, low, high)
+        if void is not None:
+            values = np.where(void, np.nan, values)
+        lasting = within(self._damage.lasting, low, high)
+        if lasting is not None:
+            lost = lasting if lost is None else lost | lasting
+        return values, missing, lost
+
+    def _sound(self, low: int, high: int) -> FloatArray:
+        """Return samples ``low`` to ``high - 1``; what is damaged is missing."""
+        values = self.channel.values[low:high]
+        for spans in (self._damage.gone, self._damage.void):
+            mask = within(spans, low, high)
+            if mask is not None:
+                values = np.where(mask, np.nan, values)
+        return values
 
     def _places(self, times: FloatArray) -> FloatArray:
         clock, last = self.channel.clock, self.channel.values.size - 1
@@ -101,23 +130,25 @@ class AlignedChannel:
 
 
 def bridged(
-    values: FloatArray, low: int, high: int, longest: int = 0
+    read: Read, size: int, low: int, high: int, longest: int = 0
 ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
     """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which those were.
 
-    The last array tells which of them lie in a gap of more than ``longest`` samples, or one
-    that is open at an end of the channel.
+    ``size`` is the number of samples that can be read. The last array tells which of them lie in
+    a gap of more than ``longest`` samples, or one that is open at an end of the channel.
     """
-    part = values[low:high]
+    part = read(low, high)
     if not np.isnan(part.sum()):
         return part, None, None
     missing = np.isnan(part)
-    known = np.flatnonzero(~missing) + low
-    left, right = _good_before(values, low), _good_after(values, high)
-    known = np.concatenate((left, known, right))
+    inside = np.flatnonzero(~missing)
+    left, before = _good_before(read, low)
+    right, after = _good_after(read, high, size)
+    known = np.concatenate((left, inside + low, right))
     where = np.arange(low, high)
     lost = missing & (_gap_lengths(known, where) > longest)
-    return np.interp(where, known, values[known]), missing, lost
+    there = np.concatenate((before, part[inside], after))
+    return np.interp(where, known, there), missing, lost
 
 
 def _gap_lengths(known: IndexArray, where: IndexArray) -> IndexArray:
@@ -127,20 +158,24 @@ def _gap_lengths(known: IndexArray, where: IndexArray) -> IndexArray:
     return np.asarray(edges[after] - edges[after - 1] - 1)
 
 
-def _good_before(values: FloatArray, low: int) -> IndexArray:
+def _good_before(read: Read, low: int) -> tuple[IndexArray, FloatArray]:
+    """Return index and value of the last known sample before ``low``, empty if there is none."""
     for end in range(low, 0, -LOOK):
-        good = np.flatnonzero(~np.isnan(values[max(end - LOOK, 0) : end]))
+        values = read(max(end - LOOK, 0), end)
+        good = np.flatnonzero(~np.isnan(values))[-1:]
         if good.size:
-            return good[-1:] + max(end - LOOK, 0)
-    return np.empty(0, np.int64)
+            return good + max(end - LOOK, 0), values[good]
+    return np.empty(0, np.int64), np.empty(0)
 
 
-def _good_after(values: FloatArray, high: int) -> IndexArray:
-    for begin in range(high, values.size, LOOK):
-        good = np.flatnonzero(~np.isnan(values[begin : begin + LOOK]))
+def _good_after(read: Read, high: int, size: int) -> tuple[IndexArray, FloatArray]:
+    """Return index and value of the first known sample from ``high`` on."""
+    for begin in range(high, size, LOOK):
+        values = read(begin, min(begin + LOOK, size))
+        good = np.flatnonzero(~np.isnan(values))[:1]
         if good.size:
-            return good[:1] + begin
-    return np.empty(0, np.int64)
+            return good + begin, values[good]
+    return np.empty(0, np.int64), np.empty(0)
 
 
 def _common_grid(clock: Clock, other: UniformClock) -> int | None:

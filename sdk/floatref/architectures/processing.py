@@ -75,7 +75,7 @@ def run(
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = _collect(header, blocks, chosen, resolved, room)
-    return Result(profile, (*cautions, *loaded.reports))
+    return Result(profile, (*cautions, *source.warnings, *loaded.reports))
 
 
 def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Recording:

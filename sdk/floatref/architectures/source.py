@@ -4,16 +4,18 @@ A channel on that clock is passed through. Another is linear between its samples
 what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
 missing sample is bridged by the line between its neighbours and flagged; a longer gap of the
 accelerometer disturbs the floating reference height, and one of the encoder may hide a stop; both
-are flagged as that too. GNSS samples
-keep their own times, as events.
+are flagged as that too. Samples that are there and yet measure nothing (`damage`,
+`encoder_damage`) count as missing. GNSS samples keep their own times, as events.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from floatref.architectures.aligned import AlignedChannel, Stretch
+from floatref.architectures.damage import Damage, damaged_force, damaged_height
+from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.events import GnssEvents
 from floatref.architectures.steady import steady_clock
 from floatref.errors import InputError
@@ -34,7 +36,8 @@ class Source:
     """The nominal channels of a recording as a stream of blocks.
 
     `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
-    is travelled from there to the last; `length` the number of samples that all channels cover.
+    is travelled from there to the last; `length` the number of samples that all channels cover;
+    `warnings` one line for each channel and kind of damage.
     """
 
     def __init__(self, recording: Recording) -> None:
@@ -43,7 +46,12 @@ class Source:
         found = dict(_nominal(recording, self._tracks))
         clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
-        self._aligned = {name: AlignedChannel(c, clock, first) for name, c in found.items()}
+        damage = {name: _damage(name, found) for name in found}
+        self.warnings = tuple(line for d in damage.values() for line in d.warnings)
+        self._aligned = {
+            name: AlignedChannel(channel, clock, first, damage[name])
+            for name, channel in found.items()
+        }
         self.header = Header(
             axis=Axis.TIME,
             step=float(1 / clock.rate),
@@ -55,7 +63,7 @@ class Source:
         )
         self._events = GnssEvents(recording)
         self.origin_m = self._distance(0)
-        self.distance_m = self._distance(self.length - 1) - self.origin_m
+        self.distance_m = np.fmax(self._distance(self.length - 1) - self.origin_m, 0.0)
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
         """Yield the run in blocks of ``size`` samples, each let go of before the next."""
@@ -86,6 +94,14 @@ def _nominal(recording: Recording, tracks: tuple[str, ...]) -> Iterator[tuple[Ch
     for track in tracks:
         for name in (SPECIFIC_FORCE, HEIGHT):
             yield ChannelId(name, track), recording.channel(name, track)
+
+
+def _damage(name: ChannelId, found: Mapping[ChannelId, Channel]) -> Damage:
+    if name.name == DISTANCE:
+        return encoder_damage(found[name])
+    if name.name == SPECIFIC_FORCE:
+        return damaged_force(found[name])
+    return damaged_height(found[name], found[ChannelId(SPECIFIC_FORCE, name.track)])
 
 
 def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int]:

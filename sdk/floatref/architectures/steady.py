@@ -1,9 +1,9 @@
-"""Time stamps of a constant rate, as that rate."""
+"""Time stamps of a constant rate, as that rate; samples may be missing in between."""
 
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 from floatref.values.scanning import chunks, longest_step, median_step
@@ -12,6 +12,8 @@ JITTER = 0.01
 """Largest deviation of time stamps from a constant rate, in steps."""
 ROUNDING_S = 2e-6
 """Stamps may be rounded to microseconds, however fast the samples come."""
+HOLE = 1.5
+"""Time stamps so many usual steps apart, or more, have samples missing in between."""
 MOST_DIGITS = 12
 """A rate is looked for with up to so many digits."""
 
@@ -19,7 +21,8 @@ MOST_DIGITS = 12
 def steady_clock(channel: Channel) -> UniformClock:
     """Return the channel's clock; time stamps of a constant rate become the roundest such rate.
 
-    Raises InputError if there is none: an integration needs a constant step.
+    Between holes, of half the time at most, the rate has to be constant. Raises InputError if it
+    is not: an integration needs a constant step.
     """
     if isinstance(channel.clock, UniformClock):
         return channel.clock
@@ -27,21 +30,38 @@ def steady_clock(channel: Channel) -> UniformClock:
     span = float(times[-1] - times[0])
     if not span > 0:
         raise InputError(f"channel {channel.id}: one sample is no stretch of time")
-    step = span / (times.size - 1)
+    bounds = _bounds(times)
+    held = float(np.sum(times[bounds[1:] - 1] - times[bounds[:-1]]))
+    steps = times.size + 1 - bounds.size
+    step = held / steps if held >= span / 2 else span / (times.size - 1)
+    bounds = bounds if held >= span / 2 else np.array([0, times.size])
     farthest = max(abs(float(times[0])), abs(float(times[-1])))
     allowed = max(JITTER * step, ROUNDING_S) + 4.0 * float(np.spacing(farthest))
-    worst, off = _farthest_off(times, step)
+    worst, off = _farthest_off(times, step, bounds)
     if off > allowed:
         raise InputError(_refusal(channel, times, worst, off, step))
-    return UniformClock.of(_roundest(1.0 / step, span, allowed), float(times[0]))
+    longest = float(np.max(times[bounds[1:] - 1] - times[bounds[:-1]]))
+    return UniformClock.of(_roundest(1.0 / step, longest, allowed), float(times[0]))
 
 
-def _farthest_off(times: FloatArray, step: float) -> tuple[int, float]:
-    """Return which stamp is farthest off a constant ``step``, and how far, in s."""
+def _bounds(times: FloatArray) -> IndexArray:
+    """Return the first index of every stretch without a hole, and the number of stamps."""
+    wide, found = HOLE * median_step(times), [np.zeros(1, np.int64)]
+    for first, chunk in chunks(times, overlap=1):
+        found.append(first + 1 + np.flatnonzero(np.diff(chunk) > wide))
+    return np.concatenate([*found, np.array([times.size])])
+
+
+def _farthest_off(times: FloatArray, step: float, bounds: IndexArray) -> tuple[int, float]:
+    """Return which stamp is farthest off a constant ``step`` since the last hole, and by how much.
+
+    ``bounds`` are those of the stretches without a hole.
+    """
     worst, farthest = 0, 0.0
     for first, chunk in chunks(times):
-        index = np.arange(first, first + chunk.size, dtype=np.float64)
-        off = np.abs(chunk - times[0] - step * index)
+        index = np.arange(first, first + chunk.size)
+        start = bounds[np.searchsorted(bounds, index, "right") - 1]
+        off = np.abs(chunk - times[start] - step * (index - start))
         if off.max() > farthest:
             worst, farthest = first + int(off.argmax()), float(off.max())
     return worst, farthest

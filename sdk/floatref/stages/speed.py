@@ -6,7 +6,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TRAVEL_SPEED
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -16,8 +16,9 @@ class TravelSpeed(Stage):
 
     v(t_k) = (d(t_k) - d(t_{k-n})) / (n dt), n the number of samples in the window, at least
     one. Before the first sample the vehicle is taken to stand where it begins, so speed grows
-    from zero within the window. A missing distance is bridged by the one before it; the speed
-    there is flagged. No point of the profile is changed by this stage itself.
+    from zero within the window. As long as the window holds a missing distance the last speed is
+    kept, and where the distance is missing the speed is flagged. No point of the profile is changed
+    by this stage itself.
     """
 
     declared = Declared(shift_invariant=True)
@@ -35,7 +36,7 @@ class TravelSpeed(Stage):
         header.require(self.name, ChannelId(DISTANCE))
         self._samples = max(1, round(self.window_s * float(header.rate)))
         self._duration = self._samples / float(header.rate)
-        self.memory = {"past": None}
+        self.memory = {"past": None, "speed": 0.0}
         return header.adding(ChannelId(TRAVEL_SPEED))
 
     def advance(self, block: Block) -> Block:
@@ -46,22 +47,24 @@ class TravelSpeed(Stage):
         return block.setting({speed: self._speed(block[distance])}, marks)
 
     def _speed(self, distance: FloatArray) -> FloatArray:
-        if np.isnan(distance.sum()):
-            before = self.memory["past"]
-            distance = _held(distance, np.nan if before is None else before[-1])
         if self.memory["past"] is None:
             known = distance[~np.isnan(distance)]
             if known.size == 0:
                 return np.zeros(distance.size)
             self.memory["past"] = np.full(self._samples, known[0])
-            distance = np.where(np.isnan(distance), known[0], distance)
+            distance = distance.copy()
+            distance[: int(np.argmax(~np.isnan(distance)))] = known[0]
         wide = np.concatenate((self.memory["past"], distance))
         self.memory["past"] = wide[wide.size - self._samples :].copy()
         speed: FloatArray = (distance - wide[: distance.size]) / self._duration
+        if np.isnan(wide.sum()):
+            speed = self._kept(speed, np.isnan(wide))
+        self.memory["speed"] = float(speed[-1]) if speed.size else self.memory["speed"]
         return speed
 
-
-def _held(distance: FloatArray, before: float) -> FloatArray:
-    wide = np.concatenate(([before], distance))
-    last = np.maximum.accumulate(np.where(np.isnan(wide), 0, np.arange(wide.size)))
-    return wide[last[1:]]
+    def _kept(self, speed: FloatArray, missing: BoolArray) -> FloatArray:
+        """Return ``speed`` with the last one before wherever the window has a ``missing``."""
+        count = np.cumsum(np.append(0, missing))
+        unknown = count[self._samples + 1 :] - count[: speed.size] > 0
+        last = np.maximum.accumulate(np.where(unknown, 0, np.arange(1, speed.size + 1)))
+        return np.append(self.memory["speed"], speed)[last]

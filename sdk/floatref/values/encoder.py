@@ -16,6 +16,8 @@ SLOWEST_MPS = 0.1
 """A mean speed below this over more than ten seconds is worth a warning, in m/s."""
 AVERAGED_S = 0.5
 """Speed is averaged over this time, in s: counts come in bursts."""
+ROLLS_BACK_M = 1.0
+"""A vehicle that stops may roll back so far, in m; a reversed encoder goes on."""
 MOST_POINTS = 1e9
 FINEST_STEP = 1e-3
 """How much of the profile interval float64 may lose to rounding."""
@@ -25,8 +27,8 @@ def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Ite
     """Yield warnings about the distance ``channel``, one line each.
 
     Raises InputError with one line naming the channel, the value and what to do for a distance
-    beyond what float64 holds at ``interval_m``, that goes backwards, that is too short or too
-    long for ``interval_m``, or that is faster than any profiler.
+    beyond what float64 holds at ``interval_m``, that goes back by more than `ROLLS_BACK_M`, that
+    is too short or too long for ``interval_m``, or that is faster than any profiler.
     """
     _check_range(channel, summary, interval_m)
     _check_direction(channel)
@@ -67,19 +69,21 @@ def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
 
 
 def _check_direction(channel: Channel) -> None:
-    """Refuse a distance that decreases from one sample to the next that is there."""
-    last = -np.inf
+    """Refuse a distance that goes back farther than a vehicle rolls."""
+    reached, back, by_m = -np.inf, None, 0.0
     for first, chunk in chunks(channel.values):
-        valid = np.flatnonzero(~np.isnan(chunk))
-        steps = np.diff(chunk[valid], prepend=last)
-        if (steps < 0).any():
-            at = int(np.argmax(steps < 0))
+        farthest = np.fmax.accumulate(np.append(reached, chunk))
+        behind = farthest[:-1] - chunk
+        if back is None and (behind > 0).any():
+            at = int(np.argmax(behind > 0))
+            back, by_m = first + at, float(behind[at])
+        if (behind > ROLLS_BACK_M).any():
             raise InputError(
-                f"channel {channel.id}: sample {first + valid[at]} goes back by {-steps[at]:.4g} m "
-                f"to {chunk[valid[at]]:.10g} m; invert the sign of a reversed encoder, "
+                f"channel {channel.id}: sample {back} goes back by {by_m:.4g} m to "
+                f"{channel.values[back]:.10g} m; invert the sign of a reversed encoder, "
                 "or cut the run where the vehicle rolled back"
             )
-        last = float(chunk[valid[-1]]) if valid.size else last
+        reached = float(farthest[-1])
 
 
 def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None:

@@ -8,10 +8,17 @@ from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
 G = 9.80665
+HARDEST = 12.0
+"""No vehicle of these drives speeds up or brakes harder, in m/s²: an encoder that stops at once has
+lost counts."""
 
 
 def _speed(legs, rate):
-    return np.concatenate([np.full(round(seconds * rate), speed) for speed, seconds in legs])
+    wanted = np.concatenate([np.full(round(seconds * rate), speed) for speed, seconds in legs])
+    speed, step = [wanted[0]], HARDEST / rate
+    for target in wanted[1:]:
+        speed.append(np.clip(target, speed[-1] - step, speed[-1] + step))
+    return np.array(speed)
 
 
 @st.composite
@@ -24,7 +31,8 @@ def drives(draw, rate_hz, interval_m, tracks=("left", "right")):
             max_size=4,
         )
     )
-    speed = _speed([(8.0, 0.1), *legs], rate_hz)
+    begun = draw(st.sampled_from([0.3, 1.0, 3.0, 8.0]))
+    speed = _speed([(begun, 0.1), *legs], rate_hz)
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     count_m = draw(st.sampled_from([0.0003, 0.00127, 0.01]))
     distance = draw(st.sampled_from([0.0, 1234.5])) + count_m * np.floor(

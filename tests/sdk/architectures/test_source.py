@@ -132,10 +132,37 @@ def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
     assert Source(steady(vertical_specific_force=own, **shifted)).length == 4000
 
 
+@pytest.mark.parametrize("rate", [1000.0, 16_000.0])
+@pytest.mark.parametrize("hole_s", [0.02, 0.7183])
+def test_a_hole_between_time_stamps_of_an_accelerometer_is_a_gap(steady, rate, hole_s):
+    stamps = np.arange(int(4.0 * rate)) / rate
+    stamps[int(2.0 * rate) :] += hole_s
+    count = stamps.size
+    channels = {
+        name: Channel.of(name, 9.8 + np.arange(count) * step, StampedClock.of(stamps))
+        for name, step in (("vertical_specific_force", 0.0), ("height", 0.0), ("distance", 1e-3))
+    }
+    source = Source(steady(**channels))
+    assert float(source.header.rate) == rate
+    (block,) = source.blocks(10**6)
+    at = np.arange(len(block)) / rate
+    inside = (at > 2.0 - 0.5 / rate) & (at < 2.0 + hole_s - 1.5 / rate)
+    lost = block.flags[FORCE] == Flag.MISSING | Flag.DRIFT
+    assert lost[inside].all()
+    assert not block.flags[FORCE][(at < 2.0 - 2.5 / rate) | (at > 2.0 + hole_s)].any()
+
+
 def test_an_accelerometer_of_changing_rate_is_refused(steady):
-    stamps = np.concatenate((np.arange(2000) / 1000.0, 2.5 + np.arange(2000) / 1000.0))
+    stamps = np.concatenate((np.arange(3000) / 1000.0, 3.0 + np.arange(1000) / 1100.0))
     own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
-    message = r"0.501 s without a sample after time stamp 1999; fill gaps with NaN at .* 1000 Hz"
+    with pytest.raises(InputError, match=r"s off a constant rate of .* record it at a constant"):
+        Source(steady(vertical_specific_force=own))
+
+
+def test_an_accelerometer_with_more_holes_than_samples_is_refused(steady):
+    stamps = np.concatenate((np.arange(2000) / 1000.0, 2.0 + np.arange(2000) * 0.0025))
+    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    message = r"0.0025 s without a sample after time stamp \d+; fill gaps with NaN at"
     with pytest.raises(InputError, match=message):
         Source(steady(vertical_specific_force=own))
 

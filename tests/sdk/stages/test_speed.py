@@ -49,16 +49,34 @@ def test_a_window_below_one_sample_is_one_sample():
     assert run(distance, window_s=1e-6)[0] == pytest.approx([0.0, 100.0, 200.0])
 
 
-@pytest.mark.parametrize("cut", [0, 5, 12])
-def test_a_missing_distance_is_the_last_known_and_flagged(cut):
-    distance = np.arange(20.0)
+def kept(distance, samples):
+    """Speed as the stage defines it, one sample at a time."""
     known = distance.copy()
-    known[10:13] = 9.0
-    known[:2] = distance[2]
-    distance[[0, 1, 10, 11, 12]] = np.nan
-    speed, flags = run(distance, cut, window_s=0.004)
-    np.testing.assert_array_equal(speed, run(known, window_s=0.004)[0])
-    assert set(np.flatnonzero(flags == Flag.MISSING)) == {0, 1, 10, 11, 12}
+    first = int(np.argmax(~np.isnan(distance)))
+    known[:first] = distance[first]
+    wide, speeds = np.concatenate((np.full(samples, distance[first]), known)), [0.0]
+    for k in range(distance.size):
+        window = wide[k : k + samples + 1]
+        missing = np.isnan(window).any()
+        speeds.append(speeds[-1] if missing else (window[-1] - window[0]) * RATE / samples)
+    return speeds[1:]
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    lost=st.sets(st.integers(0, 199), max_size=60),
+    cut=st.integers(0, 199),
+    samples=st.integers(1, 60),
+)
+def test_the_last_speed_is_kept_while_a_distance_is_missing_in_the_window(lost, cut, samples):
+    distance = np.random.default_rng(len(lost)).uniform(0.0, 0.02, 200).cumsum()
+    distance[list(lost)] = np.nan
+    distance[199] = 3.0
+    speed, flags = run(distance, 0, samples / RATE)
+    assert speed == pytest.approx(kept(distance, samples), abs=1e-9)
+    assert set(np.flatnonzero(flags == Flag.MISSING)) == lost - {199}
+    if cut > 0 and not np.isnan(distance[:cut]).all():
+        np.testing.assert_array_equal(run(distance, cut, samples / RATE)[0], speed)
 
 
 def test_only_a_stream_in_time_has_it():

@@ -96,6 +96,12 @@ def test_a_step_back_is_found_wherever_the_chunks_end(
             warned(values, 0.00508)
 
 
+@pytest.mark.parametrize("back_m", [0.0003, 0.999])
+def test_a_vehicle_may_roll_back_a_little(back_m: float) -> None:
+    values = travel(20.0)
+    assert warned(np.concatenate((values, values[-1:] - back_m)), 0.00508) == ()
+
+
 def test_time_stamps_are_held_to_the_same_speed() -> None:
     times = np.array([100.0, 101.0, 102.5, 110.0, 119.9])
     assert warned(20 * times, 0.00508, StampedClock.of(times)) == ()
