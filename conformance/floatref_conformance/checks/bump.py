@@ -54,10 +54,17 @@ def _offset(compared: Compared, near: np.ndarray) -> float:
     steps = int(FARTHEST_M / compared.interval_m)
     where = np.flatnonzero(near)
     first, last = max(where[0], steps), min(where[-1], compared.truth.size - 1 - steps)
-    result = compared.result[first : last + 1] - compared.result[first : last + 1].mean()
+    result = _level(compared.result[first : last + 1])
     lags = np.arange(-steps, steps + 1, max(1, steps // 100))
     errors = []
     for lag in lags:
-        truth = compared.truth[first - lag : last + 1 - lag]
-        errors.append(float(np.sum((result - (truth - truth.mean())) ** 2)))
+        truth = _level(compared.truth[first - lag : last + 1 - lag])
+        errors.append(float(np.sum((result - truth) ** 2)))
     return float(lags[int(np.argmin(errors))] * compared.interval_m)
+
+
+def _level(elevation: FloatArray) -> FloatArray:
+    """Return ``elevation`` without its line."""
+    place = np.arange(elevation.size) - (elevation.size - 1) / 2
+    slope = np.dot(place, elevation) / np.dot(place, place)
+    return elevation - elevation.mean() - slope * place
