@@ -8,7 +8,9 @@ from floatref_conformance.checks.coasting import COASTING
 from floatref_conformance.checks.constant_speed import CONSTANT_SPEED
 from floatref_conformance.checks.dead_start import DEAD_START
 from floatref_conformance.checks.distance import DISTANCE
+from floatref_conformance.checks.faults import FAULTS
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.invariance import INVARIANCE
 from floatref_conformance.checks.low_speed import LOW_SPEED
 from floatref_conformance.checks.near_stop import NEAR_STOP
 from floatref_conformance.checks.quiescent import QUIESCENT
@@ -51,3 +53,5 @@ def conformance_register_checks(register: Callable[[Check], None]) -> None:
     register(WAVEBAND)
     register(REPEATABILITY)
     register(DISTANCE)
+    register(INVARIANCE)
+    register(FAULTS)

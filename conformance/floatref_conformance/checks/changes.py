@@ -1,0 +1,188 @@
+"""What must not matter: changes of a recording, or of a drive, that leave the road alone."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import ceil
+from types import MappingProxyType
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Clock, Recording
+from floatref_conformance.checks.case import Number
+from floatref_conformance.proving_ground.scenario import Scenario
+
+Numbers = Mapping[str, Number]
+LATER = "later-start"
+EARLY = 1e-6
+"""A sample so much before a time, in steps, was taken at that time: times are rounded."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """One thing that must not matter, and how it is undone in the result.
+
+    Attributes:
+        says: what is changed, in words.
+        scenario: the changed drive, road or sensors.
+        recording: the changed recording.
+        truth: where the road lies on the changed axis of distance.
+        profile: the result as it should have been without the change.
+    """
+
+    says: str
+    scenario: Callable[[Scenario, Numbers], Scenario] = lambda scenario, _: scenario
+    recording: Callable[[Recording, Numbers], Recording] = lambda recording, _: recording
+    truth: Callable[[Profile, Numbers], Profile] = lambda truth, _: truth
+    profile: Callable[[Profile, Numbers], Profile] = lambda profile, _: profile
+
+
+def number(numbers: Numbers, name: str) -> float:
+    """Return number ``name`` of a case's variation; InputError if it is none."""
+    value = numbers.get(name)
+    if not isinstance(value, int | float):
+        raise InputError(f"variation {name} is {value!r}; give a number")
+    return float(value)
+
+
+def later_start(recording: Recording, numbers: Numbers) -> Recording:
+    """Return ``recording`` without the first ``samples`` of the accelerometers' clock.
+
+    What other channels recorded before that time goes, too.
+    """
+    force = next(c for c in recording.channels if c.id.name == "vertical_specific_force")
+    begin_s = float(force.clock.times(1, int(number(numbers, "samples")))[0])
+    return _each(recording, lambda channel: _from(channel, begin_s))
+
+
+def other_storage(recording: Recording, numbers: Numbers) -> Recording:
+    """Return ``recording`` with a time stamp for every sample in place of rates."""
+    return _each(
+        recording, lambda channel: replace(channel, clock=StampedClock.of(channel.times_s))
+    )
+
+
+def other_bias(recording: Recording, numbers: Numbers) -> Recording:
+    """Return ``recording`` with ``bias`` in m/s² added to the vertical accelerometers."""
+
+    def biased(channel: Channel) -> Channel:
+        if channel.id.name != "vertical_specific_force":
+            return channel
+        return _with(channel, channel.values + number(numbers, "bias"))
+
+    return _each(recording, biased)
+
+
+def other_time(recording: Recording, numbers: Numbers) -> Recording:
+    """Return ``recording`` with all its times ``shift_s`` later."""
+    shift_s = number(numbers, "shift_s")
+    return _each(recording, lambda c: replace(c, clock=_later(c.clock, shift_s)))
+
+
+def other_place(recording: Recording, numbers: Numbers) -> Recording:
+    """Return ``recording`` with ``shift_m`` added to its distance."""
+
+    def moved(channel: Channel) -> Channel:
+        if channel.id.name != "distance":
+            return channel
+        return _with(channel, channel.values + number(numbers, "shift_m"))
+
+    return _each(recording, moved)
+
+
+def truth_there(truth: Profile, numbers: Numbers) -> Profile:
+    """Return ``truth`` on the axis of `other_place`."""
+    return replace(truth, start_m=truth.start_m + number(numbers, "shift_m"))
+
+
+def back_in_place(profile: Profile, numbers: Numbers) -> Profile:
+    """Return ``profile`` on the axis of distance from before `other_place`."""
+    return replace(profile, start_m=profile.start_m - number(numbers, "shift_m"))
+
+
+def higher_road(scenario: Scenario, numbers: Numbers) -> Scenario:
+    """Return ``scenario`` on its road, ``factor`` times as high."""
+    return replace(scenario, iri_m_per_km=scenario.iri_m_per_km * number(numbers, "factor"))
+
+
+def lower_profile(profile: Profile, numbers: Numbers) -> Profile:
+    """Return ``profile``, which saw a `higher_road`, scaled back."""
+    tracks = tuple(
+        ProfileTrack.of(t.name, t.elevation / number(numbers, "factor"), t.valid)
+        for t in profile.tracks
+    )
+    return replace(profile, tracks=tracks)
+
+
+def other_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
+    """Return ``scenario`` with its accelerometers sampled at ``rate_hz``."""
+    return replace(scenario, rate_hz=number(numbers, "rate_hz"))
+
+
+def longer_stop(scenario: Scenario, numbers: Numbers) -> Scenario:
+    """Return ``scenario`` standing twice as long."""
+    return replace(scenario, dwell_s=2.0 * scenario.dwell_s)
+
+
+CHANGES: Mapping[str, Change] = MappingProxyType(
+    {
+        LATER: Change("the recording begins later", recording=later_start),
+        "clock-storage": Change("a time stamp for each sample", recording=other_storage),
+        "accelerometer-bias": Change("a bias of the accelerometers", recording=other_bias),
+        "clock-origin": Change("another origin of time", recording=other_time),
+        "distance-origin": Change(
+            "another origin of distance",
+            recording=other_place,
+            truth=truth_there,
+            profile=back_in_place,
+        ),
+        "road-height": Change(
+            "a road so many times as high, ideal sensors", higher_road, profile=lower_profile
+        ),
+        "sample-rate": Change("another rate of the accelerometers", other_rate),
+        "longer-stop": Change("twice the time at a standstill", longer_stop),
+    }
+)
+"""All changes by the name that a case's variation gives under ``change``."""
+
+
+def change_of(numbers: Numbers) -> Change:
+    """Return the change that a case's variation names; InputError if there is none."""
+    name = numbers.get("change")
+    if name not in CHANGES:
+        raise InputError(f"variation change {name!r}: unknown; known: {', '.join(CHANGES)}")
+    return CHANGES[str(name)]
+
+
+def begins_later_m(before: Recording, after: Recording) -> float:
+    """Return the distance in m that ``after`` lacks at its beginning."""
+    return float(np.diff([r.channel("distance").values[0] for r in (before, after)])[0])
+
+
+def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
+    return replace(recording, channels=tuple(change(c) for c in recording.channels))
+
+
+def _with(channel: Channel, values: np.ndarray) -> Channel:
+    return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
+
+
+def _later(clock: Clock, shift_s: float) -> Clock:
+    if isinstance(clock, UniformClock):
+        return replace(clock, start_s=clock.start_s + shift_s)
+    return StampedClock.of(clock.times_s + shift_s)
+
+
+def _from(channel: Channel, begin_s: float) -> Channel:
+    """Return the samples of ``channel`` from ``begin_s`` on."""
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        first = int(np.searchsorted(clock.times_s, begin_s))
+        return replace(
+            channel, values=channel.values[first:], clock=StampedClock.of(clock.times_s[first:])
+        )
+    first = max(0, ceil((begin_s - clock.start_s) * float(clock.rate) - EARLY))
+    starts_s = float(clock.times(1, first)[0])
+    return replace(channel, values=channel.values[first:], clock=replace(clock, start_s=starts_s))

@@ -1,0 +1,136 @@
+"""`faults`: what is missing or damaged is right or flagged, and stays local."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from floatref_conformance.checks import injured_drives
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.fault_scores import (
+    BASE_M,
+    FLAGGED_LIMITS,
+    LOCAL_LIMITS,
+    ROUGHNESS,
+    WHOLE_M,
+    beside,
+    fault_measurements,
+)
+from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
+from floatref_conformance.checks.injuries import injury_of
+from floatref_conformance.checks.interface import Bench
+from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.verdict import Measurement
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
+
+
+@dataclass(frozen=True)
+class FaultsCheck:
+    """The device processes a recording, and the same with a fault; both face the truth."""
+
+    id: str = injured_drives.CHECK
+    title: str = "missing and damaged samples are flagged and stay local"
+    clause: str = "derived: right or flagged; the high-pass' reach; the limits of an event"
+    needs: frozenset[str] = frozenset()
+
+    @property
+    def derivation(self) -> str:
+        """What is done to the recordings, and why the limits are what they are."""
+        return DERIVATION
+
+    @property
+    def floor(self) -> str:
+        """What is vouched for has to be rough, and enough has to be vouched for."""
+        return FLOOR
+
+    @property
+    def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
+        """The limits of what is not flagged, and of what is."""
+        either = {c: f"{share:g} % or {least:g} m/km" for c, (share, least) in ROUGHNESS.items()}
+        return {
+            "IRI error, unflagged": either,
+            "local error, unflagged": _words(LOCAL_LIMITS, "m/km"),
+            **{
+                f"flagged beyond a fault: {part}": _words(limits, "m")
+                for part, limits in FLAGGED_LIMITS.items()
+            },
+            "flagged at an end": _words(END_LIMITS, "m"),
+            "flagged around an event": _words(EVENT_LIMITS, "m"),
+        }
+
+    @property
+    def simplest(self) -> Case:
+        """Half a second without a laser at constant speed."""
+        scenario = Scenario(rate_hz=4000.0, length_m=injured_drives.LENGTH_M)
+        return Case(self.id, scenario, {"fault": "laser-dropout", "at_m": 280.0, "length_s": 0.5})
+
+    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
+        """Return every fault once, in a certification three times; ``seed`` draws the roads."""
+        return injured_drives.fixed(seed, effort)
+
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return any fault of any length, size and place in any drive."""
+        return injured_drives.drawn()
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
+        """Return what the fault did to every wheel path, and what was flagged without it.
+
+        A fault of a receiver that the device does not have changes nothing, and is not processed.
+        Raises InputError for a variation that names no fault or lacks a number of it.
+        """
+        taken = bench.simulate(case.scenario)
+        injured = injury_of(case.variation)(taken.recording, case.variation)
+        before = after = bench.run(taken, "without the fault")
+        if injured.recording is not taken.recording:
+            after = bench.run(replace(taken, recording=injured.recording), "with the fault")
+        part = str(case.variation["fault"]).partition("-")[0]
+        events = (case.scenario.event_at_m,) if case.scenario.manoeuvre == "stop" else ()
+        pairs = zip(beside(taken.truth, before), beside(taken.truth, after, injured), strict=True)
+        return tuple(
+            m
+            for one, other in pairs
+            for m in (
+                *fault_measurements(one, other, injured, part),
+                *flagged(one, case.scenario, events),
+            )
+        )
+
+
+def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
+    return {c: f"{limit:.3g} {unit}" for c, limit in limits.items()}
+
+
+DERIVATION = (
+    "A recording of two wheel paths is processed as it is, and with one fault in it. The laser "
+    "of the first path loses readings (one sample to 2 s, or up to 60 short drop-outs), sticks "
+    "(0.1 to 1 s), or is pinned 50 mm beyond all that it measured (10 to 500 ms); its "
+    "accelerometer loses samples (one to 1 s) or is driven to a full scale of 2, 4 or 5 g (2 to "
+    "20 ms); all channels have a gap (50 ms to 1 s), of missing samples or of missing time; the "
+    "encoder loses samples, leaps by 0.1 to 3 m, is silent and makes up for it, loses counts for "
+    "good, tells single counts that lie back, or rolls back by 20 to 500 mm at a stop; a "
+    "receiver that the device declares loses its fix for 2 to 10 s or is 0.3 to 3 m too high. "
+    "Each is normal life in the field: an error in place of a profile is a failure. Metres that "
+    "the encoder told too many or too few are taken out of the axis before the comparison. "
+    "Right: over all points that the device vouches for, the IRI is off by no more than 5 % or "
+    "0.1 m/km, in the stricter classes 3 and 2 % as at constant speed; and over no 7.62 m does "
+    f"the IRI filter's output differ from that without the fault by more than {BASE_M:g} m would "
+    f"need to bring that into the IRI of {WHOLE_M:g} m, points not vouched for taking the truth's "
+    "shape. Or flagged, beyond the distance travelled while the fault lasted: a laser's reading "
+    "is subtracted, never integrated, so its fault stays where it is, within the 10 m (5 m) "
+    "that stricter classes may flag at an event. An accelerometer's is integrated twice and "
+    "spread to either side by the high-pass (105.91 m): each side may have the length of an "
+    "event, 125 m; class adequate has half a cut-off wavelength on each side, reference a "
+    "quarter; the same for gaps and receivers. An encoder's fault looks like an event, and has "
+    "its limits."
+)
+"""What is done to the recordings, and why the limits are what they are."""
+FLOOR = (
+    "Without the fault, the device may flag no more than at the ends of any run and around a "
+    "stop; what remains has the roughness of the road within the limits above, so that neither a "
+    "flat profile nor one that is flagged throughout passes."
+)
+"""What keeps a device from passing by saying nothing."""
+
+FAULTS = FaultsCheck()
