@@ -3,13 +3,12 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import cycle
-from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.distance_drives import DRIVES, event_of, scenario_of
 from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.features import (
     BESIDE_EVENT_M,
@@ -22,9 +21,8 @@ from floatref_conformance.checks.features import (
     place,
 )
 from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
-from floatref_conformance.proving_ground.runs import KMH
-from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
 
@@ -48,37 +46,8 @@ QUANTITIES = (
     ("loss of a feature", "", LOSS_LIMITS),
 )
 """What is measured, its unit, and its limits."""
-FEATURES = 4
-"""So many features lie ahead of an event, and behind it."""
 SMOOTHEST, ROUGHEST = 1.5, 4.0
 """IRI of the roads, in m/km."""
-DRIVES: tuple[Mapping[str, Any], ...] = (
-    {
-        "manoeuvre": "stop",
-        "speed_kmh": 72.0,
-        "deceleration_g": 0.3,
-        "slip_percent_per_g": 3.0,
-    },
-    {"manoeuvre": "constant", "speed_kmh": 72.0, "encoder_error_percent": 1.0},
-    {
-        "manoeuvre": "braking",
-        "speed_kmh": 80.0,
-        "event_speed_kmh": 30.0,
-        "deceleration_g": 0.4,
-        "encoder_error_percent": -1.0,
-        "slip_percent_per_g": 3.0,
-    },
-    {
-        "manoeuvre": "stop",
-        "speed_kmh": 50.0,
-        "deceleration_g": 0.15,
-        "dwell_s": 15.0,
-        "final_speed_kmh": 40.0,
-        "encoder_error_percent": -0.5,
-        "slip_percent_per_g": 1.0,
-    },
-)
-"""The drives of the cases, in turn."""
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
@@ -116,7 +85,7 @@ class DistanceCheck:
     @property
     def simplest(self) -> Case:
         """One stop from 72 km/h; the encoder's errors are those of the nominal sensor."""
-        return Case(self.id, _scenario({"manoeuvre": "stop"}))
+        return Case(self.id, scenario_of({"manoeuvre": "stop"}))
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return the cases: `DRIVES` and vehicles in turn; roads and noise are drawn."""
@@ -131,27 +100,24 @@ class DistanceCheck:
         """Return any of the manoeuvres with any error of the encoder up to the largest."""
         from hypothesis import strategies as st
 
-        def tenths(low: float, high: float) -> "SearchStrategy[float]":
-            return st.integers(round(10 * low), round(10 * high)).map(lambda n: n / 10)
-
         shared = {
-            "seed": st.integers(0, 2**31 - 1),
+            "seed": seeds(),
             "vehicle": st.sampled_from(VEHICLES),
-            "iri_m_per_km": tenths(SMOOTHEST, ROUGHEST),
-            "speed_kmh": st.integers(40, 90).map(float),
-            "encoder_error_percent": tenths(-1.0, 1.0),
-            "slip_percent_per_g": tenths(0.0, 3.0),
+            "iri_m_per_km": rounded(SMOOTHEST, ROUGHEST),
+            "speed_kmh": rounded(40, 90, 0),
+            "encoder_error_percent": rounded(-1.0, 1.0),
+            "slip_percent_per_g": rounded(0.0, 3.0),
         }
-        slowing = {"deceleration_g": st.integers(10, 40).map(lambda n: n / 100)}
-        after = {"dwell_s": tenths(0.5, 20.0), "final_speed_kmh": st.integers(30, 70).map(float)}
-        release = {"event_speed_kmh": st.integers(20, 30).map(float)}
+        slowing = {"deceleration_g": rounded(0.1, 0.4, 2)}
+        after = {"dwell_s": rounded(0.5, 20.0), "final_speed_kmh": rounded(30, 70, 0)}
+        release = {"event_speed_kmh": rounded(20, 30, 0)}
         drives = (
             {"manoeuvre": st.just("constant"), **shared},
             {"manoeuvre": st.just("stop"), **shared, **slowing, **after},
             {"manoeuvre": st.just("braking"), **shared, **slowing, **release},
         )
         numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
-        return numbers.map(lambda given: Case(self.id, _scenario(given)))
+        return numbers.map(lambda given: Case(self.id, scenario_of(given)))
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far from their places the features of every wheel path lie.
@@ -160,7 +126,7 @@ class DistanceCheck:
         """
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
-        axis, event_m = EncoderAxis.of(taken), _event_m(case.scenario)
+        axis, event_m = EncoderAxis.of(taken), event_of(case.scenario)
         at = middles(drive_of(case.scenario).length_m, event_m)
         told_m = None if event_m is None else float(axis.told(np.array([event_m]))[0])
         measured: list[Measurement] = []
@@ -177,20 +143,7 @@ class DistanceCheck:
             "iri_m_per_km": round(roughness, 1),
             "vehicle": VEHICLES[(number + number // len(DRIVES)) % len(VEHICLES)],
         }
-        return Case(self.id, _scenario(numbers), name=f"{self.id}-{number + 1}")
-
-
-def _scenario(numbers: Mapping[str, Any]) -> Scenario:
-    """Return the scenario of ``numbers``, its event and its end clear of the features."""
-    wanted = Scenario(**numbers)
-    braking_m = (wanted.speed_kmh * KMH) ** 2 / (2 * STANDARD_GRAVITY * wanted.deceleration_g)
-    room_m = BESIDE_EVENT_M + FEATURES * FEATURE_M + END_M
-    event_m = max(room_m, BESIDE_EVENT_M + 10.0 * ceil(0.13 * braking_m))
-    return Scenario(**{**numbers, "event_at_m": event_m, "length_m": event_m + room_m})
-
-
-def _event_m(scenario: Scenario) -> float | None:
-    return None if scenario.manoeuvre == "constant" else scenario.event_at_m
+        return Case(self.id, scenario_of(numbers), name=f"{self.id}-{number + 1}")
 
 
 def _measured(

@@ -99,7 +99,7 @@ def place(features: Sequence[Feature], event_m: float | None) -> Placement:
 def _side_by_side(start_m: float, end_m: float) -> FloatArray:
     """Return the middles of the features that fit between two distances, in m."""
     count = int((end_m - start_m) / FEATURE_M + 1e-6)
-    return start_m + FEATURE_M * (np.arange(count) + 0.5)
+    return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
 
 
 def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:

@@ -2,8 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,11 +10,12 @@ from floatref.measures import iri_trace, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.passes import on_road, passes_of
+from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.proving_ground.vehicles import vehicle_called
 from floatref_conformance.verdict import Measurement
 
 if TYPE_CHECKING:
@@ -48,10 +48,6 @@ VEHICLES = (
 )
 ALL_VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 ROADS = ("sayers-normal", "measured", "sayers-asphalt-long-waves")
-CHANGES: Mapping[str, str] = MappingProxyType(
-    {"second_seed": "seed", "second_speed_kmh": "speed_kmh", "second_vehicle": "vehicle"}
-)
-"""What a case's variation says of the second pass, and the number of the scenario that it is."""
 SLOWEST_KMH, FASTEST_KMH = 24.0, 97.0
 SMOOTHEST, ROUGHEST = 1.0, 4.0
 """IRI of the roads, in m/km."""
@@ -104,21 +100,19 @@ class RepeatabilityCheck:
         """Return any two passes at 24 to 97 km/h, the speeds in whole km/h."""
         from hypothesis import strategies as st
 
-        speed = st.integers(int(SLOWEST_KMH), int(FASTEST_KMH)).map(float)
-        tenths = st.integers(int(10 * SMOOTHEST), int(10 * ROUGHEST))
-        seeds = st.integers(0, 2**31 - 1)
+        speed = rounded(SLOWEST_KMH, FASTEST_KMH, 0)
         vehicle = st.sampled_from(ALL_VEHICLES)
         scenarios = st.builds(
             Scenario,
-            seed=seeds,
+            seed=seeds(),
             road=st.sampled_from(ROADS),
-            iri_m_per_km=tenths.map(lambda n: n / 10),
+            iri_m_per_km=rounded(SMOOTHEST, ROUGHEST),
             vehicle=vehicle,
             speed_kmh=speed,
             length_m=st.just(LENGTH_M),
         )
         second = st.fixed_dictionaries(
-            {"second_seed": seeds, "second_speed_kmh": speed, "second_vehicle": vehicle}
+            {"second_seed": seeds(), "second_speed_kmh": speed, "second_vehicle": vehicle}
         )
         return st.builds(
             lambda scenario, changes: Case(self.id, scenario, changes), scenarios, second
@@ -135,7 +129,7 @@ class RepeatabilityCheck:
         for label, scenario in zip(LABELS, passes_of(case), strict=True):
             taken = bench.simulate(scenario)
             profile = bench.run(taken, label)
-            profiles.append(_on_road(profile, scenario))
+            profiles.append(on_road(profile, scenario))
             for compared in compare(taken.truth, profile):
                 pair = compared.whole(START_M, END_M)
                 loss = correlation(pair, compared.track, TRUTH_LIMITS)
@@ -164,22 +158,6 @@ class RepeatabilityCheck:
         if vehicles[1] != vehicles[0]:
             changes["second_vehicle"] = vehicles[1]
         return Case(self.id, scenario, changes, f"{self.id}-{number + 1}")
-
-
-def passes_of(case: Case) -> tuple[Scenario, Scenario]:
-    """Return both passes of ``case``; what its variation does not name is as in the first."""
-    first = case.scenario
-    changes: dict[str, Any] = {"road_seed": first.seed if first.road_seed < 0 else first.road_seed}
-    for name, value in case.variation.items():
-        if name in CHANGES:
-            changes[CHANGES[name]] = value
-    return first, replace(first, **changes)
-
-
-def _on_road(profile: Profile, scenario: Scenario) -> Profile:
-    """Return ``profile`` on the road's axis: the lasers lie ahead of the vehicle's own point."""
-    ahead_m = vehicle_called(scenario.vehicle).sensor_x_m
-    return replace(profile, start_m=profile.start_m + ahead_m)
 
 
 def _between(first: Profile, second: Profile, track: str) -> list[Measurement]:

@@ -11,6 +11,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.rounded import seeds
 from floatref_conformance.checks.stretches import points, stretch
 from floatref_conformance.checks.waves import ComplexArray, waves_of
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
@@ -46,7 +47,7 @@ START_M, PERIOD_M, LENGTH_M = 163.0, 274.32, 600.0
 """The waves are fitted over two, three … of their lengths, 163 m from both ends of the run."""
 SPACING_M = 0.05
 """The fit takes points so far apart: twelve in the shortest wave."""
-VEHICLES = ("loaded-van", "minivan", "pickup", "trailer", "soft-van")
+VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 RATES_HZ = (16000.0, 4000.0, 8000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 SMALLEST_GAIN = 1e-6
@@ -103,7 +104,7 @@ class WavebandCheck:
 
         return st.builds(
             self._case,
-            st.integers(0, 2**32 - 1),
+            seeds(),
             st.sampled_from(VEHICLES),
             st.sampled_from(RATES_HZ),
         )

@@ -13,7 +13,8 @@ from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.checks.repeatability import LABELS, REPEATABILITY, passes_of
+from floatref_conformance.checks.passes import passes_of
+from floatref_conformance.checks.repeatability import LABELS, REPEATABILITY
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.oracle import confirm
