@@ -10,20 +10,21 @@ from floatref_conformance.checks.scoring import Compared
 from floatref_conformance.proving_ground.scenario import Scenario
 
 INTERVAL, LENGTH = 0.1, 500.0
-X = np.arange(round(LENGTH / INTERVAL) + 1) * INTERVAL
+DISTANCE = np.arange(round(LENGTH / INTERVAL) + 1) * INTERVAL
 STEADY, STOP = Scenario(), Scenario(manoeuvre="stop")
 QUICK = settings(deadline=None, max_examples=25)
 
 
 def lengths(bad, scenario=STEADY, events=(316.0,)):
     """Return the flagged lengths in m at an end and around an event."""
-    zero = np.zeros(X.size)
-    ends, around = flagged(Compared("left", X, zero, zero, ~bad, INTERVAL), scenario, events)
+    zero = np.zeros(DISTANCE.size)
+    ends, around = flagged(Compared("left", DISTANCE, zero, zero, ~bad, INTERVAL), scenario, events)
     return ends.value, around.value
 
 
 def between(start, end):
-    return (X >= start - 1e-9) & (X <= end + 1e-9)
+    x = DISTANCE
+    return (x >= start - 1e-9) & (x <= end + 1e-9)
 
 
 def test_a_profile_that_is_vouched_for_throughout_has_none():
@@ -53,7 +54,7 @@ def test_every_length_belongs_to_the_nearest_event_and_the_longest_counts():
 
 
 def test_flagging_all_is_too_long_for_an_end_unless_an_event_takes_its_share():
-    everything = np.ones(X.size, dtype=bool)
+    everything = np.ones(DISTANCE.size, dtype=bool)
     assert lengths(everything, events=())[0] == pytest.approx(LENGTH, abs=2 * INTERVAL)
     ends, around = lengths(everything)
     assert ends <= 106.5
@@ -61,10 +62,10 @@ def test_flagging_all_is_too_long_for_an_end_unless_an_event_takes_its_share():
 
 
 def test_travel_below_16_km_per_h_does_not_count():
-    slow = speed_at(STOP, X) < SLOW_MPS
+    slow = speed_at(STOP, DISTANCE) < SLOW_MPS
     assert 5.0 < INTERVAL * slow.sum() < 20.0
     assert lengths(slow, STOP) == (0.0, 0.0)
-    assert lengths(np.ones(X.size, dtype=bool), Scenario(speed_kmh=10.0), ()) == (0.0, 0.0)
+    assert lengths(np.ones(DISTANCE.size, dtype=bool), Scenario(speed_kmh=10.0), ()) == (0.0, 0.0)
 
 
 def test_the_speed_at_a_stop_is_zero_and_that_of_the_drive_elsewhere():
