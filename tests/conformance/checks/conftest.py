@@ -1,0 +1,97 @@
+"""A bench whose device is right, until it is spoilt: what is put in, a check has to read."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from floatref.measures import high_pass, iri
+from floatref.values.clock import UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording, Setup
+from floatref_conformance.checks.interface import Taken
+from floatref_conformance.proving_ground.staging import drive_of
+
+INTERVAL_M = 0.025
+
+
+def road(scenario, length_m):
+    """Random slopes, a road of the IRI that the scenario asks for."""
+    rng = np.random.default_rng(scenario.seed)
+    slopes = rng.standard_normal(int(length_m / INTERVAL_M) + 1)
+    smooth = np.convolve(slopes, np.hanning(83) / 40.0, "same")
+    elevation = high_pass(np.cumsum(smooth), INTERVAL_M)
+    return elevation * scenario.iri_m_per_km / iri(elevation, INTERVAL_M)
+
+
+class RightBench:
+    """Delivers the truth, filtered alike, on the axis that the encoder tells.
+
+    ``spoil`` gets the label of every run and its profile, and returns what is delivered.
+    """
+
+    def __init__(self, spoil=lambda label, profile: profile, gnss=False):
+        self.spoil, self.gnss = spoil, gnss
+        self.labels = []
+        self.taken = {}
+
+    def simulate(self, scenario):
+        drive = drive_of(scenario)
+        rate_hz = scenario.rate_hz
+        clock = UniformClock.of(rate_hz)
+        times = clock.times(int(drive.duration_s * rate_hz))
+        distance = drive.motion(times).distance
+        rng = np.random.default_rng(scenario.seed)
+        channels = [Channel.of("distance", distance, clock)]
+        for track in scenario.tracks:
+            force = 9.80665 + 0.3 * rng.standard_normal(times.size)
+            height = 0.3 + 0.002 * rng.standard_normal(times.size)
+            channels.append(Channel.of("vertical_specific_force", force, clock, track))
+            channels.append(Channel.of("height", height, clock, track))
+        if self.gnss:
+            slow = UniformClock.of(20.0)
+            fixes = times[:: int(rate_hz / 20)].size
+            channels.append(Channel.of("gnss_height", np.linspace(0, 1, fixes), slow))
+            channels.append(Channel.of("gnss_quality", np.full(fixes, 4.0), slow))
+        tracks = tuple(
+            ProfileTrack.of(t, road(replace(scenario, seed=scenario.seed + n), distance[-1]))
+            for n, t in enumerate(scenario.tracks)
+        )
+        setup = Setup(profile_interval_m=INTERVAL_M)
+        taken = Taken(Recording(tuple(channels), setup), Profile(INTERVAL_M, tracks), scenario)
+        self.taken[scenario] = taken
+        return taken
+
+    def run(self, taken, label=""):
+        self.labels.append(label)
+        whole = self.taken[taken.scenario].recording.channel("distance")
+        told = taken.recording.channel("distance")
+        known = ~np.isnan(told.values)
+        farthest = np.maximum.accumulate(told.values[known])
+        seconds = told.times_s[known] - told.times_s[0] + whole.times_s[-1] - self._span(told)
+        shift = taken.truth.start_m
+        true = np.interp(seconds, whole.times_s, whole.values)
+        points = np.arange(farthest[0], farthest[-1], INTERVAL_M)
+        _, first = np.unique(farthest, return_index=True)
+        places = np.interp(points, farthest[first], true[first])
+        tracks = tuple(
+            ProfileTrack.of(
+                t.name,
+                np.interp(
+                    places, taken.truth.distance_m - shift, high_pass(t.elevation, INTERVAL_M)
+                ),
+            )
+            for t in taken.truth.tracks
+        )
+        return self.spoil(label, Profile(INTERVAL_M, tracks, float(points[0])))
+
+    @staticmethod
+    def _span(channel):
+        """From the first to the last sample: recordings lose samples at their beginning alone."""
+        begin, end = channel.span_s
+        return end - begin
+
+
+@pytest.fixture
+def right_bench():
+    return RightBench

@@ -1,0 +1,95 @@
+"""Every change leaves what it does not name, and is undone in the result."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import InputError
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording
+from floatref_conformance.checks.changes import CHANGES, begins_later_m, change_of
+from floatref_conformance.proving_ground.scenario import Scenario
+
+laws = settings(deadline=None, max_examples=25)
+
+
+def recorded():
+    rng = np.random.default_rng(0)
+    fixes = StampedClock.of(0.0125 + np.arange(80) / 20.0)
+    return Recording(
+        (
+            Channel.of("distance", np.arange(4000) * 0.02, UniformClock.of(1000.0)),
+            Channel.of("vertical_specific_force", rng.random(4000), UniformClock.of(1000.0, 0.2)),
+            Channel.of("pitch_rate", rng.random(400), UniformClock.of(100.0)),
+            Channel.of("gnss_height", rng.random(80), fixes),
+        )
+    )
+
+
+def changed(name, **numbers):
+    return CHANGES[name].recording(recorded(), numbers)
+
+
+def pairs(recording):
+    return zip(recorded().channels, recording.channels, strict=True)
+
+
+@laws
+@given(samples=st.integers(1, 3000))
+def test_a_later_start_leaves_what_was_recorded_from_then_on(samples):
+    later = changed("later-start", samples=samples)
+    begin_s = 0.2 + samples / 1000.0
+    for before, after in pairs(later):
+        kept = before.times_s >= begin_s - 1e-9
+        np.testing.assert_array_equal(after.values, before.values[kept])
+        np.testing.assert_allclose(after.times_s, before.times_s[kept], atol=1e-12)
+    lost_m = begins_later_m(recorded(), later)
+    assert lost_m == pytest.approx(np.ceil(begin_s * 1000.0 - 1e-6) * 0.02)
+
+
+def test_other_storage_keeps_samples_and_times():
+    for before, after in pairs(changed("clock-storage")):
+        assert isinstance(after.clock, StampedClock)
+        np.testing.assert_array_equal(after.values, before.values)
+        np.testing.assert_array_equal(after.times_s, before.times_s)
+
+
+@laws
+@given(bias=st.floats(-1.0, 1.0), shift_s=st.floats(-1e6, 1e6), shift_m=st.floats(-1e5, 1e5))
+def test_bias_time_and_place_move_what_they_name_alone(bias, shift_s, shift_m):
+    moved = {"vertical_specific_force": bias, "distance": shift_m}
+    for name, numbers in (
+        ("accelerometer-bias", {"bias": bias}),
+        ("distance-origin", {"shift_m": shift_m}),
+    ):
+        target = "distance" if name == "distance-origin" else "vertical_specific_force"
+        for before, after in pairs(changed(name, **numbers)):
+            by = moved[target] if after.id.name == target else 0.0
+            np.testing.assert_array_equal(after.values, before.values + by)
+            np.testing.assert_array_equal(after.times_s, before.times_s)
+    for before, after in pairs(changed("clock-origin", shift_s=shift_s)):
+        np.testing.assert_array_equal(after.values, before.values)
+        np.testing.assert_allclose(after.times_s, before.times_s + shift_s, atol=1e-9)
+
+
+@laws
+@given(factor=st.floats(0.2, 5.0), shift_m=st.floats(-1e5, 1e5))
+def test_changes_are_undone_in_the_result(factor, shift_m):
+    sound = Profile(0.1, (ProfileTrack.of("main", np.arange(5.0)),), 7.0)
+    moved = Profile(0.1, sound.tracks, 7.0 + shift_m)
+    back = CHANGES["distance-origin"].profile(moved, {"shift_m": shift_m})
+    assert back.start_m == pytest.approx(7.0, abs=1e-9)
+    higher = Profile(0.1, (ProfileTrack.of("main", factor * np.arange(5.0)),), 7.0)
+    lower = CHANGES["road-height"].profile(higher, {"factor": factor})
+    np.testing.assert_allclose(lower.tracks[0].elevation, np.arange(5.0), rtol=1e-12)
+    scenario = CHANGES["road-height"].scenario(Scenario(), {"factor": factor})
+    assert scenario.iri_m_per_km == pytest.approx(factor * Scenario().iri_m_per_km)
+
+
+def test_a_variation_names_a_change_and_its_numbers():
+    with pytest.raises(InputError, match="variation change 'colour': unknown; known: later-start"):
+        change_of({"change": "colour"})
+    with pytest.raises(InputError, match="variation bias is None; give a number"):
+        changed("accelerometer-bias")
