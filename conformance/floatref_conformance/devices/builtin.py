@@ -1,5 +1,6 @@
 """Built-in devices: the pipelines of floatref, run in this process."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +9,8 @@ from typing import Any
 import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
 
@@ -43,7 +46,14 @@ class BuiltinDevice:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Process ``recording`` and write the profile directory ``profile``."""
-        write_profile(floatref.process(read_recording(recording), self.pipeline), profile)
+        write_profile(quietly_processed(read_recording(recording), self.pipeline), profile)
+
+
+def quietly_processed(recording: Recording, pipeline: str) -> Profile:
+    """Return what ``pipeline`` makes of ``recording``; what it repairs or flags is no news here."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", floatref.FloatrefWarning)
+        return floatref.process(recording, pipeline)
 
 
 def make(pipeline: str) -> BuiltinDevice:
