@@ -121,7 +121,7 @@ def test_a_point_without_elevation_where_it_counts_is_the_devices_fault(right_be
         z[z.size // 2] = np.nan
         return replace(profile, tracks=(ProfileTrack.of(track.name, z),))
 
-    with pytest.raises(DeviceError, match="1 of .* points without elevation"):
+    with pytest.raises(DeviceError, match=r"1 of .* points without elevation"):
         INVARIANCE.judge(ALIKE, right_bench(holed))
 
 
