@@ -1,10 +1,12 @@
 """Running checks on a device: events on the way, a result at the end."""
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from floatref.errors import InputError
+from floatref_conformance.ahead import Ahead
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
 from floatref_conformance.checks.interface import Check
@@ -50,6 +52,7 @@ class Plan:
         kept: cases from earlier runs, to be run again.
         searching: whether cases are drawn that depend on the device's answers.
         waivers: why a failure of a check is known, by its id.
+        ahead: whether the next cases are simulated while the device works.
     """
 
     spec: str
@@ -62,6 +65,7 @@ class Plan:
     kept: tuple[KeptCase, ...] = ()
     searching: bool = True
     waivers: Mapping[str, str] = field(default_factory=dict)
+    ahead: bool = False
 
 
 def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
@@ -85,22 +89,53 @@ def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     description, fault = _described(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault)
-    results: list[CheckResult] = []
-    replayed: list[Mapping[str, Any]] = []
-    for check in plan.checks:
-        result = waived(_checked(plan, check, trial), plan.waivers)
-        for again in _replayed(plan, check, result, trial):
-            replayed.append(again)
-            emit(CaseReplayed(again))
-        if check is plan.checks[-1]:
-            result = waived(_ended(result, close(plan.device)), plan.waivers)
-        results.append(result)
-        emit(CheckFinished(result))
+    with _simulating(plan, trial) as announce:
+        results, replayed = _judged(plan, trial, announce)
     results += [left_out_result(left_out) for left_out in plan.left_out]
     replayed += _left_out(plan)
     finished = _result(plan, description, results, replayed)
     emit(RunFinished(finished))
     return finished
+
+
+def _judged(
+    plan: Plan, trial: Trial, announce: Callable[[Check], None]
+) -> tuple[list[CheckResult], list[Mapping[str, Any]]]:
+    """Return what comes of every check, and of every kept case."""
+    results: list[CheckResult] = []
+    replayed: list[Mapping[str, Any]] = []
+    for number, check in enumerate(plan.checks):
+        for coming in plan.checks[number : number + 2]:
+            announce(coming)
+        result = waived(_checked(plan, check, trial), plan.waivers)
+        for again in _replayed(plan, check, result, trial):
+            replayed.append(again)
+            trial.emit(CaseReplayed(again))
+        if check is plan.checks[-1]:
+            result = waived(_ended(result, close(plan.device)), plan.waivers)
+        results.append(result)
+        trial.emit(CheckFinished(result))
+    return results, replayed
+
+
+@contextmanager
+def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
+    """Yield what has the seeded cases of a check simulated in the background, if it may."""
+    if not plan.ahead or trial.fault is not None:
+        yield lambda check: None
+        return
+    ahead = trial.make = Ahead(trial.description)
+    capable = set(trial.description.capabilities)
+    try:
+        yield (
+            lambda check: (
+                ahead.announce(check.cases(plan.seed, plan.effort))
+                if check.needs <= capable
+                else None
+            )
+        )
+    finally:
+        ahead.close()
 
 
 def _ended(result: CheckResult, fault: str) -> CheckResult:

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance.bench import DeviceBench
+from floatref_conformance.bench import DeviceBench, taken_of
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.interface import Check, Taken
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.events import (
@@ -19,6 +19,7 @@ from floatref_conformance.events import (
     ShrinkStarted,
 )
 from floatref_conformance.judging import check_result, failing, why
+from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.replaying import judged
 from floatref_conformance.search import search
 from floatref_conformance.shrinking import simplest
@@ -38,6 +39,7 @@ class Trial:
         emit: is told of every case.
         fault: why the device could not describe itself, which every case is then charged with.
         hangs: how often the device has not answered in time.
+        make: how a scenario becomes a recording.
     """
 
     device: Device
@@ -46,6 +48,7 @@ class Trial:
     emit: Callable[[Event], None]
     fault: str | None = None
     hangs: int = 0
+    make: Callable[[Scenario], Taken] = taken_of
     _judged: dict[Case, CaseResult] = field(default_factory=dict)
 
     @property
@@ -108,7 +111,7 @@ class Trial:
             fault = self.fault or self.given_up
             result = CaseResult(case.name, case.parameters, fault=fault)
         else:
-            result = judged(check, case, DeviceBench(self.device, self.description))
+            result = judged(check, case, DeviceBench(self.device, self.description, self.make))
             self.hangs += result.hung
         self.emit(CaseFinished(check.id, result))
         return result

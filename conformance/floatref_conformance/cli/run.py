@@ -94,6 +94,7 @@ def run(
         Effort(effort),
         kept,
         searching=getattr(device, "searchable", True),
+        ahead=True,
         waivers=waivers,
     )
     finished = follow(plan, writers_into(report))

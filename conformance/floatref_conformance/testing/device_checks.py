@@ -49,6 +49,7 @@ class DeviceChecks:
             device_class=DeviceClass(self.device_class),
             seed=self.seed,
             effort=Effort(self.effort),
+            ahead=True,
         )
         result = run(plan, _ignore)
         (judged,) = result.checks

@@ -1,0 +1,77 @@
+"""Recordings made ahead are the same recordings, and errors arrive where they are asked for."""
+
+import threading
+from types import SimpleNamespace
+
+import pytest
+
+from floatref.errors import InputError
+from floatref_conformance import ahead
+from floatref_conformance.checks.case import Case
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.proving_ground.scenario import Scenario
+
+DEVICE = Description("d", "1", "temporal", ())
+SCENARIOS = [Scenario(seed=n, imu=False, gnss=False) for n in range(6)]
+
+
+@pytest.fixture
+def made(monkeypatch):
+    """Return what is made, by whom; making scenario 5 is refused."""
+    log = []
+
+    def taken_of(scenario):
+        log.append((scenario.seed, threading.current_thread().name))
+        if scenario.seed == 5:
+            raise InputError("no such drive")
+        return SimpleNamespace(scenario=scenario)
+
+    monkeypatch.setattr(ahead, "taken_of", taken_of)
+    return log
+
+
+@pytest.fixture
+def worker():
+    one = ahead.Ahead(DEVICE)
+    yield one
+    one.close()
+
+
+def test_each_is_made_once_whoever_makes_it(worker, made):
+    worker.announce(Case("toy", scenario) for scenario in SCENARIOS[:5])
+    worker.announce(Case("toy", scenario) for scenario in SCENARIOS[:5])
+    assert [worker(scenario).scenario for scenario in SCENARIOS[:5]] == SCENARIOS[:5]
+    assert sorted(seed for seed, _ in made) == [0, 1, 2, 3, 4]
+
+
+def test_the_channels_are_those_of_the_device(worker, made):
+    worker.announce([Case("toy", Scenario(seed=1))])
+    assert worker(SCENARIOS[1]).scenario == SCENARIOS[1]
+    assert len(made) == 1
+
+
+def test_what_was_not_announced_is_made_at_once(worker, made):
+    assert worker(SCENARIOS[0]).scenario == SCENARIOS[0]
+    assert made == [(0, threading.current_thread().name)]
+
+
+def test_what_waits_for_its_turn_is_made_by_the_one_who_asks(worker, made):
+    gate = threading.Event()
+    worker._worker.submit(gate.wait)
+    worker.announce([Case("toy", SCENARIOS[2])])
+    assert worker(SCENARIOS[2]).scenario == SCENARIOS[2]
+    gate.set()
+    assert made == [(2, threading.current_thread().name)]
+
+
+def test_an_error_is_that_of_asking(worker, made):
+    worker.announce([Case("toy", SCENARIOS[5])])
+    with pytest.raises(InputError, match="no such drive"):
+        worker(SCENARIOS[5])
+
+
+def test_nothing_runs_on_after_closing(made):
+    worker = ahead.Ahead(DEVICE)
+    worker.announce(Case("toy", scenario) for scenario in SCENARIOS[:5])
+    worker.close()
+    assert not [t for t in threading.enumerate() if t.name.startswith("simulating-ahead")]
