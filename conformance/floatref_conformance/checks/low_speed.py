@@ -10,7 +10,13 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 ROWS = (
     Scenario(speed_kmh=15.9, rate_hz=8000.0),
-    Scenario(speed_kmh=4.0, vehicle="minivan", rate_hz=4000.0, profile_interval_m=0.025),
+    Scenario(
+        speed_kmh=4.0,
+        vehicle="minivan",
+        rate_hz=4000.0,
+        profile_interval_m=0.025,
+        tracks=("left",),
+    ),
     Scenario(
         manoeuvre="creeping", speed_kmh=4.0, event_speed_kmh=15.9, vehicle="trailer", rate_hz=4000.0
     ),

@@ -35,7 +35,10 @@ def constant_speed() -> "SearchStrategy[Scenario]":
 
 
 def low_speed() -> "SearchStrategy[Scenario]":
-    """Return drives at 4 to 15.9 km/h, constant or wandering between two such speeds."""
+    """Return drives at 4 to 15.9 km/h, constant or wandering between two such speeds.
+
+    They take long, and have one wheel path.
+    """
     return _all_of(_slow)
 
 
@@ -92,7 +95,7 @@ def _slow(draw: "DrawFn") -> Scenario:
 
     wandering = draw(st.booleans())
     speed = draw(number(4.0, 12.0 if wandering else 15.9, 0.1, 12.0))
-    drive = Scenario(speed_kmh=speed, **CREEP.draw(draw))
+    drive = Scenario(speed_kmh=speed, tracks=("left",), **CREEP.draw(draw))
     if not wandering:
         return drive
     fastest = draw(number(speed + 0.5, 15.9, 0.1, 15.0))
