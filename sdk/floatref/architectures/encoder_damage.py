@@ -21,8 +21,8 @@ LATE = 2.5
 LOST_S = 0.05
 """No vehicle stops within this time from `MOVING_MPS`: an encoder that does has lost counts."""
 MOVING_MPS = 2.5
-COUNTS = 10.0
-"""Lost counts are so many usual steps or more; a coarse encoder holds between its counts."""
+COUNTS = 5.0
+"""A speed is known from so many usual steps: a coarse encoder holds between its counts."""
 STANDING_S = 2.0
 """After such a time without counts the vehicle is taken to stand."""
 
@@ -62,7 +62,7 @@ class _Encoder:
     @classmethod
     def of(cls, channel: Channel) -> "_Encoder":
         total = squares = 0.0
-        for _, steps in _progress(channel.values):
+        for _, steps, _ in _progress(channel.values):
             made = steps[steps > 0]
             total += float(made.sum())
             squares += float((made**2).sum())
@@ -78,10 +78,10 @@ class _Encoder:
     def leaps(self) -> IndexArray:
         """Return the samples that were reached faster than any vehicle."""
         found = [NONE[:, 0]]
-        for first, steps in _progress(self.channel.values):
+        for first, steps, fronts in _progress(self.channel.values):
             candidates = np.flatnonzero(steps > LEAP * self.usual_m)
             index = first + candidates
-            elapsed = self._times(index) - self._times(np.maximum(index - 1, 0))
+            elapsed = self._times(index) - self._times(fronts[candidates])
             far = steps[candidates] > LEAP * self.usual_m + FASTEST_MPS * elapsed
             found.append(index[far])
         return np.concatenate(found)
@@ -106,7 +106,7 @@ class _Encoder:
         lasted = self._times(np.minimum(ends, self.channel.values.size - 1)) - self._times(first)
         speed = self._speed_before(first)
         lost = (lasted >= LOST_S) & (lasted < STANDING_S) & ~open_ended & ~np.isin(ends, leaps)
-        lost &= (speed >= MOVING_MPS) & (speed * lasted >= COUNTS * self.usual_m)
+        lost &= (speed >= MOVING_MPS) & (speed * LOST_S >= COUNTS * self.usual_m)
         return np.stack([first[lost] + 1, ends[lost]], axis=1)
 
     def _speed_before(self, index: IndexArray) -> FloatArray:
@@ -139,17 +139,20 @@ def _reached(values: FloatArray) -> Iterator[tuple[int, FloatArray, FloatArray]]
         before = float(reached[-1])
 
 
-def _progress(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
+def _progress(values: FloatArray) -> Iterator[tuple[int, FloatArray, IndexArray]]:
     """Yield, with the first sample's index, by how much each is farther than all before.
 
-    NaN next to a missing sample, whose neighbours are bridged.
+    NaN next to a missing sample, whose neighbours are bridged. The last array holds the index of
+    the sample before that was as far as any.
     """
-    last = np.nan
+    last, front = np.nan, 0
     for first, chunk, reached in _reached(values):
         steps = np.diff(reached)
         steps[np.isnan(np.append(last, chunk[:-1])) | np.isnan(chunk)] = np.nan
-        last = float(chunk[-1])
-        yield first, steps
+        leading = np.where(chunk >= reached[1:], first + np.arange(chunk.size), 0)
+        fronts = np.maximum.accumulate(np.append(front, leading))
+        last, front = float(chunk[-1]), int(fronts[-1])
+        yield first, steps, fronts[:-1]
 
 
 def _spans(parts: Iterator[IndexArray]) -> IndexArray:

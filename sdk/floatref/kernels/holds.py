@@ -35,7 +35,7 @@ def find_runs(
         step = abs(value - memory[1]) if length > 0.0 and value == value else 1e300
         if length > 0.0:
             held[min(int(length), held.size - 1)] += int(length)
-            if step < memory[4]:
+            if value == value and step < memory[4]:
                 memory[4] = step
             if length >= least:
                 runs[found, 0], runs[found, 1] = memory[2], length
