@@ -12,6 +12,7 @@ COMMANDS = {
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "say what a check asks, and why"),
+    "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
 }
 

@@ -1,0 +1,140 @@
+"""What the self-test counts: kills, unique killers, limits, false alarms."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from floatref_conformance.devices.builtin import CLAIMS
+from floatref_conformance.registry import Registry
+from floatref_conformance.selftest.grading import ALLOWED, TOO_MUCH, Limit
+from floatref_conformance.selftest.trying import Tried, Try
+
+Killers = Mapping[str, tuple[str, ...]]
+"""The checks that each device must fail, by its SPEC."""
+
+
+def killers_of(registry: Registry) -> Killers:
+    """Return every device of ``registry`` that must fail checks, with those checks."""
+    return {
+        f"{kind.prefix}:{entry.name}": entry.fails
+        for kind in registry.kinds.values()
+        for entry in kind.entries()
+        if entry.fails
+    }
+
+
+def named(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+    """Return every device on each check of ``ids`` that must fail it, with every seed."""
+    return tuple(
+        Try(spec, id_, seed)
+        for seed in seeds
+        for id_ in ids
+        for spec, fails in killers.items()
+        if id_ in fails
+    )
+
+
+def unnamed(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+    """Return every device that must fail one check alone on all other checks of ``ids``."""
+    return tuple(
+        Try(spec, id_, seed)
+        for seed in seeds
+        for id_ in ids
+        for spec, fails in killers.items()
+        if len(fails) == 1 and id_ not in fails
+    )
+
+
+def claimed(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+    """Return every built-in device that claims a class on each check of ``ids``."""
+    return tuple(
+        Try(f"builtin:{name}", id_, seed, device_class)
+        for seed in seeds
+        for id_ in ids
+        for name, device_class in CLAIMS.items()
+    )
+
+
+@dataclass(frozen=True)
+class Counts:
+    """What the self-test found.
+
+    Attributes:
+        killers: the checks that each device must fail.
+        ids: the checks that were run.
+        kills: of devices on the checks that they name.
+        others: of devices that name one check on the others; empty if that was not asked.
+        alarms: of built-in devices on what they claim.
+        limits: what became of each.
+        ungraded: limits of which there is no graded error.
+    """
+
+    killers: Killers
+    ids: tuple[str, ...]
+    kills: tuple[Tried, ...] = ()
+    others: tuple[Tried, ...] = ()
+    alarms: tuple[Tried, ...] = ()
+    limits: tuple[Limit, ...] = ()
+    ungraded: tuple[str, ...] = field(default=())
+
+    @property
+    def survivors(self) -> tuple[Try, ...]:
+        """The devices that passed a check that must fail them."""
+        return tuple(one.tried for one in self.kills if not one.fails)
+
+    @property
+    def false_alarms(self) -> tuple[Tried, ...]:
+        """The built-in devices that failed the class that they claim."""
+        return tuple(one for one in self.alarms if one.fails)
+
+    @property
+    def broken(self) -> tuple[Limit, ...]:
+        """The limits that do not hold on both sides."""
+        return tuple(limit for limit in self.limits if limit.faults)
+
+    def only_killed_by(self, id_: str) -> tuple[str, ...]:
+        """Return the devices that check ``id_`` fails with every seed, and no other check does."""
+        seen = {one.tried.spec for one in self.others if not one.fails}
+        seen -= {one.tried.spec for one in self.others if one.fails}
+        alive = {one.spec for one in self.survivors}
+        return tuple(
+            s for s, fails in self.killers.items() if fails == (id_,) and s in seen - alive
+        )
+
+    @property
+    def without_unique_killer(self) -> tuple[str, ...]:
+        """The checks that are the only killer of no device, if that was asked."""
+        return tuple(i for i in self.ids if self.others and not self.only_killed_by(i))
+
+    @property
+    def complaints(self) -> tuple[str, ...]:
+        """What does not hold, one line each; empty if all does."""
+        lines = [f"{t.spec} passes {t.check} with seed {t.seed}" for t in self.survivors]
+        lines += [f"{id_} is the only killer of no device" for id_ in self.without_unique_killer]
+        lines += [
+            f"{limit.check}: {limit.quantity}, class {limit.device_class}: {fault}"
+            for limit in self.broken
+            for fault in limit.faults
+        ]
+        lines += [f"no graded error of {limit}" for limit in self.ungraded]
+        lines += [
+            f"{o.tried.spec} fails {o.tried.check} with seed {o.tried.seed}: {o.fails}"
+            for o in self.false_alarms
+        ]
+        return tuple(lines)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all of it as a plain JSON object."""
+        return {
+            "holds": not self.complaints,
+            "mutants": len(self.killers),
+            "kills": len(self.kills) - len(self.survivors),
+            "kills_asked": len(self.kills),
+            "only_killer_of": {i: self.only_killed_by(i) for i in self.ids if self.others},
+            "limits": len(self.limits) - len(self.broken),
+            "limits_asked": len(self.limits) + len(self.ungraded),
+            "limit_factors": [TOO_MUCH, ALLOWED],
+            "false_alarms": len(self.false_alarms),
+            "alarms_asked": len(self.alarms),
+            "complaints": list(self.complaints),
+        }

@@ -1,0 +1,119 @@
+"""Graded errors of the checks that drive over a road."""
+
+from collections.abc import Iterator
+
+from floatref_conformance.checks.asked import ERROR, LOSS
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.driving import DrivingCheck
+from floatref_conformance.checks.layout import Layout, layout_of, placed
+from floatref_conformance.checks.rule import ELSEWHERE, Rule
+from floatref_conformance.checks.rules import LIGHT, START, UNFLAGGED, WHOLE, rule_of
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
+from floatref_conformance.selftest import put_in
+from floatref_conformance.selftest.grading import Graded, Put, Situation
+from floatref_conformance.selftest.truth_bench import Spoil
+
+NOMINAL, ADEQUATE, REFERENCE = DeviceClass
+IRI_M_PER_KM = 3.0
+"""On such a road 5 % of the IRI are more than 0.1 m/km, and 50 % more than 1 m/km."""
+EITHER_PERCENT = 10.0
+"""A profile lower by so much has lost 0.1 of the correlation, more than may be lost beside it."""
+AROUND_M = 60.0
+"""An error is flagged so far to both sides of an event: in all less than 125 m."""
+SPOILT_M = 40.0
+"""It lies so far to both sides, so that the car has come to rest where the flags end."""
+FAST_KMH = 20.0
+AWAY_M = 60.0
+"""So far from an event no vehicle is slower than 16 km/h any more."""
+
+
+def situations(check: DrivingCheck) -> tuple[Situation, ...]:
+    """Return one drive for each rule of ``check``: ideal sensors, one wheel path."""
+    return tuple(
+        Situation(check, case, tuple(_graded(case.scenario, rule)), condition)
+        for condition, rule in check.rules.items()
+        for case in (_case(check, rule),)
+    )
+
+
+def _case(check: DrivingCheck, rule: Rule) -> Case:
+    rows = (case.scenario for case in check.cases(0, Effort.CERTIFICATION))
+    row = next(row for row in rows if rule_of(row) is rule and _stays_fast(row))
+    plain = Scenario(
+        manoeuvre=row.manoeuvre,
+        speed_kmh=row.speed_kmh,
+        event_speed_kmh=row.event_speed_kmh,
+        deceleration_g=row.deceleration_g,
+        final_speed_kmh=row.final_speed_kmh,
+        dwell_s=1.0,
+        iri_m_per_km=IRI_M_PER_KM,
+        sensors=0.0,
+        tracks=("left",),
+        rate_hz=4000.0,
+        profile_interval_m=0.01,
+    )
+    return Case(check.id, placed(plain))
+
+
+def _stays_fast(row: Scenario) -> bool:
+    """Return whether both ends of the drive can be flagged: none is slower than 16 km/h."""
+    return row.manoeuvre != "braking" or row.event_speed_kmh > FAST_KMH
+
+
+def _graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
+    layout = layout_of(scenario)
+    start_m, end_m = layout.stretches[-1]
+    above = (ADEQUATE, REFERENCE) if rule is LIGHT else tuple(DeviceClass)
+    yield Graded((LOSS,), lambda loss: put_in.mixed(loss, start_m, end_m), above)
+    yield Graded((ERROR,), _higher, above)
+    if rule is LIGHT:
+        yield Graded(
+            (LOSS, ERROR),
+            lambda percent: put_in.higher(-percent / 100.0),
+            (NOMINAL,),
+            limit=EITHER_PERCENT,
+        )
+    unflagged = _higher if rule.slow else _rougher(0.0, scenario.length_m)
+    yield Graded((UNFLAGGED,), unflagged)
+    yield Graded((WHOLE,), _around(layout), alone=rule is not START)
+    if not rule.slow:
+        yield Graded(("flagged at an end",), put_in.flagged_end)
+        yield Graded((ELSEWHERE,), _away(scenario, layout))
+    yield Graded(("bump error",), lambda percent: _bump(scenario, percent))
+
+
+def _higher(percent: float) -> Spoil:
+    return put_in.higher(percent / 100.0)
+
+
+def _rougher(start_m: float, end_m: float) -> Put:
+    return lambda m_per_km: put_in.rougher(m_per_km, start_m, end_m)
+
+
+def _around(layout: Layout) -> Put:
+    """Return what puts all of an error near an event, and flags it."""
+    start_m, end_m = layout.stretches[0]
+    event_m = layout.events_m[0] if layout.events_m else (start_m + end_m) / 2
+    there = put_in.between(event_m - SPOILT_M, event_m + SPOILT_M)
+    flags = put_in.flagged(event_m - AROUND_M, event_m + AROUND_M)
+    return lambda v: put_in.both(put_in.rougher(v, start_m, end_m, there), flags)
+
+
+def _away(scenario: Scenario, layout: Layout) -> Put:
+    """Return what flags a length ahead of the event, or in the middle of a drive without one."""
+    middle_m = scenario.length_m / 2
+
+    def put(length_m: float) -> Spoil:
+        end_m = layout.events_m[0] - AWAY_M if layout.events_m else middle_m + length_m / 2
+        return put_in.flagged(end_m - length_m, end_m)
+
+    return put
+
+
+def _bump(scenario: Scenario, percent: float) -> Spoil:
+    height_m = percent / 100.0 * scenario.bump_mm / 1000.0
+    return put_in.added(
+        lambda x: height_m * put_in.raised_cosine(x - scenario.bump_at_m, BUMP_LENGTH_M)
+    )

@@ -1,0 +1,91 @@
+"""Devices tried on checks, in several processes: only whether one fails is asked."""
+
+import multiprocessing
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import cache
+
+from floatref_conformance.bench import DeviceBench
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import Device
+from floatref_conformance.errors import DeviceError
+from floatref_conformance.exercise import close, describe
+from floatref_conformance.judging import why
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.registry import Registry
+from floatref_conformance.replaying import judged
+from floatref_conformance.search import search
+
+
+@dataclass(frozen=True)
+class Try:
+    """A device by its SPEC, a check by its id, a seed, and whose limits decide."""
+
+    spec: str
+    check: str
+    seed: int
+    device_class: DeviceClass = DeviceClass.NOMINAL
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What became of a try: in one line why the device fails, empty if it does not."""
+
+    tried: Try
+    fails: str
+
+
+def try_all(tries: Sequence[Try], processes: int) -> Iterator[Tried]:
+    """Yield what becomes of ``tries``, as they are done; an error of the suite is raised."""
+    if processes < 2:
+        yield from map(attempt, tries)
+        return
+    # A fork would share whatever threads and children this process has.
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=spawn) as pool:
+        try:
+            for done in as_completed([pool.submit(attempt, one) for one in tries]):
+                yield done.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def attempt(wanted: Try) -> Tried:
+    """Return what becomes of ``wanted`` at quick effort, its search included."""
+    registry = _registry()
+    device = registry.device(wanted.spec)
+    try:
+        return Tried(wanted, _why(registry.check(wanted.check), device, wanted))
+    finally:
+        close(device)
+
+
+def _why(check: Check, device: Device, wanted: Try) -> str:
+    """Return why ``device`` fails ``check``: of the first case that it fails."""
+    found: list[str] = []
+    try:
+        description = describe(device)
+    except DeviceError as fault:
+        return str(fault)
+
+    def ratio(case: Case) -> float:
+        if found:
+            return 0.0
+        result = judged(check, case, DeviceBench(device, description))
+        if result.ratio(wanted.device_class) > 1.0:
+            found.append(f"{case.name or 'searched'}: {why(result, wanted.device_class)}")
+        return result.ratio(wanted.device_class)
+
+    for case in check.cases(wanted.seed, Effort.QUICK):
+        ratio(case)
+    if not found:
+        search(check, wanted.seed, Effort.QUICK.searched, ratio)
+    return "".join(found)
+
+
+@cache
+def _registry() -> Registry:
+    return load_registry()

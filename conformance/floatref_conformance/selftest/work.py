@@ -1,0 +1,77 @@
+"""The work of the self-test, step by step, with its progress."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.selftest.counts import Counts, Killers, claimed, named, unnamed
+from floatref_conformance.selftest.grading import Limit
+from floatref_conformance.selftest.limits import graded, without_grader
+from floatref_conformance.selftest.trying import Tried, Try, try_all
+
+Item = TypeVar("Item")
+
+
+class Track(Protocol):
+    """Returns what it is given, one after another, and tells that it is done."""
+
+    def __call__(self, items: Iterable[Item], count: int | None, title: str) -> Iterable[Item]:
+        """Return ``items``, ``count`` of them, which ``title`` names."""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is tested.
+
+    Attributes:
+        seeds: with so many seeds, from 0 on, every mutant is tried.
+        false_alarms: with so many, every built-in device that claims a class.
+        limits: whether limits are graded.
+        unique: whether the only killers are looked for.
+        processes: how many devices are tried at a time.
+    """
+
+    seeds: int
+    false_alarms: int
+    limits: bool
+    unique: bool
+    processes: int
+
+
+@dataclass(frozen=True)
+class Work:
+    """The self-test of ``checks``, whose progress ``track`` tells."""
+
+    checks: tuple[Check, ...]
+    killers: Killers
+    extent: Extent
+    track: Track
+
+    def count(self) -> Counts:
+        """Return what all of it comes to; an error of the suite is raised."""
+        extent, ids = self.extent, tuple(check.id for check in self.checks)
+        seeds, more = range(extent.seeds), range(extent.false_alarms)
+        limits = self._limits()
+        return Counts(
+            self.killers,
+            ids,
+            self._tried("mutants", named(self.killers, ids, seeds)),
+            self._tried("only killers", self._others(ids)),
+            self._tried("false alarms", claimed(ids, more)),
+            limits,
+            without_grader(self.checks, limits) if extent.limits else (),
+        )
+
+    def _limits(self) -> tuple[Limit, ...]:
+        if not self.extent.limits:
+            return ()
+        return tuple(self.track(graded(self.checks), None, "limits"))
+
+    def _others(self, ids: tuple[str, ...]) -> tuple[Try, ...]:
+        if not self.extent.unique:
+            return ()
+        return unnamed(self.killers, ids, range(self.extent.seeds))
+
+    def _tried(self, title: str, tries: tuple[Try, ...]) -> tuple[Tried, ...]:
+        return tuple(self.track(try_all(tries, self.extent.processes), len(tries), title))
