@@ -1,6 +1,5 @@
 """Encoder samples that tell no travel: behind where it has been, leaps, silence, lost counts."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,10 +34,8 @@ def encoder_damage(channel: Channel) -> Damage:
     engines that are triggered by the encoder integrate over them.
     """
     found = _Encoder.of(channel)
-    leaps = found.leaps()
-    silent, unexplained = found.silences(leaps)
-    lost = found.lost(leaps)
-    behind = _spans(found.behind())
+    silent, unexplained = found.silences()
+    lost, behind = found.lost(), _spans(found.behind)
     leapt = np.stack([unexplained, unexplained + 1], axis=1)
     void = _ordered(leapt, lost)
     kinds = (
@@ -53,59 +50,54 @@ def encoder_damage(channel: Channel) -> Damage:
 
 @dataclass(frozen=True, eq=False)
 class _Encoder:
-    """A distance, its stretches without counts, and its usual step in m."""
+    """A distance, its stretches without counts, and its usual step in m.
+
+    ``leaps`` are the samples that were reached faster than any vehicle, ``behind`` those that lie
+    behind one before them.
+    """
 
     channel: Channel
     holds: Runs
     usual_m: float
+    leaps: IndexArray
+    behind: IndexArray
 
     @classmethod
     def of(cls, channel: Channel) -> "_Encoder":
-        total = squares = 0.0
-        for _, steps, _ in _progress(channel.values):
-            made = steps[steps > 0]
-            total += float(made.sum())
-            squares += float((made**2).sum())
+        usual_m, _, _ = _followed(channel.values, np.inf)
+        _, steps, behind = _followed(channel.values, LEAP * usual_m)
+        index, front = steps.T
+        gained = channel.values[index] - channel.values[front]
+        elapsed = _times(channel, index) - _times(channel, front)
+        leaps = index[gained > LEAP * usual_m + FASTEST_MPS * elapsed]
         shortest = max(2, int(SHORTEST_S * min(channel.mean_rate_hz, 1e6)))
-        holds = Runs.of(channel.values, shortest)
-        return cls(channel, holds, squares / total if total > 0 else 0.0)
+        return cls(channel, Runs.of(channel.values, shortest), usual_m, leaps, behind)
 
-    def behind(self) -> Iterator[IndexArray]:
-        """Yield the samples that lie behind one before them."""
-        for first, chunk, reached in _reached(self.channel.values):
-            yield first + np.flatnonzero(chunk < reached[1:])
-
-    def leaps(self) -> IndexArray:
-        """Return the samples that were reached faster than any vehicle."""
-        found = [NONE[:, 0]]
-        for first, steps, fronts in _progress(self.channel.values):
-            candidates = np.flatnonzero(steps > LEAP * self.usual_m)
-            index = first + candidates
-            elapsed = self._times(index) - self._times(fronts[candidates])
-            far = steps[candidates] > LEAP * self.usual_m + FASTEST_MPS * elapsed
-            found.append(index[far])
-        return np.concatenate(found)
-
-    def silences(self, leaps: IndexArray) -> tuple[IndexArray, IndexArray]:
+    def silences(self) -> tuple[IndexArray, IndexArray]:
         """Return what was silent before leaps that make up for it, and the other leaps."""
+        leaps = self.leaps
         ends = self.holds.first + self.holds.length
         which = np.searchsorted(ends, leaps)
         held = which < ends.size
         held[held] = ends[which[held]] == leaps[held]
         first = self.holds.first[which[held]]
-        meanwhile = self._speed_before(first) * (self._times(leaps[held]) - self._times(first))
+        meanwhile = self._speed_before(first) * (
+            _times(self.channel, leaps[held]) - _times(self.channel, first)
+        )
         made_up = self.channel.values[leaps[held]] - self.channel.values[first]
         fits = (made_up > meanwhile / LATE) & (made_up < meanwhile * LATE)
         silent = np.stack([first[fits] + 1, leaps[held][fits]], axis=1)
         return silent, np.sort(np.concatenate((leaps[~held], leaps[held][~fits])))
 
-    def lost(self, leaps: IndexArray) -> IndexArray:
+    def lost(self) -> IndexArray:
         """Return where counts are lost: no progress out of full speed, and none made up for."""
         first, ends = self.holds.first, self.holds.first + self.holds.length
         open_ended = ends >= self.channel.values.size
-        lasted = self._times(np.minimum(ends, self.channel.values.size - 1)) - self._times(first)
+        lasted = _times(self.channel, np.minimum(ends, self.channel.values.size - 1)) - _times(
+            self.channel, first
+        )
         speed = self._speed_before(first)
-        lost = (lasted >= LOST_S) & (lasted < STANDING_S) & ~open_ended & ~np.isin(ends, leaps)
+        lost = (lasted >= LOST_S) & (lasted < STANDING_S) & ~open_ended & ~np.isin(ends, self.leaps)
         lost &= (speed >= MOVING_MPS) & (speed * LOST_S >= COUNTS * self.usual_m)
         return np.stack([first[lost] + 1, ends[lost]], axis=1)
 
@@ -114,50 +106,42 @@ class _Encoder:
         count = max(1, round(LOST_S * min(self.channel.mean_rate_hz, 1e6)))
         earlier = np.maximum(index - count, 0)
         values = self.channel.values
-        elapsed = self._times(index) - self._times(earlier)
+        elapsed = _times(self.channel, index) - _times(self.channel, earlier)
         gained = values[index] - values[earlier]
         speed = np.full(index.size, np.nan)
         np.divide(gained, elapsed, out=speed, where=elapsed > 0)
         return speed
 
-    def _times(self, index: IndexArray) -> FloatArray:
-        clock = self.channel.clock
-        if isinstance(clock, StampedClock):
-            return clock.times_s[index]
-        return np.asarray(clock.start_s + index / float(clock.rate))
+
+def _times(channel: Channel, index: IndexArray) -> FloatArray:
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        return clock.times_s[index]
+    return np.asarray(clock.start_s + index / float(clock.rate))
 
 
-def _reached(values: FloatArray) -> Iterator[tuple[int, FloatArray, FloatArray]]:
-    """Yield stretches of a distance with their first index and how far the encoder has been.
+def _followed(values: FloatArray, longer: float) -> tuple[float, IndexArray, IndexArray]:
+    """Return the usual step of a distance, its steps above ``longer``, and what lies behind.
 
-    The latter begins one sample earlier, with NaN at the very first.
+    The usual step is the mean over the distance, not over the steps. Of the others, shape (k, 2),
+    the index is given, and that of the last sample before that was as far as any.
     """
-    before = np.nan
+    from floatref.kernels import holds
+
+    memory = np.zeros(holds.PROGRESS)
+    memory[0] = -np.inf
+    far, back = [NONE], [NONE[:, 0]]
     for first, chunk in chunks(values):
-        reached = np.fmax.accumulate(np.append(before, chunk))
-        yield first, chunk, reached
-        before = float(reached[-1])
+        steps, behind = np.empty((chunk.size, 2), np.int64), np.empty(chunk.size, np.int64)
+        counts = holds.progress(chunk, first, memory, longer, steps, behind)
+        far.append(steps[: counts[0]].copy())
+        back.append(behind[: counts[1]].copy())
+    total, squares = memory[3:].tolist()
+    return squares / total if total > 0 else 0.0, np.concatenate(far), np.concatenate(back)
 
 
-def _progress(values: FloatArray) -> Iterator[tuple[int, FloatArray, IndexArray]]:
-    """Yield, with the first sample's index, by how much each is farther than all before.
-
-    NaN next to a missing sample, whose neighbours are bridged. The last array holds the index of
-    the sample before that was as far as any.
-    """
-    last, front = np.nan, 0
-    for first, chunk, reached in _reached(values):
-        steps = np.diff(reached)
-        steps[np.isnan(np.append(last, chunk[:-1])) | np.isnan(chunk)] = np.nan
-        leading = np.where(chunk >= reached[1:], first + np.arange(chunk.size), 0)
-        fronts = np.maximum.accumulate(np.append(front, leading))
-        last, front = float(chunk[-1]), int(fronts[-1])
-        yield first, steps, fronts[:-1]
-
-
-def _spans(parts: Iterator[IndexArray]) -> IndexArray:
+def _spans(index: IndexArray) -> IndexArray:
     """Return indices that follow each other as stretches, shape (k, 2)."""
-    index = np.concatenate([NONE[:, 0], *parts])
     if not index.size:
         return NONE
     apart: BoolArray = np.diff(index) > 1
