@@ -46,7 +46,7 @@ NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
         "clock-storage": ({}, {}, {}),
         "accelerometer-bias": ({"bias": 0.03}, {"bias": -0.03}, {"bias": 0.012}),
         "clock-origin": ({"shift_s": 1e5}, {"shift_s": -86400.0}, {"shift_s": 0.1}),
-        "distance-origin": ({"shift_m": 12345.67}, {"shift_m": -300.0}, {"shift_m": 1e5}),
+        "distance-origin": ({"shift_m": 98765.43}, {"shift_m": -300.0}, {"shift_m": 1234.5}),
         "road-height": ({"factor": 2.5}, {"factor": 0.4}, {"factor": 1.5}),
         "sample-rate": ({"rate_hz": 4000.0}, {"rate_hz": 16000.0}, {"rate_hz": 5000.0}),
         STOP: ({}, {}, {}),

@@ -8,9 +8,9 @@ from types import MappingProxyType
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.clock import StampedClock
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Channel, Clock, Recording
+from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.case import Number
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -76,9 +76,9 @@ def other_bias(recording: Recording, numbers: Numbers) -> Recording:
 
 
 def other_time(recording: Recording, numbers: Numbers) -> Recording:
-    """Return ``recording`` with all its times ``shift_s`` later."""
+    """Return ``recording`` with a time stamp for every sample, all ``shift_s`` later."""
     shift_s = number(numbers, "shift_s")
-    return _each(recording, lambda c: replace(c, clock=_later(c.clock, shift_s)))
+    return _each(recording, lambda c: replace(c, clock=StampedClock.of(c.times_s + shift_s)))
 
 
 def other_place(recording: Recording, numbers: Numbers) -> Recording:
@@ -131,7 +131,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         LATER: Change("the recording begins later", recording=later_start),
         "clock-storage": Change("a time stamp for each sample", recording=other_storage),
         "accelerometer-bias": Change("a bias of the accelerometers", recording=other_bias),
-        "clock-origin": Change("another origin of time", recording=other_time),
+        "clock-origin": Change("time stamps of another origin", recording=other_time),
         "distance-origin": Change(
             "another origin of distance",
             recording=other_place,
@@ -167,12 +167,6 @@ def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recordi
 
 def _with(channel: Channel, values: np.ndarray) -> Channel:
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
-
-
-def _later(clock: Clock, shift_s: float) -> Clock:
-    if isinstance(clock, UniformClock):
-        return replace(clock, start_s=clock.start_s + shift_s)
-    return StampedClock.of(clock.times_s + shift_s)
 
 
 def _from(channel: Channel, begin_s: float) -> Channel:
