@@ -24,14 +24,14 @@ def _row(speed: float, released: float, deceleration_g: float, **others: Any) ->
 ROWS = (
     _row(48.8, 34.1, 0.84),
     _row(100.0, 15.0, 0.05, vehicle="minivan", rate_hz=4000.0),
-    _row(100.0, 15.0, 0.4, vehicle="trailer", rate_hz=8000.0, profile_interval_m=0.01),
+    _row(100.0, 15.0, 0.38, vehicle="trailer", rate_hz=8000.0, profile_interval_m=0.01),
     _row(30.0, 15.0, 0.16, vehicle="pickup", rate_hz=4000.0, profile_interval_m=0.025),
     _row(71.4, 29.9, 0.2, vehicle="pickup", cross_slope_percent=3.0, curvature_per_km=1.0),
     _row(100.0, 60.0, 0.84, vehicle="minivan", rate_hz=4000.0, grade_percent=-4.0),
     _row(71.8, 29.1, 0.39, vehicle="loaded-van", rate_hz=8000.0),
     _row(49.1, 22.1, 0.16, vehicle="trailer", grade_percent=4.0),
     _row(49.1, 19.6, 0.25, vehicle="loaded-van", rate_hz=4000.0, curvature_per_km=-1.0),
-    _row(30.0, 16.0, 0.3, vehicle="minivan", profile_interval_m=0.025),
+    _row(30.0, 17.0, 0.3, vehicle="minivan", profile_interval_m=0.025),
     _row(90.0, 50.0, 0.12, vehicle="pickup", rate_hz=8000.0, cross_slope_percent=-3.0),
     _row(100.0, 30.0, 0.17, vehicle="loaded-van", rate_hz=4000.0, grade_percent=2.0),
 )
@@ -52,7 +52,7 @@ BRAKING = DrivingCheck(
         "at speed v. Points that it vouches for have to have the road's IRI within 5 % or 0.1 "
         "m/km, all points together within 50 % or 1 m/km; adequate and reference are limited as "
         "before. So that nominal sensors can keep this, a brake is no harder than v divided by "
-        "1 s (0.42 g at 15 km/h, 0.84 g from 30 km/h on), roads have 1.5 to 4 m/km, and the van "
+        "1.1 s (0.38 g at 15 km/h, 0.84 g from 33 km/h on), roads have 1.5 to 4 m/km, and the van "
         "with worn dampers, which pitches by up to 5 degrees per g, stays at home. "
     )
     + EVENT_FLAGS

@@ -1,7 +1,7 @@
 """A check that has a vehicle drive over a road: its cases, and how they are judged."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
@@ -47,7 +47,7 @@ class DrivingCheck:
     scenarios: Callable[[], "SearchStrategy[Scenario]"]
     simplest_scenario: Scenario
     rules: Mapping[str, Rule]
-    needs: frozenset[str] = field(default=frozenset())
+    needs: frozenset[str] = frozenset()
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:

@@ -5,7 +5,7 @@ from typing import Any
 from floatref_conformance.checks import strategies
 from floatref_conformance.checks.driving import DrivingCheck
 from floatref_conformance.checks.layout import placed
-from floatref_conformance.checks.roads import WORN
+from floatref_conformance.checks.roads import LEVEL
 from floatref_conformance.checks.rules import HARD
 from floatref_conformance.checks.wording import EVENT_FLAGS, EVENTS, EVERYWHERE, HOW
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -23,10 +23,10 @@ def _row(speed: float, crawl: float, deceleration_g: float, **others: Any) -> Sc
 
 ROWS = (
     _row(71.6, 11.4, 0.2, dwell_s=2.2),
-    _row(90.0, 15.0, 0.3, dwell_s=0.5, vehicle="minivan", rate_hz=4000.0, grade_percent=4.0),
+    _row(90.0, 15.0, 0.25, dwell_s=0.5, vehicle="minivan", rate_hz=4000.0, grade_percent=4.0),
     _row(40.0, 11.0, 0.1, dwell_s=2.0, vehicle="trailer", rate_hz=8000.0, final_speed_kmh=30.0),
     _row(60.0, 12.0, 0.25, dwell_s=1.5, rate_hz=4000.0, final_speed_kmh=72.0),
-    _row(50.0, 11.0, 0.3, dwell_s=1.0, vehicle="minivan", curvature_per_km=1.0),
+    _row(50.0, 11.0, 0.25, dwell_s=1.0, vehicle="minivan", curvature_per_km=1.0),
     _row(80.0, 13.0, 0.15, dwell_s=2.0, vehicle="trailer", profile_interval_m=0.025),
     _row(72.0, 11.0, 0.2, dwell_s=2.0, rate_hz=8000.0, cross_slope_percent=3.0),
     _row(65.0, 14.0, 0.12, dwell_s=2.0, vehicle="minivan", profile_interval_m=0.01),
@@ -40,7 +40,7 @@ NEAR_STOP = DrivingCheck(
     derivation=HOW
     + EVENTS
     + (
-        "Vehicles brake at 0.1 to 0.3 g from 40 to 90 km/h to 11 to 15 km/h, coast for 0.5 to "
+        "Vehicles brake at 0.1 to 0.25 g from 40 to 90 km/h to 11 to 15 km/h, coast for 0.5 to "
         "2 s at 0.048 g, and set off; the paper's near stop has 11.4 km/h and 2.2 s. The same "
         "limits hold as for hard brakes: class nominal has to be right within 5 % or 0.1 m/km "
         "where it vouches for its points, and within 50 % or 1 m/km over all points; adequate "
@@ -48,14 +48,15 @@ NEAR_STOP = DrivingCheck(
         "the body while the vehicle crawls, and what the accelerometer errs by then is stretched "
         "over few metres, with the square of the crawling speed: slower or longer crawls, the "
         "pickup whose profiler hangs 3.5 m behind the middle, and roads outside of 1.5 to 4 m/km "
-        "are left out, since nominal sensors could not keep the limits there. "
+        "are left out, since nominal sensors could not keep the limits there. Suppression cannot tell the longest waves of a road from drift once the "
+        "vehicle is slow, so that the spectrum with added long waves is left out. "
     )
     + EVENT_FLAGS
     + ("The two recommended pipelines reach MEASURED of these limits."),
     floor=EVERYWHERE,
     rows=ROWS,
     quick=4,
-    roads=WORN,
+    roads=LEVEL,
     scenarios=strategies.near_stop,
     simplest_scenario=placed(_row(72.0, 11.0, 0.2, dwell_s=2.0)),
     rules={"": HARD},

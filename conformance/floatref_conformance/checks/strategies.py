@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.layout import least_spacing_m, placed
-from floatref_conformance.checks.surroundings import CRAWL, CREEP, EVENT, STEADY, number
+from floatref_conformance.checks.surroundings import CRAWL, CREEP, EVENT, STAND, STEADY, number
 from floatref_conformance.proving_ground.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 STOPS_APART_M = 120.0
 """Distance of two stops at least: the filter spreads the error of one over a cut-off wavelength."""
-SOONEST_STAND_S = 1.0
+SOONEST_STAND_S = 1.1
 """Where a brake is released the vehicle is at least so far in s from a standstill."""
 
 
@@ -62,12 +62,12 @@ def braking() -> "SearchStrategy[Scenario]":
 
 
 def near_stop() -> "SearchStrategy[Scenario]":
-    """Return brakes of 0.1 to 0.3 g to a crawl of 11 to 15 km/h for 0.5 to 2 s."""
+    """Return brakes of 0.1 to 0.25 g to a crawl of 11 to 15 km/h for 0.5 to 2 s."""
     return _all_of(_near_stop)
 
 
 def stop() -> "SearchStrategy[Scenario]":
-    """Return one to three stops of 0.5 to 120 s, `STOPS_APART_M` apart, at 0.1 to 0.33 g."""
+    """Return one to three stops of 0.5 to 120 s, `STOPS_APART_M` apart, at 0.1 to 0.3 g."""
     return _all_of(_stop)
 
 
@@ -147,7 +147,7 @@ def _near_stop(draw: "DrawFn") -> Scenario:
         manoeuvre="near-stop",
         speed_kmh=draw(number(40.0, 90.0, 1.0, 72.0)),
         event_speed_kmh=draw(number(11.0, 15.0, 0.5, 11.0)),
-        deceleration_g=draw(number(0.1, 0.3, 0.01, 0.2)),
+        deceleration_g=draw(number(0.1, 0.25, 0.01, 0.2)),
         dwell_s=draw(number(0.5, 2.0, 0.5, 2.0)),
         final_speed_kmh=draw(number(30.0, 72.0, 1.0, 58.0)),
         **CRAWL.draw(draw),
@@ -160,10 +160,10 @@ def _stop(draw: "DrawFn") -> Scenario:
     once = Scenario(
         manoeuvre="stop",
         speed_kmh=draw(number(30.0, 90.0, 1.0, 72.0)),
-        deceleration_g=draw(number(0.1, 0.33, 0.01, 0.2)),
+        deceleration_g=draw(number(0.1, 0.3, 0.01, 0.2)),
         dwell_s=draw(number(0.5, 20.0, 0.5, 5.0) | number(20.0, 120.0, 10.0, 20.0)),
         final_speed_kmh=draw(number(30.0, 58.0, 1.0, 58.0)),
-        **EVENT.draw(draw),
+        **STAND.draw(draw),
     )
     stops = draw(st.integers(1, 3))
     if stops == 1:

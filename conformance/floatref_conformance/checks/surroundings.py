@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import ceil, floor
 from typing import TYPE_CHECKING, Any
 
-from floatref_conformance.checks.roads import EVERYDAY, KINDS, STEP_M_PER_KM, WORN, Roads
+from floatref_conformance.checks.roads import EVERYDAY, LEVEL, STEP_M_PER_KM, WORN, Roads
 
 if TYPE_CHECKING:
     from hypothesis.strategies import DrawFn, SearchStrategy
@@ -41,7 +41,7 @@ class Surroundings:
         roads = self.roads
         return {
             "seed": draw(st.integers(0, 2**32 - 1)),
-            "road": draw(st.sampled_from(KINDS)),
+            "road": draw(st.sampled_from(roads.kinds)),
             "iri_m_per_km": draw(number(roads.smoothest, roads.roughest, STEP_M_PER_KM, 1.8)),
             "vehicle": draw(st.sampled_from(tuple(self.vehicles))),
             "grade_percent": draw(number(-grade, grade, 0.5)),
@@ -57,8 +57,10 @@ STEADY = Surroundings(EVERYDAY, ("loaded-van", "minivan", "pickup", "trailer", "
 CREEP = replace(STEADY, rates_hz=(8000.0, 4000.0))
 """Drives that take so long that 16 kHz would be too many samples."""
 EVENT = Surroundings(WORN, ("loaded-van", "minivan", "pickup", "trailer"))
-"""Brakes and stops: not in the van whose dampers are worn."""
-CRAWL = Surroundings(WORN, ("loaded-van", "minivan", "trailer"))
+"""Brakes: not in the van whose dampers are worn."""
+STAND = replace(EVENT, roads=LEVEL)
+"""Stops."""
+CRAWL = Surroundings(LEVEL, ("loaded-van", "minivan", "trailer"))
 """Near stops: the profiler sits less than 3 m from the middle of the vehicle."""
 
 

@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref_conformance.checks import strategies
 from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.layout import BUMP_REACH_M, END_M, layout_of, placed
-from floatref_conformance.checks.roads import EVERYDAY, KINDS, WORN
+from floatref_conformance.checks.roads import EVERYDAY, KINDS, LEVEL, WORN
 from floatref_conformance.checks.surroundings import number
 from floatref_conformance.proving_ground.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -99,12 +99,12 @@ def test_speeds_stay_on_their_side_of_16_km_per_h(data):
 @DRAWS
 def test_no_brake_is_released_within_a_second_of_a_standstill(data):
     brake = data.draw(strategies.braking())
-    assert brake.event_speed_kmh / 3.6 >= 9.80665 * brake.deceleration_g * 1.0
+    assert brake.event_speed_kmh / 3.6 >= 9.80665 * brake.deceleration_g * 1.1
     assert 0.05 <= brake.deceleration_g <= 0.84
 
 
 def test_the_corners_of_braking_are_in_its_domain():
-    for speed, released, g in ((100.0, 15.0, 0.05), (100.0, 60.0, 0.84), (30.0, 15.0, 0.42)):
+    for speed, released, g in ((100.0, 15.0, 0.05), (100.0, 60.0, 0.84), (30.0, 15.0, 0.38)):
         numbers = {"manoeuvre": "braking", "speed_kmh": speed, "event_speed_kmh": released}
         assert strategies.hardest_release_g(released) >= g
         layout_of(placed(Scenario(**numbers, deceleration_g=g)))
@@ -136,10 +136,11 @@ def test_a_number_shrinks_to_the_simplest_one_that_is_allowed(low, high, simple)
     assert simplest(number(-20.0, 20.0, 0.5, 7.5)) == 7.5
 
 
-@pytest.mark.parametrize("roads", [EVERYDAY, WORN])
+@pytest.mark.parametrize("roads", [EVERYDAY, WORN, LEVEL])
 def test_the_roads_of_cases_are_of_every_kind_and_within_their_roughness(roads):
     drawn = [roads.drawn_for(Scenario(), (7, n)) for n in range(200)]
-    assert {scenario.road for scenario in drawn} == set(KINDS)
+    assert {scenario.road for scenario in drawn} == set(roads.kinds)
+    assert set(roads.kinds) <= set(KINDS)
     values = [scenario.iri_m_per_km for scenario in drawn]
     assert (min(values), max(values)) == (roads.smoothest, roads.roughest)
     assert len({scenario.seed for scenario in drawn}) == len(drawn)
