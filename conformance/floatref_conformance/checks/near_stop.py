@@ -48,8 +48,9 @@ NEAR_STOP = DrivingCheck(
         "the body while the vehicle crawls, and what the accelerometer errs by then is stretched "
         "over few metres, with the square of the crawling speed: slower or longer crawls, the "
         "pickup whose profiler hangs 3.5 m behind the middle, and roads outside of 1.5 to 4 m/km "
-        "are left out, since nominal sensors could not keep the limits there. Suppression cannot tell the longest waves of a road from drift once the "
-        "vehicle is slow, so that the spectrum with added long waves is left out. "
+        "are left out, since nominal sensors could not keep the limits there. Suppression cannot "
+        "tell a road's longest waves from drift once the vehicle is slow, so that the spectrum "
+        "with added long waves is left out, too. "
     )
     + EVENT_FLAGS
     + ("The two recommended pipelines reach MEASURED of these limits."),

@@ -46,8 +46,9 @@ STOP = DrivingCheck(
         "points, and within 50 % or 1 m/km over the 160.9 m; adequate needs 0.92 and 5 %, "
         "reference 0.98 and 2 %. Harder and nearer stops, roads outside of 1.5 to 4 m/km and the "
         "van with worn dampers are left out, since nominal sensors, which do not know the pitch "
-        "that a standstill ends at once, could not keep the limits there. Suppression cannot tell the longest waves of a road from drift once the "
-        "vehicle is slow, so that the spectrum with added long waves is left out. "
+        "that a standstill ends at once, could not keep the limits there. Suppression cannot tell "
+        "a road's longest waves from drift once the vehicle is slow, so that the spectrum with "
+        "added long waves is left out, too. "
     )
     + EVENT_FLAGS
     + ("The two recommended pipelines reach MEASURED of these limits."),
