@@ -4,15 +4,23 @@
 
 #include "window.h"
 
+/* Sample `index`, NaN if it is missing or damaged. */
+static double sound_at(struct channel *channel, struct window *window, long index)
+{
+    if (spans_hold(&channel->gone, index) || spans_hold(&channel->lasting, index))
+        return NAN;
+    return window_at(window, index);
+}
+
 /* Keep the good samples on either side of the gap that sample `index` lies in. */
 static void find_gap(struct channel *channel, long index)
 {
     struct window *ahead = &channel->ahead;
     channel->left = index - 1;
-    while (channel->left >= 0 && isnan(window_at(ahead, channel->left)))
+    while (channel->left >= 0 && isnan(sound_at(channel, ahead, channel->left)))
         channel->left--;
     channel->right = index + 1;
-    while (channel->right < ahead->count && isnan(window_at(ahead, channel->right)))
+    while (channel->right < ahead->count && isnan(sound_at(channel, ahead, channel->right)))
         channel->right++;
 }
 
@@ -33,10 +41,15 @@ static struct reading bridged(struct channel *channel, long index)
 
 struct reading channel_sample(struct channel *channel, long index)
 {
-    double value = window_at(&channel->values, index);
-    if (isnan(value))
-        return bridged(channel, index);
-    return (struct reading){value, false, false};
+    double value = sound_at(channel, &channel->values, index);
+    if (!isnan(value))
+        return (struct reading){value, false, false};
+    struct reading reading = bridged(channel, index);
+    if (spans_hold(&channel->lasting, index)) {
+        reading.lost = true;
+        reading.value = channel->encoder ? NAN : reading.value;
+    }
+    return reading;
 }
 
 /* Where the channel is at `time`, in samples. */

@@ -1,14 +1,15 @@
 /* One channel as a stream on the accelerometer's clock, read through small windows of its file.
 
    A sample is passed on where the two clocks agree, else interpolated linearly. A missing (NaN)
-   sample is bridged by the line between its neighbours, which the reader looks ahead for, and
-   marked. Nothing is allocated but the channel itself. */
+   or damaged sample is bridged by the line between its neighbours, which the reader looks ahead
+   for, and marked. Nothing is allocated but the channel itself and the places of damage. */
 #ifndef CHANNEL_H
 #define CHANNEL_H
 
 #include <stdio.h>
 
 #include "recording.h"
+#include "spans.h"
 
 enum { WINDOW = 1024 };
 
@@ -19,10 +20,19 @@ struct window {
     double samples[WINDOW];
 };
 
+/* A constant rate: sample 0 was taken at `start_s`. */
+struct clock {
+    double rate_hz, start_s;
+};
+
 struct channel {
     struct window values, ahead, times;
     char name[TRACK_SIZE + 32];
+    struct spans gone;       /* there, but measure nothing */
+    struct spans lasting;    /* the same, and disturb what follows */
+    bool encoder;            /* whose lasting damage no line can bridge */
     double rate_hz, start_s; /* of a uniform clock; the rate is 0 with a time_file */
+    double mean_rate_hz;
     double hole_s;           /* time stamps farther apart have something missing between them */
     double bridge_s;         /* a longer gap is lost, not just missing */
     long bridge;             /* the same in samples */
@@ -45,16 +55,20 @@ void channel_close(struct channel *channel);
 /* Time of a sample in s. */
 double channel_time(struct channel *channel, long index);
 
-/* Turn time stamps that keep a constant rate into that rate; false if they do not. */
-bool channel_steady(struct channel *channel, struct failure *failure);
+/* The clock of the channel, if its time stamps keep a constant rate but for holes of half the time
+   at most; else false. */
+bool channel_steady(struct channel *channel, struct clock *clock, struct failure *failure);
 
 /* Find out whether the channel's samples lie where those of `clock` do. */
-void channel_align(struct channel *channel, const struct channel *clock);
+void channel_align(struct channel *channel, const struct clock *clock);
 
 /* What the channel says at sample `index` of `clock`, at `time`. Times must not go back. */
 struct reading channel_read(struct channel *channel, long index, double time);
 
-/* Sample `index` of the channel itself, bridged if it is missing. */
+/* Sample `index` of the channel itself, bridged if it is missing; NaN where that cannot be. */
 struct reading channel_sample(struct channel *channel, long index);
+
+/* The median of the first steps between time stamps. */
+double typical_step(struct window *times);
 
 #endif

@@ -16,7 +16,8 @@ bool drive_open(struct drive *drive, double rate_hz, struct failure *failure)
     drive->speed_samples = (long)fmax(1.0, rint(SPEED_S * rate_hz));
     drive->window_samples = (long)fmax(1.0, rint(WINDOW_S * rate_hz));
     drive->size = 2 * drive->window_samples + 1;
-    drive->next = drive->seen = 0;
+    drive->next = drive->seen = drive->unknown = 0;
+    drive->speed_mps = 0.0;
     drive->past = malloc((size_t)drive->size * sizeof *drive->past);
     return drive->past != NULL || fail(failure, "out of memory");
 }
@@ -66,8 +67,14 @@ struct motion drive_step(struct drive *drive, double distance_m)
     drive->past[drive->next] = distance_m;
     drive->next = (drive->next + 1) % drive->size;
     drive->seen += drive->seen < drive->size ? 1 : 0;
-    motion.speed_mps = (distance_m - distance_before(drive, drive->speed_samples)) /
-                       ((double)drive->speed_samples * drive->step_s);
+    if (isnan(distance_m))
+        drive->unknown = drive->speed_samples + 1;
+    else if (drive->unknown > 0)
+        drive->unknown--;
+    if (drive->unknown == 0)
+        drive->speed_mps = (distance_m - distance_before(drive, drive->speed_samples)) /
+                           ((double)drive->speed_samples * drive->step_s);
+    motion.speed_mps = drive->speed_mps;
     motion.c = cutoff_to_c(cutoff_hz(motion.speed_mps), drive->step_s);
     motion.marks = marks(drive);
     return motion;

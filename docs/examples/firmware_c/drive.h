@@ -17,6 +17,8 @@ struct drive {
     double *past; /* distances of the last half second, in a ring */
     long size, next, seen;
     long speed_samples, window_samples;
+    long unknown; /* samples until the speed is known again */
+    double speed_mps;
 };
 
 /* What the vehicle does at one sample. */
@@ -30,7 +32,8 @@ struct motion {
 bool drive_open(struct drive *drive, double rate_hz, struct failure *failure);
 void drive_close(struct drive *drive);
 
-/* Take the next distance and say what the vehicle does. */
+/* Take the next distance, NaN if it is not known, and say what the vehicle does. The last speed is
+   kept until 0.05 s of distance are known again. */
 struct motion drive_step(struct drive *drive, double distance_m);
 
 /* Cut-off frequency in Hz at a speed: (5.3). */

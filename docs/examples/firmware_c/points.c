@@ -1,5 +1,6 @@
 #include "points.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const double TIE = 1e-6; /* a distance so near below a point, in intervals, reached it */
@@ -64,12 +65,14 @@ static void keep(struct points *points, const struct sample *sample, real part)
 }
 
 /* Point k is taken by the first sample whose distance has reached it. Where samples are farther
-   apart than the interval, it is read between two of them, linear in distance. */
+   apart than the interval, it is read between two of them, linear in distance. A distance that is
+   not known, or behind, is where the vehicle has been last. */
 void points_step(struct points *points, const struct sample *sample)
 {
-    double now = sample->motion.distance_m, slack = TIE * points->interval_m;
+    double slack = TIE * points->interval_m;
     if (!points->started)
-        points->start_m = points->distance_m = now;
+        points->start_m = points->distance_m = sample->motion.distance_m;
+    double now = fmax(points->distance_m, sample->motion.distance_m);
     points->started = true;
     for (int i = 0; i < points->tracks; i++)
         points->pending[i] |= sample->flags[i] & LASTING;

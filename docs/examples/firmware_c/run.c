@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "channel.h"
+#include "damage.h"
 #include "points.h"
 #include "profile.h"
 #include "track.h"
@@ -21,9 +22,10 @@ struct session {
     struct recording recording;
     struct channel distance;
     struct path *paths;
+    struct clock clock; /* of the first accelerometer, without its holes */
     struct drive drive;
     struct points points;
-    long first, last; /* the samples of the first accelerometer that all channels cover */
+    long first, last; /* the samples of the clock that all channels cover */
 };
 
 static bool open_channel(struct session *session, struct channel *channel, enum quantity quantity,
@@ -48,7 +50,21 @@ static bool open_channels(struct session *session, struct failure *failure)
                           recording->track[i], failure) ||
             !open_channel(session, &session->paths[i].height, HEIGHT, recording->track[i], failure))
             return false;
-    return channel_steady(&session->paths[0].force, failure);
+    return channel_steady(&session->paths[0].force, &session->clock, failure);
+}
+
+/* Look for samples that measure nothing, in all channels. */
+static bool find_damage(struct session *session, struct failure *failure)
+{
+    if (!damaged_distance(&session->distance, failure))
+        return false;
+    for (int i = 0; i < session->recording.tracks; i++) {
+        struct path *path = &session->paths[i];
+        if (!damaged_force(&path->force, failure) ||
+            !damaged_height(&path->height, &path->force, failure))
+            return false;
+    }
+    return true;
 }
 
 /* Channel `i` of all: the distance, then force and height of each wheel path; NULL behind them. */
@@ -65,7 +81,8 @@ static struct channel *channel_of(struct session *session, int i)
 /* Line the channels up with the first accelerometer and find the samples that all cover. */
 static bool align(struct session *session, struct failure *failure)
 {
-    struct channel *clock = &session->paths[0].force, *channel;
+    const struct clock *clock = &session->clock;
+    struct channel *channel;
     double begin = -INFINITY, end = INFINITY;
     for (int i = 0; (channel = channel_of(session, i)) != NULL; i++) {
         channel_align(channel, clock);
@@ -76,18 +93,22 @@ static bool align(struct session *session, struct failure *failure)
     double first = ceil((begin - clock->start_s) * clock->rate_hz - 1e-3);
     double last = floor((end - clock->start_s) * clock->rate_hz + 1e-3);
     session->first = (long)fmax(first, 0.0);
-    session->last = (long)fmin(last, (double)(clock->values.count - 1));
+    session->last = (long)last;
     if (!(last > fmax(first, 0.0)))
         return fail(failure, "the channels have no stretch of time in common; check start_s");
     return true;
 }
 
+static double time_of(const struct session *session, long index)
+{
+    return session->clock.start_s + (double)index / session->clock.rate_hz;
+}
+
 /* How far the distance goes; its last samples may be missing. */
 static double length_of(struct session *session)
 {
-    struct channel *clock = &session->paths[0].force;
     double from = channel_read(&session->distance, session->first,
-                               channel_time(clock, session->first)).value;
+                               time_of(session, session->first)).value;
     double farthest = from;
     for (long i = 0; i < session->distance.values.count; i++)
         farthest = fmax(farthest, window_at(&session->distance.values, i));
@@ -104,9 +125,8 @@ static void process(struct session *session)
 {
     real elevation[MOST_TRACKS];
     unsigned flags[MOST_TRACKS];
-    struct channel *clock = &session->paths[0].force;
     for (long i = session->first; i <= session->last; i++) {
-        double time = channel_time(clock, i);
+        double time = time_of(session, i);
         struct reading distance = channel_read(&session->distance, i, time);
         struct sample sample = {drive_step(&session->drive, distance.value), elevation, flags};
         unsigned shared = sample.motion.marks | flags_of(distance, SLOW);
@@ -147,9 +167,10 @@ bool run(const char *recording, const char *profile, struct failure *failure)
     static struct session session;
     memset(&session, 0, sizeof session);
     bool done = recording_read(&session.recording, recording, failure) &&
-                open_channels(&session, failure) && align(&session, failure);
+                open_channels(&session, failure) && find_damage(&session, failure) &&
+                align(&session, failure);
     if (done) {
-        double rate_hz = session.paths[0].force.rate_hz;
+        double rate_hz = session.clock.rate_hz;
         for (int i = 0; i < session.recording.tracks; i++)
             track_open(&session.paths[i].track, rate_hz);
         done = rate_hz >= 20.0 || fail(failure, "%g Hz are no rate of an accelerometer", rate_hz);

@@ -3,15 +3,19 @@
 import json
 import shutil
 import subprocess
+import warnings
 from itertools import count
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import floatref
 from floatref.files import read_profile, write_recording
 from floatref_conformance.proving_ground import Scenario, simulate
 
 SOURCE = Path(__file__).parents[3] / "docs" / "examples" / "firmware_c"
+PIPELINE = "temporal-adaptive-hpf-spatial-backward"
 COUNTED = """
 #include <stdio.h>
 #include <stdlib.h>
@@ -114,3 +118,29 @@ def simulated():
         return simulate(Scenario(**{**nominal, **changes})).recording
 
     return make
+
+
+@pytest.fixture(scope="session")
+def expected():
+    """Return what the pipeline that the firmware stands for makes of a recording."""
+
+    def profile_of(recording):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", floatref.FloatrefWarning)
+            return floatref.process(recording, PIPELINE)
+
+    return profile_of
+
+
+@pytest.fixture(scope="session")
+def assert_same():
+    """Return a function that fails unless two profiles agree within some metres."""
+
+    def compared(found, wanted, within_m=1e-9):
+        assert (found.start_m, found.interval_m) == (wanted.start_m, wanted.interval_m)
+        assert [t.name for t in found.tracks] == [t.name for t in wanted.tracks]
+        for mine, theirs in zip(found.tracks, wanted.tracks, strict=True):
+            np.testing.assert_allclose(mine.elevation, theirs.elevation, rtol=0, atol=within_m)
+            np.testing.assert_array_equal(mine.valid, theirs.valid)
+
+    return compared

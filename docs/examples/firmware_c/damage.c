@@ -1,0 +1,88 @@
+/* Sensors that are stuck or at the end of their range. */
+#include "damage.h"
+
+#include <math.h>
+
+#include "holds.h"
+
+static const double REST = 9.80665;
+static const double OUTERMOST = 0.75 * 9.80665; /* a range ends so far from rest, in m/s^2 */
+static const double STEEP = 3.0;                /* a smooth peak is no end of a range, in quanta */
+static const double PINNED_S = 0.002, PINNED = 5.0, LEAP_M = 0.005;
+static const double STUCK_S = 0.05, STUCK = 20.0, ALIVE = 0.1;
+enum { SATURATED = 3 };
+
+static bool at_an_end(const struct hold *hold, const struct usual *usual)
+{
+    return hold->value == usual->least || hold->value == usual->greatest;
+}
+
+bool damaged_force(struct channel *channel, struct failure *failure)
+{
+    struct usual usual = usual_of(&channel->values);
+    struct holds holds = holds_of(&channel->values);
+    struct hold hold;
+    while (holds_next(&holds, &hold)) {
+        if (hold.length < SATURATED || !at_an_end(&hold, &usual) ||
+            fabs(hold.value - REST) < OUTERMOST ||
+            fmax(hold.step_in, hold.step_out) < STEEP * usual.quantum)
+            continue;
+        if (!spans_add(&channel->lasting, hold.first, hold.first + hold.length, failure))
+            return false;
+    }
+    return true;
+}
+
+/* The first sample from `time` on. */
+static long index_from(struct channel *channel, double time)
+{
+    long low = 0, high = channel->values.count;
+    if (channel->times.file == NULL)
+        return (long)fmin(fmax(ceil((time - channel->start_s) * channel->rate_hz), 0.0),
+                          (double)high);
+    while (low < high) {
+        long middle = low + (high - low) / 2;
+        if (channel_time(channel, middle) < time)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Whether the accelerometer moves while the height is held; one that is missing tells nothing. */
+static bool moves(struct channel *force, double begin_s, double end_s)
+{
+    double least = INFINITY, greatest = -INFINITY;
+    long behind = index_from(force, end_s);
+    for (long i = index_from(force, begin_s); i < behind; i++) {
+        double value = window_at(&force->ahead, i);
+        if (isnan(value))
+            return false;
+        least = fmin(least, value);
+        greatest = fmax(greatest, value);
+    }
+    return greatest - least >= ALIVE;
+}
+
+bool damaged_height(struct channel *channel, struct channel *force, struct failure *failure)
+{
+    double rate = channel->mean_rate_hz;
+    struct usual usual = usual_of(&channel->values);
+    struct holds holds = holds_of(&channel->values);
+    struct hold hold;
+    while (holds_next(&holds, &hold)) {
+        double length = (double)hold.length;
+        long last = hold.first + hold.length - 1;
+        if (length < fmax(SATURATED, floor(PINNED_S * rate)))
+            continue;
+        bool pinned = at_an_end(&hold, &usual) && length >= PINNED * usual.hold &&
+                      fmax(hold.step_in, hold.step_out) >= LEAP_M;
+        bool stuck = length >= fmax(STUCK_S * rate, STUCK * usual.hold);
+        if (!pinned && stuck)
+            stuck = moves(force, channel_time(channel, hold.first), channel_time(channel, last));
+        if ((pinned || stuck) && !spans_add(&channel->gone, hold.first, last + 1, failure))
+            return false;
+    }
+    return true;
+}
