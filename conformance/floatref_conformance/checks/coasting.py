@@ -46,7 +46,11 @@ COASTING = DrivingCheck(
         "0.98 and 2 %. "
     )
     + EVENT_FLAGS
-    + ("The two recommended pipelines reach MEASURED of these limits, and flag nothing."),
+    + (
+        "In 124 such drives the two recommended pipelines came to 19 % of the limit of IRI or "
+        "correlation, 50 % of the ends' and 24 % of the bump's at most, and flagged nothing "
+        "else."
+    ),
     floor=EVERYWHERE,
     rows=ROWS,
     quick=4,

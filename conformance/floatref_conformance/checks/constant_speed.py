@@ -45,7 +45,11 @@ CONSTANT_SPEED = DrivingCheck(
         "and 3 % of an adequate profiler, 0.98 and 2 % of a reference. "
     )
     + NO_EVENT_FLAGS
-    + ("The two recommended pipelines reach MEASURED of these limits."),
+    + (
+        "In 136 such drives the two recommended pipelines came to 16 % of the correlation's "
+        "limit, 25 % of the IRI's, 50 % of the ends' and 40 % of the bump's at most, and "
+        "flagged nothing else."
+    ),
     floor=BUMP_FLOOR.format(where="115 m from the start", slow=""),
     rows=ROWS,
     quick=4,

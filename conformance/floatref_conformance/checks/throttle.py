@@ -47,7 +47,11 @@ THROTTLE = DrivingCheck(
         "the IRI within 10 %, adequate 0.92 and 5 %, reference 0.98 and 2 %. "
     )
     + EVENT_FLAGS
-    + ("The two recommended pipelines reach MEASURED of these limits, and flag nothing."),
+    + (
+        "In 124 such drives the two recommended pipelines came to 44 % of the limit of IRI or "
+        "correlation, 50 % of the ends' and 27 % of the bump's at most, and flagged nothing "
+        "else."
+    ),
     floor=EVERYWHERE,
     rows=ROWS,
     quick=4,
