@@ -66,5 +66,5 @@ def _offset(compared: Compared, near: np.ndarray) -> float:
 def _level(elevation: FloatArray) -> FloatArray:
     """Return ``elevation`` without its line."""
     place = np.arange(elevation.size) - (elevation.size - 1) / 2
-    slope = np.dot(place, elevation) / np.dot(place, place)
-    return elevation - elevation.mean() - slope * place
+    slope = float(np.dot(place, elevation) / np.dot(place, place))
+    return np.asarray(elevation - elevation.mean() - slope * place)

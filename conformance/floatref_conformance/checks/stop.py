@@ -52,7 +52,7 @@ STOP = DrivingCheck(
     )
     + EVENT_FLAGS
     + (
-        "In 268 such drives the two recommended pipelines came to 54 % of the limit of all "
+        "In 269 such drives the two recommended pipelines came to 64 % of the limit of all "
         "points, 26 % of that of the unflagged part, 46 % of the flagged length and 27 % of the "
         "bump's limit at most."
     ),
