@@ -8,6 +8,7 @@ from floatref_conformance.case_files import name_of
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, lowest
 from floatref_conformance.verdict import CaseResult, CheckResult, Measurement, Outcome
 
@@ -44,7 +45,19 @@ def check_result(
         counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
         flagged_m=max(case.flagged_m for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
+        scored_m=scored_by(check, simpler[0]) if failed and simpler else (),
     )
+
+
+def scored_by(check: Check, case: Case) -> Stretches:
+    """Return the stretches that ``check`` scores of ``case``; none if it fails to say.
+
+    They are for pictures, which no verdict waits for.
+    """
+    try:
+        return tuple((float(start), float(end)) for start, end in check.scored(case))
+    except (Exception, SystemExit):
+        return ()
 
 
 def failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:

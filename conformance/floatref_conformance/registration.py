@@ -15,7 +15,7 @@ def sound_check(check: Check) -> Check:
     what = f"check {_text(check, 'id', 'a check')}"
     for name in ("title", "clause", "derivation", "floor"):
         _text(check, name, what)
-    for name in ("cases", "strategy", "judge"):
+    for name in ("cases", "strategy", "scored", "judge"):
         _function(check, name, what)
     if not isinstance(_member(check, "simplest", what), Case):
         raise TypeError(f"{what}: simplest is {check.simplest!r}, not a Case")

@@ -138,6 +138,7 @@ class CheckResult:
             ``reason``, and ``file``, its name in a report directory.
         flagged_m: the largest of its cases'.
         passes: of the counterexample.
+        scored_m: start and end of each stretch whose points count in it, in m.
     """
 
     id: str
@@ -151,6 +152,7 @@ class CheckResult:
     counterexample: Mapping[str, Any] | None = None
     flagged_m: float = 0.0
     passes: tuple[Pass, ...] = ()
+    scored_m: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -130,6 +130,21 @@ def test_a_point_without_elevation_is_an_error_wherever_the_filter_has_run_in(bo
         BOUNCE.judge(bounced[0], TruthBench(holed))
 
 
+def test_the_iri_is_that_of_what_is_scored(bounced):
+    ((start, end),) = BOUNCE.scored(bounced[0])
+
+    def iri_with_a_dip(at_m):
+        def dipped(z, simulated):
+            return z - 0.002 * (np.abs(simulated.truth.distance_m - at_m) < 0.1)
+
+        measured = BOUNCE.judge(bounced[0], TruthBench(dipped))
+        return max(m.value for m in measured if m.quantity == "IRI")
+
+    level = iri_with_a_dip(-1.0)
+    assert iri_with_a_dip(start - 0.5) == iri_with_a_dip(end + 0.5) == level
+    assert min(iri_with_a_dip(start + 0.5), iri_with_a_dip(end - 0.5)) > level + 0.001
+
+
 def test_the_ends_of_the_run_may_lack_elevations(bounced):
     def without_ends(z, simulated):
         x = simulated.truth.distance_m

@@ -1,5 +1,8 @@
 """A device on its way through the checks: hangs, faults and skips."""
 
+import pytest
+
+from floatref.errors import InputError
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
@@ -63,6 +66,35 @@ def test_a_recording_that_is_skipped_makes_the_run_incomplete(plan, events_of, r
     assert check.reason == "toy-2: too fast for me"
     assert check.cases == 2
     assert not any(isinstance(e, SearchStarted) for e in events)
+
+
+@pytest.mark.parametrize("told", [((150.0, 170.0), (10, 50)), ()])
+def test_a_failure_keeps_what_the_check_scores_of_its_simplest_case(
+    plan, result_of, halving, toy_check, told
+):
+    class Telling(toy_check):
+        def scored(self, case):
+            return told if case.scenario.seed == 0 else ((1.0, 2.0),)
+
+    assert result_of(plan(halving, Telling())).checks[0].scored_m == told
+    assert result_of(plan(halving, Telling(), seed=1, searching=False)).checks[0].scored_m != told
+
+
+@pytest.mark.parametrize(
+    "answer", [InputError("no room"), KeyError("x"), SystemExit(0), 5, ((1,),)]
+)
+def test_a_check_that_fails_to_say_what_it_scores_ends_no_run(
+    plan, result_of, halving, toy_check, answer
+):
+    class Silent(toy_check):
+        def scored(self, case):
+            if isinstance(answer, BaseException):
+                raise answer
+            return answer
+
+    (check,) = result_of(plan(halving, Silent())).checks
+    assert check.outcome is Outcome.FAIL
+    assert check.scored_m == ()
 
 
 def test_a_skip_hides_no_failure(plan, result_of, raising, fake_device):

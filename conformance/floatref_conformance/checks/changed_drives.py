@@ -8,12 +8,13 @@ import numpy as np
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.case import Case, Number
-from floatref_conformance.checks.changes import CHANGES
+from floatref_conformance.checks.changes import CHANGES, number
 from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.phases import brake_to_stop, extent
 from floatref_conformance.proving_ground.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
 
 if TYPE_CHECKING:
     from hypothesis.strategies import DrawFn, SearchStrategy
@@ -89,6 +90,15 @@ def drive(change: str, seed: int, **numbers: Any) -> Scenario:
         fields["event_at_m"] = max(STOP_M, float(np.ceil(FREE_M + brake_m)))
         fields["length_m"] = float(np.ceil(fields["event_at_m"] + BEHIND_M + END_M))
     return Scenario(seed=seed, **fields)
+
+
+def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
+    """Return the distance in m that is driven before a recording that begins later.
+
+    Raises InputError for numbers that do not tell how many samples later.
+    """
+    begin_s = number(numbers, "samples") / scenario.rate_hz
+    return float(drive_of(scenario).motion(np.array([begin_s])).distance[0])
 
 
 def drawn() -> "SearchStrategy[Case]":

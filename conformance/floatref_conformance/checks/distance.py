@@ -16,12 +16,14 @@ from floatref_conformance.checks.features import (
     FARTHEST_M,
     FEATURE_M,
     Feature,
+    featured,
     find_features,
     middles,
     place,
 )
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
@@ -118,6 +120,10 @@ class DistanceCheck:
         )
         numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
         return numbers.map(lambda given: Case(self.id, scenario_of(given)))
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretches in which features lie, ahead of an event and behind it."""
+        return featured(drive_of(case.scenario).length_m, event_of(case.scenario))
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far from their places the features of every wheel path lie.

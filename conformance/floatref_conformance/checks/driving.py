@@ -11,6 +11,7 @@ from floatref_conformance.checks.roads import Roads
 from floatref_conformance.checks.rule import Rule
 from floatref_conformance.checks.rules import rule_of
 from floatref_conformance.checks.scoring import compare
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
@@ -71,6 +72,13 @@ class DrivingCheck:
     def strategy(self) -> "SearchStrategy[Case]":
         """Return the strategy of all cases: `scenarios` of this check."""
         return self.scenarios().map(lambda scenario: Case(self.id, scenario))
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretches over which every point counts.
+
+        Raises InputError for numbers that leave no room for them.
+        """
+        return layout_of(case.scenario).stretches
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return what the drive's rule asks of every wheel path.

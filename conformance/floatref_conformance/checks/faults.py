@@ -18,6 +18,7 @@ from floatref_conformance.checks.fault_scores import (
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
 from floatref_conformance.checks.injuries import injury_of
 from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
@@ -73,6 +74,10 @@ class FaultsCheck:
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any fault of any length, size and place in any drive."""
         return injured_drives.drawn()
+
+    def scored(self, case: Case) -> Stretches:
+        """Return all of the drive: every point counts that the device vouches for."""
+        return ((0.0, case.scenario.length_m),)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return what the fault did to every wheel path, and what was flagged without it.

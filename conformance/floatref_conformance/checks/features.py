@@ -10,7 +10,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.scoring import bridged
-from floatref_conformance.checks.stretches import points, stretch
+from floatref_conformance.checks.stretches import Stretches, points, stretch
 
 FEATURE_M = 25.0
 """Length of road that makes a feature."""
@@ -56,13 +56,19 @@ class Placement:
     rest_m: float
 
 
-def middles(length_m: float, event_m: float | None) -> FloatArray:
-    """Return where the middles of the features of a drive truly lie, in m."""
+def featured(length_m: float, event_m: float | None) -> Stretches:
+    """Return the stretches of a drive that features fill, one beside the other."""
     end_m = length_m - END_M
     if event_m is None:
-        return _side_by_side(END_M, end_m)
+        return (_filled(END_M, end_m),)
     ahead, behind = event_m - BESIDE_EVENT_M, event_m + BESIDE_EVENT_M
-    return np.concatenate([_side_by_side(END_M, ahead), _side_by_side(behind, end_m)])
+    return _filled(END_M, ahead), _filled(behind, end_m)
+
+
+def middles(length_m: float, event_m: float | None) -> FloatArray:
+    """Return where the middles of the features of a drive truly lie, in m."""
+    filled = featured(length_m, event_m)
+    return np.concatenate([_side_by_side(start, end) for start, end in filled])
 
 
 def find_features(
@@ -96,9 +102,14 @@ def place(features: Sequence[Feature], event_m: float | None) -> Placement:
     return Placement(float(line[0]), float(line[1]), step, rest)
 
 
+def _filled(start_m: float, end_m: float) -> tuple[float, float]:
+    """Return the stretch from ``start_m`` on that features fill, none beyond ``end_m``."""
+    return start_m, start_m + FEATURE_M * max(0, int((end_m - start_m) / FEATURE_M + 1e-6))
+
+
 def _side_by_side(start_m: float, end_m: float) -> FloatArray:
-    """Return the middles of the features that fit between two distances, in m."""
-    count = int((end_m - start_m) / FEATURE_M + 1e-6)
+    """Return the middles of the features that fill the stretch between two distances, in m."""
+    count = round((end_m - start_m) / FEATURE_M)
     return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
@@ -84,6 +85,12 @@ class Check(Protocol):
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return the Hypothesis strategy of all cases that the check may ask for."""
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretches whose points count in ``case``, to be shown in pictures.
+
+        Raises InputError for numbers that make no drive.
+        """
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Have ``case`` processed and measure it; DeviceError if a point that counts lacks."""

@@ -19,6 +19,7 @@ from floatref_conformance.checks.differences import (
 )
 from floatref_conformance.checks.interface import Bench, Taken
 from floatref_conformance.checks.scoring import Compared, compare, correlation
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
@@ -80,6 +81,18 @@ class InvarianceCheck:
         """Return any change of any drive."""
         return changed_drives.drawn()
 
+    def scored(self, case: Case) -> Stretches:
+        """Return what is compared; of a stop, what is compared and where the road shows.
+
+        Raises InputError for a variation without the numbers that tell where that begins.
+        """
+        if case.variation.get("change") == STOP:
+            return (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
+        start_m = FROM_M
+        if case.variation.get("change") == LATER:
+            start_m += changed_drives.later_m(case.scenario, case.variation)
+        return ((start_m, case.scenario.length_m - END_M),)
+
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far both results differ, and how well the unchanged one shows the road.
 
@@ -121,8 +134,12 @@ def _shown(compared: Compared, start_m: float, end_m: float) -> Measurement:
     return correlation(compared.whole(start_m, end_m), compared.track, TRUTH_LIMITS)
 
 
+def _around_the_stop(scenario: Scenario) -> tuple[float, float]:
+    return scenario.event_at_m - BEFORE_M, scenario.event_at_m + BEHIND_M
+
+
 def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
-    stretch = scenario.event_at_m - BEFORE_M, scenario.event_at_m + BEHIND_M
+    stretch = _around_the_stop(scenario)
     return (
         rise(before.whole(*stretch), after.whole(*stretch), before.track),
         _shown(before, RAN_IN_M, FREE_M),

@@ -12,6 +12,7 @@ from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.bump import BESIDE_M
 from floatref_conformance.checks.flags import SLOW_MPS
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.proving_ground.drive import Segment
 from floatref_conformance.proving_ground.manoeuvres import RESTART, SLOW_COAST_DRAG
 from floatref_conformance.proving_ground.phases import (
@@ -58,7 +59,7 @@ class Layout:
     """
 
     events_m: tuple[float, ...]
-    stretches: tuple[tuple[float, float], ...]
+    stretches: Stretches
 
 
 def layout_of(scenario: Scenario) -> Layout:

@@ -13,7 +13,7 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.passes import on_road, passes_of
 from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
-from floatref_conformance.checks.stretches import stretch
+from floatref_conformance.checks.stretches import Stretches, stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
@@ -117,6 +117,10 @@ class RepeatabilityCheck:
         return st.builds(
             lambda scenario, changes: Case(self.id, scenario, changes), scenarios, second
         )
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretch that is compared."""
+        return ((START_M, END_M),)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far the passes differ from each other and from the truth.

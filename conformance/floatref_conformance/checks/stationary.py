@@ -12,7 +12,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.checks import plate
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.stretches import stretch
+from floatref_conformance.checks.stretches import Stretches, stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.evidence import Roughness
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -78,6 +78,10 @@ class StationaryCheck:
             self._scenario, st.integers(0, 2**32 - 1), st.sampled_from(SEARCHED_RATES_HZ)
         )
         return scenarios.map(lambda scenario: Case(self.id, scenario))
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretch whose IRI is limited."""
+        return ((self.start_m, self.end_m),)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.

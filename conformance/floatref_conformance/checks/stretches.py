@@ -6,6 +6,9 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.errors import DeviceError
 
+Stretches = tuple[tuple[float, float], ...]
+"""Start and end of each of several stretches, in m of true distance."""
+
 
 def points(profile: Profile, start_m: float, end_m: float) -> slice:
     """Return the indices of the points from ``start_m`` to ``end_m``, both included."""

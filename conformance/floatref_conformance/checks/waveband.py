@@ -12,7 +12,7 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
-from floatref_conformance.checks.stretches import points, stretch
+from floatref_conformance.checks.stretches import Stretches, points, stretch
 from floatref_conformance.checks.waves import ComplexArray, waves_of
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -108,6 +108,10 @@ class WavebandCheck:
             st.sampled_from(VEHICLES),
             st.sampled_from(RATES_HZ),
         )
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretch over which the waves are fitted."""
+        return ((START_M, START_M + PERIOD_M),)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the errors of gain and phase of every wheel path.

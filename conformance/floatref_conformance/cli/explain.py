@@ -6,6 +6,7 @@ import click
 
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.judging import scored_by
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.drawing import drawing
 
@@ -37,7 +38,10 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
 def _drawn(check: Check) -> list[str]:
     """Return the drawing of the first case; a check may have none."""
     cases = check.cases(0, Effort.QUICK)
-    return [f"Drawing of {cases[0].name}", *drawing(cases[0].scenario)] if cases else []
+    if not cases:
+        return []
+    drawn = drawing(cases[0].scenario, scored_by(check, cases[0]))
+    return [f"Drawing of {cases[0].name}", *drawn]
 
 
 def _wrapped(text: str) -> list[str]:

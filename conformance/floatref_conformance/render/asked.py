@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from floatref.errors import InputError
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.judging import scored_by
 from floatref_conformance.render.drawing import drawing_svg
 from floatref_conformance.render.failures import Markup
 
@@ -45,7 +46,8 @@ def _drawing(check: Check, anchor: str) -> Markup | None:
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return None
+    scored_m = scored_by(check, cases[0])
     try:
-        return Markup(drawing_svg(cases[0].scenario, f"{anchor}-drawing"))
+        return Markup(drawing_svg(cases[0].scenario, f"{anchor}-drawing", scored_m))
     except InputError:
         return None

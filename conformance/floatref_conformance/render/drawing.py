@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.proving_ground.artificial import DURATION_S
 from floatref_conformance.proving_ground.artificial import Bounce as Push
 from floatref_conformance.proving_ground.runs import KMH
@@ -19,13 +20,16 @@ INDENT = 7
 """Columns left of the axis, for its numbers."""
 LONGEST = 36
 """Characters of a name below the axis."""
+MOST = 3
+"""Stretches, and events, that are marked below the axis."""
 SAMPLES = 2000
 
 
-def drawing(scenario: Scenario) -> list[str]:
+def drawing(scenario: Scenario, scored_m: Stretches = ()) -> list[str]:
     """Return lines of at most 88 columns of ASCII: speed, and below what lies where.
 
-    Along the axis runs distance in m, for a parked vehicle time in s.
+    Along the axis runs distance in m, for a parked vehicle time in s. ``scored_m`` are the
+    stretches whose points count, in m.
     """
     parked = places.is_parked(scenario)
     x, speed = places.speed_along(scenario)
@@ -33,22 +37,31 @@ def drawing(scenario: Scenario) -> list[str]:
     across = Scale(0.0, float(x[-1]) * factor, 0.0, COLUMNS - 1.0)
     lines = _plotted(x * factor, speed, across)
     lines += _axis(across, "s" if parked else "m")
-    for place in _placed(scenario):
-        lines.append(
-            _marked(Place(place.start_m * factor, place.end_m * factor, place.name), across)
-        )
+    for place in _placed(scenario, scored_m):
+        lines.append(_marked(_in_seconds(place, factor), across))
     return lines
 
 
-def drawing_svg(scenario: Scenario, name: str = "drawing") -> str:
+def drawing_svg(scenario: Scenario, name: str = "drawing", scored_m: Stretches = ()) -> str:
     """Return the drawing as one SVG element whose ids begin with ``name``."""
-    return drawn(_parked(scenario, name) if places.is_parked(scenario) else _drive(scenario, name))
+    picture = _parked if places.is_parked(scenario) else _drive
+    return drawn(picture(scenario, name, _scored(scored_m)))
 
 
-def _placed(scenario: Scenario) -> list[Place]:
-    found = [places.scored(scenario), places.bounced(scenario)]
-    events = places.events(scenario)
-    return [p for p in found if p] + [*events[:3], *places.bumps(scenario)]
+def _placed(scenario: Scenario, scored_m: Stretches) -> list[Place]:
+    """Return what is marked below the axis, of everything the first `MOST` at most."""
+    bounced = places.bounced(scenario)
+    scored, events = _scored(scored_m), places.events(scenario)
+    found = (*scored[:MOST], *([bounced] if bounced else []), *events[:MOST])
+    return [*found, *places.bumps(scenario)]
+
+
+def _scored(scored_m: Stretches) -> list[Place]:
+    return [Place(start, end, "scored") for start, end in places.joined(scored_m)]
+
+
+def _in_seconds(place: Place, s_per_m: float) -> Place:
+    return Place(place.start_m * s_per_m, place.end_m * s_per_m, place.name)
 
 
 def _plotted(x: FloatArray, speed: FloatArray, across: Scale) -> list[str]:
@@ -98,10 +111,10 @@ def _numbers(place: Place) -> str:
     return f"{place.start_m:.4g} to {place.end_m:.4g}"
 
 
-def _drive(scenario: Scenario, name: str) -> Figure:
+def _drive(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
     x, speed = places.speed_along(scenario)
-    whole, bumps = places.scored(scenario), places.bumps(scenario)
-    found = _in_words([place for place in (whole, *places.events(scenario), *bumps) if place])
+    bumps = places.bumps(scenario)
+    found = _in_words([*scored, *places.events(scenario), *bumps])
     return Figure(
         name,
         f"Speed along the drive, {scenario.manoeuvre}",
@@ -110,12 +123,12 @@ def _drive(scenario: Scenario, name: str) -> Figure:
         "distance in m",
         0.0,
         float(x[-1]),
-        (_shade("scored as a whole", "scored", [whole] if whole else []), _shade_bumps(bumps)),
+        (_shade("scored", "scored", scored), _shade_bumps(bumps)),
         tuple(Mark(place.start_m, place.name) for place in places.events(scenario)),
     )
 
 
-def _parked(scenario: Scenario, name: str) -> Figure:
+def _parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
     """Return what happens in time to a vehicle that stands."""
     speed = scenario.speed_kmh * KMH
     t = np.linspace(0.0, DURATION_S, SAMPLES)
@@ -126,17 +139,18 @@ def _parked(scenario: Scenario, name: str) -> Figure:
         height = 1000 * Push().heights(t)[0]
         panels.append(Panel("body", "mm", (Line("height", t, height, "result"),), 80.0))
         moves = f"the body moves between {height.min():.0f} and {height.max():.0f} mm"
-    plates = [Place(p.start_m / speed, p.end_m / speed, p.name) for p in places.bumps(scenario)]
+    plates = [_in_seconds(plate, 1.0 / speed) for plate in places.bumps(scenario)]
+    counted = [_in_seconds(place, 1.0 / speed) for place in scored]
     return Figure(
         name,
         f"A parked vehicle, {scenario.manoeuvre}",
         f"The artificial encoder tells {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; {moves}. "
-        f"{_in_words(plates)}",
+        f"{_in_words([*counted, *plates])}",
         tuple(panels),
         "time in s",
         0.0,
         DURATION_S,
-        (_shade_bumps(plates, "plates under the lasers"),),
+        (_shade("scored", "scored", counted), _shade_bumps(plates, "plates under the lasers")),
     )
 
 

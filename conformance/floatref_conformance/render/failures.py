@@ -1,6 +1,6 @@
 """What `report.html` shows of a check that failed: why, with which numbers, and in pictures."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -87,7 +87,7 @@ def _pictures(check: CheckResult, anchor: str) -> list[tuple[int, Picture]]:
         for track in _tracks(done, check)
     ]
     return [
-        (number, _picture(number, done, track, check.passes, f"{anchor}-{n}"))
+        (number, _picture(number, done, track, check, f"{anchor}-{n}"))
         for n, (number, done, track) in enumerate(wanted[:MOST_PICTURES], start=1)
     ]
 
@@ -100,11 +100,12 @@ def _tracks(done: Pass, check: CheckResult) -> list[str]:
     return sorted(names, key=lambda name: name != worst)
 
 
-def _picture(number: int, done: Pass, track: str, passes: Sequence[Pass], name: str) -> Picture:
-    which = f"Recording {number} of {len(passes)}" if len(passes) > 1 else "The recording"
+def _picture(number: int, done: Pass, track: str, check: CheckResult, name: str) -> Picture:
+    count = len(check.passes)
+    which = f"Recording {number} of {count}" if count > 1 else "The recording"
     label = f" ({done.label})" if done.label else ""
     caption = (
         f"{which}{label}, wheel path {track}: elevation of the result against the truth, "
         "short-interval roughness over 7.62 m, and speed."
     )
-    return Picture(caption, Markup(figure_of(done, track, name)))
+    return Picture(caption, Markup(figure_of(done, track, name, check.scored_m)))

@@ -8,6 +8,7 @@ from floatref.errors import InputError
 from floatref.measures import high_pass, short_interval_roughness
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.render import places
 from floatref_conformance.render.svg import WIDTH, Figure, Line, Mark, Panel, Shade, drawn
 from floatref_conformance.verdict import Pass
@@ -19,12 +20,12 @@ END_M = 106.0
 TRUTH, RESULT = "truth, filtered alike", "result"
 
 
-def figure_of(done: Pass, track: str, name: str) -> str:
+def figure_of(done: Pass, track: str, name: str, scored_m: Stretches = ()) -> str:
     """Return the picture of ``track`` in ``done`` as one SVG element.
 
     Elevation, short-interval roughness and speed lie above one another on the distance axis;
-    stretches flagged invalid are shaded, the scored stretch too, and events are marked. What
-    cannot be calculated, since nothing was measured, has no line. ``name`` begins the ids.
+    stretches flagged invalid are shaded, those scored, ``scored_m``, too, and events are marked.
+    What cannot be calculated, since nothing was measured, has no line. ``name`` begins the ids.
     """
     true, found = done.truth.track(track), done.result.track(track)
     pairs = (
@@ -39,7 +40,7 @@ def figure_of(done: Pass, track: str, name: str) -> str:
         Panel("speed", "km/h", (Line("speed", x, speed, "speed"),), 70.0, True),
     )
     start, end = _extent(done)
-    shades, marks = _shades(done, found), _marks(done)
+    shades, marks = _shades(done, found, scored_m), _marks(done)
     return drawn(
         Figure(
             name,
@@ -110,11 +111,10 @@ def _extent(done: Pass) -> tuple[float, float]:
     return 0.0, max(float(done.truth.distance_m[-1]), 1.0)
 
 
-def _shades(done: Pass, found: ProfileTrack) -> tuple[Shade, ...]:
-    whole = places.scored(done.scenario)
+def _shades(done: Pass, found: ProfileTrack, scored_m: Stretches) -> tuple[Shade, ...]:
     bumps = tuple((place.start_m, place.end_m) for place in places.bumps(done.scenario))
     return (
-        Shade("scored whole", ((whole.start_m, whole.end_m),) if whole else (), "scored"),
+        Shade("scored", places.joined(scored_m), "scored"),
         Shade("flagged invalid", stretches(done.result.distance_m, ~found.valid), "flagged"),
         Shade("known bump", bumps, "bump"),
     )

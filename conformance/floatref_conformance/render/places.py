@@ -1,10 +1,11 @@
-"""Where things lie along the drive of a scenario: its speed, its events, what is scored."""
+"""Where things lie along the drive of a scenario: its speed, its events, its bumps."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.proving_ground.artificial import SIMULATED_SPEED, Bounce, artificial_drive
 from floatref_conformance.proving_ground.drive import Drive
 from floatref_conformance.proving_ground.parked import plates_of
@@ -12,8 +13,6 @@ from floatref_conformance.proving_ground.runs import KMH, RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M, drive_of
 
-BEFORE_EVENT_M, BEHIND_EVENT_M = 96.0, 64.9
-"""The 160.9 m (0.1 mile) that are scored lie so far before and behind an event."""
 EVENTS = {
     "braking": "brake released",
     "near-stop": "brake released",
@@ -23,8 +22,6 @@ EVENTS = {
     "dead-start": "start from rest",
 }
 """What happens at the event of each manoeuvre."""
-WITHOUT_EVENT_M = ((490.0, 220.0), (400.0, 130.0))
-"""Shortest recordings, and where the scored stretch of one without an event starts, in m."""
 INSTANTS = 4000
 
 
@@ -94,20 +91,15 @@ def bounced(scenario: Scenario) -> Place | None:
     return Place(start, end, "body pushed up and down")
 
 
-def scored(scenario: Scenario) -> Place | None:
-    """Return the 160.9 m that are scored as a whole; None for a manoeuvre that has none."""
-    if is_parked(scenario) or scenario.manoeuvre == "dead-start":
-        return None
-    happens = events(scenario)
-    length = driven(scenario).length_m
-    if happens:
-        start = happens[0].start_m - BEFORE_EVENT_M
-    else:
-        starts = [start for shortest, start in WITHOUT_EVENT_M if length >= shortest]
-        if not starts:
-            return None
-        start = starts[0]
-    return Place(start, start + BEFORE_EVENT_M + BEHIND_EVENT_M, "scored whole")
+def joined(stretches: Stretches) -> Stretches:
+    """Return ``stretches`` in order, those that overlap or touch as one."""
+    apart: list[tuple[float, float]] = []
+    for start, end in sorted(stretches):
+        if apart and start <= apart[-1][1]:
+            apart[-1] = apart[-1][0], max(apart[-1][1], end)
+        else:
+            apart.append((start, end))
+    return tuple(apart)
 
 
 def _event_m(scenario: Scenario) -> float:

@@ -1,5 +1,6 @@
 """The drawing of a manoeuvre: it fits a terminal and shows the drive as it is."""
 
+from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
@@ -10,7 +11,7 @@ from floatref_conformance.proving_ground.parked import plates_of
 from floatref_conformance.proving_ground.runs import RUNS
 from floatref_conformance.proving_ground.scenario import MANOEUVRES, Scenario
 from floatref_conformance.render.drawing import drawing, drawing_svg
-from floatref_conformance.render.places import events, scored, speed_along
+from floatref_conformance.render.places import events, joined, speed_along
 
 AXIS = 8
 """Columns left of the plot."""
@@ -32,10 +33,11 @@ def rows(lines):
 
 @pytest.mark.parametrize("manoeuvre", MANOEUVRES)
 def test_every_manoeuvre_fits_a_terminal_and_a_page(manoeuvre):
-    lines = drawing(scenario(manoeuvre, bump_mm=20.0, bump_at_m=130.0))
-    assert len(lines) <= 16
+    stretches = ((150.0, 190.0), (220.0, 380.9), (390.0, 391.0), (395.0, 396.0))
+    lines = drawing(scenario(manoeuvre, bump_mm=20.0, bump_at_m=130.0), stretches)
+    assert len(lines) <= 18
     assert all(len(line) <= 88 and line.isascii() for line in lines)
-    ElementTree.fromstring(drawing_svg(scenario(manoeuvre)))
+    ElementTree.fromstring(drawing_svg(scenario(manoeuvre), "name", stretches))
 
 
 @settings(max_examples=25, deadline=None)
@@ -77,12 +79,26 @@ def test_an_event_lies_where_the_speed_begins_or_ceases_to_change(manoeuvre):
         assert before[0] > before[-1]
 
 
-@pytest.mark.parametrize("manoeuvre", ["stop", "braking", "constant", *RUNS])
-def test_a_tenth_of_a_mile_is_scored_that_holds_the_event(manoeuvre):
+@settings(max_examples=50, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 30), st.integers(0, 9)).map(lambda p: (p[0], sum(p)))))
+def test_stretches_are_joined_where_they_overlap_and_nothing_else_is(stretches):
+    apart = joined(stretches)
+    assert all(one[1] < other[0] for one, other in pairwise(apart))
+    for x in range(79):
+        inside = [any(a <= x / 2 <= b for a, b in found) for found in (stretches, apart)]
+        assert inside[0] == inside[1]
+
+
+@pytest.mark.parametrize("manoeuvre", ["stop", "bounce"])
+def test_what_is_scored_is_marked_where_it_lies(manoeuvre):
     asked = scenario(manoeuvre)
-    whole = scored(asked)
-    assert whole.end_m - whole.start_m == pytest.approx(160.9)
-    assert all(whole.start_m < place.start_m < whole.end_m for place in events(asked))
+    factor = 1.0 if manoeuvre == "stop" else 1.0 / 20.0
+    told = [f"scored, {factor * a:.4g} to {factor * b:.4g}" for a, b in ((150, 190), (250, 300))]
+    lines = drawing(asked, ((250.0, 300.0), (150.0, 190.0)))
+    assert [line.strip(" [=]") for line in lines if "scored" in line] == told
+    said = ElementTree.fromstring(drawing_svg(asked, "name", ((150.0, 190.0),))).find("desc").text
+    assert f"S{told[0][1:].replace(',', ':')}." in said
+    assert not any("scored" in line for line in drawing(asked))
 
 
 def test_a_parked_vehicle_is_drawn_over_time_with_its_plates_and_its_bounce():

@@ -79,6 +79,12 @@ def test_the_page_is_sound_and_leads_nowhere_else(page, every, suite_checks):
     assert found.all("script", "iframe", "object", "embed", "base", "form") == []
 
 
+def test_the_drawing_of_what_is_asked_shows_what_the_check_scores(result, suite_checks):
+    text = as_html(result(), suite_checks)
+    for part in ("Scored: 163 to 437.3.", "Scored: 110 to 210. Scored: 330 to 430."):
+        assert part in text
+
+
 def test_what_a_device_says_is_text(page, every, hostile):
     found = page(every)
     assert "<script>alert('x')</script>" in found.text
@@ -158,6 +164,21 @@ def test_a_failure_shows_numbers_picture_and_commands(page, check, result, stopp
     flagged, missing = 0.05 * (~left.valid).sum(), np.isnan(left.elevation).sum()
     told = f"{flagged:.1f} m are flagged invalid, {missing} points have no elevation."
     assert f"{told} stop at 316 m" in words
+
+
+def test_what_the_check_scored_is_shaded_and_nothing_where_it_did_not_say(check, result):
+    def shaded(style, **changes):
+        text = as_html(result(check(Outcome.FAIL, **changes)))
+        found = re.findall(f'<path class="{style}" d="([^"]*)"', text)[:1]
+        return [
+            tuple(map(float, ends)) for ends in re.findall(r"M([\d.]+) [\d.]+h([\d.]+)", *found)
+        ]
+
+    (flagged,) = shaded("flagged", scored_m=((300.0, 330.0), (100.0, 200.0)))
+    first, second = shaded("scored", scored_m=((300.0, 330.0), (100.0, 200.0)))
+    assert second == pytest.approx(flagged, abs=1.5)
+    assert second[0] - first[0] == pytest.approx(2.0 * first[1], rel=0.01)
+    assert '<path class="scored"' not in as_html(result(check(Outcome.FAIL)))
 
 
 def test_a_profile_of_which_nothing_was_measured_is_pictured_all_the_same(
