@@ -26,7 +26,7 @@ def check_result(
     """
     worst, worst_case = max(
         ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
-        key=lambda measured: measured[0].ratio(device_class),
+        key=lambda measured: measured[0].rank(device_class),
         default=(None, ""),
     )
     if worst is not None:

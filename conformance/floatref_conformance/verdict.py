@@ -59,6 +59,10 @@ class Measurement:
             return 0.0
         return inf if isnan(self.value) else self.value / self.limits[device_class]
 
+    def rank(self, device_class: DeviceClass) -> tuple[float, bool]:
+        """Return what sorts measurements towards the worst: the ratio, then whether limited."""
+        return self.ratio(device_class), device_class in self.limits
+
     def within(self, device_class: DeviceClass) -> bool:
         """Return whether the value keeps the limit of ``device_class``."""
         return self.ratio(device_class) <= 1.0
@@ -118,8 +122,11 @@ class CaseResult:
         return max((m.ratio(device_class) for m in self.measurements), default=0.0)
 
     def worst(self, device_class: DeviceClass) -> Measurement | None:
-        """Return the measurement nearest to its limit, or farthest beyond; None without any."""
-        return max(self.measurements, key=lambda m: m.ratio(device_class), default=None)
+        """Return the measurement nearest to its limit, or farthest beyond; None without any.
+
+        One that ``device_class`` does not limit is returned only if it limits none.
+        """
+        return max(self.measurements, key=lambda m: m.rank(device_class), default=None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref_conformance.classes import DeviceClass, lowest, same_limit
-from floatref_conformance.verdict import Measurement, Outcome, Verdict, verdict_on
+from floatref_conformance.verdict import CaseResult, Measurement, Outcome, Verdict, verdict_on
 
 NEUTRAL = [Outcome.PASS, Outcome.NOT_APPLICABLE]
 LEFT_OUT = [Outcome.SKIP, Outcome.WAIVED]
@@ -45,6 +45,14 @@ def test_the_class_reached_is_the_strictest_whose_limit_is_kept(value, nominal, 
         assert reached is DeviceClass.ADEQUATE
     else:
         assert reached is DeviceClass.REFERENCE
+
+
+@pytest.mark.parametrize("value", [0.0, 0.5])
+def test_what_a_class_does_not_limit_is_never_worse_than_what_it_does(value):
+    above = Measurement("loss", "left", nan, "", {DeviceClass.ADEQUATE: 0.08})
+    worst = CaseResult("stop-1", {}, (above, measured(value), above)).worst
+    assert worst(DeviceClass.NOMINAL).quantity == "IRI"
+    assert worst(DeviceClass.ADEQUATE) is above
 
 
 def test_the_limit_itself_is_kept():

@@ -11,10 +11,11 @@ from xml.etree.ElementTree import Element, SubElement
 
 from floatref.files.atomic import replacing_file
 from floatref_conformance import EDITION
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.events import CheckFinished, CheckStarted, Event, RunFinished, RunStarted
 from floatref_conformance.render import wording
 from floatref_conformance.render.text import printable
-from floatref_conformance.verdict import CheckResult, Outcome, RunResult
+from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
 
 NAME = "junit.xml"
 PACKAGE = "floatref_conformance"
@@ -133,7 +134,7 @@ def _case(id_: str, seconds: float, outcome: Outcome, reason: str, text: str) ->
 def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
     lines = [check.reason]
     if check.worst is not None:
-        lines.append(wording.measured(check))
+        lines.append(wording.measured(check, result.device_class))
     if check.clause:
         lines.append(f"clause: {check.clause}")
     if check.counterexample is not None:
@@ -174,10 +175,17 @@ def _output(result: RunResult) -> str:
     lines = [wording.verdict_line(result), *wording.not_run_lines(result)]
     for check in result.checks:
         if check.worst is not None:
-            share = wording.share_in_words(check.worst, result.device_class)
             reached = check.class_reached or "none"
             lines.append(
                 f"{check.id}: {check.outcome}, class reached {reached}, {check.cases} cases, "
-                f"{wording.measured(check)}: {share}"
+                f"{_worst(check, check.worst, result.device_class)}"
             )
     return "\n".join(lines)
+
+
+def _worst(check: CheckResult, worst: Measurement, device_class: DeviceClass) -> str:
+    """Return what the worst value is, and its share of the limit if it has one."""
+    said = wording.measured(check, device_class)
+    if wording.nothing_limited(check, device_class):
+        return said
+    return f"{said}: {wording.share_in_words(worst, device_class)}"

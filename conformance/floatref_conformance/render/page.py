@@ -136,16 +136,19 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
     worst = check.worst
     if worst is None:
         return row
+    unlimited = wording.nothing_limited(check, device_class)
+    if unlimited:
+        flagged = (wording.flagged(check),) if check.flagged_m else ()
+        return replace(row, value="none", notes=(unlimited, *flagged))
     ratio = worst.ratio(device_class)
-    limited = device_class in worst.limits
     return replace(
         row,
         value=wording.quantity(worst.value, worst.unit),
         notes=_notes(check, worst),
         limit=wording.limit_in_words(worst, device_class),
-        percent=_percent(ratio) if limited else f"class {device_class} has no limit",
+        percent=_percent(ratio),
         margin=_margin(wording.margin(worst, device_class)),
-        bar=round(100 * min(ratio / FULL_SCALE, 1.0), 1) if limited else None,
+        bar=round(100 * min(ratio / FULL_SCALE, 1.0), 1),
         colour="over" if ratio > 1 else "near" if ratio > NEAR else "good",
     )
 

@@ -9,6 +9,7 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.events import (
     CaseFinished,
     CaseReplayed,
@@ -114,7 +115,7 @@ def result_lines(result: RunResult) -> list[str]:
     lines: list[str] = []
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
-            lines += _check_lines(check)
+            lines += _check_lines(check, result.device_class)
     lines += [wording.replayed_line(replayed) for replayed in result.replayed]
     lines += [*wording.not_run_lines(result), wording.verdict_line(result)]
     if result.verdict is Verdict.FAIL:
@@ -122,8 +123,8 @@ def result_lines(result: RunResult) -> list[str]:
     return lines
 
 
-def _check_lines(check: CheckResult) -> list[str]:
-    said = [part for part in (check.reason, wording.measured(check)) if part]
+def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
+    said = [part for part in (check.reason, wording.measured(check, device_class)) if part]
     lines = [f"{check.id}: {'; '.join(said)} [{check.clause}]"]
     if check.flagged_m:
         lines.append(f"{check.id}: {wording.flagged(check)}")
@@ -161,8 +162,8 @@ def _table(result: RunResult) -> Table:
 
 def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
     worst, device_class = check.worst, result.device_class
-    if worst is None:
-        return "", "", ""
+    if worst is None or wording.nothing_limited(check, device_class):
+        return ("none", "", "") if worst else ("", "", "")
     left = wording.margin(worst, device_class)
     return (
         wording.quantity(worst.value, worst.unit),

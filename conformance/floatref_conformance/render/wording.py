@@ -25,9 +25,7 @@ def margin(worst: Measurement, device_class: DeviceClass) -> float | None:
 
 
 def share_in_words(worst: Measurement, device_class: DeviceClass) -> str:
-    """Return what share of its limit ``worst`` is."""
-    if device_class not in worst.limits:
-        return f"class {device_class} has no limit"
+    """Return what share of its limit ``worst`` is, which ``device_class`` limits."""
     ratio = worst.ratio(device_class)
     return f"{100 * ratio:.3g} % of the limit" if isfinite(ratio) else "not a number"
 
@@ -48,17 +46,31 @@ def quantity(value: float, unit: str) -> str:
 
 def limit_in_words(worst: Measurement, device_class: DeviceClass) -> str:
     """Return the limit that ``device_class`` sets to ``worst``."""
-    limit = worst.limits.get(device_class)
-    return "none" if limit is None else quantity(limit, worst.unit)
+    return quantity(worst.limits[device_class], worst.unit)
 
 
-def measured(check: CheckResult) -> str:
-    """Return what the worst value of a check is a value of, and in which case it was found."""
+def measured(check: CheckResult, device_class: DeviceClass) -> str:
+    """Return what the worst value of a check is a value of, and in which case it was found.
+
+    Where `nothing_limited`, it is said why.
+    """
     worst = check.worst
-    if worst is None:
-        return ""
+    if worst is None or nothing_limited(check, device_class):
+        return nothing_limited(check, device_class)
     case = f", case {check.worst_case}" if check.worst_case else ""
     return f"worst is the {worst.quantity} of track {worst.track}{case}"
+
+
+def nothing_limited(check: CheckResult, device_class: DeviceClass) -> str:
+    """Return that ``device_class`` limits none of the values of a check; empty if it limits one.
+
+    A class may limit what the device vouches for alone, and the device vouch for nothing.
+    """
+    if check.worst is None or device_class in check.worst.limits:
+        return ""
+    if check.flagged_m:
+        return f"nothing was vouched for that class {device_class} limits"
+    return f"nothing was measured that class {device_class} limits"
 
 
 def flagged(check: CheckResult) -> str:

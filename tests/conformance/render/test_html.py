@@ -11,6 +11,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.events import RunFinished, RunStarted
 from floatref_conformance.plugins import load_registry
@@ -137,9 +138,20 @@ def test_a_bar_is_as_long_as_the_share_of_the_limit(check, result):
     assert [float(width) for width in re.findall(r"width:([\d.]+)%", text)] == [100.0, 20.0]
 
 
-def test_a_class_that_sets_no_limit_is_said_to_set_none(page, check, result):
-    made = result(check(Outcome.PASS, limits={}))
-    assert "class nominal has no limit" in page(made).text
+def test_no_value_is_shown_that_the_class_does_not_limit(page, check, result):
+    said = {
+        0.0: "nothing was measured that class nominal limits",
+        371.2: "nothing was vouched for that class nominal limits "
+        "up to 371.2 m of a wheel path flagged invalid",
+    }
+    for flagged_m, told in said.items():
+        above = {DeviceClass.ADEQUATE: 0.08}
+        words = page(result(check(Outcome.PASS, limits=above, flagged_m=flagged_m))).text
+        assert f"pass none {told} nominal 4" in words
+        assert "IRI error" not in words
+        words = page(result(check(Outcome.PASS, flagged_m=flagged_m))).text
+        assert "IRI error" in words
+        assert "nothing was" not in words
 
 
 @pytest.mark.parametrize("outcome", [Outcome.SKIP, Outcome.NOT_APPLICABLE])

@@ -47,6 +47,15 @@ def test_a_report_of_nothing_keeps_the_schema(written, result):
     SCHEMA.validate(written(result()))
 
 
+def test_no_value_is_told_that_the_class_does_not_limit(written, check, result):
+    (suite, _) = suites(written(result(check(Outcome.PASS, limits={}), check(Outcome.PASS, "b"))))
+    lines = suite.find("system-out").text.splitlines()
+    assert lines[-2].endswith("4 cases, nothing was measured that class nominal limits")
+    assert lines[-1].endswith(
+        "worst is the IRI error of track left, case stop-2: 50 % of the limit"
+    )
+
+
 @pytest.mark.parametrize("outcome", Outcome)
 def test_what_did_not_pass_says_so_and_why(written, check, result, kept, outcome):
     path = written(

@@ -1,10 +1,12 @@
 """What the terminal says of a result: how far from the limit, in which case, what to do."""
 
 from io import StringIO
+from math import nan
 
 import pytest
 from rich.console import Console
 
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.events import (
     CaseReplayed,
@@ -43,6 +45,17 @@ def test_the_margin_is_what_is_left_of_the_limit(check, result, value, margin):
     text = shown(RunFinished(result(check(outcome, value=value))))
     row = next(line for line in text.splitlines() if line.startswith(" stop"))
     assert row.split()[-1] == margin
+
+
+@pytest.mark.parametrize(("flagged_m", "verb"), [(0.0, "measured"), (371.2, "vouched for")])
+def test_no_value_is_shown_that_the_class_does_not_limit(check, result, flagged_m, verb):
+    slow = check(Outcome.PASS, value=nan, limits={DeviceClass.ADEQUATE: 0.08}, flagged_m=flagged_m)
+    lines = shown(RunFinished(result(slow))).splitlines()
+    row = next(line for line in lines if line.startswith(" stop"))
+    assert row.split() == ["stop", "pass", "nominal", "4", "none"]
+    assert f"stop: nothing was {verb} that class nominal limits [R 56-14, 6]" in lines
+    limited = "\n".join(shown(RunFinished(result(slow, device_class=DeviceClass.ADEQUATE))))
+    assert "nothing was" not in limited
 
 
 def test_a_kept_case_that_still_fails_is_told_with_the_command_that_runs_it(check, result, kept):
