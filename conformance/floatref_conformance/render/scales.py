@@ -61,7 +61,9 @@ def ticks(low: float, high: float, most: int) -> list[float]:
         return [low]
     power = 10.0 ** floor(log10((high - low) / most))
     step = next(s * power for s in (1, 2, 5, 10) if (high - low) / (s * power) <= most)
-    return [k * step for k in range(ceil(low / step - 1e-9), floor(high / step + 1e-9) + 1)]
+    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    # Numbers that differ by their last digits alone are rounded to more steps than lie between.
+    return [k * step for k in range(first, min(last, first + most) + 1)]
 
 
 def label(value: float) -> str:

@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -55,6 +55,7 @@ def test_a_short_line_is_drawn_with_all_its_points():
 
 @FEW
 @given(NUMBERS, st.floats(1e-9, 1e9), st.integers(2, 12))
+@example(6065119850976582.0, 2.0, 10)
 def test_ticks_are_few_round_and_inside(low, spread, most):
     high = low + spread
     found = ticks(low, high, most)
