@@ -18,8 +18,16 @@ SATURATED = 3
 """So many identical samples at the greatest or least of all are the end of the range."""
 OUTERMOST = 0.75 * STANDARD_GRAVITY
 """An accelerometer's range ends this far from rest, in m/s², or farther."""
+HELD = 3.0
+"""They are more than a hold, which so many times the usual number are."""
 STEEP = 3.0
-"""A range's end is met in a step of so many of the channel's smallest; a smooth peak is not."""
+"""A range's end is met, and left, in a step of so many of the channel's smallest; a smooth peak
+is not."""
+CUT_OFF = 20.0
+"""What is cut off is known from the swing around it: the smaller of both steps times the number of
+samples is so many times what the steps beside it differ by."""
+BESIDE = 250
+"""So many samples to either side tell what steps differ by."""
 PINNED_S = 0.002
 PINNED = 5.0
 """A laser out of its range stays there for so long, and so many times its usual hold."""
@@ -106,8 +114,21 @@ def damaged_force(channel: Channel) -> Damage:
     """Return where an accelerometer is at the end of its range: what it missed is not known."""
     runs = Runs.of(channel.values, SATURATED)
     far = np.abs(runs.value - STANDARD_GRAVITY) >= OUTERMOST
-    spans = runs.spans(runs.extreme & far & (runs.step >= STEEP * runs.quantum))
+    cut = runs.extreme & far & (runs.length >= HELD * runs.usual)
+    cut[cut] = [_goes_on(channel.values, a, b, runs.quantum) for a, b in runs.spans(cut)]
+    spans = runs.spans(cut)
     return Damage(spans, spans, warnings=_told(channel, spans, "at the end of its range"))
+
+
+def _goes_on(values: FloatArray, first: int, behind: int, quantum: float) -> bool:
+    """Return whether the swing would go on beyond samples ``first`` to ``behind - 1``."""
+    before, after = values[max(first - BESIDE, 0) : first], values[behind : behind + BESIDE]
+    steps = np.abs(np.concatenate([before[-1:], after[:1]]) - values[first])
+    step = float(np.min(steps[np.isfinite(steps)], initial=np.inf))
+    bends = np.abs(np.concatenate([np.diff(before, 2), np.diff(after, 2)]))
+    bends = bends[np.isfinite(bends)]
+    uneven = max(quantum, float(np.median(bends)) if bends.size else 0.0)
+    return bool(step >= STEEP * quantum and step * (behind - first) >= CUT_OFF * uneven)
 
 
 def damaged_height(channel: Channel, force: Channel) -> Damage:

@@ -73,6 +73,29 @@ def test_a_smooth_peak_is_no_end_of_a_range(seed, quantum, peak, hertz):
     assert of_force(forces(seed, quantum=quantum)).gone.size == 0
 
 
+@laws
+@given(
+    seed=st.integers(0, 99),
+    level=st.integers(2, 9),
+    length=st.integers(3, 5),
+    way=st.sampled_from([-1, 1]),
+)
+def test_equal_samples_on_a_noisy_peak_are_no_end_of_a_range(seed, level, length, way):
+    """Noise of a few quanta makes them now and then; beyond them the swing does not go on."""
+    quantum, noise = 0.0006, 0.004
+    swing = 0.9 * G * np.cos((np.arange(COUNT) - COUNT // 2) / 250.0)
+    values = G + way * swing + noise * np.random.default_rng(seed).standard_normal(COUNT)
+    values = quantum * np.round(values / quantum)
+    outermost = values.max() if way > 0 else values.min()
+    values[COUNT // 2 : COUNT // 2 + length] = outermost + way * level * quantum
+    assert of_force(values).gone.size == 0
+
+
+@pytest.mark.parametrize("hold", [4, 10])
+def test_the_holds_of_a_slow_accelerometer_are_no_end_of_a_range(hold):
+    assert of_force(np.repeat(forces(noise=3.0)[::hold], hold)).gone.size == 0
+
+
 def test_a_clipped_swing_is_an_end_of_a_range():
     swing = 1.3 * G * np.sin(np.arange(COUNT) / 80.0)
     values = np.minimum(G + swing, 2.0 * G)
