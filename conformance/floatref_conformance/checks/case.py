@@ -5,6 +5,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from math import isfinite
+from reprlib import repr as shortened
 from types import MappingProxyType
 from typing import Any
 
@@ -15,6 +16,8 @@ Number = float | int | str | bool
 CHANNELS_BY_NEED = ("imu", "gnss")
 """Fields of a scenario that follow from the device's capabilities, and are no part of a case."""
 DEFAULT = Scenario()
+LARGEST = 2**64
+"""Whole numbers of a variation are no larger: they have to have a counterpart among floats."""
 
 
 @dataclass(frozen=True)
@@ -58,13 +61,18 @@ class Case:
         if not isinstance(parameters, Mapping):
             raise InputError("a case is a JSON object with scenario and variation")
         variation = parameters.get("variation", {})
-        if not isinstance(variation, Mapping) or not all(map(_is_plain, variation.values())):
+        if not isinstance(variation, Mapping):
             raise InputError("variation is not an object of numbers and names")
+        for key, value in variation.items():
+            if not _is_plain(value):
+                raise InputError(f"variation {key} is {shortened(value)}; give a number or a name")
         return cls(check, Scenario.from_dict(parameters.get("scenario", {})), variation, name)
 
 
 def _is_plain(value: object) -> bool:
-    return isinstance(value, (int, str)) or (isinstance(value, float) and isfinite(value))
+    if isinstance(value, int):
+        return abs(value) <= LARGEST
+    return isinstance(value, str) or (isinstance(value, float) and isfinite(value))
 
 
 def _differing(scenario: Scenario) -> dict[str, Any]:

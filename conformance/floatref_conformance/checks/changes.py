@@ -12,10 +12,28 @@ from floatref.values.clock import StampedClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.case import Number
-from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.scenario import LIMITS, Scenario
 
 Numbers = Mapping[str, Number]
 LATER = "later-start"
+RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "samples": (0, 1e6),
+        "bias": (-10.0, 10.0),
+        "shift_s": (-1e9, 1e9),
+        "shift_m": (-1e7, 1e7),
+        "factor": (0.01, 100.0),
+        "rate_hz": LIMITS["rate_hz"],
+        "at_m": LIMITS["event_at_m"],
+        "length_s": (0.0, 600.0),
+        "span_m": (0.0, 1e4),
+        "count": (1, 1000),
+        "side": (-1, 1),
+        "size_m": (-100.0, 100.0),
+        "full_scale_g": (-1000.0, 1000.0),
+    }
+)
+"""Smallest and largest value of every number that a change or a fault may have."""
 EARLY = 1e-6
 """A sample so much before a time, in steps, was taken at that time: times are rounded."""
 
@@ -40,10 +58,13 @@ class Change:
 
 
 def number(numbers: Numbers, name: str) -> float:
-    """Return number ``name`` of a case's variation; InputError if it is none."""
+    """Return number ``name`` of a case's variation; InputError if it is none, or out of range."""
     value = numbers.get(name)
-    if not isinstance(value, int | float):
+    if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"variation {name} is {value!r}; give a number")
+    low, high = RANGES[name]
+    if not low <= value <= high:
+        raise InputError(f"variation {name} is {value!r}; it must lie between {low:g} and {high:g}")
     return float(value)
 
 

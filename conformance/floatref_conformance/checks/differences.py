@@ -6,7 +6,7 @@ import numpy as np
 
 from floatref.measures import iri_trace
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.scoring import Compared, correlation, roughness_within
+from floatref_conformance.checks.scoring import Compared, correlation, not_flat, roughness_within
 from floatref_conformance.classes import DeviceClass, Limits, same_limit
 from floatref_conformance.evidence import CorrelationLoss, Pair, Reference, RoughnessError
 from floatref_conformance.verdict import Measurement
@@ -89,7 +89,7 @@ def _roughness_difference(first: Pair, second: Pair, track: str) -> Measurement:
         _mean(iri_trace(z, first.interval_m)[first.counted])
         for z in (first.truth, first.result, second.result)
     )
-    value = 100.0 * abs(other - one) / true
+    value = 100.0 * abs(other - one) / not_flat(true)
     evidence = RoughnessDifference(first, second)
     return Measurement("IRI difference of both", track, value, "%", ROUGHNESS_LIMITS, evidence)
 

@@ -23,7 +23,7 @@ from floatref_conformance.checks.features import (
 )
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded, seeds
-from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.stretches import Stretches, fitting
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
@@ -122,14 +122,20 @@ class DistanceCheck:
         return numbers.map(lambda given: Case(self.id, scenario_of(given)))
 
     def scored(self, case: Case) -> Stretches:
-        """Return the stretches in which features lie, ahead of an event and behind it."""
-        return featured(drive_of(case.scenario).length_m, event_of(case.scenario))
+        """Return the stretches in which features lie, ahead of an event and behind it.
+
+        Raises InputError for a drive that leaves no room for them.
+        """
+        length_m = drive_of(case.scenario).length_m
+        return fitting(featured(length_m, event_of(case.scenario)), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far from their places the features of every wheel path lie.
 
-        Raises DeviceError for a point without elevation in one of them.
+        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        in one of them.
         """
+        self.scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         axis, event_m = EncoderAxis.of(taken), event_of(case.scenario)

@@ -140,7 +140,8 @@ def counts_back(recording: Recording, numbers: Numbers) -> Injured:
     size_m = number(numbers, "size_m")
     encoder = recording.channel(DISTANCE)
     values = np.array(encoder.values)
-    values[np.searchsorted(encoder.values, at_m + COUNTS_APART_M * np.arange(count))] -= size_m
+    back = np.searchsorted(encoder.values, at_m + COUNTS_APART_M * np.arange(count))
+    values[back[back < values.size]] -= size_m
     hurt = with_values(recording, DISTANCE, None, values)
     return Injured(hurt, COUNTS_APART_M * count, at_m)
 

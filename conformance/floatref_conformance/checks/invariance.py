@@ -19,9 +19,10 @@ from floatref_conformance.checks.differences import (
 )
 from floatref_conformance.checks.interface import Bench, Taken
 from floatref_conformance.checks.scoring import Compared, compare, correlation
-from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.stretches import Stretches, fitting
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
 
 if TYPE_CHECKING:
@@ -87,18 +88,22 @@ class InvarianceCheck:
         Raises InputError for a variation without the numbers that tell where that begins.
         """
         if case.variation.get("change") == STOP:
-            return (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
+            stretches = (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
+            return fitting(stretches, drive_of(case.scenario).length_m)
         start_m = FROM_M
         if case.variation.get("change") == LATER:
             start_m += changed_drives.later_m(case.scenario, case.variation)
-        return ((start_m, case.scenario.length_m - END_M),)
+        length_m = drive_of(case.scenario).length_m
+        return fitting(((start_m, length_m - END_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far both results differ, and how well the unchanged one shows the road.
 
-        Raises InputError for a variation that names no change or lacks a number of it.
+        Raises InputError for a variation that names no change or lacks a number of it, and for
+        what `scored` refuses.
         """
         change = change_of(case.variation)
+        self.scored(case)
         before = bench.simulate(case.scenario)
         after = _changed(case, change, before, bench)
         results = bench.run(before, "unchanged"), bench.run(after, "changed")

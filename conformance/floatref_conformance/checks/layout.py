@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.bump import BESIDE_M
 from floatref_conformance.checks.flags import SLOW_MPS
-from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.stretches import END_M, Stretches
 from floatref_conformance.proving_ground.drive import Segment
 from floatref_conformance.proving_ground.manoeuvres import RESTART, SLOW_COAST_DRAG
 from floatref_conformance.proving_ground.phases import (
@@ -22,12 +22,10 @@ from floatref_conformance.proving_ground.phases import (
     set_off,
     speed_change,
 )
-from floatref_conformance.proving_ground.runs import KMH
-from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.runs import KMH, RUNS
+from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 
-END_M = 106.0
-"""What counts is so far from both ends."""
 STRETCH_M = 160.9
 """Length over which the IRI is taken: 0.1 mile."""
 AHEAD_M = 96.0
@@ -65,8 +63,11 @@ class Layout:
 def layout_of(scenario: Scenario) -> Layout:
     """Return what is scored of ``scenario``.
 
-    Raises InputError if a stretch or the bump comes within `END_M` of an end of the run.
+    Raises InputError for a manoeuvre of another kind, and if a stretch or the bump comes within
+    `END_M` of an end of the run.
     """
+    if scenario.manoeuvre in (*STATIONARY, *RUNS):
+        raise InputError(f"manoeuvre {scenario.manoeuvre}: not one that a driving check scores")
     events = _events(scenario)
     around = [event - AHEAD_M for event in (*events, *_also_scored(scenario))]
     starts = around or [_steady_start(scenario)]

@@ -5,6 +5,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
+from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -17,13 +18,21 @@ CHANGES: Mapping[str, str] = MappingProxyType(
 
 
 def passes_of(case: Case) -> tuple[Scenario, Scenario]:
-    """Return both passes of ``case``; what its variation does not name is as in the first."""
+    """Return both passes of ``case``; what its variation does not name is as in the first.
+
+    Raises InputError, naming what it is, for what makes no second pass.
+    """
     first = case.scenario
-    changes: dict[str, Any] = {"road_seed": first.seed if first.road_seed < 0 else first.road_seed}
+    second = replace(first, road_seed=first.seed if first.road_seed < 0 else first.road_seed)
     for name, value in case.variation.items():
-        if name in CHANGES:
-            changes[CHANGES[name]] = value
-    return first, replace(first, **changes)
+        if name not in CHANGES:
+            raise InputError(f"variation {name}: unknown; known: {', '.join(CHANGES)}")
+        change: dict[str, Any] = {CHANGES[name]: value}
+        try:
+            second = replace(second, **change)
+        except InputError as error:
+            raise InputError(f"variation {name}: {error}") from error
+    return first, second
 
 
 def on_road(profile: Profile, scenario: Scenario) -> Profile:

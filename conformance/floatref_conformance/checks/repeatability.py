@@ -13,9 +13,10 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.passes import on_road, passes_of
 from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
-from floatref_conformance.checks.stretches import Stretches, stretch
+from floatref_conformance.checks.stretches import Stretches, fitting, stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
 
 if TYPE_CHECKING:
@@ -119,14 +120,16 @@ class RepeatabilityCheck:
         )
 
     def scored(self, case: Case) -> Stretches:
-        """Return the stretch that is compared."""
-        return ((START_M, END_M),)
+        """Return the stretch that is compared; InputError for a drive that is too short."""
+        return fitting(((START_M, END_M),), drive_of(case.scenario).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far the passes differ from each other and from the truth.
 
-        Raises DeviceError for a point without elevation in the stretch that is compared.
+        Raises InputError for numbers that make no two passes, DeviceError for a point without
+        elevation in the stretch that is compared.
         """
+        self.scored(case)
         measured: list[Measurement] = []
         profiles: list[Profile] = []
         losses: dict[str, list[Measurement]] = {}

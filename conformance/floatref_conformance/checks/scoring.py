@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.measures import cross_correlation, high_pass, iri_trace, on_common_grid
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
@@ -135,7 +136,14 @@ def better(first: Measurement, second: Measurement, device_class: DeviceClass) -
 
 def _roughness(pair: Pair) -> tuple[float, float]:
     true, found = (float(np.abs(trace).mean()) for trace in _traces(pair))
-    return true, found
+    return not_flat(true), found
+
+
+def not_flat(true_m_per_km: float) -> float:
+    """Return the IRI of a true road; InputError for 0, of which no error is a share."""
+    if true_m_per_km == 0:
+        raise InputError("the road that is judged is flat; give one with an IRI above 0")
+    return true_m_per_km
 
 
 def _traces(pair: Pair) -> tuple[FloatArray, FloatArray]:

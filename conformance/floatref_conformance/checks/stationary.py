@@ -7,14 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.checks import plate
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.stretches import Stretches, stretch
+from floatref_conformance.checks.stretches import END_M, Stretches, fitting, stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.evidence import Roughness
+from floatref_conformance.proving_ground.artificial import artificial_drive
+from floatref_conformance.proving_ground.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
 
@@ -25,8 +28,6 @@ RATES_HZ = (16000.0, 4000.0)
 """The rates of the cases, in turn: with and without need of an anti-alias filter."""
 SEARCHED_RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
-END_M = 106.0
-"""At each end of the run the high-pass (105.91 m) may leave points without elevation."""
 
 
 @dataclass(frozen=True)
@@ -80,14 +81,22 @@ class StationaryCheck:
         return scenarios.map(lambda scenario: Case(self.id, scenario))
 
     def scored(self, case: Case) -> Stretches:
-        """Return the stretch whose IRI is limited."""
-        return ((self.start_m, self.end_m),)
+        """Return the stretch whose IRI is limited.
+
+        Raises InputError for a vehicle that drives, or pretends to for less than that.
+        """
+        manoeuvre, speed_mps = case.scenario.manoeuvre, case.scenario.speed_kmh * KMH
+        if manoeuvre != self.id:
+            raise InputError(f"manoeuvre {manoeuvre}: in {self.id} the vehicle is parked")
+        return fitting(((self.start_m, self.end_m),), artificial_drive(speed_mps).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.
 
-        Raises DeviceError for a point without elevation more than `END_M` from both ends.
+        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        more than `END_M` from both ends.
         """
+        self.scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         measured: list[Measurement] = []

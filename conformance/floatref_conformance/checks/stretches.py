@@ -2,12 +2,29 @@
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.errors import DeviceError
 
 Stretches = tuple[tuple[float, float], ...]
 """Start and end of each of several stretches, in m of true distance."""
+END_M = 106.0
+"""What counts is so far from both ends: the high-pass (105.91 m) may leave points out."""
+
+
+def fitting(stretches: Stretches, length_m: float) -> Stretches:
+    """Return the ``stretches`` of a run of ``length_m`` that are to be judged.
+
+    Raises InputError if one is empty, or lies within `END_M` of an end of the run.
+    """
+    for start, end in stretches:
+        if not END_M <= start < end <= length_m - END_M:
+            raise InputError(
+                f"length_m is {length_m:g}: {start:g} m to {end:g} m is judged, which must lie "
+                f"{END_M:g} m from both ends"
+            )
+    return stretches
 
 
 def points(profile: Profile, start_m: float, end_m: float) -> slice:

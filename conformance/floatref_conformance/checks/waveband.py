@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
-from floatref_conformance.checks.stretches import Stretches, points, stretch
+from floatref_conformance.checks.stretches import Stretches, fitting, points, stretch
 from floatref_conformance.checks.waves import ComplexArray, waves_of
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -23,6 +24,7 @@ from floatref_conformance.proving_ground.sines import (
     SHORTEST_FLAT_M,
     WAVELENGTHS_M,
 )
+from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
 
 if TYPE_CHECKING:
@@ -110,14 +112,22 @@ class WavebandCheck:
         )
 
     def scored(self, case: Case) -> Stretches:
-        """Return the stretch over which the waves are fitted."""
-        return ((START_M, START_M + PERIOD_M),)
+        """Return the stretch over which the waves are fitted.
+
+        Raises InputError for a drive that is too short, or over a road of another kind.
+        """
+        if case.scenario.road != "sines":
+            raise InputError(f"road {case.scenario.road}: {self.id} needs sines")
+        length_m = drive_of(case.scenario).length_m
+        return fitting(((START_M, START_M + PERIOD_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the errors of gain and phase of every wheel path.
 
-        Raises DeviceError for a point without elevation in the stretch that is fitted.
+        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        in the stretch that is fitted.
         """
+        self.scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         axis = EncoderAxis.of(taken)

@@ -22,7 +22,7 @@ from floatref_conformance.proving_ground.response import oversampling
 from floatref_conformance.proving_ground.road import FULL_FROM_M, Road, flat_road
 from floatref_conformance.proving_ground.runs import KMH, RUNS, run_drive
 from floatref_conformance.proving_ground.sayers import sayers_road
-from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors import SensorSuite
 from floatref_conformance.proving_ground.shaping import scaled_to, with_bump
 from floatref_conformance.proving_ground.sines import sines_road
@@ -64,6 +64,8 @@ def drive_of(scenario: Scenario) -> Drive:
 
     Raises InputError where its numbers do not fit together or need more than `MOST_SAMPLES`.
     """
+    if scenario.manoeuvre in STATIONARY:
+        raise InputError(f"manoeuvre {scenario.manoeuvre}: the vehicle is parked, not driven")
     if scenario.manoeuvre in RUNS:
         drive = run_drive(scenario.manoeuvre)
     else:
