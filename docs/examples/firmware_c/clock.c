@@ -1,4 +1,5 @@
 /* The clocks of channels: looked through once before a run, and compared. */
+#include <limits.h>
 #include <math.h>
 
 #include "window.h"
@@ -6,21 +7,24 @@
 static const double APART = 0.01;     /* clocks agree if their samples are nearer, in steps */
 static const double HOLE = 5.0;       /* typical steps without a time stamp */
 static const double ROLLS_BACK_M = 1.0; /* a reversed encoder goes on */
+static const double LATEST_S = 1e12;
 
 static bool check_stamps(struct channel *channel, struct failure *failure)
 {
     double before = -INFINITY;
     for (long i = 0; i < channel->times.count; i++) {
         double time = window_at(&channel->times, i);
-        if (!isfinite(time) || !(time > before))
+        if (!(fabs(time) <= LATEST_S))
+            return fail(failure, "%s: time stamp %ld is %g s", channel->name, i, time);
+        if (!(time > before))
             return fail(failure, "%s: time stamp %ld does not increase", channel->name, i);
         before = time;
     }
     return true;
 }
 
-/* Samples must be finite or NaN, at least half of them there, and a distance not go back. */
-static bool check_samples(struct channel *channel, bool encoder, struct failure *failure)
+/* Samples must be finite or NaN, at least half of them there; a distance must not go back. */
+static bool check_samples(struct channel *channel, double largest, struct failure *failure)
 {
     long missing = 0;
     double before = -INFINITY;
@@ -28,7 +32,10 @@ static bool check_samples(struct channel *channel, bool encoder, struct failure 
         double value = window_at(&channel->values, i);
         if (isinf(value))
             return fail(failure, "%s: sample %ld is infinite", channel->name, i);
-        if (encoder && value < before - ROLLS_BACK_M)
+        if (fabs(value) > largest)
+            return fail(failure, "%s: sample %ld is %g, beyond %g; check unit and offset",
+                        channel->name, i, value, largest);
+        if (channel->encoder && value < before - ROLLS_BACK_M)
             return fail(failure, "%s: sample %ld goes back to %g m", channel->name, i, value);
         before = fmax(before, value);
         missing += isnan(value) ? 1 : 0;
@@ -55,7 +62,7 @@ bool channel_open(struct channel *channel, const struct recording *recording,
     channel->encoder = encoder;
     if (!window_open(&channel->values, recording->folder, entry->file, failure) ||
         !window_open(&channel->ahead, recording->folder, entry->file, failure) ||
-        !check_samples(channel, encoder, failure))
+        !check_samples(channel, LARGEST[entry->quantity], failure))
         return false;
     double rate = channel->rate_hz = entry->rate_hz;
     channel->start_s = entry->start_s;
@@ -74,7 +81,7 @@ bool channel_open(struct channel *channel, const struct recording *recording,
     }
     channel->mean_rate_hz = rate;
     channel->bridge_s = encoder ? 0.5 : 0.01;
-    channel->bridge = isfinite(rate) ? (long)(channel->bridge_s * rate) : 0;
+    channel->bridge = (long)fmin(channel->bridge_s * rate, (double)channel->values.count);
     channel->left = channel->right = -1;
     channel->stamp = 0;
     channel->same_grid = false;
@@ -94,6 +101,6 @@ void channel_align(struct channel *channel, const struct clock *clock)
 {
     double offset = (clock->start_s - channel->start_s) * channel->rate_hz;
     channel->same_grid = channel->times.file == NULL && channel->rate_hz == clock->rate_hz &&
-                         fabs(offset - rint(offset)) < APART;
+                         fabs(offset) < (double)LONG_MAX && fabs(offset - rint(offset)) < APART;
     channel->offset = channel->same_grid ? (long)rint(offset) : 0;
 }

@@ -4,17 +4,45 @@
 #include <math.h>
 
 #include "holds.h"
+#include "median.h"
 
 static const double REST = 9.80665;
 static const double OUTERMOST = 0.75 * 9.80665; /* a range ends so far from rest, in m/s^2 */
+static const double HELD = 3.0;                 /* longer than a hold, in usual ones */
 static const double STEEP = 3.0;                /* a smooth peak is no end of a range, in quanta */
+static const double CUT_OFF = 20.0;             /* nor a noisy one, in what steps differ by */
 static const double PINNED_S = 0.002, PINNED = 5.0, LEAP_M = 0.005;
 static const double STUCK_S = 0.05, STUCK = 20.0, ALIVE = 0.1;
-enum { SATURATED = 3 };
+enum { SATURATED = 3, BESIDE = 250 };
 
 static bool at_an_end(const struct hold *hold, const struct usual *usual)
 {
     return hold->value == usual->least || hold->value == usual->greatest;
+}
+
+/* Append by how much the steps between the samples from `first` up to `behind` differ. */
+static long differences(struct window *values, long first, long behind, double *found, long count)
+{
+    for (long i = first; i + 2 < behind; i++) {
+        double a = window_at(values, i), b = window_at(values, i + 1), c = window_at(values, i + 2);
+        double difference = fabs((c - b) - (b - a));
+        if (!isnan(difference))
+            found[count++] = difference;
+    }
+    return count;
+}
+
+/* Whether the swing that a hold cuts off would go on: what is missing is known from its slopes. */
+static bool goes_on(struct window *values, const struct hold *hold, double quantum)
+{
+    static double beside[2 * BESIDE];
+    long first = hold->first, behind = first + hold->length;
+    double step = fmin(hold->step_in, hold->step_out);
+    long count = differences(values, first > BESIDE ? first - BESIDE : 0, first, beside, 0);
+    long end = values->count - behind > BESIDE ? behind + BESIDE : values->count;
+    count = differences(values, behind, end, beside, count);
+    double uneven = fmax(quantum, median(beside, count));
+    return step >= STEEP * quantum && step * (double)hold->length >= CUT_OFF * uneven;
 }
 
 bool damaged_force(struct channel *channel, struct failure *failure)
@@ -24,8 +52,8 @@ bool damaged_force(struct channel *channel, struct failure *failure)
     struct hold hold;
     while (holds_next(&holds, &hold)) {
         if (hold.length < SATURATED || !at_an_end(&hold, &usual) ||
-            fabs(hold.value - REST) < OUTERMOST ||
-            fmax(hold.step_in, hold.step_out) < STEEP * usual.quantum)
+            (double)hold.length < HELD * usual.hold || fabs(hold.value - REST) < OUTERMOST ||
+            !goes_on(&channel->ahead, &hold, usual.quantum))
             continue;
         if (!spans_add(&channel->lasting, hold.first, hold.first + hold.length, failure))
             return false;

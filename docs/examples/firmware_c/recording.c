@@ -1,13 +1,17 @@
 #include "recording.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "json.h"
 
 enum { LARGEST_BYTES = 4 << 20 };
+static const double LATEST_S = 1e10;
 
 const char *const QUANTITY_NAMES[QUANTITIES] = {"vertical_specific_force", "height", "distance"};
+const double LARGEST[QUANTITIES] = {1e4, 100.0, 1e10};
+const double FASTEST_HZ = 1e7;
 static const char *const UNITS[QUANTITIES] = {"m/s^2", "m", "m"};
 
 /* The whole file, with '\0' behind it, to be freed by the caller. */
@@ -63,10 +67,11 @@ static bool read_clock(struct json json, struct entry *entry, struct failure *fa
     if (entry->time_file[0] != '\0')
         return true;
     if (!json_member(json, "rate_hz", &value) || !json_number(value, &entry->rate_hz) ||
-        !(entry->rate_hz >= 0.001 && entry->rate_hz <= 1e7))
+        !(entry->rate_hz >= 0.001 && entry->rate_hz <= FASTEST_HZ))
         return fail(failure, "channel %s: rate_hz is not between 0.001 and 10000000", name);
-    if (!json_member(json, "start_s", &value) || !json_number(value, &entry->start_s))
-        return fail(failure, "channel %s: start_s is not a number", name);
+    if (!json_member(json, "start_s", &value) || !json_number(value, &entry->start_s) ||
+        fabs(entry->start_s) > LATEST_S)
+        return fail(failure, "channel %s: start_s is not a number within 1e10 of zero", name);
     return true;
 }
 

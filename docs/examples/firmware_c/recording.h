@@ -14,6 +14,8 @@ enum {
 enum quantity { VERTICAL_SPECIFIC_FORCE, HEIGHT, DISTANCE, QUANTITIES };
 
 extern const char *const QUANTITY_NAMES[QUANTITIES];
+extern const double LARGEST[QUANTITIES]; /* no sample that measures something is beyond */
+extern const double FASTEST_HZ;
 
 struct entry {
     enum quantity quantity;

@@ -12,6 +12,8 @@
 #include "validity.h"
 #include "window.h"
 
+static const double SLOWEST_HZ = 20.0; /* of an accelerometer */
+
 /* A wheel path with its two sensors. */
 struct path {
     struct channel force, height;
@@ -92,10 +94,11 @@ static bool align(struct session *session, struct failure *failure)
     /* A thousandth of a sample: start times are rounded decimals. */
     double first = ceil((begin - clock->start_s) * clock->rate_hz - 1e-3);
     double last = floor((end - clock->start_s) * clock->rate_hz + 1e-3);
-    session->first = (long)fmax(first, 0.0);
-    session->last = (long)last;
-    if (!(last > fmax(first, 0.0)))
+    first = fmax(first, 0.0);
+    if (!(last > first))
         return fail(failure, "the channels have no stretch of time in common; check start_s");
+    session->first = (long)first;
+    session->last = (long)last;
     return true;
 }
 
@@ -173,7 +176,8 @@ bool run(const char *recording, const char *profile, struct failure *failure)
         double rate_hz = session.clock.rate_hz;
         for (int i = 0; i < session.recording.tracks; i++)
             track_open(&session.paths[i].track, rate_hz);
-        done = rate_hz >= 20.0 || fail(failure, "%g Hz are no rate of an accelerometer", rate_hz);
+        done = (rate_hz >= SLOWEST_HZ && rate_hz <= FASTEST_HZ) ||
+               fail(failure, "%g Hz are no rate of an accelerometer", rate_hz);
         done = done && drive_open(&session.drive, rate_hz, failure) &&
                points_open(&session.points, session.recording.tracks, session.recording.interval_m,
                            length_of(&session), failure);

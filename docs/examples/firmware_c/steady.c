@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "median.h"
 #include "window.h"
 
 static const double JITTER = 0.01;     /* of a constant rate, in steps */
@@ -16,12 +17,6 @@ struct stretches {
     double longest_s;
 };
 
-static int in_order(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return (p > q) - (p < q);
-}
-
 double typical_step(struct window *times)
 {
     static double steps[STEPS];
@@ -30,8 +25,7 @@ double typical_step(struct window *times)
         return INFINITY;
     for (long i = 0; i < count; i++)
         steps[i] = window_at(times, i + 1) - window_at(times, i);
-    qsort(steps, (size_t)count, sizeof *steps, in_order);
-    return steps[count / 2];
+    return median(steps, count);
 }
 
 /* Measure what lies between steps longer than `hole_s`. */

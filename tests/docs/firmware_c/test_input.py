@@ -12,7 +12,10 @@ from hypothesis import strategies as st
 
 from floatref.files import read_profile, write_recording
 
-SANITIZED = "-std=c99 -g -O1 -Wall -Wextra -Wpedantic -Werror -fsanitize=address,undefined"
+SANITIZED = (
+    "-std=c99 -g -O1 -Wall -Wextra -Wpedantic -Wconversion -Werror"
+    " -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
+)
 
 
 @pytest.fixture(scope="module")
@@ -66,6 +69,15 @@ def mostly_missing(path):
     x.tofile(path)
 
 
+def a_folder(path):
+    path.unlink()
+    path.mkdir()
+
+
+def in_millimetres(path):
+    (np.fromfile(path) * 1000).tofile(path)
+
+
 def back(path):
     x = np.fromfile(path)
     x[500:] -= 1.5
@@ -76,6 +88,8 @@ SPOILT = {
     "whole number": ("left.height", cut),
     "infinite": ("right.height", infinite),
     "samples are missing": ("left.vertical_specific_force", mostly_missing),
+    "holds no": ("left.height", a_folder),
+    "beyond 100": ("left.height", in_millimetres),
     "cannot be opened": ("right.vertical_specific_force", Path.unlink),
     "sample 500 goes back": ("distance", back),
 }
@@ -91,6 +105,35 @@ def test_samples_that_cannot_be_used_are_refused_by_name(sanitized, reason, tmp_
     assert reason in answer["error"]
     assert channel in answer["error"]
     assert not profile.exists()
+
+
+@pytest.mark.parametrize("name", ["distance", "height", "vertical_specific_force"])
+def test_a_recording_without_a_channel_is_refused_by_its_name(sanitized, name, tmp_path):
+    firmware, folder = sanitized
+    shutil.copytree(folder, tmp_path / "run")
+    document = json.loads((folder / "recording.json").read_text(encoding="utf-8"))
+    document["channels"] = [c for c in document["channels"] if c["name"] != name]
+    (tmp_path / "run" / "recording.json").write_text(json.dumps(document), encoding="utf-8")
+    answer, _ = firmware.run(tmp_path / "run")
+    assert f"channel {name}" in answer["error"]
+    assert "missing" in answer["error"]
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-12, 1e-3, 1e3, 1e290])
+@pytest.mark.parametrize("files", ["*", "distance*", "left.vertical*", "right.height*"])
+def test_no_time_stamps_lead_beyond_its_memory(sanitized, scale, files, tmp_path):
+    firmware, folder = sanitized
+    shutil.copytree(folder, tmp_path / "run")
+    document = json.loads((folder / "recording.json").read_text(encoding="utf-8"))
+    for channel in document["channels"]:
+        if Path(channel["file"]).match(files):
+            samples = np.fromfile(folder / channel["file"]).size
+            del channel["rate_hz"], channel["start_s"]
+            channel["time_file"] = "time." + channel["file"]
+            (np.arange(samples) / 4000 * scale).tofile(tmp_path / "run" / channel["time_file"])
+    (tmp_path / "run" / "recording.json").write_text(json.dumps(document), encoding="utf-8")
+    answer, _ = firmware.run(tmp_path / "run")
+    assert answer.get("ok") is True or answer["error"]
 
 
 @pytest.mark.parametrize(

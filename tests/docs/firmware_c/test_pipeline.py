@@ -19,7 +19,16 @@ def drives(simulated):
         "constant": simulated(tracks=("main",)),
         "stop": simulated(**STOP, tracks=("main",)),
         "stop of two wheel paths at 16 kHz": simulated(**STOP, rate_hz=16000.0),
+        "stop at 1 kHz": simulated(**STOP, rate_hz=1000.0),
+        "three wheel paths": with_a_third(simulated(length_m=150.0)),
     }
+
+
+def with_a_third(recording):
+    """Return ``recording`` with the left wheel path, back to front, in the middle, too."""
+    left = [c for c in recording.channels if c.id.track == "left"]
+    middle = [Channel.of(c.id.name, np.array(c.values)[::-1], c.clock, "middle") for c in left]
+    return Recording((*recording.channels, *middle), recording.setup)
 
 
 def changed(recording, change):
@@ -58,11 +67,25 @@ def on_time_stamps(name, x, clock):
     return x[kept], StampedClock.of(t[kept])
 
 
+def all_on_time_stamps(name, x, clock):
+    return x, StampedClock.of(clock.times(x.size))
+
+
+def two_seconds(name, x, clock):
+    return x[:8000], clock
+
+
 def starting_late(name, x, clock):
     return (x[100:], UniformClock.of(4000, 0.025)) if name == "height" else (x, clock)
 
 
-@pytest.mark.parametrize("drive", ["constant", "stop", "stop of two wheel paths at 16 kHz"])
+@pytest.mark.parametrize(
+    "drive",
+    [
+        *("constant", "stop", "stop of two wheel paths at 16 kHz"),
+        *("stop at 1 kHz", "three wheel paths"),
+    ],
+)
 def test_a_profile_is_that_of_the_pipeline(start, drives, drive, expected, assert_same, tmp_path):
     found = start().profile_of(drives[drive], tmp_path / "run")
     assert_same(found, expected(drives[drive]))
@@ -77,7 +100,13 @@ def test_the_judge_gets_that_profile_too(build, drives, expected, assert_same, t
     assert_same(read_profile(tmp_path / "profile"), expected(drives["stop"]))
 
 
-@pytest.mark.parametrize("change", [with_gaps, on_other_clocks, on_time_stamps, starting_late])
+@pytest.mark.parametrize(
+    "change",
+    [
+        *(with_gaps, on_other_clocks, on_time_stamps, all_on_time_stamps),
+        *(starting_late, two_seconds),
+    ],
+)
 def test_gaps_and_clocks_are_taken_as_the_pipeline_takes_them(
     start, drives, change, expected, assert_same, tmp_path
 ):
