@@ -1,6 +1,8 @@
 """One run of a device: what it is given, where, and what it must have delivered."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeVar
@@ -122,3 +124,27 @@ def close(device: Device) -> str:
     except (DeviceError, DeviceSkipped) as fault:
         return str(fault)
     return ""
+
+
+@dataclass
+class Closing:
+    """Closes ``device`` once; one that was interrupted meanwhile is closed again."""
+
+    device: Device
+    done: bool = False
+
+    def close(self) -> str:
+        """Return what went wrong, empty if nothing did or the device is closed already."""
+        fault = "" if self.done else close(self.device)
+        self.done = True
+        return fault
+
+
+@contextmanager
+def closed_on_error(device: Device) -> Iterator[None]:
+    """Close ``device`` if what is done with it fails before it is run."""
+    try:
+        yield
+    except BaseException:
+        close(device)
+        raise

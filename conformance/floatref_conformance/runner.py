@@ -20,7 +20,7 @@ from floatref_conformance.events import (
     RunFinished,
     RunStarted,
 )
-from floatref_conformance.exercise import close, describe
+from floatref_conformance.exercise import Closing, describe
 from floatref_conformance.judging import (
     given_up_result,
     left_out_result,
@@ -72,25 +72,26 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
     """Return the result of ``plan``; ``emit`` is given what happens on the way.
 
     Raises SuiteError, for sys.exit in a check as well, and then there is no verdict. Whatever
-    happens, the device is closed.
+    happens, the device is closed once.
     """
+    closing = Closing(plan.device)
     try:
-        return _run(plan, emit)
+        return _run(plan, emit, closing)
     except (SuiteError, BrokenPipeError, KeyboardInterrupt):
-        close(plan.device)
         raise
     except (Exception, SystemExit) as error:
-        close(plan.device)
         text = " ".join(str(error).split())
         raise SuiteError(f"{type(error).__name__}: {text}") from error
+    finally:
+        closing.close()
 
 
-def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
+def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResult:
     description, fault = _described(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault)
     with _simulating(plan, trial) as announce:
-        results, replayed = _judged(plan, trial, announce)
+        results, replayed = _judged(plan, trial, announce, closing)
     results += [left_out_result(left_out) for left_out in plan.left_out]
     replayed += _left_out(plan)
     finished = _result(plan, description, results, replayed)
@@ -99,7 +100,7 @@ def _run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
 
 
 def _judged(
-    plan: Plan, trial: Trial, announce: Callable[[Check], None]
+    plan: Plan, trial: Trial, announce: Callable[[Check], None], closing: Closing
 ) -> tuple[list[CheckResult], list[Mapping[str, Any]]]:
     """Return what comes of every check, and of every kept case."""
     results: list[CheckResult] = []
@@ -112,7 +113,7 @@ def _judged(
             replayed.append(again)
             trial.emit(CaseReplayed(again))
         if check is plan.checks[-1]:
-            result = waived(_ended(result, close(plan.device)), plan.waivers)
+            result = waived(_ended(result, closing.close()), plan.waivers)
         results.append(result)
         trial.emit(CheckFinished(result))
     return results, replayed

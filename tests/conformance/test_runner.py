@@ -7,7 +7,7 @@ import pytest
 
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError, SuiteError
-from floatref_conformance.events import CaseFinished
+from floatref_conformance.events import CaseFinished, CheckFinished, RunFinished
 from floatref_conformance.render.report import as_json
 from floatref_conformance.runner import run
 from floatref_conformance.verdict import Outcome, Verdict
@@ -193,6 +193,37 @@ def test_a_device_is_closed_once_after_a_verdict_and_need_not_be_able_to(plan, r
     assert halving.closed == 1
     halving.close = None
     assert result_of(plan(halving)).verdict is Verdict.FAIL
+
+
+def test_a_device_is_closed_once_when_no_check_is_left_to_run(plan, result_of, halving):
+    nothing = replace(plan(halving, left_out=("toy",)), checks=())
+    assert result_of(nothing).verdict is Verdict.INCOMPLETE
+    assert halving.closed == 1
+
+
+@pytest.mark.parametrize("kind", [CheckFinished, RunFinished])
+@pytest.mark.parametrize("error", [KeyboardInterrupt, BrokenPipeError])
+def test_a_device_is_closed_once_when_nobody_hears_the_end(plan, halving, kind, error):
+    def emit(event):
+        if isinstance(event, kind):
+            raise error
+
+    with pytest.raises(error):
+        run(plan(halving), emit)
+    assert halving.closed == 1
+
+
+def test_a_device_whose_end_was_interrupted_is_closed_again(plan, fake_device):
+    class Slow(fake_device):
+        def close(self):
+            super().close()
+            if self.closed == 1:
+                raise KeyboardInterrupt
+
+    device = Slow()
+    with pytest.raises(KeyboardInterrupt):
+        run(plan(device), ignore)
+    assert device.closed == 2
 
 
 @pytest.mark.parametrize("gain", [1.0, 0.95, 0.5])

@@ -11,6 +11,7 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
+from floatref_conformance.exercise import closed_on_error
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 from floatref_conformance.replaying import replay as replayed
@@ -49,8 +50,9 @@ def replay(
     registry = load_registry()
     check = registry.check(kept.case.check)
     device = registry.device(spec)
-    limit_time(device, device_timeout)
-    decisive = kept.device_class if device_class is None else class_of(device, device_class)
+    with closed_on_error(device):
+        limit_time(device, device_timeout)
+        decisive = kept.device_class if device_class is None else class_of(device, device_class)
     try:
         result = replayed(device, check, kept.case)
     except InputError as error:

@@ -8,6 +8,7 @@ from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
+from floatref_conformance.exercise import closed_on_error
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.runner import Plan
 from floatref_conformance.waivers import check_used, read_waivers
@@ -83,21 +84,23 @@ def run(
     waivers = {} if waive is None else read_waivers(waive, registry.checks)
     kept = () if report is None else read_cases(report)
     device = registry.device(spec)
-    limit_time(device, device_timeout)
-    plan = Plan(
-        spec,
-        device,
-        checks,
-        left_out,
-        class_of(device, device_class),
-        seed,
-        Effort(effort),
-        kept,
-        searching=getattr(device, "searchable", True),
-        ahead=True,
-        waivers=waivers,
-    )
-    finished = follow(plan, writers_into(report))
+    with closed_on_error(device):
+        limit_time(device, device_timeout)
+        plan = Plan(
+            spec,
+            device,
+            checks,
+            left_out,
+            class_of(device, device_class),
+            seed,
+            Effort(effort),
+            kept,
+            searching=getattr(device, "searchable", True),
+            ahead=True,
+            waivers=waivers,
+        )
+        writers = writers_into(report)
+    finished = follow(plan, writers)
     if waive is not None:
         check_used(waivers, finished, waive)
     context.exit(finished.verdict.exit_code)

@@ -200,3 +200,16 @@ def test_help_needs_no_compiler():
         "sys.exit(bool({'numba', 'scipy.signal', 'hypothesis'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_device_that_was_made_is_closed_whatever_keeps_it_from_being_run(
+    run_toy, call, keep, tmp_path, devices
+):
+    assert run_toy("good", "--device-timeout", "nan").exit_code == 2
+    assert devices["good"].closed == 1
+    (tmp_path / "file").touch()
+    assert run_toy("low", "--report", tmp_path / "file" / "report").exit_code != 0
+    assert devices["low"].closed == 1
+    case = keep(tmp_path)
+    answer = call("replay", case, "--device", "fake:bad", "--device-timeout", "nan")
+    assert (answer.exit_code, devices["bad"].closed) == (2, 1)
