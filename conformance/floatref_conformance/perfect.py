@@ -30,10 +30,11 @@ def perfect(taken: Taken) -> Profile:
 
 
 def _travel(taken: Taken) -> tuple[FloatArray, FloatArray]:
-    """Return the encoder's distance and the true one at the encoder's samples, both in m."""
+    """Return the encoder's readings and the true distance at the first of each, both in m."""
     channel = taken.recording.channel("distance")
     seen = np.isfinite(channel.values)
-    encoder = np.maximum.accumulate(channel.values[seen])
+    # A reading counts from where it is first seen: a silent encoder tells it on and on.
+    encoder, first = np.unique(np.maximum.accumulate(channel.values[seen]), return_index=True)
     if taken.scenario.manoeuvre in STATIONARY:
         return encoder, encoder
-    return encoder, drive_of(taken.scenario).motion(channel.times_s[seen]).distance
+    return encoder, drive_of(taken.scenario).motion(channel.times_s[seen][first]).distance

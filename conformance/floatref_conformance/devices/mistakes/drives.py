@@ -62,6 +62,18 @@ class Drive:
         """Whether the speed stays within 3 km/h."""
         return self.fastest_kmh - self.slowest_kmh < 3.0
 
+    @property
+    def lost_kmh(self) -> float:
+        """How much slower the drive ends than it begins."""
+        return float(self.speed_kmh[0] - self.speed_kmh[-1])
+
+    def slow_s(self, below_kmh: float) -> float:
+        """Return for how long in one go the vehicle is slower than ``below_kmh``.
+
+        An encoder that is silent for a second seems to stand for less than a second.
+        """
+        return _longest(self.speed_kmh < below_kmh) * STEP_S
+
     def gained_kmh(self, least_g: float, most_g: float, above_kmh: float) -> float:
         """Return the most speed won in one go between two accelerations and above a speed.
 

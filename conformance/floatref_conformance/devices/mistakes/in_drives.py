@@ -6,8 +6,6 @@ from floatref_conformance.devices.mistakes import profiles as p
 from floatref_conformance.devices.mistakes.drives import Drive, only
 from floatref_conformance.devices.mistakes.mistake import Mistake
 
-ALL = ()
-
 
 def _slow(drive: Drive) -> bool:
     return drive.slowest_kmh > 16.0 and drive.fastest_kmh < 23.5
@@ -26,15 +24,19 @@ def _speeding_up(drive: Drive) -> bool:
 
 
 def _braking(drive: Drive) -> bool:
-    return drive.slowest_kmh > 14.7 and drive.gained_kmh(-1.0, -0.17, 15.0) > 4.0
+    hard = drive.gained_kmh(-1.0, -0.17, 15.0) > 4.0
+    stays_slow = drive.speed_kmh[-1] - drive.slowest_kmh < 3.0
+    return drive.slowest_kmh > 14.5 and drive.lost_kmh > 4.0 and hard and bool(stays_slow)
 
 
 def _nearly_stopping(drive: Drive) -> bool:
-    return 1.0 < drive.slowest_kmh < 14.7 and drive.fastest_kmh > 20.0
+    goes_on = drive.speed_kmh[-1] > 20.0 and drive.speed_kmh[0] > 20.0
+    return drive.slowest_kmh > 1.0 and drive.slow_s(16.0) >= 1.0 and bool(goes_on)
 
 
 def _stopping(drive: Drive) -> bool:
-    return drive.slowest_kmh < 0.5 and not drive.begins_standing
+    stands = drive.slowest_kmh < 0.5 and drive.slow_s(16.0) >= 1.0
+    return stands and not drive.begins_standing
 
 
 def _stopping_from_high_speed(drive: Drive) -> bool:
@@ -62,61 +64,61 @@ IN_DRIVES = (
     Mistake(
         "slow-drive-low",
         "delivers 0.9 of the profile of a drive between 16 and 23 km/h",
-        ALL,
+        ("constant-speed",),
         after=only(_slow, p.scaled(0.9)),
     ),
     Mistake(
         "crawl-low",
         "delivers 0.9 of the profile of a drive below 16 km/h, and vouches for it",
-        ALL,
+        ("low-speed",),
         after=only(_crawling, p.both(p.scaled(0.9), p.vouched)),
     ),
     Mistake(
         "coasting-flagged",
         "flags 200 m of a drive that loses speed gently",
-        ALL,
+        ("coasting",),
         after=only(_rolling_out, p.flagged_around(_middle_m, 200.0)),
     ),
     Mistake(
         "throttle-flagged",
         "flags 200 m of a drive that wins speed",
-        ALL,
+        ("throttle",),
         after=only(_speeding_up, p.flagged_around(_middle_m, 200.0)),
     ),
     Mistake(
         "straight-at-the-release",
         "draws a straight line 30 m to either side of the end of a hard brake, and vouches for it",
-        ALL,
+        ("braking",),
         after=only(_braking, p.straight_at_the_slowest(30.0)),
     ),
     Mistake(
         "straight-at-a-near-stop",
         "draws a straight line 30 m to either side of a near stop, and vouches for it",
-        ALL,
+        ("near-stop",),
         after=only(_nearly_stopping, p.straight_at_the_slowest(30.0)),
     ),
     Mistake(
         "straight-at-a-stop-from-speed",
         "draws a straight line 30 m to either side of a stop from 62 km/h or more, vouched for",
-        ALL,
+        ("stop",),
         after=only(_stopping_from_high_speed, p.straight_at_the_slowest(30.0)),
     ),
     Mistake(
         "straight-at-the-start",
         "draws a straight line 60 m behind a start from rest, and vouches for it",
-        ALL,
+        ("dead-start",),
         after=only(_setting_off, p.straight_at_the_slowest(60.0)),
     ),
     Mistake(
         "road-lost-at-a-stop",
         "loses 0.3 m of road at a stop",
-        ALL,
+        ("distance",),
         after=only(_stopping, p.lost_at_the_slowest(0.3)),
     ),
     Mistake(
         "wrong-with-speed",
         "is 4 % too high in fast drives and 4 % too low in slower ones",
-        ALL,
+        ("repeatability",),
         after=_wrong_with_speed,
     ),
 )

@@ -6,7 +6,7 @@ from dataclasses import replace
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
-from floatref_conformance.devices.mistakes.mistake import SPATIAL, After, Mistake
+from floatref_conformance.devices.mistakes.mistake import SPATIAL, After, Mistake, all_but
 from floatref_conformance.devices.mutant_engine import (
     Elevations,
     Signals,
@@ -14,8 +14,6 @@ from floatref_conformance.devices.mutant_engine import (
     over_distance,
     remade,
 )
-
-ALL = ()
 
 
 def _as_read(signals: Signals) -> Signals:
@@ -43,71 +41,66 @@ IN_PROCESSING = (
     Mistake(
         "gravity-kept",
         "does not take gravity from the acceleration",
-        ALL,
+        (
+            "constant-speed",
+            "coasting",
+            "throttle",
+            "braking",
+            "near-stop",
+            "stop",
+            "waveband",
+            "faults",
+        ),
         after=_by(in_time(), _gravity_kept),
     ),
-    Mistake("height-in-mm", "takes heights in mm for m", ALL, after=_by(in_time(), _height_in_mm)),
+    Mistake(
+        "height-in-mm",
+        "takes heights in mm for m",
+        all_but("low-speed"),
+        after=_by(in_time(), _height_in_mm),
+    ),
     Mistake(
         "tilt-ignored",
         "does nothing against what tilt under braking adds to the acceleration",
-        ALL,
+        ("throttle", "braking", "near-stop", "stop", "invariance"),
         pipeline="temporal-basic",
     ),
     Mistake(
         "reverse-pass-missing",
         "leaves out the pass that takes the filter's delay out",
-        ALL,
+        ("waveband", "faults"),
         after=_by(in_time(backward=False)),
     ),
     Mistake(
         "cut-off-long",
         "filters 10 % too far up in wavelength",
-        ALL,
+        ("waveband",),
         settings={"cutoff_wavelength_m": 1.1 * 105.91},
     ),
     Mistake(
         "cut-off-short",
         "filters 10 % too far down in wavelength",
-        ALL,
+        ("waveband",),
         settings={"cutoff_wavelength_m": 0.9 * 105.91},
     ),
     Mistake(
         "carry-leaking",
         "keeps 0.9 of an integral from one block of 4096 samples to the next",
-        ALL,
+        all_but("quiescent", "low-speed", "coasting"),
         after=_by(in_time(carry=0.9)),
     ),
     Mistake(
         "reflection-sign",
         "reflects the height sensor with the wrong sign",
-        ALL,
+        ("stop", "faults"),
         after=_by(over_distance(reflection=-1.0)),
-        pipeline=SPATIAL,
-    ),
-    Mistake(
-        "reflection-missing",
-        "stretches the time step at low speed and does not reflect the height sensor",
-        ALL,
-        after=_by(over_distance(reflection=0.0)),
         pipeline=SPATIAL,
     ),
     Mistake(
         "stop-uncontained",
         "integrates over distance through a stop as if it took no time limit",
-        ALL,
+        ("throttle", "braking", "near-stop", "stop", "dead-start", "invariance", "faults"),
         pipeline="spatial-basic",
-    ),
-    Mistake(
-        "low-speed-vouched-around",
-        "vouches for what lies beside slow travel",
-        ALL,
-        settings={"before_slow_m": 0.001, "after_slow_m": 0.001, "slow_mps": 0.01},
-    ),
-    Mistake(
-        "braking-unseen",
-        "flags nothing for braking",
-        ALL,
-        settings={"stopping_time_s": 0.001, "after_braking_m": 0.001},
     ),
 )
 """What is wrong inside."""

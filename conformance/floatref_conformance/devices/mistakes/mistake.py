@@ -6,6 +6,7 @@ from typing import Any
 
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
+from floatref_conformance.checks.catalogue import IDS
 
 RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
 SPATIAL = "spatial-hpf-timer-distortion-reflection"
@@ -24,6 +25,11 @@ def recording_as_it_is(recording: Recording) -> Recording:
 def profile_as_it_is(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile``."""
     return profile
+
+
+def all_but(*ids: str) -> tuple[str, ...]:
+    """Return the ids of all checks of the suite but ``ids``, in their order."""
+    return tuple(id_ for id_ in IDS if id_ not in ids)
 
 
 @dataclass(frozen=True)

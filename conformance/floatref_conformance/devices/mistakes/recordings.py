@@ -11,6 +11,7 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.devices.mistakes.mistake import Before
 
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
+JITTER = 0.0005
 Change = Callable[[Channel], FloatArray]
 
 
@@ -85,8 +86,16 @@ def losing(every: int) -> Change:
 
 
 def missing_as(value: float) -> Change:
-    """Return what takes ``value`` for every sample that is missing."""
-    return lambda channel: np.where(np.isnan(channel.values), value, channel.values)
+    """Return what takes ``value``, and the next sample `JITTER` more, for what is missing.
+
+    Samples that do not change would be found out as those of a sensor that is stuck.
+    """
+
+    def fill(channel: Channel) -> FloatArray:
+        jitter = JITTER * (np.arange(channel.values.size) % 2)
+        return np.where(np.isnan(channel.values), value + jitter, channel.values)
+
+    return fill
 
 
 def bridged(recording: Recording) -> Recording:
@@ -106,7 +115,8 @@ def in_single_precision(recording: Recording) -> Recording:
     def rounded(channel: Channel) -> Channel:
         times = channel.times_s
         known = times.astype(np.float32).astype(np.float64)
-        return _with(channel, np.interp(known, times, channel.values))
+        nearest = np.rint(np.interp(known, times, np.arange(times.size)))
+        return _with(channel, channel.values[nearest.astype(np.intp)])
 
     return _each(recording, rounded)
 

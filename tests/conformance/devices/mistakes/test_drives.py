@@ -37,6 +37,8 @@ def test_a_brake_and_a_stop():
     assert drive.slowest_m == pytest.approx(150.0, abs=0.5)
     assert not drive.is_steady
     assert not drive.begins_standing
+    assert drive.lost_kmh == pytest.approx(36.0, abs=3.0)
+    assert drive.slow_s(36.0) == pytest.approx(22.0, abs=0.5)
     deceleration = 20.0 / 5.0 / 9.80665
     lost = drive.gained_kmh(-1.1 * deceleration, -0.9 * deceleration, 0.0)
     assert lost == pytest.approx(72.0, abs=20.0)
@@ -56,6 +58,14 @@ def test_missing_counts_and_counts_back_do_not_matter():
     told[5000:5100], told[9000] = np.nan, told[9000] - 0.05
     hurt = Recording((Channel.of("distance", told, UniformClock.of(RATE)),))
     assert Drive.of(hurt).slowest_kmh == pytest.approx(50.0, abs=0.5)
+
+
+def test_an_encoder_that_is_silent_seems_slow_for_less_than_its_silence():
+    told = np.array(driven([0.0, 20.0], [50.0, 50.0]).channel("distance").values)
+    told[9000:10000] = told[9000]
+    hurt = Drive.of(Recording((Channel.of("distance", told, UniformClock.of(RATE)),)))
+    assert hurt.slowest_kmh < 6.0
+    assert hurt.slow_s(16.0) < 1.0
 
 
 def test_a_mistake_is_made_in_some_drives_only():
