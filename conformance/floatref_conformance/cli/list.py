@@ -1,6 +1,10 @@
 """`conformance list`: the checks and the devices."""
 
 import json
+from collections.abc import Sequence
+from itertools import groupby
+from shutil import get_terminal_size
+from textwrap import wrap
 from typing import Any
 
 import click
@@ -9,6 +13,13 @@ from floatref_conformance import EDITION
 from floatref_conformance.checks.catalogue import IDS, not_built
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
+
+PLAIN_WIDTH = 100
+"""Columns where nobody says how wide the output is."""
+NARROWEST = 30
+"""Columns left for what is said, however narrow the terminal."""
+MOST_SPARED = 3
+"""Checks named that a device may pass, in place of those that must fail it."""
 
 
 @click.command("list")
@@ -52,12 +63,35 @@ def _devices(registry: Registry) -> list[dict[str, Any]]:
 
 
 def _in_words(listing: dict[str, Any]) -> str:
-    lines = ["Checks"]
-    for check in listing["checks"]:
-        state = f" [{check['clause']}]" if check["built"] else " (not built yet)"
-        lines.append(f"  {check['id']:<16} {check['title']}{state}")
-    lines.append("Devices")
-    for device in listing["devices"]:
-        fails = f" (must fail {', '.join(device['fails'])})" if device["fails"] else ""
-        lines.append(f"  {device['spec']:<32} {device['summary']}{fails}")
+    checks, devices = listing["checks"], listing["devices"]
+    built = [check["id"] for check in checks if check["built"]]
+    told = [(c["id"], c["title"], c["clause"] if c["built"] else "not built yet") for c in checks]
+    lines = ["Checks", *_aligned(told)]
+    for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
+        rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]
+        lines += ["", f"Devices, {kind}", *_aligned(rows)]
     return "\n".join(lines)
+
+
+def _fails(fails: Sequence[str], built: Sequence[str]) -> str:
+    """Return which of the ``built`` checks must fail a device, the shorter way round."""
+    spared = [id_ for id_ in built if id_ not in fails]
+    if not fails or len(spared) > min(MOST_SPARED, len(fails)):
+        return f"must fail {', '.join(fails)}" if fails else ""
+    return "must fail every check" + (f" but {', '.join(spared)}" if spared else "")
+
+
+def _aligned(rows: Sequence[tuple[str, str, str]]) -> list[str]:
+    """Return a line or more for each row: its name, what it is, and below that the details."""
+    indent = 4 + max((len(name) for name, _, _ in rows), default=0)
+    width = max(get_terminal_size((PLAIN_WIDTH, 0)).columns, indent + NARROWEST)
+    lines: list[str] = []
+    for name, what, details in rows:
+        texts = [part for text in (what, details) for part in _wrapped(text, width - indent)]
+        lines.append(f"  {name:<{indent - 2}}{texts[0]}")
+        lines += [f"{'':{indent}}{text}" for text in texts[1:]]
+    return lines
+
+
+def _wrapped(text: str, width: int) -> list[str]:
+    return wrap(text, width, break_on_hyphens=False, break_long_words=False)

@@ -1,6 +1,8 @@
 """`conformance list` and `explain`: what there is, and what each check asks."""
 
 import json
+import re
+from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
@@ -9,6 +11,7 @@ from floatref_conformance import EDITION
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.main import main
+from floatref_conformance.devices.interface import DeviceEntry
 from floatref_conformance.plugins import load_registry
 
 
@@ -26,6 +29,41 @@ def test_list_names_checks_built_and_not_and_devices_with_what_they_must_fail(ca
     assert "stop" in words
     assert "not built yet" in words
     assert "fake:bad" in words
+
+
+@pytest.mark.parametrize("columns", [None, 60, 200])
+def test_the_list_is_aligned_and_fits_the_width(monkeypatch, columns):
+    if columns:
+        monkeypatch.setenv("COLUMNS", str(columns))
+    else:
+        monkeypatch.delenv("COLUMNS", raising=False)
+    sections = CliRunner().invoke(main, ["list"]).stdout.split("\n\n")
+    assert [section.partition("\n")[0] for section in sections] == [
+        "Checks",
+        "Devices, builtin",
+        "Devices, mutant",
+    ]
+    for section in sections:
+        lines = section.rstrip("\n").split("\n")[1:]
+        (indent,) = {re.match(r"(  \S+ +| +)\S", line).end() - 1 for line in lines}
+        assert max(map(len, lines)) <= max(columns or 100, indent + 30)
+        assert not any(line.endswith((" ", "-")) for line in lines)
+
+
+def test_the_list_names_the_shorter_of_what_must_fail_a_device_and_what_need_not(call, registry):
+    fails = {
+        "all": ("toy", "second", "skewed", "needy"),
+        "most": ("second", "skewed", "needy"),
+        "few": ("toy",),
+        "none": (),
+    }
+    entries = tuple(DeviceEntry(name, "toy", failed) for name, failed in fails.items())
+    registry.kinds["fake"] = replace(registry.kinds["fake"], entries=lambda: entries)
+    words = call("list").stdout.partition("Devices")[2].split()
+    assert " ".join(words[2:]) == (
+        "fake:all toy must fail every check fake:most toy must fail every check but toy "
+        "fake:few toy must fail toy fake:none toy"
+    )
 
 
 def test_explain_prints_clause_derivation_floor_and_the_devices_that_must_fail(call):
