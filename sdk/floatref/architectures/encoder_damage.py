@@ -126,14 +126,14 @@ def _followed(values: FloatArray, longer: float) -> tuple[float, IndexArray, Ind
     The usual step is the mean over the distance, not over the steps. Of the others, shape (k, 2),
     the index is given, and that of the last sample before that was as far as any.
     """
-    from floatref.kernels import holds
+    from floatref.kernels import progress
 
-    memory = np.zeros(holds.PROGRESS)
+    memory = np.zeros(progress.PROGRESS)
     memory[0] = -np.inf
     far, back = [NONE], [NONE[:, 0]]
     for first, chunk in chunks(values):
         steps, behind = np.empty((chunk.size, 2), np.int64), np.empty(chunk.size, np.int64)
-        counts = holds.progress(chunk, first, memory, longer, steps, behind)
+        counts = progress.progress(chunk, first, memory, longer, steps, behind)
         far.append(steps[: counts[0]].copy())
         back.append(behind[: counts[1]].copy())
     total, squares = memory[3:].tolist()
