@@ -18,6 +18,7 @@ from floatref_conformance.checks.fault_scores import (
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
 from floatref_conformance.checks.injuries import injury_of
 from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.scoring import compare
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -92,13 +93,15 @@ class FaultsCheck:
             after = bench.run(replace(taken, recording=injured.recording), "with the fault")
         part = str(case.variation["fault"]).partition("-")[0]
         events = (case.scenario.event_at_m,) if case.scenario.manoeuvre == "stop" else ()
-        pairs = zip(beside(taken.truth, before), beside(taken.truth, after, injured), strict=True)
+        alike = (beside(taken.truth, before), beside(taken.truth, after, injured))
+        # What the encoder never told lies on no device's axis: nobody has flagged it.
+        delivered = compare(taken.truth, before)
         return tuple(
             m
-            for one, other in pairs
+            for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
                 *fault_measurements(one, other, injured, part),
-                *flagged(one, case.scenario, events),
+                *flagged(whole, case.scenario, events),
             )
         )
 
@@ -134,8 +137,9 @@ DERIVATION = (
 """What is done to the recordings, and why the limits are what they are."""
 FLOOR = (
     "Without the fault, the device may flag no more than at the ends of any run and around a "
-    "stop; what remains has the roughness of the road within the limits above, so that neither a "
-    "flat profile nor one that is flagged throughout passes."
+    "stop; metres at the end that the encoder told too few are left out. What remains has the "
+    "roughness of the road within the limits above, so that neither a flat profile nor one that "
+    "is flagged throughout passes."
 )
 """What keeps a device from passing by saying nothing."""
 

@@ -123,6 +123,24 @@ def test_a_profile_that_says_nothing_fails(right_bench, wrong):
     assert max(m.ratio(NOMINAL) for m in measured) > 1.0
 
 
+@few
+@given(flagged_m=st.floats(1.0, 120.0), untold=st.integers(0, 20))
+def test_of_what_is_flagged_at_an_end_nothing_is_what_the_encoder_did_not_tell(
+    right_bench, flagged_m, untold
+):
+    def short(label, profile):
+        size = profile.distance_m.size - untold
+        count = round(flagged_m / profile.interval_m)
+        tracks = tuple(
+            ProfileTrack.of(t.name, t.elevation[:size], np.arange(size) < size - count)
+            for t in profile.tracks
+        )
+        return replace(profile, tracks=tracks)
+
+    found = judged(QUICK["laser-dropout"], right_bench(short))["flagged at an end"]
+    assert found.value == pytest.approx(flagged_m, abs=0.013)
+
+
 @pytest.mark.parametrize("fault", ["encoder-leap", "encoder-lost-counts"])
 def test_metres_told_in_error_are_taken_out(right_bench, fault):
     bench = right_bench()
