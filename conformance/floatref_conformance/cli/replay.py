@@ -43,8 +43,8 @@ def replay(
 ) -> None:
     """Run the case that CASE keeps, a file of a report's `cases` folder.
 
-    Exit code 0: the device keeps every limit; 1: it does not; 2: wrong usage; 4: the device
-    skipped the case.
+    Exit code 0: the device keeps every limit; 1: it does not; 2: wrong usage, or a case whose
+    numbers make no sense; 3: the suite itself is at fault; 4: the device skipped the case.
     """
     kept = read_case(case)
     registry = load_registry()
