@@ -73,10 +73,10 @@ def why(case: CaseResult, device_class: DeviceClass) -> str:
     worst = case.worst(device_class)
     if worst is None or worst.within(device_class):
         return ""
-    return (
-        f"{worst.quantity}, track {worst.track}: {worst.value:.4g} {worst.unit}, "
-        f"limit {worst.limits[device_class]:.4g} {worst.unit}"
+    value, limit = (
+        f"{number:.4g} {worst.unit}".strip() for number in (worst.value, worst.limits[device_class])
     )
+    return f"{worst.quantity}, track {worst.track}: {value}, limit {limit}"
 
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
