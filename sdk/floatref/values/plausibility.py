@@ -41,7 +41,7 @@ def examine(recording: Recording) -> tuple[str, ...]:
     Every wheel path that has a height needs an accelerometer and the distance. Raises
     InputError with one line naming the channel, the value and what to do for missing channels,
     channels without samples or with more than half of them missing, implausible units and
-    signs, samples that no sensor gives, a distance that goes backwards, jumps or stands still,
+    signs, samples that no sensor gives, an accelerometer that never moves, a distance that goes backwards, jumps or stands still,
     and truncated channels.
     """
     with np.errstate(over="ignore", invalid="ignore"):
@@ -112,6 +112,11 @@ def _check_accelerometer(channel: Channel, summary: Summary) -> None:
     if meaning is not None:
         raise InputError(
             f"channel {channel.id}: {which} is {level:.4g}, expected about 9.8 m/s^2; {meaning}"
+        )
+    if summary.least == summary.greatest:
+        raise InputError(
+            f"channel {channel.id}: every sample is {summary.least:.6g}, so it measures nothing; "
+            "connect the accelerometer, and mark missing samples as NaN"
         )
     _check_samples(channel, summary, HIGHEST_FORCE)
 

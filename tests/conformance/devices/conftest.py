@@ -75,7 +75,10 @@ def no_process_is_left():
 @pytest.fixture
 def recording():
     times = np.arange(int(RATE_HZ * LENGTH_S)) / RATE_HZ
-    samples = {"vertical_specific_force": 9.80665 + 0 * times, "height": 0.3 + 0.01 * np.sin(times)}
+    samples = {
+        "vertical_specific_force": 9.80665 + 1e-9 * np.cos(times),
+        "height": 0.3 + 0.01 * np.sin(times),
+    }
     channels = [
         Channel.of(name, values, UniformClock.of(RATE_HZ), track)
         for name, values in samples.items()

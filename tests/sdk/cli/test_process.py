@@ -28,7 +28,7 @@ def folder(tmp_path):
         if track == "right":
             height[4000:4050] = np.nan
         channels.append(Channel.of("height", height, clock, track))
-        force = np.full(times.size, G)
+        force = G + 1e-3 * np.sin(15.0 * times + phase)
         channels.append(Channel.of("vertical_specific_force", force, clock, track))
     write_recording(Recording(tuple(channels), Setup(profile_interval_m=0.05)), tmp_path / "run")
     return tmp_path

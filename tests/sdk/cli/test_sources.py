@@ -22,7 +22,7 @@ def folder(tmp_path):
     samples = {
         "distance": 20.0 * times,
         "height": 0.3 + 0.005 * np.sin(15.0 * times),
-        "vertical_specific_force": np.full(times.size, 9.80665),
+        "vertical_specific_force": 9.80665 + 1e-3 * np.sin(15.0 * times),
     }
     channels = tuple(Channel.of(name, x, clock) for name, x in samples.items())
     write_recording(Recording(channels, Setup(profile_interval_m=0.05)), tmp_path / "run")

@@ -67,6 +67,7 @@ REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (FORCE, lambda a: a / 0.3048, "looks like ft/s^2, multiply by 0.3048"),
     (FORCE, lambda a: a * 1000, "looks like mm/s^2, multiply by 0.001"),
     (FORCE, lambda a: a * 2, "mean is 19.6, expected about 9.8 m/s^2; check unit, axis"),
+    (FORCE, lambda a: a * 0 + 9.8, "every sample is 9.8, so it measures nothing; connect the acc"),
     (FORCE, lambda a: a * 1e306, "check unit, axis and offset"),
     (HEIGHT, lambda h: h * 1000, "expected a range below 10 m; if it is in mm, multiply by 0.001"),
     (HEIGHT, lambda h: -h, "expected a positive range in m; multiply by -1, or add the stand-off"),
@@ -136,7 +137,7 @@ def test_bias_stand_off_speed_and_origin_are_free(
 ) -> None:
     k = np.arange(COUNT)
     values = good() | {
-        FORCE: np.full(COUNT, 9.80665 + bias),
+        FORCE: 9.80665 + bias + 1e-3 * np.cos(k),
         HEIGHT: np.full(COUNT, range_m),
         DISTANCE: start + np.floor(speed * k / RATE / 0.005) * 0.005,
     }
@@ -216,7 +217,7 @@ def test_a_distance_in_km_and_unused_geometry_are_warnings() -> None:
 
 def test_memory_is_bounded_whatever_the_length() -> None:
     k = np.arange(3 << 20, dtype=float)
-    values = {FORCE: 9.8 + 0 * k, HEIGHT: 0.3 + 0 * k, DISTANCE: 1e-3 * k}
+    values = {FORCE: 9.8 + k % 2, HEIGHT: 0.3 + 0 * k, DISTANCE: 1e-3 * k}
     values[HEIGHT][5000:900000] = np.nan
     recording = recorded(values, rate=16000.0)
     tracemalloc.start()

