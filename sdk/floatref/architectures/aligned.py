@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.architectures.damage import Damage, within
+from floatref.errors import InputError
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel
-from floatref.values.scanning import median_step
+from floatref.values.scanning import CHUNK, median_step
 
 APART = 0.01
 """Two clocks of one rate agree if their samples are no further apart than this, in steps."""
@@ -49,9 +50,13 @@ class AlignedChannel:
     def __init__(
         self, channel: Channel, clock: UniformClock, first: int, damage: Damage | None = None
     ) -> None:
-        """Find out whether the two clocks agree; samples of ``damage`` count as missing."""
+        """Find out whether the two clocks agree; samples of ``damage`` count as missing.
+
+        Raises InputError if that leaves no sample.
+        """
         self.channel = channel
         self._damage = damage or Damage()
+        self._check_sound()
         self._clock, self._first = clock, first
         self._offset = _common_grid(channel.clock, clock)
         self._gap_s = _gap(channel)
@@ -99,9 +104,18 @@ class AlignedChannel:
             lost = lasting if lost is None else lost | lasting
         return values, missing, lost
 
+    def _check_sound(self) -> None:
+        size = self.channel.values.size
+        if all(np.isnan(self._sound(at, at + CHUNK)).all() for at in range(0, size, CHUNK)):
+            raise InputError(
+                f"channel {self.channel.id}: no sample measures anything, all are missing, stuck "
+                "or out of range; connect the sensor, or leave the track out"
+            )
+
     def _sound(self, low: int, high: int) -> FloatArray:
         """Return samples ``low`` to ``high - 1``; what is damaged is missing."""
         values = self.channel.values[low:high]
+        high = low + values.size
         for spans in (self._damage.gone, self._damage.void):
             mask = within(spans, low, high)
             if mask is not None:

@@ -14,10 +14,12 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from floatref.architectures.aligned import AlignedChannel, Stretch
-from floatref.architectures.damage import Damage, damaged_force, damaged_height
+from floatref.architectures.damage import Damage
 from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.events import GnssEvents
+from floatref.architectures.saturation import damaged_force
 from floatref.architectures.steady import steady_clock
+from floatref.architectures.stuck import damaged_height
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -101,7 +103,8 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel]) -> Damage:
         return encoder_damage(found[name])
     if name.name == SPECIFIC_FORCE:
         return damaged_force(found[name])
-    return damaged_height(found[name], found[ChannelId(SPECIFIC_FORCE, name.track)])
+    force = found[ChannelId(SPECIFIC_FORCE, name.track)]
+    return damaged_height(found[name], force, found[ChannelId(DISTANCE)])
 
 
 def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int]:

@@ -1,13 +1,44 @@
 """Runs of identical samples: held readings, stuck sensors, sensors at the end of their range."""
 
+import numpy as np
+
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray, IndexArray
 
-MEMORY = 7
-"""Length of the memory: length, value and first index of the run that is open, the step into it,
-the smallest step between different samples, the least and the greatest sample."""
 LONGEST = 4096
 """Runs of this length and above are counted together."""
+
+
+def new_open_run() -> FloatArray:
+    """Return the memory of `find_runs`: length, first index and value of the run that is open."""
+    return np.zeros(3)
+
+
+def new_count() -> FloatArray:
+    """Return the memory of `count_runs`.
+
+    That is length and value of the run that is open, the smallest step between different samples,
+    and the samples in runs of `LONGEST` and above.
+    """
+    return np.array([0.0, np.nan, np.inf, 0.0])
+
+
+@compiled
+def _same_after(x: FloatArray, begin: int, value: float) -> int:
+    """Return the index behind the samples from ``begin`` on that are ``value``."""
+    end = begin
+    while end < x.size and x[end] == value:
+        end += 1
+    return end
+
+
+@compiled
+def _same_before(x: FloatArray, begin: int, last: int) -> int:
+    """Return the index of the first sample from ``begin`` on that all up to ``last`` equal."""
+    value = x[last]
+    while last > begin and x[last - 1] == value:
+        last -= 1
+    return last
 
 
 @compiled
@@ -15,35 +46,58 @@ def find_runs(
     x: FloatArray,
     first: int,
     least: int,
+    outside: FloatArray,
     memory: FloatArray,
-    held: IndexArray,
     runs: FloatArray,
-) -> int:
-    """Find the runs of ``least`` or more identical samples that end in ``x``; return how many.
+) -> tuple[int, int]:
+    """Find the runs of ``least``, 2 or more, identical samples in ``x``.
 
-    ``first`` is the index of ``x[0]`` in the channel. A row of ``runs`` gets first index, length,
-    value, and the larger of the steps into the run and out of it. ``held[n]`` grows by the samples
-    that lie in runs of length n. A missing (NaN) sample is in no run, and a step from or to it is
-    beyond all others.
+    ``first`` is the index of ``x[0]`` in the channel. A row of ``runs`` gets first index, length
+    and value of a run that is at most ``outside[0]`` or at least ``outside[1]``. Returns how many
+    there are and how many samples are done with: the rest of ``x`` is to be given again, with what
+    follows. A run up to the end of ``x`` is left open in ``memory``. Samples that no run of
+    ``least`` can lie in are passed over.
     """
-    found = 0
+    found, i = 0, 0
+    if memory[0] > 0.0:
+        i = _same_after(x, 0, memory[2])
+        memory[0] += i
+        if i == x.size:
+            return 0, i
+        runs[0, 0], runs[0, 1], runs[0, 2] = memory[1], memory[0], memory[2]
+        found, memory[0] = 1, 0.0
+    while i + least <= x.size:
+        same = _same_before(x, i, i + least - 1)
+        if same > i:
+            i = same
+            continue
+        value = x[i]
+        end = _same_after(x, i + least, value)
+        if value <= outside[0] or value >= outside[1]:
+            if end == x.size:
+                memory[0], memory[1], memory[2] = float(end - i), float(first + i), value
+                return found, end
+            runs[found, 0], runs[found, 1], runs[found, 2] = float(first + i), float(end - i), value
+            found += 1
+        i = end
+    return found, i
+
+
+@compiled
+def count_runs(x: FloatArray, over: float, memory: FloatArray, held: IndexArray) -> None:
+    """Count the runs of identical samples that end in ``x``: ``held[n]`` those of n samples.
+
+    Those that end by a step of up to ``over`` are left out. Runs of ``held.size - 1`` and above are counted together. A missing (NaN) sample is in no run.
+    """
     for i in range(x.size):
         value, length = x[i], memory[0]
-        if length > 0.0 and value == memory[1]:
-            memory[0] = length + 1.0
-            continue
-        step = abs(value - memory[1]) if length > 0.0 and value == value else 1e300
         if length > 0.0:
-            held[min(int(length), held.size - 1)] += int(length)
-            if value == value and step < memory[4]:
-                memory[4] = step
-            if length >= least:
-                runs[found, 0], runs[found, 1] = memory[2], length
-                runs[found, 2], runs[found, 3] = memory[1], max(step, memory[3])
-                found += 1
-        if value == value:
-            memory[0], memory[1], memory[2], memory[3] = 1.0, value, float(first + i), step
-            memory[5], memory[6] = min(memory[5], value), max(memory[6], value)
-        else:
-            memory[0] = 0.0
-    return found
+            if value == memory[1]:
+                memory[0] = length + 1.0
+                continue
+            step = abs(value - memory[1]) if value == value else np.inf
+            memory[2] = min(memory[2], step)
+            if step > over:
+                held[min(int(length), held.size - 1)] += 1
+                memory[3] += length if length >= held.size - 1 else 0.0
+        memory[0], memory[1] = (1.0, value) if value == value else (0.0, value)

@@ -1,167 +1,61 @@
-"""Sensors that measure nothing are found where they do, and nowhere else."""
+"""What is damaged is bridged and flagged, and the user is told."""
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import floatref
-from floatref.architectures.damage import damaged_force, damaged_height, within
+from floatref.architectures.damage import Runs, Usual, within
 from floatref.architectures.source import Source
+from floatref.errors import InputError
+from floatref.values import scanning
 from floatref.values.arrays import Flag
 from floatref.values.channels import ChannelId
-from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 
 G, RATE, COUNT = 9.80665, 4000.0, 16_000
 CLOCK = UniformClock.of(RATE)
 FORCE, HEIGHT = "vertical_specific_force", "height"
-laws = settings(
-    deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+laws = settings(deadline=None, max_examples=25)
 
 
-def forces(seed=0, noise=0.3, quantum=0.0006):
-    values = G + noise * np.random.default_rng(seed).standard_normal(COUNT)
-    return quantum * np.round(values / quantum)
+def forces():
+    values = G + 0.3 * np.random.default_rng(0).standard_normal(COUNT)
+    return 0.0006 * np.round(values / 0.0006)
 
 
-def heights(seed=0, quantum=4e-6, hold=1):
-    rng = np.random.default_rng(seed)
-    values = 0.3 + 0.005 * np.sin(np.arange(COUNT) / 300.0) + 5e-5 * rng.standard_normal(COUNT)
-    return np.repeat(quantum * np.round(values[::hold] / quantum), hold)[:COUNT]
-
-
-def of_force(values):
-    return damaged_force(Channel.of(FORCE, values, CLOCK))
-
-
-def of_height(values, force=None):
-    beside = Channel.of(FORCE, forces() if force is None else force, CLOCK)
-    return damaged_height(Channel.of(HEIGHT, values, CLOCK), beside)
+def heights():
+    rng = np.random.default_rng(0)
+    return 0.3 + 0.005 * np.sin(np.arange(COUNT) / 300.0) + 5e-5 * rng.standard_normal(COUNT)
 
 
 @laws
 @given(
-    seed=st.integers(0, 99),
-    at=st.integers(1, COUNT - 400),
-    length=st.integers(3, 300),
-    full_scale=st.sampled_from([-5.0, -2.0, 2.0, 4.0]),
+    pieces=st.lists(
+        st.tuples(st.sampled_from([0.0, 1.0, 2.0]), st.integers(1, 60)), min_size=1, max_size=12
+    ),
+    shortest=st.integers(2, 9),
 )
-def test_an_accelerometer_at_the_end_of_its_range_is_found(seed, at, length, full_scale):
-    values = forces(seed)
-    values[at : at + length] = full_scale * G
-    found = of_force(values)
-    np.testing.assert_array_equal(found.gone, [[at, at + length]])
-    np.testing.assert_array_equal(found.lasting, found.gone)
-    (line,) = found.warnings
-    assert f"at the end of its range for {length} samples in 1 places" in line
+def test_runs_are_the_same_however_long_a_piece_is(pieces, shortest):
+    values = np.concatenate([np.full(length, value) for value, length in pieces])
+    whole = Runs.of(values, shortest)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("floatref.architectures.damage.CHUNK", 11)
+        patch.setattr(scanning, "CHUNK", 7)
+        cut = Runs.of(values, shortest)
+        usual = Usual.of(values)
+    np.testing.assert_array_equal(cut.spans, whole.spans)
+    np.testing.assert_array_equal(cut.value, whole.value)
+    assert usual.samples == values.size
 
 
-@laws
-@given(
-    seed=st.integers(0, 99),
-    quantum=st.sampled_from([6e-4, 0.0106, 0.1]),
-    peak=st.floats(0.8, 3.0),
-    hertz=st.floats(1.0, 30.0),
-)
-def test_a_smooth_peak_is_no_end_of_a_range(seed, quantum, peak, hertz):
-    times = np.arange(COUNT) / RATE
-    values = G + peak * G * np.sin(2 * np.pi * hertz * times) * np.hanning(COUNT)
-    assert of_force(quantum * np.round(values / quantum)).gone.size == 0
-    assert of_force(values).gone.size == 0
-    assert of_force(forces(seed, quantum=quantum)).gone.size == 0
-
-
-@laws
-@given(
-    seed=st.integers(0, 99),
-    level=st.integers(2, 9),
-    length=st.integers(3, 5),
-    way=st.sampled_from([-1, 1]),
-)
-def test_equal_samples_on_a_noisy_peak_are_no_end_of_a_range(seed, level, length, way):
-    """Noise of a few quanta makes them now and then; beyond them the swing does not go on."""
-    quantum, noise = 0.0006, 0.004
-    swing = 0.9 * G * np.cos((np.arange(COUNT) - COUNT // 2) / 250.0)
-    values = G + way * swing + noise * np.random.default_rng(seed).standard_normal(COUNT)
-    values = quantum * np.round(values / quantum)
-    outermost = values.max() if way > 0 else values.min()
-    values[COUNT // 2 : COUNT // 2 + length] = outermost + way * level * quantum
-    assert of_force(values).gone.size == 0
-
-
-@pytest.mark.parametrize("hold", [4, 10])
-def test_the_holds_of_a_slow_accelerometer_are_no_end_of_a_range(hold):
-    assert of_force(np.repeat(forces(noise=3.0)[::hold], hold)).gone.size == 0
-
-
-def test_a_clipped_swing_is_an_end_of_a_range():
-    swing = 1.3 * G * np.sin(np.arange(COUNT) / 80.0)
-    values = np.minimum(G + swing, 2.0 * G)
-    spans = of_force(values).gone
-    clipped = within(spans, 0, COUNT)
-    np.testing.assert_array_equal(clipped, values == 2.0 * G)
-
-
-@laws
-@given(
-    seed=st.integers(0, 99),
-    at=st.integers(1, 8000),
-    length=st.integers(220, 4000),
-    hold=st.sampled_from([1, 2, 5]),
-)
-def test_a_stuck_laser_is_found(seed, at, length, hold):
-    values = heights(seed, hold=hold)
-    values[at : at + length] = 0.2987654
-    np.testing.assert_array_equal(of_height(values).gone, [[at, at + length]])
-
-
-@laws
-@given(
-    seed=st.integers(0, 99),
-    at=st.integers(1, 8000),
-    length=st.integers(40, 4000),
-    far=st.sampled_from([-0.1, 0.15]),
-)
-def test_a_laser_out_of_its_range_is_found(seed, at, length, far):
-    values = heights(seed, hold=2)
-    values[at : at + length] = 0.3 + far
-    np.testing.assert_array_equal(of_height(values).gone, [[at, at + length]])
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        heights(hold=5),
-        heights(quantum=5e-4),
-        np.full(COUNT, 0.3),
-        np.where(np.arange(COUNT) % 4000 < 2000, 0.3, 0.295),
-        heights(quantum=4e-6, hold=400),
-    ],
-    ids=["held", "coarse", "flat", "plate", "slow"],
-)
-def test_a_laser_that_repeats_itself_anyway_is_not_suspected(values):
-    assert of_height(values).gone.size == 0
-
-
-def test_a_laser_is_not_stuck_while_nothing_moves():
-    values, still = heights(), forces()
-    values[6000:9000] = values[6000]
-    still[5990:9010] = G
-    assert of_height(values).gone.size == 2
-    assert of_height(values, still).gone.size == 0
-
-
-def test_an_accelerometer_of_its_own_clock_is_looked_at_in_the_same_time():
-    values, moved = heights(), forces()
-    values[6000:9000] = values[6000]
-    times = 100.0 + np.arange(COUNT) / RATE
-    late = Channel.of(HEIGHT, values, StampedClock.of(times))
-    for clock in (UniformClock.of(RATE, 100.0), StampedClock.of(times)):
-        assert damaged_height(late, Channel.of(FORCE, moved, clock)).gone.size == 2
-        still = np.where((times > 101.4) & (times < 102.3), G, moved)
-        assert damaged_height(late, Channel.of(FORCE, still, clock)).gone.size == 0
+def test_what_is_damaged_does_not_tell_what_is_usual():
+    usual = Usual.of(np.concatenate((np.repeat(np.arange(100.0), 2), np.full(900, 5.0))))
+    assert usual.hold == 2.0
+    assert usual.beside(0) == 900.0
+    assert usual.beside(900) == 2.0
 
 
 @laws
@@ -214,3 +108,17 @@ def test_the_user_is_told(steady):
     message = "vertical_specific_force: at the end of its range for 20 samples in 1 places, most"
     with pytest.warns(floatref.FloatrefWarning, match=message):
         floatref.process(recording)
+
+
+@pytest.mark.parametrize("missing", [0, 7000])
+def test_a_sensor_of_which_nothing_is_left_is_refused(steady, missing):
+    stuck = np.full(COUNT, 0.3)
+    stuck[:missing] = np.nan
+    times = np.arange(COUNT) / RATE
+    swung = G + 2.0 * np.sin(9.0 * times)
+    recording = steady(
+        height=Channel.of(HEIGHT, stuck, CLOCK),
+        vertical_specific_force=Channel.of(FORCE, swung, CLOCK),
+    )
+    with pytest.raises(InputError, match="channel height: no sample measures anything"):
+        Source(recording)

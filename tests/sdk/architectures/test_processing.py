@@ -120,7 +120,7 @@ class Vendor:
 
 
 def test_a_plugged_in_stage_takes_the_place_of_ours(steady, monkeypatch):
-    recording = steady(height=Channel.of("height", np.full(4000, 0.3), RATE))
+    recording = steady(height=Channel.of("height", 0.3 + 1e-13 * np.cos(np.arange(4000.0)), RATE))
     plain = floatref.process(recording)
     loaded = plugins.Plugins()
     loaded.add(Vendor(), "vendor")

@@ -107,7 +107,7 @@ def test_a_gap_at_the_end_of_a_run_is_long_since_nobody_knows_its_end(steady, pa
 
 def test_a_hole_between_time_stamps_of_a_laser_is_a_gap(steady):
     stamps = np.concatenate((np.arange(0.0, 2.0, 0.002), np.arange(2.5, 4.1, 0.002)))
-    own = Channel.of("height", np.full(stamps.size, 0.3), StampedClock.of(stamps))
+    own = Channel.of("height", 0.3 + 1e-3 * np.cos(stamps), StampedClock.of(stamps))
     (block,) = Source(steady(height=own)).blocks(10_000)
     at = np.arange(len(block)) / 1000.0
     inside = (at > 1.9985) & (at < 2.4995)
@@ -183,7 +183,9 @@ def test_unix_stamps_in_microseconds_are_the_rate_they_were_made_at(rate):
 
 
 def test_only_the_time_that_all_channels_cover_is_used(steady):
-    late = Channel.of("height", np.full(3000, 0.3), UniformClock.of(1000.0, 0.5))
+    late = Channel.of(
+        "height", 0.3 + 1e-6 * np.cos(np.arange(3000.0)), UniformClock.of(1000.0, 0.5)
+    )
     source = Source(steady(height=late))
     assert (source.header.origin, source.length) == (0.5, 3000)
 

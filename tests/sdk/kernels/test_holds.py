@@ -8,53 +8,64 @@ from hypothesis import strategies as st
 
 from floatref.kernels import holds
 
+laws = settings(deadline=None, max_examples=150)
 
-def in_chunks(x, least, cuts):
-    """The runs that the kernel finds, those it counts, and its memory."""
-    memory = np.array([0.0, np.nan, 0.0, 0.0, np.inf, np.inf, -np.inf])
-    held, found = np.zeros(holds.LONGEST, np.int64), []
-    edges = [0, *sorted(cuts), x.size]
-    parts = [(a, x[a:b]) for a, b in pairwise(edges)]
-    for first, part in [*parts, (x.size, np.array([np.nan]))]:
-        runs = np.empty((part.size // least + 1, 4))
-        count = holds.find_runs(part, first, least, memory, held, runs)
+
+def found_in(x, least, outside, piece):
+    """The runs that the kernel finds in pieces, of which the undone rest is given again."""
+    memory, found, low = holds.new_open_run(), [], 0
+    while True:
+        part = x[low : low + piece]
+        runs = np.empty((part.size // least + 2, 3))
+        count, done = holds.find_runs(part, low, least, outside, memory, runs)
         found += runs[:count].tolist()
-    return found, held, memory
+        if low + part.size == x.size:
+            break
+        low += done
+    return found + ([memory[[1, 0, 2]].tolist()] if memory[0] > 0 else [])
 
 
 def by_groups(x):
-    """First index, length, value and the larger step of every run, one sample at a time."""
+    """First index, length and value of every run, one sample at a time."""
     first = 0
     for value, group in groupby(x, key=lambda v: None if v != v else v):
         length = len(list(group))
         if value is not None:
-            around = [x[k] if 0 <= k < x.size else np.nan for k in (first - 1, first + length)]
-            steps = [1e300 if v != v else abs(v - value) for v in around]
-            yield [first, length, value, max(steps)]
+            yield [first, length, value]
         first += length
 
 
-samples = st.lists(st.sampled_from([0.0, 0.5, 3.0, np.nan]), min_size=1, max_size=80)
+samples = st.lists(
+    st.tuples(st.sampled_from([0.0, 0.5, 3.0, np.nan]), st.integers(1, 12)),
+    min_size=1,
+    max_size=20,
+).map(lambda runs: np.concatenate([np.full(length, value) for value, length in runs]))
 
 
-@settings(deadline=None, max_examples=150)
-@given(values=samples, least=st.integers(1, 5), data=st.data())
-def test_runs_are_those_of_the_signal_in_any_chunks(values, least, data):
-    x = np.array(values)
+@laws
+@given(x=samples, least=st.integers(2, 6), more=st.integers(0, 30))
+def test_runs_are_those_of_the_signal_in_any_pieces(x, least, more):
+    expected = [run for run in by_groups(x) if run[1] >= least]
+    every = np.array([np.inf, -np.inf])
+    assert found_in(x, least, every, 2 * least + more) == expected
+    ends = np.array([0.0, 3.0])
+    extreme = [run for run in expected if run[2] in ends]
+    assert found_in(x, least, ends, 2 * least + more) == extreme
+
+
+@laws
+@given(x=samples, over=st.sampled_from([0.0, 0.5, 2.5]), data=st.data())
+def test_every_run_is_counted_in_any_pieces(x, over, data):
     cuts = data.draw(st.sets(st.integers(0, x.size), max_size=5))
-    found, held, memory = in_chunks(x, least, cuts)
-    expected = list(by_groups(x))
-    assert found == [run for run in expected if run[1] >= least]
-    for length in {run[1] for run in expected}:
-        assert held[length] == sum(run[1] for run in expected if run[1] == length)
-    known = x[~np.isnan(x)]
+    memory, held = holds.new_count(), np.zeros(8, np.int64)
+    for a, b in pairwise([0, *sorted(cuts), x.size]):
+        holds.count_runs(x[a:b], over, memory, held)
+    holds.count_runs(np.array([np.nan]), over, memory, held)
+    after = [*x, np.nan]
+    lengths = [n for first, n, v in by_groups(x) if not abs(after[first + n] - v) <= over]
+    expected = [sum(min(length, 7) == n for length in lengths) for n in range(8)]
+    assert held.tolist() == expected
+    assert memory[3] == sum(length for length in lengths if length >= 7)
     steps = np.abs(np.diff(x))
     steps = steps[steps > 0]
-    assert memory[4] == (steps.min() if steps.size else np.inf)
-    if known.size:
-        assert memory[5:].tolist() == [known.min(), known.max()]
-
-
-def test_very_long_runs_are_counted_together():
-    _, held, _ = in_chunks(np.zeros(3 * holds.LONGEST), 3, {7})
-    assert held[-1] == held.sum() == 3 * holds.LONGEST
+    assert memory[2] == (steps.min() if steps.size else np.inf)
