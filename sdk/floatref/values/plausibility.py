@@ -41,8 +41,8 @@ def examine(recording: Recording) -> tuple[str, ...]:
     Every wheel path that has a height needs an accelerometer and the distance. Raises
     InputError with one line naming the channel, the value and what to do for missing channels,
     channels without samples or with more than half of them missing, implausible units and
-    signs, samples that no sensor gives, an accelerometer that never moves, a distance that goes backwards, jumps or stands still,
-    and truncated channels.
+    signs, samples that no sensor gives, an accelerometer that never moves, a distance that goes
+    backwards, jumps or stands still, and truncated channels.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         warnings = [
