@@ -128,6 +128,145 @@ def test_what_lies_behind_is_bridged_and_never_goes_back(steady, at, length, bac
     np.testing.assert_array_equal(distance[~behind], values[~behind])
 
 
+def counts_only(values, rate=RATE):
+    """The counts of a held encoder, each with its time, as a channel."""
+    first = np.flatnonzero(np.diff(values, prepend=-1.0))
+    return Channel.of("distance", values[first], StampedClock.of(first / rate))
+
+
+def spanned_s(channel, spans):
+    """Time from the last sample before each stretch to its last one, in s."""
+    times = channel.times_s
+    return [(times[first - 1], times[end - 1]) for first, end in spans]
+
+
+@laws
+@given(
+    at_s=st.floats(1.0, 10.0),
+    length_s=st.floats(0.3, 6.0),
+    speed=st.floats(10.0, 30.0),
+    count_m=st.sampled_from([0.02, 0.1, 0.25, 0.5]),
+)
+def test_lost_counts_are_found_alike_sampled_and_stamped(at_s, length_s, speed, count_m):
+    times = np.arange(COUNT) / RATE
+    moved = np.where(times < at_s, times, np.maximum(times - length_s, at_s))
+    values = count_m * np.floor(speed * moved / count_m)
+    stamped = counts_only(values)
+    found = encoder_damage(stamped)
+    assert found.gone.size == 0
+    (begin_s, end_s), *more = spanned_s(stamped, found.void)
+    assert not more
+    assert begin_s == pytest.approx(at_s, abs=count_m / speed + 0.002)
+    assert end_s - length_s == pytest.approx(at_s, abs=count_m / speed + 0.002)
+    ((first, end),) = damage(values).void
+    np.testing.assert_allclose([(first - 1) / RATE, end / RATE], [begin_s, end_s], atol=1e-9)
+    assert all("loses counts" in d.warnings[0] for d in (found, damage(values)))
+
+
+@pytest.mark.parametrize("speed", [4.0, 20.0])
+@pytest.mark.parametrize("seconds", [0.3, 2.5, 15.0])
+def test_counts_lost_to_the_end_are_unknown(speed, seconds):
+    values = travel(speed)
+    at = COUNT - int(seconds * RATE)
+    values[at:] = values[at]
+    found = damage(values)
+    ((first, end),) = found.void
+    assert (first, end) == (at + 1, pytest.approx(COUNT, abs=1))
+
+
+@laws
+@given(at=st.integers(500, 15_000), length=st.integers(1, 200), size_m=st.floats(5.0, 30.0))
+def test_a_leap_over_missing_samples_is_void_all_along(at, length, size_m):
+    values = travel(12.0)
+    values[at + length :] += size_m + 0.012 * length
+    values[at : at + length] = np.nan
+    np.testing.assert_array_equal(damage(values).void, [[at, at + length + 1]])
+
+
+@laws
+@given(
+    rate=st.sampled_from([10.0, 50.0, 100.0, 4000.0]),
+    places=st.sets(st.integers(2, 30), min_size=1, max_size=29),
+    size_m=st.floats(6.0, 30.0),
+)
+def test_leaps_do_not_hide_each_other_nor_at_low_rates(rate, places, size_m):
+    seconds = np.arange(int(34 * rate)) / rate
+    values = 20.0 * seconds
+    at = [int(k * rate) + 3 for k in sorted(places)]
+    for k in at:
+        values[k:] += size_m
+    channel = Channel.of("distance", values, UniformClock.of(rate))
+    np.testing.assert_array_equal(encoder_damage(channel).void, [[k, k + 1] for k in at])
+
+
+@laws
+@given(
+    at=st.integers(500, 15_000),
+    length=st.integers(100, 400),
+    faster=st.floats(2.0, 4.0),
+    speed=st.floats(10.0, 30.0),
+)
+def test_counts_beyond_what_a_vehicle_speeds_up_are_void(at, length, faster, speed):
+    values = travel(speed)
+    extra = faster * speed * np.clip(np.arange(COUNT) - at, 0, length) / RATE
+    found = damage(values + extra)
+    assert len(found.void) == 1
+    assert found.void[0] == pytest.approx([at, at + length], abs=51)
+    assert "counts too much" in found.warnings[0]
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 1000.0])
+@pytest.mark.parametrize("seconds", [0.08, 0.1, 0.4])
+def test_silence_is_made_up_for_at_low_rates_as_well(rate, seconds):
+    values = 20.0 * np.arange(int(20 * rate)) / rate
+    at, behind = int(10 * rate), int(10 * rate) + max(1, int(seconds * rate))
+    values[at:behind] = values[at]
+    found = encoder_damage(Channel.of("distance", values, UniformClock.of(rate)))
+    np.testing.assert_array_equal(found.gone, [[at + 1, behind]])
+    assert found.void.size == 0
+
+
+@laws
+@given(at=st.integers(500, 15_000), height_m=st.floats(0.5, 50.0))
+def test_a_spike_is_bridged_and_what_follows_is_not_behind(at, height_m):
+    values = travel()
+    values[at] += height_m
+    found = damage(values)
+    np.testing.assert_array_equal(found.gone, [[at, at + 1]])
+    assert found.void.size == 0
+
+
+def test_an_encoder_that_trembles_by_one_count_at_a_stand_is_no_fault():
+    values = travel(10.0, count_m=0.01)
+    values[8000:] -= values[8000] - values[7999]
+    values[8000:16_000] = values[7999] + 0.01 * (np.arange(8000) % 2)
+    values[16_000:] = values[15_999] + 0.01 * np.floor(np.arange(4000) ** 2 * 4e-4)
+    assert "goes back" not in " ".join(damage(values).warnings)
+
+
+@laws
+@given(
+    rate=st.sampled_from([10.0, 50.0, 100.0, 1000.0]),
+    count_m=st.sampled_from([0.0003, 0.02, 0.1, 0.5]),
+    braking=st.floats(0.5, 8.0),
+    speed=st.floats(1.0, 30.0),
+    held=st.booleans(),
+)
+def test_a_sound_drive_with_a_stop_is_none_at_any_rate(rate, count_m, braking, speed, held):
+    times = np.arange(int(60 * rate)) / rate
+    stop_s = 20.0 + speed / braking
+    slowing = np.clip(times - 20.0, 0.0, speed / braking)
+    rolls = 0.1 * np.sin(np.pi * np.clip(times - stop_s, 0.0, 2.0))
+    later = np.clip(times - stop_s - 3.0, 0.0, None)
+    onward = 1.5 * np.minimum(later, 5.0) ** 2 + 15.0 * np.maximum(later - 5.0, 0.0)
+    x = speed * np.clip(times, 0.0, 20.0) + (speed - 0.5 * braking * slowing) * slowing
+    values = count_m * np.floor((x + rolls + onward) / count_m)
+    many = 20 if held else 1
+    clock = UniformClock.of(many * rate)
+    lines = encoder_damage(Channel.of("distance", np.repeat(values, many), clock)).warnings
+    assert [line for line in lines if "goes back" not in line] == []
+
+
 def test_a_missing_distance_is_no_leap():
     values = travel()
     values[3000:9000] = np.nan
