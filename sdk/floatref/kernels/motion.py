@@ -178,15 +178,22 @@ def mark_drive(
 
     ``distance`` holds two windows of ``window`` samples before the first flag. Travel is slow if
     the progress over both windows is below ``slow``; a brake counts if, at more than that, it is
-    below ``stopping`` times what the last window is short of the one before. Where a distance is
-    missing (NaN), so is the mark.
+    below ``stopping`` times what the last window is short of the one before. If the distance is
+    held between counts, in most samples, that has to be more than two of them. Where a distance
+    is missing (NaN), so is the mark.
     """
+    steps = 0
+    for i in range(1, 2 * window):
+        steps += int(distance[i] > distance[i - 1])
     for i in range(flags.size):
         last = distance[i + 2 * window] - distance[i + window]
         before = distance[i + window] - distance[i]
+        steps += int(distance[i + 2 * window] > distance[i + 2 * window - 1])
+        steps -= int(i > 0 and distance[i] > distance[i - 1])
         mark = 0
         if last + before < slow:
             mark = marks[0]
         elif last + before < stopping * (before - last):
-            mark = marks[1]
+            known = steps > window or (before - last) * steps > 2.0 * (before + last)
+            mark = marks[1] if known else 0
         flags[i] = mark

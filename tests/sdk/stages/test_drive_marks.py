@@ -61,6 +61,25 @@ def test_a_brake_is_marked_once_it_would_stop_within_the_time(braking, stopping_
     assert (flags[inside & (left > stopping_time + unsure)] == 0).all()
 
 
+@settings(deadline=None, max_examples=40)
+@given(speed=st.floats(5.0, 35.0), count_m=st.floats(0.02, 0.5))
+def test_counts_of_a_held_encoder_are_no_braking(speed, count_m):
+    assert not (marked(np.full(5 * RATE, speed), count_m) & Flag.BRAKING).any()
+
+
+@settings(deadline=None, max_examples=40)
+@given(braking=st.floats(0.2, 0.9), count_m=st.floats(0.005, 0.05))
+def test_a_brake_of_many_counts_is_marked_with_a_held_encoder(braking, count_m):
+    times = np.arange(12 * RATE) / RATE
+    speed = np.clip(12.0 - braking * G * (times - 2.0).clip(0.0), 0.0, None)
+    flags = marked(speed, count_m)
+    short_m = braking * G * 0.25**2
+    left = 12.0 / (braking * G) + 2.0 - (times - 0.25)
+    told = (times > 2.6) & (speed > 16 / 3.6 + 0.5 * braking * G)
+    told &= (left < 3.0) & (short_m > 6 * count_m)
+    assert (flags[told] & Flag.BRAKING).all()
+
+
 @settings(deadline=None, max_examples=20)
 @given(st.floats(5.0, 35.0), st.floats(0.1, 0.9))
 def test_twice_the_speed_bears_twice_the_brake(speed, braking):
