@@ -69,21 +69,44 @@ def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
 
 
 def _check_direction(channel: Channel) -> None:
-    """Refuse a distance that goes back farther than a vehicle rolls."""
-    reached, back, by_m = -np.inf, None, 0.0
-    for first, chunk in chunks(channel.values):
+    """Refuse a distance that goes back farther than a vehicle rolls; a spike does not."""
+    if _goes_back(chunks(channel.values)) is None:
+        return
+    found = _goes_back(_without_spikes(channel.values))
+    if found is not None:
+        back, by_m = found
+        raise InputError(
+            f"channel {channel.id}: sample {back} goes back by {by_m:.4g} m to "
+            f"{channel.values[back]:.10g} m; invert the sign of a reversed encoder, "
+            "or cut the run where the vehicle rolled back"
+        )
+
+
+def _goes_back(stretches: Iterator[tuple[int, FloatArray]]) -> tuple[int, float] | None:
+    """Return the first sample that lies behind, and by how much, if any does by too much."""
+    reached, back = -np.inf, None
+    for first, chunk in stretches:
         farthest = np.fmax.accumulate(np.append(reached, chunk))
         behind = farthest[:-1] - chunk
         if back is None and (behind > 0).any():
             at = int(np.argmax(behind > 0))
-            back, by_m = first + at, float(behind[at])
+            back = first + at, float(behind[at])
         if (behind > ROLLS_BACK_M).any():
-            raise InputError(
-                f"channel {channel.id}: sample {back} goes back by {by_m:.4g} m to "
-                f"{channel.values[back]:.10g} m; invert the sign of a reversed encoder, "
-                "or cut the run where the vehicle rolled back"
-            )
+            return back
         reached = float(farthest[-1])
+    return None
+
+
+def _without_spikes(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
+    """Yield stretches of ``values``; single samples that leap and come back at once are NaN."""
+    before = np.nan
+    for first, chunk in chunks(values):
+        after = values[first + chunk.size : first + chunk.size + 1]
+        wide = np.concatenate(([before], chunk, after if after.size else [np.nan]))
+        up, down = wide[1:-1] - wide[:-2], wide[1:-1] - wide[2:]
+        spike = np.minimum(np.abs(up), np.abs(down)) > ROLLS_BACK_M
+        before = float(chunk[-1])
+        yield first, np.where(spike & ((up > 0) == (down > 0)), np.nan, chunk)
 
 
 def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None:
@@ -107,16 +130,24 @@ def _check_speed(channel: Channel) -> None:
     stride = round(min(max(1, AVERAGED_S * channel.mean_rate_hz), channel.values.size))
     distance = every(stride, channel.values)
     times = channel.clock.times(distance.size, step=stride)
-    valid = ~np.isnan(distance)
-    advance, elapsed = np.diff(distance[valid]), np.diff(times[valid])
+    advance, elapsed, since_s = _speeds(times, distance)
+    if (advance > FASTEST_MPS * np.maximum(elapsed, AVERAGED_S)).any():
+        pieces = [x[-first % stride :: stride] for first, x in _without_spikes(channel.values)]
+        advance, elapsed, since_s = _speeds(times, np.concatenate(pieces))
     speed = advance / np.maximum(elapsed, AVERAGED_S)
     if (speed > FASTEST_MPS).any():
         at = int(np.argmax(speed))
         raise InputError(
             f"channel {channel.id}: {advance[at]:.4g} m in {elapsed[at]:.3g} s from "
-            f"{times[valid][at]:.6g} s is {speed[at]:.4g} m/s, faster than any profiler; "
+            f"{since_s[at]:.6g} s is {speed[at]:.4g} m/s, faster than any profiler; "
             "if the distance is in mm, multiply by 0.001, else cut the jump out"
         )
+
+
+def _speeds(times: FloatArray, distance: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return how far it is from every known place to the next, for how long, and since when."""
+    known = ~np.isnan(distance)
+    return np.diff(distance[known]), np.diff(times[known]), times[known][:-1]
 
 
 def _held_count(values: FloatArray) -> float:

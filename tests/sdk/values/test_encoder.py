@@ -89,7 +89,8 @@ def test_a_step_back_is_found_wherever_the_chunks_end(
 ) -> None:
     at = chunk * number + beyond
     values = travel(20.0)
-    values[at - gap : at], values[at] = np.nan, -1.0
+    values[at:] -= values[at] + 1.0
+    values[at - gap : at] = np.nan
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scanning, "CHUNK", chunk)
         with pytest.raises(InputError, match=f"channel distance: sample {at} goes back by"):
@@ -116,3 +117,21 @@ def test_more_points_than_memory_holds_are_refused() -> None:
     long = np.linspace(0.0, 80_000.0, 1_000_000)
     with pytest.raises(InputError, match=r"too many points; choose a longer setup.profile_interv"):
         warned(long, 1e-5)
+
+
+@few
+@given(
+    at=st.sets(st.integers(1, COUNT - 2).map(lambda n: n // 3 * 3 + 1), min_size=1, max_size=5),
+    height=st.floats(1.5, 1e3),
+    up=st.booleans(),
+    chunk=st.integers(50, 5000),
+)
+def test_a_sample_that_comes_back_at_once_is_no_inverted_sign(at, height, up, chunk):
+    values = travel(20.0)
+    values[[n for n in at if n < COUNT - 1]] += height if up else -height
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scanning, "CHUNK", chunk)
+        assert warned(values, 0.1) == ()
+        values[-5:] -= 1.5
+        with pytest.raises(InputError, match="goes back by"):
+            warned(values, 0.1)
