@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from floatref.architectures.encoder_path import times_at
 from floatref.stages.signals import DISTANCE
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import every
@@ -22,7 +23,7 @@ def travel_speed(recording: Recording) -> tuple[FloatArray, FloatArray]:
     stride = _stride(channel)
     distance = every(stride, channel.values)
     known = np.flatnonzero(~np.isnan(distance))
-    times, distance = _times(channel, stride * known), distance[known]
+    times, distance = times_at(channel, stride * known), distance[known]
     even = np.arange(times[0], times[-1], PROGRESS_S) if times.size else times
     distance = np.interp(even, times, distance)
     return distance[1:], np.diff(distance) / PROGRESS_S
@@ -32,9 +33,3 @@ def _stride(channel: Channel) -> int:
     if isinstance(channel.clock, StampedClock):
         return 1
     return max(1, round(PROGRESS_S * float(channel.clock.rate)))
-
-
-def _times(channel: Channel, index: IndexArray) -> FloatArray:
-    if isinstance(channel.clock, StampedClock):
-        return channel.clock.times_s[index]
-    return channel.clock.start_s + index / float(channel.clock.rate)
