@@ -87,7 +87,8 @@ def find_runs(
 def count_runs(x: FloatArray, over: float, memory: FloatArray, held: IndexArray) -> None:
     """Count the runs of identical samples that end in ``x``: ``held[n]`` those of n samples.
 
-    Those that end by a step of up to ``over`` are left out. Runs of ``held.size - 1`` and above are counted together. A missing (NaN) sample is in no run.
+    Those that end by a step of up to ``over`` are left out. Runs of ``held.size - 1`` and above
+    are counted together. A missing (NaN) sample is in no run.
     """
     for i in range(x.size):
         value, length = x[i], memory[0]
