@@ -18,7 +18,7 @@ from floatref.architectures.damage import Damage
 from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.events import GnssEvents
 from floatref.architectures.saturation import damaged_force
-from floatref.architectures.steady import steady_clock
+from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
@@ -49,7 +49,8 @@ class Source:
         clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
         damage = {name: _damage(name, found) for name in found}
-        self.warnings = tuple(line for d in damage.values() for line in d.warnings)
+        holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
+        self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
         self._aligned = {
             name: AlignedChannel(channel, clock, first, damage[name])
             for name, channel in found.items()
@@ -101,10 +102,14 @@ def _nominal(recording: Recording, tracks: tuple[str, ...]) -> Iterator[tuple[Ch
 def _damage(name: ChannelId, found: Mapping[ChannelId, Channel]) -> Damage:
     if name.name == DISTANCE:
         return encoder_damage(found[name])
-    if name.name == SPECIFIC_FORCE:
+    if _is_force(name):
         return damaged_force(found[name])
     force = found[ChannelId(SPECIFIC_FORCE, name.track)]
     return damaged_height(found[name], force, found[ChannelId(DISTANCE)])
+
+
+def _is_force(name: ChannelId) -> bool:
+    return name.name == SPECIFIC_FORCE
 
 
 def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int]:

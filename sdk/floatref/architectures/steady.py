@@ -44,6 +44,22 @@ def steady_clock(channel: Channel) -> UniformClock:
     return UniformClock.of(_roundest(1.0 / step, longest, allowed), float(times[0]))
 
 
+def holes_told(channel: Channel) -> tuple[str, ...]:
+    """Return one line on the holes in an accelerometer's time stamps; empty if there are none."""
+    if isinstance(channel.clock, UniformClock):
+        return ()
+    times = channel.clock.times_s
+    behind = _bounds(times)[1:-1]
+    if not behind.size:
+        return ()
+    lengths = times[behind] - times[behind - 1]
+    begin = float(times[behind[lengths.argmax()] - 1])
+    return (
+        f"channel {channel.id}: no samples for {lengths.sum():.4g} s in {behind.size} places, at "
+        f"most {lengths.max():.4g} s from {begin:.6g} s; flagged",
+    )
+
+
 def _bounds(times: FloatArray) -> IndexArray:
     """Return the first index of every stretch without a hole, and the number of stamps."""
     wide, found = HOLE * median_step(times), [np.zeros(1, np.int64)]
