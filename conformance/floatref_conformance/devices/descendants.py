@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
+from floatref_conformance.proving_ground.cache import FOLDER_VARIABLE
+
 MARK = "FLOATREF_DEVICE"
 """Environment variable by which a device's processes are told from those of another device."""
 PATIENCE_S = 10.0
@@ -56,9 +58,10 @@ class Descendants:
 
     @property
     def environment(self) -> dict[str, str]:
-        """The environment for the device: ours, and its mark."""
+        """The environment for the device: ours and its mark, but not where the cache is."""
         name, _, value = self._mark.decode().partition("=")
-        return {**os.environ, name: value}
+        ours = {n: v for n, v in os.environ.items() if n != FOLDER_VARIABLE}
+        return {**ours, name: value}
 
     def end(self, device: "subprocess.Popen[bytes] | None") -> None:
         """Kill ``device`` and all that comes from it, and wait until they are gone."""

@@ -55,6 +55,15 @@ def child(written, tmp_path):
         one.kill()
 
 
+def test_a_device_has_our_environment_but_is_not_told_where_the_truth_is_kept(child, monkeypatch):
+    monkeypatch.setenv("FLOATREF_CACHE", "/somewhere/secret")
+    monkeypatch.setenv("OF_THE_VENDOR", "kept")
+    told = child("sys.stdin.readline()\nprint(json.dumps(dict(os.environ)), flush=True)")
+    found = json.loads(asked(told))
+    assert found["OF_THE_VENDOR"] == "kept"
+    assert not [name for name, value in found.items() if value == "/somewhere/secret"]
+
+
 def test_lines_go_in_and_out(child):
     echo = child("for line in sys.stdin: print(line.strip()[::-1], flush=True)")
     for word in (b"one", b"two"):
