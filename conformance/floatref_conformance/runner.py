@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
@@ -53,6 +54,7 @@ class Plan:
         searching: whether cases are drawn that depend on the device's answers.
         waivers: why a failure of a check is known, by its id.
         ahead: whether the next cases are simulated while the device works.
+        timeout_s, report: time for a recording and folder of the report, told to reproduce it.
     """
 
     spec: str
@@ -66,6 +68,8 @@ class Plan:
     searching: bool = True
     waivers: Mapping[str, str] = field(default_factory=dict)
     ahead: bool = False
+    timeout_s: float | None = None
+    report: Path | None = None
 
 
 def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
@@ -210,4 +214,6 @@ def _result(
         effort=plan.effort.value,
         checks=tuple(sorted(results, key=lambda r: order.index(r.id))),
         replayed=tuple(replayed),
+        timeout_s=plan.timeout_s,
+        report=plan.report,
     )

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from math import inf, isnan
+from pathlib import Path
 from typing import Any
 
 from floatref.values.profile import Profile
@@ -168,6 +169,8 @@ class RunResult:
 
     ``replayed`` says of every case kept from an earlier run what it came to: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
+    ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
+    user gave them, and None if not given.
     """
 
     device: Mapping[str, Any]
@@ -176,6 +179,8 @@ class RunResult:
     effort: str
     checks: tuple[CheckResult, ...]
     replayed: tuple[Mapping[str, Any], ...] = ()
+    timeout_s: float | None = None
+    report: Path | None = None
 
     @property
     def verdict(self) -> Verdict:

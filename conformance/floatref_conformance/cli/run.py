@@ -98,6 +98,8 @@ def run(
             searching=getattr(device, "searchable", True),
             ahead=True,
             waivers=waivers,
+            timeout_s=device_timeout,
+            report=report,
         )
         writers = writers_into(report)
     finished = follow(plan, writers)

@@ -141,7 +141,7 @@ def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
         lines.append(wording.simplest(check.counterexample))
         if "file" in check.counterexample:
             command = wording.replay_command(check.counterexample["file"], result)
-            lines.append(f"in the folder of this report: {command}")
+            lines.append(f"{wording.WHERE}: {command}")
     if check.outcome not in wording.UNJUDGED:
         lines.append(f"again: {wording.reproduction(result, check.id)}")
     return _case(check.id, seconds, check.outcome, check.reason, "\n".join(lines))
@@ -150,7 +150,7 @@ def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
 def _replayed(replayed: Mapping[str, Any], result: RunResult) -> Element:
     reason = str(replayed.get("reason") or "")
     command = wording.replay_command(replayed["file"], result)
-    text = f"{reason}\nin the folder of this report: {command}"
+    text = f"{reason}\n{wording.WHERE}: {command}"
     return _case(replayed["file"], 0.0, Outcome(replayed["outcome"]), reason, text)
 
 

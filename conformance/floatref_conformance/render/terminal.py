@@ -136,7 +136,7 @@ def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
 def _what_to_do(result: RunResult) -> list[str]:
     """Return the commands that show the failures again, those of kept cases first."""
     lines = [
-        f"In the folder of the report: {wording.replay_command(kept['file'], result)}"
+        f"Run {kept['file']} again with: {wording.replay_command(kept['file'], result)}"
         for kept in result.replayed
         if kept["outcome"] in wording.FAILED
     ]

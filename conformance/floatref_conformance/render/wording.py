@@ -3,7 +3,7 @@
 import shlex
 from collections.abc import Mapping
 from math import isfinite, isnan
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from floatref_conformance.case_files import FOLDER
@@ -11,6 +11,8 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
 
 FAILED = (Outcome.FAIL, Outcome.ERROR)
+WHERE = "this case alone, where the run was started"
+"""Where a command to run a case again is to be given."""
 UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
 """Outcomes that say nothing of what the device can do."""
 
@@ -146,10 +148,18 @@ def reproduction(result: RunResult, *ids: str) -> str:
         words += ["--effort", result.effort]
     for id_ in ids or [c.id for c in result.checks if c.outcome in FAILED]:
         words += ["--check", id_]
-    return shlex.join(words)
+    return shlex.join(words + _timeout(result))
 
 
 def replay_command(file: str, result: RunResult) -> str:
-    """Return the command, given in the report's folder, that runs the case in ``file`` again."""
-    path = f"{FOLDER}/{PurePosixPath(file).name}"
-    return shlex.join(["conformance", "replay", path, "--device", str(result.device["spec"])])
+    """Return the command that runs the case in ``file`` again, where the run was started.
+
+    There, and not in the report's folder, a SPEC means what it meant in the run.
+    """
+    path = (result.report or Path()) / FOLDER / PurePosixPath(file).name
+    words = ["conformance", "replay", path.as_posix(), "--device", str(result.device["spec"])]
+    return shlex.join([*words, "--class", result.device_class.value, *_timeout(result)])
+
+
+def _timeout(result: RunResult) -> list[str]:
+    return [] if result.timeout_s is None else ["--device-timeout", f"{result.timeout_s:.12g}"]

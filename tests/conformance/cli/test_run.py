@@ -1,6 +1,7 @@
 """`conformance run`: exit codes, what it says, and the report it leaves."""
 
 import json
+import shlex
 import shutil
 import subprocess
 import sys
@@ -213,3 +214,16 @@ def test_a_device_that_was_made_is_closed_whatever_keeps_it_from_being_run(
     case = keep(tmp_path)
     answer = call("replay", case, "--device", "fake:bad", "--device-timeout", "nan")
     assert (answer.exit_code, devices["bad"].closed) == (2, 1)
+
+
+def test_a_kept_case_is_replayed_as_told_from_where_the_run_was_started(
+    run_toy, call, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    run_toy("bad", "--report", "a report")
+    answer = run_toy("bad", "--report", "a report", "--device-timeout", 3)
+    told = next(line for line in answer.stdout.splitlines() if "conformance replay" in line)
+    again = call(*shlex.split(told.partition("conformance ")[2]))
+    assert again.exit_code == 1
+    assert "fake:bad" in again.stdout
+    assert answer.stdout.rstrip().endswith("--device-timeout 3")

@@ -81,9 +81,9 @@ def check(stopped):
 def result():
     """Return a function that makes the result of a run."""
 
-    def make(*checks, replayed=(), device_class=DeviceClass.NOMINAL, **device):
+    def make(*checks, replayed=(), device_class=DeviceClass.NOMINAL, given=(None, None), **device):
         about = {**DEVICE, **device}
-        return RunResult(about, device_class, 7, "quick", checks, tuple(replayed))
+        return RunResult(about, device_class, 7, "quick", checks, tuple(replayed), *given)
 
     return make
 
