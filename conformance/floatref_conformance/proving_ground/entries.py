@@ -44,12 +44,16 @@ def new_entry(entry: Path) -> Iterator[Path]:
 
 
 def use(entry: Path) -> bool:
-    """Mark an intact entry as used now; return whether there is one."""
-    if is_intact(entry):
-        with suppress(FileNotFoundError):
-            os.utime(entry)
-            return True
-    return False
+    """Mark an intact entry as used now, if the disk lets it; return whether there is one."""
+    if not is_intact(entry):
+        return False
+    try:
+        os.utime(entry)
+    except FileNotFoundError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def is_intact(entry: Path) -> bool:

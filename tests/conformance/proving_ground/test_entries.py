@@ -1,5 +1,6 @@
 """Laws of a cache folder that several processes share: no one trips over another's work."""
 
+import errno
 import json
 import os
 import subprocess
@@ -104,6 +105,24 @@ def test_good_entry_that_another_process_made_meanwhile_is_used(
     simulate_cached(TINY, tmp_path)
     assert made == [entry.stat().st_ino]
     assert [path.name for path in tmp_path.iterdir()] == [entry.name]
+
+
+@pytest.mark.parametrize("number", [errno.EROFS, errno.EACCES, errno.EPERM])
+def test_entry_that_cannot_be_marked_is_used_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    simulate_cached(TINY, tmp_path)
+
+    def refused(path: Path) -> None:
+        raise OSError(number, os.strerror(number), str(path))
+
+    def again(scenario: Scenario) -> Simulation:
+        raise AssertionError("simulated anew")
+
+    monkeypatch.setattr(os, "utime", refused)
+    monkeypatch.setattr(cache, "simulate", again)
+    read = simulate_cached(TINY, tmp_path).recording.channel("height").values
+    assert np.array_equal(read, simulate(TINY).recording.channel("height").values)
 
 
 @pytest.mark.parametrize("prefix", [".new-", ".old-"])
