@@ -18,6 +18,8 @@ from floatref_conformance.errors import DeviceError, DeviceSkipped
 
 MAX_INTERVAL_M = 0.25
 """Widest profile interval that still carries the IRI, in m."""
+MIN_INTERVAL_M = 0.001
+"""Closest profile interval, in m: as close as a recording may ask for, and one can be judged."""
 MAX_ELEVATION_M = 1e6
 """An elevation beyond this, in m, is garbage and not drift."""
 
@@ -101,6 +103,11 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
     if profile.interval_m > MAX_INTERVAL_M:
         raise DeviceError(
             f"interval_m is {profile.interval_m:g}; an IRI needs {MAX_INTERVAL_M} m or less"
+        )
+    if profile.interval_m < MIN_INTERVAL_M:
+        raise DeviceError(
+            f"interval_m is {profile.interval_m:g}; at most 1000 points per metre are judged, "
+            f"and {recording.setup.profile_interval_m:g} was asked for"
         )
     distance = recording.channel("distance").values
     first, farthest = distance[~np.isnan(distance)][0], np.nanmax(distance)

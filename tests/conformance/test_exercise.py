@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from floatref_conformance.classes import Effort
+from floatref_conformance.exercise import MIN_INTERVAL_M
+from floatref_conformance.proving_ground.scenario import LIMITS
 from floatref_conformance.verdict import Outcome, Verdict
 
 
@@ -167,8 +169,17 @@ def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(
     plan, result_of, fake_device
 ):
     assert result_of(plan(fake_device(interval_m=0.04))).verdict is Verdict.PASS
-    wide = result_of(plan(fake_device(interval_m=0.3)))
-    assert "interval_m is 0.3" in wide.checks[0].reason
+    close = plan(fake_device(interval_m=0.001), searching=False)
+    assert result_of(close).verdict is Verdict.PASS
+    for told in (0.3, 0.00099):
+        refused = result_of(plan(fake_device(interval_m=told), searching=False))
+        assert refused.verdict is Verdict.FAIL
+        assert refused.checks[0].outcome is Outcome.ERROR
+        assert f"interval_m is {told:g};" in refused.checks[0].reason
+
+
+def test_the_closest_interval_that_may_be_asked_for_may_be_delivered():
+    assert MIN_INTERVAL_M == LIMITS["profile_interval_m"][0]
 
 
 @pytest.mark.parametrize(
