@@ -179,7 +179,7 @@ def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(
 
 
 def test_the_closest_interval_that_may_be_asked_for_may_be_delivered():
-    assert MIN_INTERVAL_M == LIMITS["profile_interval_m"][0]
+    assert LIMITS["profile_interval_m"][0] == MIN_INTERVAL_M
 
 
 @pytest.mark.parametrize(
