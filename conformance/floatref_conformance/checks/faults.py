@@ -18,7 +18,9 @@ from floatref_conformance.checks.fault_scores import (
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
 from floatref_conformance.checks.injuries import injury_of
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.scoring import compare
+from floatref_conformance.checks.rule import ELSEWHERE
+from floatref_conformance.checks.rules import UNPROVOKED
+from floatref_conformance.checks.scoring import Compared, compare
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -60,6 +62,7 @@ class FaultsCheck:
             },
             "flagged at an end": _words(END_LIMITS, "m"),
             "flagged around an event": _words(EVENT_LIMITS, "m"),
+            ELSEWHERE: _words(UNPROVOKED, "m"),
         }
 
     @property
@@ -92,7 +95,6 @@ class FaultsCheck:
         if injured.recording is not taken.recording:
             after = bench.run(replace(taken, recording=injured.recording), "with the fault")
         part = str(case.variation["fault"]).partition("-")[0]
-        events = (case.scenario.event_at_m,) if case.scenario.manoeuvre == "stop" else ()
         alike = (beside(taken.truth, before), beside(taken.truth, after, injured))
         # What the encoder never told lies on no device's axis: nobody has flagged it.
         delivered = compare(taken.truth, before)
@@ -101,9 +103,17 @@ class FaultsCheck:
             for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
                 *fault_measurements(one, other, injured, part),
-                *flagged(whole, case.scenario, events),
+                *_flagged_without(whole, case.scenario),
             )
         )
+
+
+def _flagged_without(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
+    """Return what is flagged of a drive without a fault: a steady one gives no cause inside."""
+    if scenario.manoeuvre == "stop":
+        return flagged(whole, scenario, (scenario.event_at_m,))
+    ends, elsewhere = flagged(whole, scenario, ())
+    return ends, replace(elsewhere, quantity=ELSEWHERE, limits=UNPROVOKED)
 
 
 def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
@@ -137,7 +147,8 @@ DERIVATION = (
 """What is done to the recordings, and why the limits are what they are."""
 FLOOR = (
     "Without the fault, the device may flag no more than at the ends of any run and around a "
-    "stop; metres at the end that the encoder told too few are left out. What remains has the "
+    "stop. Where it does not stop, 10 m (class reference 5 m) are all that it may flag between "
+    "the ends, as at constant speed. What remains has the "
     "roughness of the road within the limits above, so that neither a flat profile nor one that "
     "is flagged throughout passes."
 )

@@ -44,7 +44,8 @@ def flagged(
     """Return the longest flagged length at an end, and around one of ``events_m``, in m.
 
     What is flagged in one piece with an end belongs to the end, unless an event lies within it;
-    all else belongs to the nearest event. Travel below 16 km/h does not count.
+    all else belongs to the nearest event, and counts in one sum if there is none. Travel below
+    16 km/h does not count.
     """
     fast = speed_at(scenario, compared.distance_m) >= SLOW_MPS
     x, bad = compared.distance_m, ~compared.valid

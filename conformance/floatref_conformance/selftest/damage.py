@@ -5,6 +5,7 @@ from dataclasses import replace
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.fault_scores import BASE_M
 from floatref_conformance.checks.faults import FaultsCheck
+from floatref_conformance.checks.rule import ELSEWHERE
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -17,6 +18,8 @@ LOCAL_AT_M = 400.0
 """A local error lies here, away from the fault."""
 EQUIPPED = Description("perfect", "1", "temporal", ("gnss",))
 LABEL = "with the fault"
+CLEAR_M = 30.0
+"""Farther than this from a stop no vehicle travels below 16 km/h."""
 
 
 def situations(check: FaultsCheck) -> tuple[Situation, ...]:
@@ -24,10 +27,28 @@ def situations(check: FaultsCheck) -> tuple[Situation, ...]:
     parts: dict[str, Case] = {}
     for case in check.cases(0, Effort.QUICK):
         parts.setdefault(str(case.variation["fault"]).partition("-")[0], case)
-    return tuple(_of(check, part, case) for part, case in parts.items())
+    rolling = next(c for c in check.cases(0, Effort.QUICK) if c.scenario.manoeuvre == "stop")
+    around = Graded(("flagged around an event",), _flagged_before(rolling.scenario.event_at_m))
+    return (
+        *(_of(check, part, case) for part, case in parts.items()),
+        Situation(check, _plain(rolling), (around,), description=EQUIPPED),
+    )
+
+
+def _flagged_before(event_m: float) -> Put:
+    end_m = event_m - CLEAR_M
+    return lambda v: put_in.flagged(end_m - v, end_m)
 
 
 def _of(check: FaultsCheck, part: str, case: Case) -> Situation:
+    plain = _plain(case)
+    beyond = Graded((f"flagged beyond a fault: {part}",), _flagged_from(case))
+    graded = (beyond, *_shared(plain.scenario)) if part == "laser" else (beyond,)
+    return Situation(check, plain, graded, description=EQUIPPED)
+
+
+def _plain(case: Case) -> Case:
+    """Return ``case`` with one wheel path and ideal sensors."""
     scenario = replace(
         case.scenario,
         tracks=("left",),
@@ -36,9 +57,7 @@ def _of(check: FaultsCheck, part: str, case: Case) -> Situation:
         iri_m_per_km=3.0,
         profile_interval_m=INTERVAL_M,
     )
-    beyond = Graded((f"flagged beyond a fault: {part}",), _flagged_from(case))
-    graded = (beyond, *_shared(scenario)) if part == "laser" else (beyond,)
-    return Situation(check, replace(case, scenario=scenario), graded, description=EQUIPPED)
+    return replace(case, scenario=scenario)
 
 
 def _shared(scenario: Scenario) -> tuple[Graded, ...]:
@@ -49,7 +68,7 @@ def _shared(scenario: Scenario) -> tuple[Graded, ...]:
         Graded(("local error, unflagged",), _injured(_local)),
         Graded(("flagged at an end",), put_in.flagged_end),
         Graded(
-            ("flagged around an event",),
+            (ELSEWHERE,),
             lambda v: put_in.flagged(middle_m - v / 2, middle_m + v / 2),
         ),
     )

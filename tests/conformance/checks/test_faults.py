@@ -76,7 +76,18 @@ def test_what_is_flagged_without_the_fault_too_is_not_its_doing(right_bench):
     bench = right_bench(lambda _, profile: changed(profile, flag))
     found = judged(LASER, bench)
     assert found["flagged beyond a fault: laser"].value == 0.0
-    assert found["flagged around an event"].value == pytest.approx(100.0, abs=0.1)
+    assert found["flagged elsewhere"].value == pytest.approx(100.0, abs=0.1)
+    assert found["flagged elsewhere"].limits[NOMINAL] == 10.0
+
+
+@pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
+def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
+    def flag(x, z, valid):
+        return z, valid & (np.abs(x - 300.0) > 50.0)
+
+    measured = FAULTS.judge(case, right_bench(lambda _, profile: changed(profile, flag)))
+    fails = max(m.ratio(NOMINAL) for m in measured) > 1.0
+    assert fails == (case.scenario.manoeuvre != "stop")
 
 
 @few

@@ -96,6 +96,11 @@ def only(when: When, after: After) -> After:
     return spoil
 
 
+def middle_m(drive: Drive) -> float:
+    """Return where half of ``drive`` is done, in m."""
+    return float(drive.distance_m[0] + drive.distance_m[-1]) / 2
+
+
 def _longest(marked: BoolArray) -> int:
     """Return how many marked values lie in one piece."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0]))))

@@ -3,7 +3,7 @@
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.devices.mistakes import profiles as p
-from floatref_conformance.devices.mistakes.drives import Drive, only
+from floatref_conformance.devices.mistakes.drives import Drive, middle_m, only
 from floatref_conformance.devices.mistakes.mistake import Mistake
 
 
@@ -47,10 +47,6 @@ def _setting_off(drive: Drive) -> bool:
     return drive.begins_standing
 
 
-def _middle_m(drive: Drive) -> float:
-    return float(drive.distance_m[0] + drive.distance_m[-1]) / 2
-
-
 def _wrong_with_speed(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` 4 % too high in fast drives and 4 % too low in slower ones."""
     drive = Drive.of(recording)
@@ -77,13 +73,13 @@ IN_DRIVES = (
         "coasting-flagged",
         "flags 200 m of a drive that loses speed gently",
         ("coasting",),
-        after=only(_rolling_out, p.flagged_around(_middle_m, 200.0)),
+        after=only(_rolling_out, p.flagged_around(middle_m, 200.0)),
     ),
     Mistake(
         "throttle-flagged",
         "flags 200 m of a drive that wins speed",
         ("throttle",),
-        after=only(_speeding_up, p.flagged_around(_middle_m, 200.0)),
+        after=only(_speeding_up, p.flagged_around(middle_m, 200.0)),
     ),
     Mistake(
         "straight-at-the-release",

@@ -1,6 +1,7 @@
 """Profiles spoilt on their way out: shape, place, flags."""
 
 from floatref_conformance.devices.mistakes import profiles as p
+from floatref_conformance.devices.mistakes.drives import middle_m
 from floatref_conformance.devices.mistakes.mistake import Mistake, all_but
 
 IN_RESULTS = (
@@ -99,6 +100,12 @@ IN_RESULTS = (
             "faults",
         ),
         after=p.flagged,
+    ),
+    Mistake(
+        "middle-flagged",
+        "flags 124 m in the middle of every run",
+        ("constant-speed", "braking", "near-stop", "stop", "dead-start", "faults"),
+        after=p.flagged_around(middle_m, 124.0),
     ),
     Mistake(
         "held-at-the-stop",
