@@ -4,12 +4,14 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from reprlib import repr as shortened
 from typing import Any
 
 from floatref.errors import InputError
 from floatref_conformance import EDITION
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.proving_ground.scenario import Scenario
 
 FORMAT = "floatref-case/1"
 FOLDER = "cases"
@@ -19,11 +21,16 @@ LARGEST_BYTES = 1 << 20
 
 @dataclass(frozen=True)
 class KeptCase:
-    """A case in a file; ``device_class`` is the one whose limits it broke."""
+    """A case in a file; ``device_class`` is the one whose limits it broke.
+
+    ``refused`` says why this edition cannot run it, and then none of its numbers were read; it is
+    empty otherwise.
+    """
 
     file: str
     case: Case
     device_class: DeviceClass
+    refused: str = ""
 
 
 def name_of(case: Case) -> str:
@@ -45,7 +52,10 @@ def document(case: Case, device_class: DeviceClass, device: str, reason: str) ->
 
 
 def read_case(path: Path) -> KeptCase:
-    """Return the case in file ``path``; InputError, naming the file, if it holds none."""
+    """Return the case in file ``path``; InputError, naming the file, if it holds none.
+
+    One of another edition is `refused`.
+    """
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise InputError(f"{path}: larger than any case; name a case file")
@@ -72,6 +82,14 @@ def _kept(name: str, found: object) -> KeptCase:
     check, told = found.get("check"), found.get("class", DeviceClass.NOMINAL.value)
     if not isinstance(check, str):
         raise InputError("has no check; give its id")
+    edition = found.get("edition")
+    if edition != EDITION:
+        return KeptCase(name, Case(check, Scenario()), DeviceClass.NOMINAL, _of_another(edition))
     if told not in list(DeviceClass):
         raise InputError(f"class {told!r}: unknown; choose from {', '.join(DeviceClass)}")
     return KeptCase(name, Case.of(check, found, Path(name).stem), DeviceClass(told))
+
+
+def _of_another(edition: object) -> str:
+    told = "has no edition" if edition is None else f"is of edition {shortened(edition)}"
+    return f"the case {told}, and its numbers may mean something else in {EDITION}; take it out"

@@ -2,9 +2,12 @@
 
 from dataclasses import replace
 
+from floatref.errors import InputError
 from floatref_conformance.bench import DeviceBench
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.exercise import close, describe
@@ -26,12 +29,29 @@ def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
     return replace(result, measurements=tuple(measured), flagged_m=flagged, passes=passes)
 
 
+def refuse_foreign(check: Check, case: Case) -> None:
+    """Raise InputError for a number that no case of ``check`` has, which it would not look at.
+
+    The edition's cases have between them every number of its checks; a plug-in's may not.
+    """
+    if check.id not in IDS:
+        return
+    cases = (check.simplest, *check.cases(0, Effort.CERTIFICATION))
+    known = sorted({name for one in cases for name in one.variation})
+    for name in case.variation:
+        if name not in known:
+            others = f"known: {', '.join(known)}" if known else f"{check.id} has none"
+            raise InputError(f"variation {name}: unknown; {others}")
+
+
 def replay(device: Device, check: Check, case: Case) -> CaseResult:
     """Return what ``device`` makes of ``case`` outside any run, and close the device.
 
-    It is skipped for a device without the capabilities that ``check`` needs.
+    It is skipped for a device without the capabilities that ``check`` needs. Raises InputError
+    for numbers that make no case of it.
     """
     try:
+        refuse_foreign(check, case)
         result = _outside_a_run(device, check, case)
     except BaseException:
         close(device)

@@ -170,6 +170,9 @@ def _replayed(
         if not result.cases:
             yield _not_replayed(kept, result.outcome, result.reason)
             continue
+        if kept.refused:
+            yield _not_replayed(kept, Outcome.SKIP, kept.refused)
+            continue
         again = trial.replay(check, kept)
         is_waived = check.id in plan.waivers and again["outcome"] in FAILED
         yield {**again, "outcome": Outcome.WAIVED.value} if is_waived else again

@@ -20,7 +20,7 @@ from floatref_conformance.events import (
 )
 from floatref_conformance.judging import check_result, failing, why
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.replaying import judged
+from floatref_conformance.replaying import judged, refuse_foreign
 from floatref_conformance.search import search
 from floatref_conformance.shrinking import simplest
 from floatref_conformance.verdict import CaseResult, CheckResult, Measurement, Outcome
@@ -76,6 +76,7 @@ class Trial:
         Numbers that make no drive in this edition are skipped.
         """
         try:
+            refuse_foreign(check, kept.case)
             result = self._judge(check, kept.case)
         except InputError as error:
             result = CaseResult(kept.case.name, kept.case.parameters, skipped=str(error))

@@ -101,7 +101,13 @@ def test_a_file_says_what_failed_and_why():
     }
 
 
-CASE = {"format": "floatref-case/1", "check": "toy", "scenario": {}, "variation": {}}
+CASE = {
+    "format": "floatref-case/1",
+    "edition": EDITION,
+    "check": "toy",
+    "scenario": {},
+    "variation": {},
+}
 
 
 @pytest.mark.parametrize(
@@ -136,6 +142,22 @@ def test_what_is_no_case_is_refused_with_the_files_name_in_one_line(tmp_path, co
         assert str(caught.value).startswith(f"{path}: ")
         assert words in str(caught.value)
         assert "\n" not in str(caught.value)
+
+
+OLDER = {**CASE, "edition": "1999.1", "scenario": {"vehicle": "horse"}, "variation": {"legs": 4}}
+
+
+@pytest.mark.parametrize("content", [OLDER, {**OLDER, "edition": 5}, {**OLDER, "edition": None}])
+def test_a_case_of_another_edition_is_refused_and_none_of_its_numbers_is_read(tmp_path, content):
+    path = tmp_path / "cases" / "older.json"
+    path.parent.mkdir()
+    path.write_text(json.dumps(content))
+    (kept,) = read_cases(tmp_path)
+    assert kept.case.check == "toy"
+    assert str(content["edition"] or "no edition") in kept.refused
+    assert EDITION in kept.refused
+    path.write_text(json.dumps(CASE))
+    assert read_case(path).refused == ""
 
 
 @pytest.mark.parametrize("make", [lambda path: None, os.mkdir])

@@ -47,6 +47,8 @@ def replay(
     numbers make no sense; 3: the suite itself is at fault; 4: the device skipped the case.
     """
     kept = read_case(case)
+    if kept.refused:
+        raise InputError(f"{case}: {kept.refused}")
     registry = load_registry()
     check = registry.check(kept.case.check)
     device = registry.device(spec)

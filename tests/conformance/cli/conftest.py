@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from floatref.errors import InputError
+from floatref_conformance import EDITION
 from floatref_conformance.case_files import document
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass
@@ -80,11 +81,12 @@ def run_toy(call):
 def keep():
     """Return a function that keeps a case in a folder, of a rough road unless told otherwise."""
 
-    def make(folder, check="toy", device_class=DeviceClass.NOMINAL, **numbers):
+    def make(folder, check="toy", device_class=DeviceClass.NOMINAL, edition=EDITION, **numbers):
         case = Case(check, Scenario(**{"iri_m_per_km": 6.0, **numbers}))
         path = folder / "cases" / f"{check}-1.json"
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(json.dumps(document(case, device_class, "fake:bad", "too rough")))
+        told = document(case, device_class, "fake:bad", "too rough")
+        path.write_text(json.dumps({**told, "edition": edition}))
         return path
 
     return make

@@ -131,6 +131,15 @@ def test_wrong_usage_is_exit_2_in_one_line(replay, devices, device, words, case,
     assert devices["good"].seen == []
 
 
+@pytest.mark.parametrize("edition", ["1999.1", None, 2026.1])
+def test_a_case_of_another_edition_is_exit_2_and_named(replay, devices, edition, tmp_path):
+    answer = replay("good", edition=edition)
+    assert answer.exit_code == 2
+    assert f"{tmp_path / 'cases' / 'toy-1.json'}: the case " in answer.stderr
+    assert len(answer.stderr.splitlines()) == 1
+    assert devices["good"].seen == []
+
+
 @pytest.mark.parametrize("content", [None, "{", '{"format": "floatref-scenario/1"}'])
 def test_what_is_no_case_is_exit_2_and_named(call, tmp_path, content):
     path = tmp_path / "case.json"

@@ -158,6 +158,19 @@ def test_a_kept_case_of_a_check_that_is_not_run_is_listed_and_leaves_a_verdict_o
     assert replayed["reason"] in ("not selected", "not built yet", "unknown check")
 
 
+@pytest.mark.parametrize("edition", ["1999.1", None])
+def test_a_kept_case_of_another_edition_is_listed_as_skipped_with_its_reason(
+    run_toy, keep, tmp_path, devices, edition
+):
+    keep(tmp_path, edition=edition, seed=77)
+    answer = run_toy("good", "--report", tmp_path)
+    assert answer.exit_code == 4
+    (replayed,) = report_in(tmp_path)["replayed"]
+    assert (replayed["check"], replayed["outcome"]) == ("toy", "skip")
+    assert "edition" in replayed["reason"]
+    assert replayed["reason"] in answer.stdout
+
+
 @pytest.mark.parametrize("text", ["{", "[]", '{"format": "floatref-case/9"}'])
 def test_a_kept_case_that_is_unreadable_is_exit_2_before_anything_runs(
     run_toy, tmp_path, devices, text
