@@ -21,7 +21,7 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     try:
         if path.stat().st_size > MOST_BYTES:
             raise InputError(f"{path}: larger than any list of waivers; name another file")
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
     except UnicodeDecodeError as error:
@@ -40,8 +40,11 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
 
 
 def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
-    """Return ``result``, waived if it failed and ``waivers`` say so."""
-    if result.id not in waivers or result.outcome not in (Outcome.FAIL, Outcome.ERROR):
+    """Return ``result``, waived if it is beyond a limit and ``waivers`` say so.
+
+    A known limit is no excuse for a crash, a hang or garbage: an error stays one.
+    """
+    if result.id not in waivers or result.outcome is not Outcome.FAIL:
         return result
     return replace(
         result,
@@ -51,9 +54,25 @@ def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
 
 
 def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> None:
-    """Raise InputError naming a waiver of ``path`` that no failure of ``result`` needed."""
-    used = {check.id for check in result.checks if check.outcome is Outcome.WAIVED}
-    used |= {case["check"] for case in result.replayed if case["outcome"] == Outcome.WAIVED}
+    """Raise InputError naming a waiver of ``path`` that no failure of ``result`` needed.
+
+    Of a check that ended in an error nobody knows whether it still needs its waiver.
+    """
+    found = {check.id: {check.outcome} for check in result.checks}
+    for case in result.replayed:
+        found.setdefault(case["check"], set()).add(Outcome(case["outcome"]))
     for id_ in waivers:
-        if id_ not in used:
-            raise InputError(f"{path}: {id_}: did not fail: nothing to waive; take the line out")
+        if not {Outcome.WAIVED, Outcome.ERROR} & found.get(id_, set()):
+            raise InputError(f"{path}: {id_}: {_not_needed(id_, result)}")
+
+
+def _not_needed(id_: str, result: RunResult) -> str:
+    """Return in words why nothing of check ``id_`` was waived."""
+    check = next((check for check in result.checks if check.id == id_), None)
+    if check is None or (check.outcome is Outcome.SKIP and not check.cases):
+        return "was not run: nothing to waive; run it too, or take the line out"
+    if check.outcome is Outcome.SKIP:
+        return "was skipped by the device: nothing to waive; take the line out"
+    if check.outcome is Outcome.NOT_APPLICABLE:
+        return "does not apply to the device: nothing to waive; take the line out"
+    return "did not fail: nothing to waive; take the line out"

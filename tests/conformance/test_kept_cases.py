@@ -117,6 +117,14 @@ def test_a_waiver_holds_for_the_kept_cases_of_its_check_too(plan, result_of, hal
     assert alone.verdict is Verdict.INCOMPLETE
 
 
+def test_a_waiver_covers_no_kept_case_that_crashes(plan, result_of, raising):
+    device = raising(DeviceError("crashed"), lambda number: number == 3)
+    again, waivers = (kept("toy"),), {"toy": "known"}
+    result = result_of(plan(device, searching=False, kept=again, waivers=waivers))
+    assert outcomes(result) == {"toy-1.json": "error"}
+    assert result.verdict is Verdict.FAIL
+
+
 def test_a_kept_case_is_waived_though_its_check_passes(plan, result_of, clipping):
     waivers = {"toy": "tops are lost"}
     again = (kept("toy", ROUGH),)

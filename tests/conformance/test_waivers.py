@@ -10,7 +10,6 @@ from floatref_conformance.verdict import CheckResult, Outcome, RunResult, Verdic
 from floatref_conformance.waivers import check_used, read_waivers, waived
 
 KNOWN = {"toy": None, "second": None}
-FAILED = (Outcome.FAIL, Outcome.ERROR)
 
 
 @pytest.fixture
@@ -48,6 +47,12 @@ def test_a_file_of_comments_waives_nothing(read, text):
     assert read(text) == {}
 
 
+def test_the_mark_that_some_editors_put_first_is_no_part_of_an_id(tmp_path):
+    path = tmp_path / "waivers.txt"
+    path.write_bytes(b"\xef\xbb\xbftoy waits\r\nsecond x\r\n")
+    assert read_waivers(path, KNOWN) == {"toy": "waits", "second": "x"}
+
+
 def test_a_check_of_the_suite_may_be_waived_though_it_is_not_built(read):
     assert read("stop later") == {"stop": "later"}
 
@@ -76,11 +81,11 @@ def test_a_file_that_is_no_text_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("outcome", list(Outcome))
-def test_only_a_failure_of_a_named_check_is_waived_and_says_so(outcome):
+def test_only_a_limit_that_a_named_check_breaks_is_waived_and_says_so(outcome):
     result = CheckResult("toy", "", outcome, "too rough", counterexample={"case": "c"})
     after = waived(result, {"toy": "known", "second": "known"})
     assert waived(result, {"second": "known"}) is result
-    if outcome in FAILED:
+    if outcome is Outcome.FAIL:
         assert after.outcome is Outcome.WAIVED
         assert after.reason == "waived (known): too rough"
         assert after.counterexample == result.counterexample
@@ -99,12 +104,23 @@ def run_result(outcomes, replayed=()):
 def test_a_waiver_that_no_failure_needed_is_refused_by_name(tmp_path_factory, outcomes, data):
     path = tmp_path_factory.getbasetemp() / "waivers.txt"
     used = [id_ for id_, outcome in outcomes.items() if outcome is Outcome.WAIVED]
+    unsure = [id_ for id_, outcome in outcomes.items() if outcome is Outcome.ERROR]
     result = run_result(outcomes)
-    check_used(dict.fromkeys(used, "x"), result, path)
-    for unused in {*"abc"} - {*used}:
+    check_used(dict.fromkeys([*used, *unsure], "x"), result, path)
+    for unused in {*"abc"} - {*used, *unsure}:
         waivers = dict.fromkeys(data.draw(st.permutations([*used, unused])), "x")
-        with pytest.raises(InputError, match=rf"waivers\.txt: {unused}: did not fail"):
+        said = {Outcome.PASS: "did not fail", Outcome.FAIL: "did not fail"}.get(
+            outcomes.get(unused, Outcome.SKIP), "was not run|does not apply"
+        )
+        with pytest.raises(InputError, match=rf"waivers\.txt: {unused}: ({said}): nothing"):
             check_used(waivers, result, path)
+
+
+def test_a_waiver_of_a_check_that_the_device_skipped_says_so(tmp_path):
+    skipped = CheckResult("toy", "", Outcome.SKIP, "too fast for me", cases=2)
+    result = RunResult({}, DeviceClass.NOMINAL, 0, "quick", (skipped,))
+    with pytest.raises(InputError, match="toy: was skipped by the device"):
+        check_used({"toy": "x"}, result, tmp_path)
 
 
 def test_a_kept_case_needs_the_waiver_of_its_check(tmp_path):

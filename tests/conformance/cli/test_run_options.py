@@ -100,8 +100,8 @@ def test_a_waiver_covers_no_other_check(call, waive):
         ("jumping later", "line 1: jumping: unknown check"),
         ("toy x\ntoy y", "line 2: toy: waived twice"),
         ("toy x", "toy: did not fail: nothing to waive"),
-        ("second x", "second: did not fail"),
-        ("stop x", "stop: did not fail"),
+        ("second x", "second: was not run"),
+        ("stop x", "stop: was not run"),
     ],
 )
 def test_a_waiver_of_no_use_is_exit_2(run_toy, waive, text, said):
@@ -109,6 +109,14 @@ def test_a_waiver_of_no_use_is_exit_2(run_toy, waive, text, said):
     assert answer.exit_code == 2
     assert said in answer.stderr
     assert "known.txt" in answer.stderr
+
+
+def test_a_waiver_of_a_limit_hides_no_crash(run_toy, call, keep, waive, tmp_path):
+    answer = run_toy("broken", *waive("toy halves"), "--report", tmp_path)
+    assert answer.exit_code == 1
+    assert "FAIL: 0 of 1 checks that ran passed" in answer.stdout
+    (toy,) = (c for c in report_in(tmp_path)["checks"] if c["id"] == "toy")
+    assert (toy["outcome"], report_in(tmp_path)["verdict"]) == ("error", "FAIL")
 
 
 def test_an_unusable_waiver_is_told_before_anything_runs(run_toy, waive, devices):
