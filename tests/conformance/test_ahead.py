@@ -64,6 +64,27 @@ def test_what_waits_for_its_turn_is_made_by_the_one_who_asks(worker, made):
     assert made == [(2, threading.current_thread().name)]
 
 
+@pytest.mark.parametrize("asked", [0, 1, 7])
+def test_few_wait_to_be_asked_for_and_the_next_follow(worker, made, asked):
+    """One task at a time is done, so that after another one all that was begun is made."""
+    many = [Scenario(seed=10 + n, imu=False, gnss=False) for n in range(12)]
+    worker.announce(Case("toy", scenario) for scenario in many)
+    for scenario in many[:asked]:
+        assert worker(scenario).scenario == scenario
+    worker._worker.submit(int).result()
+    assert {seed for seed, _ in made} == set(range(10, 10 + asked + ahead.OUTSTANDING))
+
+
+def test_what_is_never_asked_for_makes_room(worker, made):
+    many = [Scenario(seed=10 + n, imu=False, gnss=False) for n in range(12)]
+    worker.announce(Case("toy", scenario) for scenario in many)
+    assert worker(many[5]).scenario == many[5]
+    worker._worker.submit(int).result()
+    begun = {seed for seed, _ in made}
+    assert begun - {10, 11, 12} == {15, 16, 17, 18}
+    assert worker(many[0]).scenario == many[0]
+
+
 def test_an_error_is_that_of_asking(worker, made):
     worker.announce([Case("toy", SCENARIOS[5])])
     with pytest.raises(InputError, match="no such drive"):
