@@ -110,7 +110,7 @@ def test_a_waiver_that_no_failure_needed_is_refused_by_name(tmp_path_factory, ou
     for unused in {*"abc"} - {*used, *unsure}:
         waivers = dict.fromkeys(data.draw(st.permutations([*used, unused])), "x")
         said = {Outcome.PASS: "did not fail", Outcome.FAIL: "did not fail"}.get(
-            outcomes.get(unused, Outcome.SKIP), "was not run|does not apply"
+            outcomes.get(unused, Outcome.SKIP), "was not run|does not apply to the device"
         )
         with pytest.raises(InputError, match=rf"waivers\.txt: {unused}: ({said}): nothing"):
             check_used(waivers, result, path)
