@@ -55,7 +55,7 @@ def serve(
                 told = {"version": 1, "device": dict(device.describe())}
             else:
                 paths = Path(command["recording"]), Path(command["profile"])
-                told = _outcome(device.run(*paths))
+                told = outcome(device.run(*paths))
             answer({"seq": command["seq"], **told})
         except BaseException as error:
             answer({"seq": command["seq"], **_fault(error)})
@@ -96,7 +96,8 @@ def missing(spec: str) -> str | None:
     return None
 
 
-def _outcome(done: object) -> Mapping[str, Any]:
+def outcome(done: object) -> Mapping[str, Any]:
+    """Return the answer to a command whose run returned ``done``: skipped and why, or ok."""
     if isinstance(done, Mapping) and "skipped" in done:
         return {"skipped": str(done["skipped"])}
     return {"ok": True}

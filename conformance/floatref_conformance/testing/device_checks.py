@@ -1,10 +1,12 @@
 """The checks of the suite as tests of a device."""
 
+import os
+import shlex
+from collections.abc import Callable, Sequence
 from typing import ClassVar
 
 import pytest
 
-from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.events import Event
@@ -12,31 +14,43 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.wording import reproduction
 from floatref_conformance.runner import Plan, run
-from floatref_conformance.verdict import Outcome
+from floatref_conformance.testing.own_device import OwnDevice
+from floatref_conformance.verdict import Outcome, RunResult
 
 
 class DeviceChecks:
     """Subclass it under a name that pytest collects, and name the device.
 
-    Every check is a test of its own. One that is not among ``checks``, that the device skips,
-    or that does not apply to it, is skipped: what was not run never counts as passed.
+    Every check, of the suite or of an installed plug-in, is a test of its own. One that is not
+    among ``checks``, that the device skips, or that does not apply to it, is skipped: what was
+    not run never counts as passed. A check that there is none of ends the collection.
 
     Attributes:
-        device: its SPEC, as `conformance run --device` takes it, or the object itself.
+        device: its SPEC, as `conformance run --device` takes it; or what makes the object, a
+            class or a function without arguments, called for each check and closed after it;
+            or one object for all checks, which is never closed.
         device_class: whose limits decide.
         checks: the ids of the checks to run; all of them if empty.
         seed: draws roads and noise.
         effort: sets the number of cases.
     """
 
-    device: ClassVar[str | Device] = "builtin:temporal-adaptive-hpf-spatial-backward"
+    device: ClassVar[str | Callable[[], Device] | Device] = (
+        "builtin:temporal-adaptive-hpf-spatial-backward"
+    )
     device_class: ClassVar[str] = DeviceClass.NOMINAL.value
-    checks: ClassVar[tuple[str, ...]] = ()
+    checks: ClassVar[Sequence[str]] = ()
     seed: ClassVar[int] = 0
     effort: ClassVar[str] = Effort.QUICK.value
 
-    @pytest.mark.parametrize("check", IDS)
-    def test_the_device_passes(self, check: str) -> None:
+    def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
+        """Make every check that is registered a test; CollectError for an unknown one."""
+        if "check" in metafunc.fixturenames:
+            registry = load_registry()
+            self._refuse_unknown(registry)
+            metafunc.parametrize("check", tuple(registry.checks))
+
+    def test_the_device_passes(self, check: str, request: pytest.FixtureRequest) -> None:
         """Run one check and fail with its reason and the command that reproduces it."""
         registry = load_registry()
         if self.checks and check not in self.checks:
@@ -56,15 +70,36 @@ class DeviceChecks:
         if judged.outcome in (Outcome.SKIP, Outcome.NOT_APPLICABLE):
             pytest.skip(judged.reason)
         if judged.outcome is not Outcome.PASS:
-            pytest.fail(
-                f"{check}: {judged.reason}; reproduce with: {reproduction(result)}", pytrace=False
-            )
+            again = self._again(result, request.node)
+            pytest.fail(f"{check}: {judged.reason}; reproduce with: {again}", pytrace=False)
+
+    def _refuse_unknown(self, registry: Registry) -> None:
+        """Raise CollectError, one line, for a check that there is none of."""
+        if isinstance(self.checks, str):
+            fault = f"{self.checks!r} is a string; write ({self.checks!r},)"
+        elif unknown := [id_ for id_ in self.checks if id_ not in registry.checks]:
+            known = ", ".join(registry.checks)
+            fault = f"unknown check {', '.join(map(str, unknown))}; these can be run: {known}"
+        else:
+            return
+        raise pytest.Collector.CollectError(f"{type(self).__name__}.checks: {fault}")
 
     def _named(self, registry: Registry) -> tuple[str, Device]:
         """Return the device's SPEC, or its type's name, and the device."""
-        if isinstance(self.device, str):
-            return self.device, registry.device(self.device)
-        return type(self.device).__name__, self.device
+        # Not through self, which would be given to a function as its first argument.
+        device = type(self).device
+        if isinstance(device, str):
+            return device, registry.device(device)
+        own = OwnDevice.of(device)
+        return own.name, own
+
+    def _again(self, result: RunResult, test: pytest.Item) -> str:
+        """Return the command, given where this run was, that runs ``test`` again."""
+        if isinstance(type(self).device, str):
+            return reproduction(result)
+        path = os.path.relpath(test.path, test.config.invocation_params.dir)
+        inside = test.nodeid.partition("::")[2]
+        return shlex.join(["pytest", f"{path}::{inside}"])
 
 
 def _ignore(event: Event) -> None:

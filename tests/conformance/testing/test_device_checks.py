@@ -1,53 +1,172 @@
 """The checks as a vendor's tests: a device that fails one fails its test, and says how."""
 
+import shlex
+import subprocess
+import sys
+from dataclasses import replace
+from types import SimpleNamespace
+
 import pytest
 
-from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.testing import DeviceChecks, device_checks
+
+SUITE = """
+from floatref_conformance.devices.builtin import BuiltinDevice
 from floatref_conformance.testing import DeviceChecks
 
+class Broken(BuiltinDevice):
+    def run(self, recording, profile):
+        raise RuntimeError("no power")
 
-def ids_of(cls):
-    mark = next(m for m in cls.test_the_device_passes.pytestmark if m.name == "parametrize")
-    return tuple(mark.args[1])
+def ours():
+    return Broken("temporal-adaptive-hpf-spatial-backward")
 
-
-def test_every_check_is_a_test():
-    assert ids_of(DeviceChecks) == tuple(IDS)
-
-
-def test_a_sound_device_passes():
-    class Sound(DeviceChecks):
-        checks = ("quiescent",)
-
-    Sound().test_the_device_passes("quiescent")
+class TestOurs(DeviceChecks):
+    device = ours
+    checks = ("bounce",)
+"""
 
 
-def test_a_wrong_device_fails_with_the_command_that_shows_it_again():
-    class Wrong(DeviceChecks):
-        device = "mutant:scaled"
+class Sound:
+    """A built-in pipeline as a vendor's object that must not be used after it was closed."""
 
+    made: tuple["Sound", ...] = ()
+
+    def __init__(self):
+        self.device = load_registry().device("builtin:temporal-adaptive-hpf-spatial-backward")
+        self.closed = 0
+        type(self).made += (self,)
+
+    def describe(self):
+        assert not self.closed
+        return self.device.describe()
+
+    def run(self, recording, profile):
+        assert not self.closed
+        return self.device.run(recording, profile)
+
+    def close(self):
+        self.closed += 1
+
+
+class Declining(Sound):
+    def run(self, recording, profile):
+        return {"skipped": "out of ink"}
+
+
+class Broken(Sound):
+    def run(self, recording, profile):
+        raise RuntimeError("no power")
+
+
+def pytest_in(folder, *words):
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", "addopts="]
+    return subprocess.run(
+        [*command, *words], cwd=folder, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture
+def judged(request):
+    """Return a function that runs one check on a device."""
+
+    def run(device, check="quiescent", **settings):
+        cls = type("TestIt", (DeviceChecks,), {"device": device, **settings})
+        cls().test_the_device_passes(check, request)
+
+    return run
+
+
+def test_a_sound_device_passes(judged):
+    judged(DeviceChecks.device, checks=("quiescent",))
+
+
+def test_a_wrong_device_fails_with_the_command_that_shows_it_again(judged):
     with pytest.raises(pytest.fail.Exception, match=r"quiescent: .*conformance run --device"):
-        Wrong().test_the_device_passes("quiescent")
+        judged("mutant:scaled")
 
 
-def test_what_is_not_selected_is_skipped_not_passed():
-    class Few(DeviceChecks):
-        checks = ("bounce",)
-
+def test_what_is_not_selected_is_skipped_not_passed(judged):
     with pytest.raises(pytest.skip.Exception, match="not selected"):
-        Few().test_the_device_passes("quiescent")
+        judged(DeviceChecks.device, checks=("bounce",))
 
 
-def test_a_device_may_be_an_object():
-    class Broken:
-        def describe(self):
-            return {"name": "b", "version": "1", "architecture": "temporal", "capabilities": []}
+def test_a_check_that_there_is_none_of_is_told_in_one_line(tmp_path):
+    text = SUITE.replace('("bounce",)', '("quiesent", "bounce", "bounc")')
+    (tmp_path / "test_ours.py").write_text(text)
+    done = pytest_in(tmp_path, "test_ours.py")
+    assert done.returncode == 2
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("TestOurs.checks: ")]
+    assert "unknown check quiesent, bounc; these can be run: quiescent, bounce" in line
+    assert "Traceback" not in done.stdout
 
-        def run(self, recording, profile):
-            raise RuntimeError("no power")
 
-    class Ours(DeviceChecks):
-        device = Broken()
+def test_a_check_that_is_not_in_a_tuple_is_refused():
+    class Single(DeviceChecks):
+        checks = "quiescent"
 
+    function = SimpleNamespace(fixturenames=("check",))
+    with pytest.raises(pytest.Collector.CollectError, match=r"write \('quiescent',\)"):
+        Single().pytest_generate_tests(function)
+
+
+def test_every_registered_check_is_a_test(monkeypatch):
+    registry = load_registry()
+    more = replace(registry, checks={**registry.checks, "ours:wet": registry.check("bounce")})
+    monkeypatch.setattr(device_checks, "load_registry", lambda: more)
+    asked = {}
+    function = SimpleNamespace(fixturenames=("check", "request"), parametrize=asked.__setitem__)
+    DeviceChecks().pytest_generate_tests(function)
+    assert asked == {"check": (*registry.checks, "ours:wet")}
+
+
+def test_an_object_of_the_vendors_passes(judged):
+    judged(Sound)
+
+
+MAKERS = [Declining, staticmethod(lambda: Declining()), lambda: Declining()]
+
+
+@pytest.mark.parametrize("make", MAKERS, ids=["class", "static", "function"])
+def test_each_check_has_an_object_of_its_own_that_is_closed_once(judged, make):
+    before = len(Declining.made)
+    for check in ("quiescent", "bounce"):
+        with pytest.raises(pytest.skip.Exception, match="out of ink"):
+            judged(make, check)
+    assert [one.closed for one in Declining.made[before:]] == [1, 1]
+
+
+def test_one_object_for_all_checks_stays_open(judged):
+    one = Declining()
+    for check in ("quiescent", "bounce"):
+        with pytest.raises(pytest.skip.Exception, match="out of ink"):
+            judged(one, check)
+    assert one.closed == 0
+
+
+@pytest.mark.parametrize("device", [Broken, Broken()], ids=["class", "object"])
+def test_a_device_may_be_an_object(judged, device):
     with pytest.raises(pytest.fail.Exception, match="no power"):
-        Ours().test_the_device_passes("quiescent")
+        judged(device)
+
+
+def test_a_factory_that_fails_is_the_devices_fault(judged):
+    def make():
+        raise RuntimeError("no licence")
+
+    with pytest.raises(pytest.fail.Exception, match="no licence"):
+        judged(make)
+
+
+def test_the_command_for_an_object_shows_the_failure_again(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_ours.py").write_text(SUITE)
+    done = pytest_in(tmp_path, "tests")
+    assert "1 failed" in done.stdout
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("bounce: ")]
+    program, *words = shlex.split(line.partition("reproduce with: ")[2])
+    assert program == "pytest"
+    again = pytest_in(tmp_path, *words)
+    assert "1 failed" in again.stdout
+    assert "no power" in again.stdout
