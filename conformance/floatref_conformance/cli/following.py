@@ -9,7 +9,12 @@ from typing import NoReturn
 
 import click
 
-from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, INTERRUPTED, in_one_line
+from floatref_conformance.cli.no_verdict import (
+    FAULT_OF_THE_SUITE,
+    INTERRUPTED,
+    drop_output,
+    in_one_line,
+)
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.events import Event, Renderer, RunFinished
 from floatref_conformance.render.terminal import TerminalRenderer
@@ -20,13 +25,18 @@ from floatref_conformance.verdict import RunResult
 def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
     """Run ``plan``, show it, have it written by ``writers``, and return the result.
 
-    Without a verdict, or without a report of it, the command ends here with its exit code.
+    Without a verdict, or without a report of it, the command ends here with its exit code. The
+    run goes on when nobody reads what it shows.
     """
     terminal = TerminalRenderer()
     finished: list[RunFinished] = []
 
     def emit(event: Event) -> None:
-        terminal.handle(event)
+        try:
+            terminal.handle(event)
+        except BrokenPipeError:
+            # Whoever read the terminal has gone; reports and exit code are still wanted.
+            drop_output()
         if isinstance(event, RunFinished):
             finished.append(event)
         else:

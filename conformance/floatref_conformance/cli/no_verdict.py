@@ -31,7 +31,7 @@ class VerdictGroup(LazyGroup):
         try:
             return super().main(*args, **kwargs)
         except OSError:
-            _drop_output()
+            drop_output()
             sys.exit(FAULT_OF_THE_SUITE)
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
@@ -55,7 +55,7 @@ def _no_verdict(ctx: click.Context | None) -> Iterator[None]:
         click.echo(f"Interrupted: {_missing(ctx)}", err=True)
         raise click.exceptions.Exit(INTERRUPTED) from None
     except BrokenPipeError:
-        _drop_output()
+        drop_output()
         raise NoVerdict(f"nobody reads the output any more, {_missing(ctx)}") from None
     except (Exception, SystemExit) as error:
         raise NoVerdict(
@@ -76,7 +76,7 @@ def in_one_line(error: BaseException) -> str:
     )
 
 
-def _drop_output() -> None:
+def drop_output() -> None:
     """Let what is left in the buffers go nowhere, so that flushing them at exit cannot fail."""
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):

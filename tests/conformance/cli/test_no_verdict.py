@@ -52,7 +52,7 @@ def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
 
 
 @pytest.mark.parametrize("both", [False, True])
-@pytest.mark.parametrize("words", [["list"], ["--help"], ["run", "--check", "quiescent"]])
+@pytest.mark.parametrize("words", [["list"], ["--help"], ["explain", "stop"]])
 def test_output_that_nobody_reads_is_exit_3_and_never_a_verdict(words, both):
     reading, writing = os.pipe()
     os.close(reading)

@@ -1,16 +1,20 @@
 """`conformance run`: exit codes, what it says, and the report it leaves."""
 
 import json
+import os
 import shlex
 import shutil
 import subprocess
 import sys
+from contextlib import suppress
 
 import pytest
 from jsonschema import Draft202012Validator
 
 from floatref_conformance import trial
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.cli import following
+from floatref_conformance.render.terminal import PipedConsole, TerminalRenderer
 from floatref_conformance.schemas import read_schema
 
 
@@ -119,6 +123,29 @@ def test_an_interruption_is_no_verdict(run_toy, monkeypatch, tmp_path, devices):
     assert "no verdict" in answer.stderr
     assert files_in(tmp_path) == set()
     assert devices["good"].closed == 1
+
+
+@pytest.fixture
+def unread():
+    """A console whose reader goes away before the first line."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    file = os.fdopen(writing, "w")
+    yield PipedConsole(file=file, emoji=False)
+    with suppress(BrokenPipeError):
+        file.close()
+
+
+@pytest.mark.parametrize(("device", "code"), [("good", 4), ("bad", 1)])
+def test_a_run_goes_on_and_reports_when_nobody_reads_what_it_shows(
+    run_toy, tmp_path, monkeypatch, unread, device, code
+):
+    assert run_toy(device, "--report", tmp_path / "read").exit_code == code
+    monkeypatch.setattr(following, "TerminalRenderer", lambda: TerminalRenderer(unread))
+    answer = run_toy(device, "--report", tmp_path / "unread")
+    assert (answer.exit_code, answer.stdout) == (code, "")
+    assert files_in(tmp_path / "unread") == files_in(tmp_path / "read")
+    assert report_in(tmp_path / "unread") == report_in(tmp_path / "read")
 
 
 def test_a_report_that_fails_after_judging_is_exit_3_beneath_the_verdict(
