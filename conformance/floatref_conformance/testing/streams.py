@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.stages.protocol import Direction, Stage
-from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.arrays import BoolArray, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -104,3 +104,9 @@ def marks_of(block: Block, channel: ChannelId) -> FlagArray:
     """Return the flags of ``channel``, zeros if it has none."""
     marks = block.flags.get(channel)
     return np.zeros(len(block), np.uint8) if marks is None else marks
+
+
+def told(block: Block, channel: ChannelId) -> BoolArray:
+    """Return where ``channel`` is NaN or flagged."""
+    either: BoolArray = np.isnan(block[channel]) | (marks_of(block, channel) != 0)
+    return either
