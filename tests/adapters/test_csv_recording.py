@@ -130,15 +130,13 @@ def test_floatref_finds_the_adapter_through_its_entry_point() -> None:
 def test_a_table_is_processed_as_its_recording_directory_is(tmp_path: Path) -> None:
     rate, speed, n = 1000.0, 20.0, 2000
     t = np.arange(n) / rate
-    force = 9.80665 + 0.3 * np.sin(9 * t)
-    rows = zip(
-        t.tolist(), force.tolist(), (0.3 + 0 * t).tolist(), (speed * t).tolist(), strict=True
-    )
+    force, height = 9.80665 + 0.3 * np.sin(9 * t), 0.3 - 0.004 * np.sin(9 * t)
+    rows = zip(t.tolist(), force.tolist(), height.tolist(), (speed * t).tolist(), strict=True)
     text = "time_s,vertical_specific_force,height,distance\n"
     text += "".join(",".join(map(repr, row)) + "\n" for row in rows)
     clock = UniformClock.of(rate)
     names = ("vertical_specific_force", "height", "distance")
-    arrays = (force, 0.3 + 0 * t, speed * t)
+    arrays = (force, height, speed * t)
     channels = [floatref.Channel.of(*c, clock) for c in zip(names, arrays, strict=True)]
     expected = floatref.process(floatref.Recording(tuple(channels)))
     found = floatref.process(read(tmp_path, text))

@@ -56,7 +56,8 @@ def test_ci_runs_the_second_command() -> None:
 def test_the_example_writes_a_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     time = np.arange(16_000) / 16_000
     force = 9.80665 + 0.4 * np.sin(20.0 * time)
-    np.save(tmp_path / "run.npy", np.stack((force, np.full(16_000, 0.3), 20.0 * time)))
+    height = 0.3 - 0.001 * np.sin(20.0 * time)
+    np.save(tmp_path / "run.npy", np.stack((force, height, 20.0 * time)))
     monkeypatch.chdir(tmp_path)
     exec(EXAMPLE[0], {})
     profile = floatref.read_profile(tmp_path / "profile")

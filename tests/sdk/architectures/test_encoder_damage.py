@@ -1,11 +1,10 @@
-"""An encoder's leaps, silence, lost counts and steps back, and travel that looks like them."""
+"""An encoder's silence, lost counts and steps back, and travel that looks like them."""
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-import floatref
 from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.source import Source
 from floatref.values.arrays import Flag
@@ -37,23 +36,6 @@ def taken(steady, values, size=4096):
     blocks = list(Source(recording).blocks(size))
     flags = [b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks]
     return np.concatenate([b[DISTANCE] for b in blocks]), np.concatenate(flags)
-
-
-@laws
-@given(
-    at=st.integers(1, COUNT - 1),
-    size_m=st.floats(0.3, 10.0),
-    speed=st.floats(6.0, 30.0),
-    stamped=st.booleans(),
-)
-def test_a_leap_is_void(at, size_m, speed, stamped):
-    values = travel(speed)
-    values[at:] += size_m
-    clock = StampedClock.of(CLOCK.times(COUNT)) if stamped else CLOCK
-    found = damage(values, clock)
-    np.testing.assert_array_equal(found.void, [[at, at + 1]])
-    np.testing.assert_array_equal(found.lasting, found.void)
-    assert found.gone.size == 0
 
 
 @laws
@@ -174,47 +156,6 @@ def test_counts_lost_to_the_end_are_unknown(speed, seconds):
     assert (first, end) == (at + 1, pytest.approx(COUNT, abs=1))
 
 
-@laws
-@given(at=st.integers(500, 15_000), length=st.integers(1, 200), size_m=st.floats(5.0, 30.0))
-def test_a_leap_over_missing_samples_is_void_all_along(at, length, size_m):
-    values = travel(12.0)
-    values[at + length :] += size_m + 0.012 * length
-    values[at : at + length] = np.nan
-    np.testing.assert_array_equal(damage(values).void, [[at, at + length + 1]])
-
-
-@laws
-@given(
-    rate=st.sampled_from([10.0, 50.0, 100.0, 4000.0]),
-    places=st.sets(st.integers(2, 30), min_size=1, max_size=29),
-    size_m=st.floats(6.0, 30.0),
-)
-def test_leaps_do_not_hide_each_other_nor_at_low_rates(rate, places, size_m):
-    seconds = np.arange(int(34 * rate)) / rate
-    values = 20.0 * seconds
-    at = [int(k * rate) + 3 for k in sorted(places)]
-    for k in at:
-        values[k:] += size_m
-    channel = Channel.of("distance", values, UniformClock.of(rate))
-    np.testing.assert_array_equal(encoder_damage(channel).void, [[k, k + 1] for k in at])
-
-
-@laws
-@given(
-    at=st.integers(500, 15_000),
-    length=st.integers(100, 400),
-    faster=st.floats(2.0, 4.0),
-    speed=st.floats(10.0, 30.0),
-)
-def test_counts_beyond_what_a_vehicle_speeds_up_are_void(at, length, faster, speed):
-    values = travel(speed)
-    extra = faster * speed * np.clip(np.arange(COUNT) - at, 0, length) / RATE
-    found = damage(values + extra)
-    assert len(found.void) == 1
-    assert found.void[0] == pytest.approx([at, at + length], abs=51)
-    assert "counts too much" in found.warnings[0]
-
-
 @pytest.mark.parametrize("rate", [50.0, 100.0, 1000.0])
 @pytest.mark.parametrize("seconds", [0.08, 0.1, 0.4])
 def test_silence_is_made_up_for_at_low_rates_as_well(rate, seconds):
@@ -223,16 +164,6 @@ def test_silence_is_made_up_for_at_low_rates_as_well(rate, seconds):
     values[at:behind] = values[at]
     found = encoder_damage(Channel.of("distance", values, UniformClock.of(rate)))
     np.testing.assert_array_equal(found.gone, [[at + 1, behind]])
-    assert found.void.size == 0
-
-
-@laws
-@given(at=st.integers(500, 15_000), height_m=st.floats(0.5, 50.0))
-def test_a_spike_is_bridged_and_what_follows_is_not_behind(at, height_m):
-    values = travel()
-    values[at] += height_m
-    found = damage(values)
-    np.testing.assert_array_equal(found.gone, [[at, at + 1]])
     assert found.void.size == 0
 
 
@@ -265,25 +196,3 @@ def test_a_sound_drive_with_a_stop_is_none_at_any_rate(rate, count_m, braking, s
     clock = UniformClock.of(many * rate)
     lines = encoder_damage(Channel.of("distance", np.repeat(values, many), clock)).warnings
     assert [line for line in lines if "goes back" not in line] == []
-
-
-def test_a_missing_distance_is_no_leap():
-    values = travel()
-    values[3000:9000] = np.nan
-    assert damage(values).warnings == ()
-
-
-@pytest.mark.parametrize(
-    "pipeline",
-    ["temporal-adaptive-hpf-spatial-backward", "spatial-hpf-timer-distortion-reflection"],
-)
-def test_around_a_leap_no_point_is_valid_and_the_user_is_told(steady, pipeline):
-    values = travel()
-    values[10_000:] += 2.0
-    recording = steady(seconds=20.0, distance=Channel.of("distance", values, CLOCK))
-    with pytest.warns(floatref.FloatrefWarning, match="distance: leaps for 1 samples in 1 places"):
-        profile = floatref.process(recording, pipeline)
-    x, valid = profile.distance_m, profile.tracks[0].valid
-    assert not valid[(x > 186.0) & (x < 230.0)].any()
-    assert valid[(x > 60.0) & (x < 180.0)].all()
-    assert valid[(x > 250.0) & (x < 340.0)].all()

@@ -75,7 +75,7 @@ REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (DISTANCE, lambda d: d * 1000, "is 2e+04 m/s, faster than any profiler; if the distance is in"),
     (DISTANCE, lambda d: d + 1e4 * (d >= 100), "1.001e+04 m in 0.5 s from 104.5 s is 2.002e+04"),
     (DISTANCE, lambda d: d[::-1], "sample 1 goes back by 0.1 m to 399.8 m; invert the sign"),
-    (DISTANCE, put((700, 68.0)), "sample 700 goes back by 1.9 m to 68 m; invert the sign"),
+    (DISTANCE, put((slice(700, 702), 68.0)), "sample 700 goes back by 1.9 m to 68 m; invert"),
     (DISTANCE, put((slice(690, 700), np.nan), (700, 67.0)), "sample 700 goes back by 1.9 m to"),
     (DISTANCE, lambda d: d * 0 + 7, "never leaves 7 m, less than the profile interval of 0.00508"),
     (DISTANCE, lambda d: d * 1e-6, "moves 0.0004 m, less than the profile interval of 0.00508 m"),
