@@ -12,7 +12,7 @@ from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
 from floatref_conformance.bench import seen_by, taken_of
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check, Taken
+from floatref_conformance.checks.interface import Check, Taken, fitted
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
@@ -75,7 +75,7 @@ def export(
     bench = ExportBench(folder, description)
     for check in checks:
         if check.needs <= set(description.capabilities):
-            for case in check.cases(seed, effort):
+            for case in fitted(check, description.capabilities).cases(seed, effort):
                 _record(check, case, bench)
         told(check.id, len(bench.written))
     return len(bench.written)

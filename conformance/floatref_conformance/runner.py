@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref_conformance.ahead import Ahead
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
-from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.interface import Check, fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.errors import DeviceError, SuiteError
@@ -131,7 +131,7 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
     try:
         yield (
             lambda check: (
-                ahead.announce(check.cases(plan.seed, plan.effort))
+                ahead.announce(fitted(check, capable).cases(plan.seed, plan.effort))
                 if check.needs <= capable
                 else None
             )
@@ -154,6 +154,7 @@ def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
         return not_applicable_result(check, missing)
     if trial.given_up:
         return given_up_result(check, trial.given_up)
+    check = fitted(check, trial.description.capabilities)
     return trial.check(check, plan.seed, plan.effort, plan.searching)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.changes import CHANGES, number
-from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.phases import brake_to_stop, extent
 from floatref_conformance.proving_ground.runs import KMH
@@ -110,8 +110,9 @@ def drawn() -> "SearchStrategy[Case]":
         change = draw(st.sampled_from(tuple(CHANGES)))
         numbers = draw(_DRAWN.get(change, _travel)())
         variation = draw(_numbers(change, numbers["rate_hz"]))
-        scenario = drive(change, draw(seeds()), **numbers)
-        return Case(CHECK, scenario, {"change": change, **variation})
+        variation = {"change": change, **variation}
+        seed = seed_of_its_own(draw(seeds()), numbers, variation)
+        return Case(CHECK, drive(change, seed, **numbers), variation)
 
     return case()
 

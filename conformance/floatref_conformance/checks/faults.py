@@ -1,9 +1,10 @@
 """`faults`: what is missing or damaged is right or flagged, and stays local."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from floatref.errors import InputError
 from floatref_conformance.checks import injured_drives
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.fault_scores import (
@@ -16,7 +17,8 @@ from floatref_conformance.checks.fault_scores import (
     fault_measurements,
 )
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
-from floatref_conformance.checks.injuries import injury_of
+from floatref_conformance.checks.injured_drives import of_a_receiver
+from floatref_conformance.checks.injuries import INJURIES, injury_of
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rule import ELSEWHERE
 from floatref_conformance.checks.rules import UNPROVOKED
@@ -38,6 +40,8 @@ class FaultsCheck:
     title: str = "missing and damaged samples are flagged and stay local"
     clause: str = "derived: right or flagged; the high-pass' reach; the limits of an event"
     needs: frozenset[str] = frozenset()
+    receiver: bool = True
+    """Whether the device has one, whose faults are among the cases."""
 
     @property
     def derivation(self) -> str:
@@ -73,11 +77,20 @@ class FaultsCheck:
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every fault once, in a certification three times; ``seed`` draws the roads."""
-        return injured_drives.fixed(seed, effort)
+        cases = injured_drives.fixed(seed, effort)
+        return tuple(c for c in cases if c.variation["fault"] in self._faults)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any fault of any length, size and place in any drive."""
-        return injured_drives.drawn()
+        return injured_drives.drawn(self._faults)
+
+    def fitted(self, capabilities: Iterable[str]) -> "FaultsCheck":
+        """Return the check without the faults of a receiver if ``capabilities`` have no gnss."""
+        return replace(self, receiver="gnss" in capabilities)
+
+    @property
+    def _faults(self) -> tuple[str, ...]:
+        return tuple(f for f in INJURIES if self.receiver or not of_a_receiver(f))
 
     def scored(self, case: Case) -> Stretches:
         """Return all of the drive: every point counts that the device vouches for."""
@@ -86,14 +99,18 @@ class FaultsCheck:
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return what the fault did to every wheel path, and what was flagged without it.
 
-        A fault of a receiver that the device does not have changes nothing, and is not processed.
-        Raises InputError for a variation that names no fault or lacks a number of it.
+        The device is given the fault first: nothing that it keeps shows it the road below.
+        Raises InputError for a variation that names no fault or lacks a number of it, and for
+        the fault of a receiver that the device does not have.
         """
         taken = bench.simulate(case.scenario)
         injured = injury_of(case.variation)(taken.recording, case.variation)
-        before = after = bench.run(taken, "without the fault")
-        if injured.recording is not taken.recording:
-            after = bench.run(replace(taken, recording=injured.recording), "with the fault")
+        if injured.recording is taken.recording:
+            fault = case.variation["fault"]
+            raise InputError(f"variation fault {fault}: needs gnss, which the device lacks")
+        hurt = replace(taken, recording=injured.recording)
+        after = bench.run(hurt, "with the fault")
+        before = bench.run(taken, "without the fault")
         part = str(case.variation["fault"]).partition("-")[0]
         alike = (beside(taken.truth, before), beside(taken.truth, after, injured))
         # What the encoder never told lies on no device's axis: nobody has flagged it.
@@ -121,14 +138,15 @@ def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
 
 
 DERIVATION = (
-    "A recording of two wheel paths is processed as it is, and with one fault in it. The laser "
-    "of the first path loses readings (one sample to 2 s, or up to 60 short drop-outs), sticks "
-    "(0.1 to 1 s), or is pinned 50 mm beyond all that it measured (10 to 500 ms); its "
+    "A recording of two wheel paths is processed with one fault in it, and then as it is. The "
+    "laser of the first path loses readings (one sample to 2 s, or up to 60 short drop-outs), "
+    "sticks (0.1 to 1 s), or is pinned 50 mm beyond all that it measured (10 to 500 ms); its "
     "accelerometer loses samples (one to 1 s) or is driven to a full scale of 2, 4 or 5 g (2 to "
     "20 ms); all channels have a gap (50 ms to 1 s), of missing samples or of missing time; the "
     "encoder loses samples, leaps by 0.1 to 3 m, is silent and makes up for it, loses counts for "
     "good, tells single counts that lie back, or rolls back by 20 to 500 mm at a stop; a "
     "receiver that the device declares loses its fix for 2 to 10 s or is 0.3 to 3 m too high. "
+    "Every case has a road of its own. "
     "Each is normal life in the field: an error in place of a profile is a failure. Metres that "
     "the encoder told too many or too few are taken out of the axis before the comparison. "
     "Right: over all points that the device vouches for, the IRI is off by no more than 5 % or "

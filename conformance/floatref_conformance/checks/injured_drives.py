@@ -1,6 +1,6 @@
 """The drives and the faults of `faults`: fixed by the edition, or drawn."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.injuries import INJURIES
-from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -91,15 +91,23 @@ FULL_SCALES_G = (-5.0, -4.0, -2.0, 2.0, 4.0, 5.0)
 Numbers = Mapping[str, "SearchStrategy[Any]"]
 
 
+def of_a_receiver(fault: str) -> bool:
+    """Return whether ``fault`` is one of a receiver."""
+    return fault.startswith("gnss-")
+
+
 def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
-    """Return every fault once, in a certification three times; ``seed`` draws the roads."""
+    """Return every fault once, in a certification three times; ``seed`` draws their roads.
+
+    No two cases share a road: whoever has seen the one knows nothing of the other.
+    """
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
-    roads = source.generate_state(3 * len(rounds)).reshape(-1, 3).tolist()
+    roads = iter(source.generate_state(len(rounds) * len(INJURIES)).tolist())
     return tuple(
         Case(
             CHECK,
-            _drive(fault, number, n, roads[n]),
+            _drive(fault, number, n, next(roads)),
             {"fault": fault, "at_m": PLACES_M[n], **NUMBERS[fault][n]},
             f"{CHECK}-{fault}-{n + 1}",
         )
@@ -108,27 +116,27 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     )
 
 
-def drawn() -> "SearchStrategy[Case]":
-    """Return the strategy of any fault in any drive."""
+def drawn(faults: Sequence[str] = tuple(INJURIES)) -> "SearchStrategy[Case]":
+    """Return the strategy of any of ``faults`` in any drive."""
     from hypothesis import strategies as st
 
     @st.composite
     def case(draw: "DrawFn") -> Case:
-        fault = draw(st.sampled_from(tuple(INJURIES)))
+        fault = draw(st.sampled_from(faults))
         numbers = draw(st.fixed_dictionaries(dict(_stop() if fault == ROLLING else _steady())))
         variation = draw(st.fixed_dictionaries(dict(_numbers(fault))))
         at_m = draw(rounded(NEAREST_M, FARTHEST_M))
-        scenario = Scenario(seed=draw(seeds()), length_m=LENGTH_M, **numbers)
-        return Case(CHECK, scenario, {"fault": fault, "at_m": at_m, **variation})
+        variation = {"fault": fault, "at_m": at_m, **variation}
+        seed = seed_of_its_own(draw(seeds()), numbers, variation)
+        return Case(CHECK, Scenario(seed=seed, length_m=LENGTH_M, **numbers), variation)
 
     return case()
 
 
-def _drive(fault: str, number: int, n: int, roads: list[int]) -> Scenario:
-    """Return the drive of a seeded case of round ``n``: one of three that its faults share."""
-    which = 2 if fault == ROLLING else number % 2
-    fields = STOP if fault == ROLLING else ROUNDS[n][which]
-    return Scenario(seed=roads[which], length_m=LENGTH_M, **fields)
+def _drive(fault: str, number: int, n: int, seed: int) -> Scenario:
+    """Return the drive of a seeded case of round ``n``."""
+    fields = STOP if fault == ROLLING else ROUNDS[n][number % 2]
+    return Scenario(seed=seed, length_m=LENGTH_M, **fields)
 
 
 def _common() -> Numbers:

@@ -1,8 +1,8 @@
 """What a check is: it draws cases and measures the profiles that a device makes of them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -94,3 +94,16 @@ class Check(Protocol):
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Have ``case`` processed and measure it; DeviceError if a point that counts lacks."""
+
+
+@runtime_checkable
+class Fitting(Protocol):
+    """A check with cases that say nothing of a device without some capability."""
+
+    def fitted(self, capabilities: Iterable[str]) -> Check:
+        """Return the check without such cases for a device of ``capabilities``."""
+
+
+def fitted(check: Check, capabilities: Iterable[str]) -> Check:
+    """Return ``check`` with the cases for a device of ``capabilities``: most have one kind."""
+    return check.fitted(capabilities) if isinstance(check, Fitting) else check

@@ -99,6 +99,7 @@ class InvarianceCheck:
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far both results differ, and how well the unchanged one shows the road.
 
+        The changed recording comes first: what is kept of it has to serve both.
         Raises InputError for a variation that names no change or lacks a number of it, and for
         what `scored` refuses.
         """
@@ -106,17 +107,15 @@ class InvarianceCheck:
         self.scored(case)
         before = bench.simulate(case.scenario)
         after = _changed(case, change, before, bench)
-        results = bench.run(before, "unchanged"), bench.run(after, "changed")
-        undone = change.profile(results[1], case.variation)
+        undone = change.profile(bench.run(after, "changed"), case.variation)
+        result = bench.run(before, "unchanged")
         if case.variation["change"] == STOP:
-            pairs = zip(
-                compare(before.truth, results[0]), compare(after.truth, undone), strict=True
-            )
+            pairs = zip(compare(before.truth, result), compare(after.truth, undone), strict=True)
             return tuple(m for one, other in pairs for m in _at_a_stop(one, other, case.scenario))
         start_m, end_m = FROM_M, before.truth.length_m - END_M
         if case.variation["change"] == LATER:
             start_m += begins_later_m(before.recording, after.recording)
-        pairs = zip(compare(before.truth, results[0]), compare(before.truth, undone), strict=True)
+        pairs = zip(compare(before.truth, result), compare(before.truth, undone), strict=True)
         return tuple(
             m
             for one, other in pairs
@@ -156,7 +155,7 @@ def _words(limits: Limits, unit: str, more: str = "") -> dict[DeviceClass, str]:
 
 
 DERIVATION = (
-    "Every case is processed twice, as recorded and changed in one respect: the first samples "
+    "Every case is processed twice, changed in one respect and then as recorded: the first samples "
     "cut off, so that every block of the software begins elsewhere; a time stamp for each sample "
     "in place of a rate; a bias of up to 0.03 m/s² (3 mg) added to the vertical accelerometers; "
     "time stamps up to 1e6 s and distances up to 100 km from where they were, where single "

@@ -8,7 +8,7 @@ from functools import cache
 
 from floatref_conformance.bench import DeviceBench
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.interface import Check, fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError
@@ -70,6 +70,8 @@ def _why(check: Check, device: Device, wanted: Try) -> str:
         description = describe(device)
     except DeviceError as fault:
         return str(fault)
+
+    check = fitted(check, description.capabilities)
 
     def ratio(case: Case) -> float:
         if found:

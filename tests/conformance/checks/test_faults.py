@@ -9,11 +9,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import floatref
+from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance import oracle
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults import FAULTS
 from floatref_conformance.checks.injuries import INJURIES
+from floatref_conformance.checks.interface import fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
@@ -52,7 +54,7 @@ def spoiling(change, label="with the fault"):
 
 @pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
 def test_a_right_device_need_flag_nothing(right_bench, case):
-    measured = FAULTS.judge(case, right_bench())
+    measured = FAULTS.judge(case, right_bench(gnss=True))
     assert {m.quantity for m in measured} <= FAULTS.limits.keys()
     assert {m.track for m in measured} == {"left", "right"}
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.6
@@ -85,7 +87,7 @@ def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
     def flag(x, z, valid):
         return z, valid & (np.abs(x - 300.0) > 50.0)
 
-    measured = FAULTS.judge(case, right_bench(lambda _, profile: changed(profile, flag)))
+    measured = FAULTS.judge(case, right_bench(lambda _, p: changed(p, flag), gnss=True))
     fails = max(m.ratio(NOMINAL) for m in measured) > 1.0
     assert fails == (case.scenario.manoeuvre != "stop")
 
@@ -158,22 +160,44 @@ def test_metres_told_in_error_are_taken_out(right_bench, fault):
     lengths = []
     bench.spoil = lambda _, profile: lengths.append(profile.length_m) or profile
     found = judged(QUICK[fault], bench)
-    assert abs(lengths[1] - lengths[0]) > 0.5
+    assert abs(lengths[0] - lengths[1]) > 0.5
     assert found["local error, unflagged"].value < 0.5
 
 
+def test_the_fault_comes_first(right_bench):
+    bench = right_bench()
+    FAULTS.judge(LASER, bench)
+    assert bench.labels == ["with the fault", "without the fault"]
+
+
 def test_a_fault_of_a_receiver_needs_one(right_bench):
-    without, having = right_bench(), right_bench(gnss=True)
-    for bench in (without, having):
-        FAULTS.judge(QUICK["gnss-outage"], bench)
-    assert without.labels == ["without the fault"]
-    assert having.labels == ["without the fault", "with the fault"]
+    without = right_bench()
+    with pytest.raises(InputError, match="variation fault gnss-outage: needs gnss"):
+        FAULTS.judge(QUICK["gnss-outage"], without)
+    assert without.labels == []
+
+
+@pytest.mark.parametrize("effort", list(Effort))
+def test_without_a_receiver_its_faults_are_no_cases_and_all_others_stay(effort):
+    without, having = fitted(FAULTS, ("imu",)), fitted(FAULTS, ("gnss",))
+    assert having.cases(1, effort) == FAULTS.cases(1, effort)
+    assert without.cases(1, effort) == tuple(
+        case for case in FAULTS.cases(1, effort) if "gnss" not in case.variation["fault"]
+    )
+    assert len(without.cases(1, effort)) < len(having.cases(1, effort))
+
+
+@settings(deadline=None, max_examples=60)
+@given(case=fitted(FAULTS, ()).strategy())
+def test_without_a_receiver_its_faults_are_not_searched_for(case):
+    assert "gnss" not in case.variation["fault"]
 
 
 @pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
 def test_every_fault_comes_in_turn_and_the_seed_draws_the_road_alone(effort, times):
     one, other = (FAULTS.cases(seed, effort) for seed in (1, 2))
     assert sorted(c.variation["fault"] for c in one) == sorted(list(INJURIES) * times)
+    assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
     for case, again in zip(one, other, strict=True):
         assert case.scenario.seed != again.scenario.seed
         assert replace(case.scenario, seed=0) == replace(again.scenario, seed=0)

@@ -38,7 +38,7 @@ def judged(case, bench):
 def test_a_right_device_keeps_every_limit_of_every_case(right_bench, case):
     bench = right_bench()
     measured = INVARIANCE.judge(case, bench)
-    assert bench.labels == ["unchanged", "changed"]
+    assert bench.labels == ["changed", "unchanged"]
     assert {m.quantity for m in measured} <= INVARIANCE.limits.keys()
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.3
 
@@ -129,6 +129,7 @@ def test_a_point_without_elevation_where_it_counts_is_the_devices_fault(right_be
 def test_every_change_comes_in_turn_and_the_seed_draws_the_road_alone(effort, times):
     one, other = (INVARIANCE.cases(seed, effort) for seed in (1, 2))
     assert sorted(c.variation["change"] for c in one) == sorted(list(CHANGES) * times)
+    assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
     for case, again in zip(one, other, strict=True):
         assert case.scenario.seed != again.scenario.seed
         assert replace(case.scenario, seed=0) == replace(again.scenario, seed=0)

@@ -2,6 +2,7 @@
 
 from floatref_conformance.devices.mistakes import profiles as p
 from floatref_conformance.devices.mistakes.drives import middle_m
+from floatref_conformance.devices.mistakes.memory import Repeated
 from floatref_conformance.devices.mistakes.mistake import Mistake, all_but
 
 IN_RESULTS = (
@@ -9,7 +10,7 @@ IN_RESULTS = (
     Mistake(
         "upside-down",
         "delivers the profile upside down",
-        all_but("low-speed"),
+        all_but("low-speed", "faults"),
         after=p.scaled(-1.0),
     ),
     Mistake("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scaled(0.8)),
@@ -73,6 +74,12 @@ IN_RESULTS = (
         after=p.alike,
     ),
     Mistake("previous-result", "delivers the profile before", all_but(), after=p.Previous()),
+    Mistake(
+        "repeated-result",
+        "delivers the profile before when a recording begins like the one before",
+        ("faults",),
+        after=Repeated(),
+    ),
     Mistake(
         "nan-at-the-end",
         "leaves out the last 120 m",
