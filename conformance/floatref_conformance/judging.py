@@ -33,6 +33,8 @@ def check_result(
         oracle.confirm(check.id, worst)
     outcome, reason = _outcome(cases, worst, device_class)
     failed = outcome in (Outcome.FAIL, Outcome.ERROR)
+    if failed and simpler and simpler[1].again:
+        reason = f"{reason}; the simplest case {_unsteady(simpler[1])}"
     return CheckResult(
         id=check.id,
         clause=check.clause,
@@ -123,9 +125,14 @@ def _outcome(
 
 
 def _counterexample(case: Case, result: CaseResult, device_class: DeviceClass) -> Mapping[str, Any]:
+    reason = why(result, device_class)
     return {
         "case": result.name,
         "parameters": dict(result.parameters),
-        "reason": why(result, device_class),
+        "reason": f"{reason}; {_unsteady(result)}" if result.again else reason,
         "file": name_of(case),
     }
+
+
+def _unsteady(result: CaseResult) -> str:
+    return f"{result.again} when run again: the device does not fail it every time"

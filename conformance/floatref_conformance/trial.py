@@ -137,7 +137,16 @@ class Trial:
             return failed
 
         simpler = simplest(start, check.simplest, budget, fails)
-        return simpler, found[simpler]
+        return simpler, self._once_more(check, simpler, found[simpler])
+
+    def _once_more(self, check: Check, case: Case, failed: CaseResult) -> CaseResult:
+        """Return ``failed``, which says so if the device does not fail ``case`` every time."""
+        if self._is_hopeless():
+            return failed
+        result = self._judge(check, replace(case, name=f"{case.name}, again"))
+        if result.ratio(self.device_class) > 1.0:
+            return failed
+        return replace(failed, again="passed" if result.skipped is None else "skipped")
 
     def _failing(self) -> CaseResult | None:
         return failing(tuple(self._judged.values()), self.device_class) if self._judged else None

@@ -105,6 +105,7 @@ class CaseResult:
         skipped: why the device did not take the case, if it did not.
         flagged_m: largest length of a wheel path that the device flagged invalid, in m.
         passes: what it processed, kept for the pictures of a case that fails.
+        again: what a second run of a case that failed came to, if it did not fail.
     """
 
     name: str
@@ -115,6 +116,7 @@ class CaseResult:
     skipped: str | None = None
     flagged_m: float = 0.0
     passes: tuple[Pass, ...] = ()
+    again: str = ""
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return the largest ratio of value to limit; infinite for a faulty device."""

@@ -42,6 +42,32 @@ def test_a_device_that_hung_is_not_asked_for_something_simpler(plan, events_of, 
     assert len(device.seen) == 2
 
 
+def test_a_device_that_is_wrong_now_and_then_is_told_from_one_that_always_is(
+    plan, result_of, fake_device, halving
+):
+    """It is wrong once, in the first case, and so in none that is simpler."""
+
+    class Moody(fake_device):
+        def run(self, recording, profile):
+            self.spoil = halving.spoil if not self.seen else fake_device().spoil
+            super().run(recording, profile)
+
+    (check,) = result_of(plan(Moody(), seed=1)).checks
+    assert check.outcome is Outcome.FAIL
+    said = "passed when run again: the device does not fail it every time"
+    assert check.reason.endswith(f"; the simplest case {said}")
+    assert check.counterexample["reason"].endswith(f"; {said}")
+    (steady,) = result_of(plan(halving, seed=1)).checks
+    assert "run again" not in steady.reason + steady.counterexample["reason"]
+
+
+def test_a_simplest_case_that_the_device_skips_when_run_again_says_so(plan, result_of, raising):
+    device = raising(DeviceSkipped("too hot"), lambda number: number > 2)
+    device.spoil = lambda tracks: {name: 0.0 * z for name, z in tracks.items()}
+    (check,) = result_of(plan(device, searching=False)).checks
+    assert "skipped when run again" in check.counterexample["reason"]
+
+
 def test_a_fault_counts_more_than_any_value_and_each_keeps_its_case(plan, result_of, fake_device):
     class Half(fake_device):
         def run(self, recording, profile):
@@ -51,8 +77,8 @@ def test_a_fault_counts_more_than_any_value_and_each_keeps_its_case(plan, result
 
     (check,) = result_of(plan(Half(), searching=False)).checks
     assert check.outcome is Outcome.ERROR
-    assert check.reason == "toy-1: out of paper"
-    assert check.counterexample["reason"] == "out of paper"
+    assert check.reason.startswith("toy-1: out of paper; ")
+    assert check.counterexample["reason"].startswith("out of paper; ")
     assert check.worst_case == "toy-2"
     assert check.class_reached is None
 
