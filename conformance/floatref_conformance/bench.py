@@ -1,18 +1,25 @@
 """The bench: recordings are simulated for a check and processed by the device under test."""
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from floatref.values.profile import Profile
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.errors import DeviceError
 from floatref_conformance.exercise import exercise
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.verdict import Pass
+
+AGE_NS = 10**10
+"""Coarser than any disk's clock, so that a file written at once after it was made shows it."""
 
 
 def taken_of(scenario: Scenario) -> Taken:
@@ -49,14 +56,50 @@ class DeviceBench:
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return what the device makes of ``taken.recording``, and keep it."""
-        profile = exercise(self.device, self.description, taken.recording)
+        profile = exercise(Watched(self.device), self.description, taken.recording)
         self.passes.append(Pass(label, taken.truth, profile, taken.scenario))
         return profile
 
     @property
     def flagged_m(self) -> float:
         """Largest length in m of a wheel path that the device flagged invalid."""
-        return max((flagged_m(done.result) for done in self.passes), default=0.0)
+        return max((flagged_m(done.result, done.truth) for done in self.passes), default=0.0)
+
+
+@dataclass(frozen=True)
+class Watched:
+    """A device whose recording must be after a run what it was before.
+
+    Attributes:
+        device: what is run.
+    """
+
+    device: Device
+
+    def describe(self) -> Mapping[str, Any]:
+        """Return what the device says of itself."""
+        return self.device.describe()
+
+    def run(self, recording: Path, profile: Path) -> None:
+        """Let the device run; DeviceError if it changed a file of ``recording``."""
+        before = {path: _aged(path) for path in sorted(recording.parent.iterdir())}
+        self.device.run(recording, profile)
+        for path, stamp in before.items():
+            if not path.is_file() or _stamp(path) != stamp:
+                raise DeviceError(f"changed its recording: {path.name} is not what it was")
+
+
+def _stamp(path: Path) -> tuple[int, int, int]:
+    """Return what changes with a file, without reading it: number, size, and time in ns."""
+    status = path.stat()
+    return status.st_ino, status.st_size, status.st_mtime_ns
+
+
+def _aged(path: Path) -> tuple[int, int, int]:
+    """Make a file `AGE_NS` older and return its stamp."""
+    time_ns = path.stat().st_mtime_ns - AGE_NS
+    os.utime(path, ns=(time_ns, time_ns))
+    return _stamp(path)
 
 
 def seen_by(description: Description, scenario: Scenario) -> Scenario:
@@ -65,6 +108,11 @@ def seen_by(description: Description, scenario: Scenario) -> Scenario:
     return replace(scenario, imu="imu" in has, gnss="gnss" in has)
 
 
-def flagged_m(profile: Profile) -> float:
-    """Return the largest length in m of a wheel path in ``profile`` that is flagged invalid."""
-    return max(profile.interval_m * float(np.sum(~track.valid)) for track in profile.tracks)
+def flagged_m(profile: Profile, truth: Profile) -> float:
+    """Return the largest length in m of a wheel path of ``truth`` that ``profile`` flags invalid.
+
+    What is delivered beyond these wheel paths is not looked at.
+    """
+    asked = [track for track in profile.tracks if track.name in {t.name for t in truth.tracks}]
+    lengths = (profile.interval_m * float(np.sum(~track.valid)) for track in asked)
+    return max(lengths, default=0.0)

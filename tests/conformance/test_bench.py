@@ -1,6 +1,7 @@
 """The bench: what is simulated for a device, what it has processed, and what it flagged."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from floatref_conformance import bench as bench_module
 from floatref_conformance.bench import DeviceBench, taken_of
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.errors import DeviceError
+from floatref_conformance.errors import DeviceError, DeviceSkipped
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -101,3 +102,51 @@ def test_the_largest_length_that_is_flagged_counts(fake_device, doubts):
     bench = DeviceBench(Doubter(), described())
     bench.run(Taken(simulation.recording, simulation.truth, TINY))
     assert bench.flagged_m == pytest.approx(0.05 * max(doubts))
+
+
+def test_a_wheel_path_that_nobody_asked_for_is_not_counted(fake_device, taken):
+    def more(tracks):
+        return {**tracks, "more": np.full(tracks["left"].size, np.nan)}
+
+    bench = DeviceBench(fake_device(more), described())
+    profile = bench.run(taken)
+    assert not profile.track("more").valid.any()
+    assert bench.flagged_m == 0.0
+
+
+def overwritten(path):
+    with path.open("r+b") as stream:
+        stream.write(bytes(8))
+
+
+def replaced(path):
+    content = path.read_bytes()
+    path.unlink()
+    path.write_bytes(content[::-1])
+
+
+SPOILT = {
+    "left.height.f64": overwritten,
+    "left.vertical_specific_force.f64": replaced,
+    "distance.f64": Path.unlink,
+    "recording.json": lambda path: path.write_text(path.read_text() + " "),
+}
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_a_device_that_changes_its_recording_is_at_fault(fake_device, taken, name):
+    class Careless(fake_device):
+        def run(self, recording, profile):
+            super().run(recording, profile)
+            SPOILT[name](recording.with_name(name))
+
+    bench = DeviceBench(Careless(), described())
+    with pytest.raises(DeviceError, match=f"^changed its recording: {name} is not what it was$"):
+        bench.run(taken)
+    assert bench.passes == []
+
+
+def test_the_fault_of_a_run_that_fails_is_the_one_told(raising, taken):
+    bench = DeviceBench(raising(DeviceSkipped("too short")), described())
+    with pytest.raises(DeviceSkipped, match="too short"):
+        bench.run(taken)
