@@ -59,10 +59,19 @@ class Child:
         self._streams = (process.stdin, process.stdout, process.stderr)
         self._fate = ""
         self._is_gone = False
+        self._concealed: list[bytes] = []
         self._feed = Feed(process.stdin)
         self._lines = Lines(process.stdout)
         self._tail = Tail(process.stderr)
         atexit.register(self.kill)
+
+    def conceal(self, folder: str) -> None:
+        """Have ``folder``, which has another name in every run, be "…" in all that comes.
+
+        Then whatever of it is shown is cut at the same place in every run.
+        """
+        if Path(folder).name:
+            self._concealed.append(folder.encode())
 
     def send(self, line: bytes) -> None:
         """Have ``line`` written to standard input, as soon as it is read there."""
@@ -81,7 +90,7 @@ class Child:
                 return self._last()
             if monotonic() >= limit:
                 raise DeviceHung(f"no answer within {limit_s:g} s{self._unfinished()}")
-        return line
+        return self._neutral(line)
 
     def finish(self, limit_s: float) -> tuple[bytes, ...]:
         """Close standard input, wait for the end, and return the lines that are left.
@@ -99,7 +108,7 @@ class Child:
         self.kill()
         if self._lines.fault or fate != _fate(0):
             raise DeviceError(self._lines.fault or fate)
-        return tuple(iter(partial(self._lines.take, 0.0), None))
+        return tuple(map(self._neutral, iter(partial(self._lines.take, 0.0), None)))
 
     def kill(self) -> None:
         """End the process and all that come from it; harmless if they have ended."""
@@ -120,7 +129,7 @@ class Child:
     def said(self) -> str:
         """Return the last lines of standard error, to be put behind a fault; empty without."""
         self._tail.settle()
-        shown = map(readable, self._tail.kept.splitlines())
+        shown = map(readable, self._neutral(self._tail.kept).splitlines())
         lines = [line for line in shown if any(map(str.isalnum, line))]
         return f" ; stderr: {' | '.join(lines[-SHOWN_LINES:])}" if lines else ""
 
@@ -138,10 +147,15 @@ class Child:
             raise DeviceError(
                 self._lines.fault or f"{self._fate} before it answered{self._unfinished()}"
             )
-        return line
+        return self._neutral(line)
+
+    def _neutral(self, said: bytes) -> bytes:
+        for folder in self._concealed:
+            said = said.replace(folder, "…".encode())
+        return said
 
     def _unfinished(self) -> str:
-        rest = readable(self._lines.rest)
+        rest = readable(self._neutral(self._lines.rest))
         return f", in the middle of a line: {rest}" if rest else ""
 
 

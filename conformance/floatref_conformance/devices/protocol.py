@@ -50,6 +50,7 @@ class Session:
         Raises DeviceSkipped if the device does not take it, DeviceError if it fails, in one
         line, or DeviceHung.
         """
+        self._child.conceal(str(Path(profile).parent))
         with self._step("run"):
             command = {"cmd": "run", "recording": str(recording), "profile": str(profile)}
             answer = self._ask(command, limit_s)

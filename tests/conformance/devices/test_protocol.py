@@ -156,6 +156,27 @@ def test_an_error_fails_the_run_and_a_skip_says_why_and_the_device_goes_on(opene
     device.stop(LONG_S)
 
 
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "tell(c, error=900 * 'no ' + c['profile'])",
+        "tell(c, error=c['profile'] + 900 * ' no')",
+        "tell(c, skipped=4 * c['recording'] + 900 * ' no')",
+        "print(4 * c['profile'] + 900 * ' no', flush=True)",
+        "print(4 * c['profile'] + 900 * 'no', file=sys.stderr, flush=True); sys.exit(3)",
+    ],
+)
+def test_a_text_with_a_folder_of_another_name_is_cut_alike(opened, answer):
+    texts = set()
+    for folder in ("/tmp/tmpab", "/tmp/tmp_8x_longer_name/below"):
+        device = opened(f"c = ask()\n{answer}\nhang()")
+        with pytest.raises((DeviceError, DeviceSkipped)) as caught:
+            device.run(f"{folder}/recording/recording.json", f"{folder}/profile", LONG_S)
+        texts.add(str(caught.value))
+    (text,) = texts
+    assert "tmp" not in text
+
+
 def test_a_second_answer_to_one_command_is_no_answer_to_the_next(opened):
     device = opened("c = ask()\ntell(c, ok=True)\ntell(c, ok=True)\nhang()")
     device.run("/r", "/p", LONG_S)
