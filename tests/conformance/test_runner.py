@@ -7,7 +7,7 @@ import pytest
 
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError, SuiteError
-from floatref_conformance.events import CaseFinished, CheckFinished, CheckStarted, RunFinished
+from floatref_conformance.events import CaseFinished, CheckFinished, RunFinished
 from floatref_conformance.render.report import as_json
 from floatref_conformance.runner import run
 from floatref_conformance.verdict import Outcome, Verdict
@@ -102,20 +102,6 @@ def test_a_check_that_needs_an_undeclared_capability_leaves_the_verdict_alone(
     assert result_of(plan(fake_device(), needy)).verdict is Verdict.INCOMPLETE
     able = result_of(plan(fake_device(capabilities=("gnss",)), needy))
     assert able.checks[0].outcome is Outcome.PASS
-
-
-@pytest.mark.parametrize(("capabilities", "cases"), [((), 2), (("gnss",), 3)])
-def test_a_check_is_fitted_to_what_the_device_declares(
-    plan, events_of, fake_device, toy_check, monkeypatch, capabilities, cases
-):
-    def fewer(check, capabilities):
-        return replace(check, count=3 if "gnss" in capabilities else 2)
-
-    monkeypatch.setattr(toy_check, "fitted", fewer, raising=False)
-    device = fake_device(capabilities=capabilities)
-    events, result = events_of(plan(device, toy_check(count=9), searching=False))
-    assert [e.cases for e in events if isinstance(e, CheckStarted)] == [cases]
-    assert result.checks[0].cases == cases
 
 
 def test_what_is_left_out_makes_a_pass_incomplete_but_not_a_failure(
