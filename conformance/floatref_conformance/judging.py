@@ -48,6 +48,7 @@ def check_result(
         flagged_m=max(case.flagged_m for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
         scored_m=scored_by(check, simpler[0]) if failed and simpler else (),
+        worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",
     )
 
 
@@ -132,6 +133,11 @@ def _counterexample(case: Case, result: CaseResult, device_class: DeviceClass) -
         "reason": f"{reason}; {_unsteady(result)}" if result.again else reason,
         "file": name_of(case),
     }
+
+
+def _worst_track(case: CaseResult, device_class: DeviceClass) -> str:
+    worst = case.worst(device_class)
+    return "" if worst is None else worst.track
 
 
 def _unsteady(result: CaseResult) -> str:

@@ -148,6 +148,7 @@ class CheckResult:
             ``reason``, and ``file``, its name in a report directory.
         flagged_m: the largest of its cases'.
         passes: of the counterexample.
+        worst_track: the wheel path that fails it, empty if none was measured.
         scored_m: start and end of each stretch whose points count in it, in m.
     """
 
@@ -163,6 +164,7 @@ class CheckResult:
     flagged_m: float = 0.0
     passes: tuple[Pass, ...] = ()
     scored_m: tuple[tuple[float, float], ...] = ()
+    worst_track: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -129,6 +129,22 @@ def test_a_skip_hides_no_failure(plan, result_of, raising, fake_device):
     assert result_of(plan(device)).checks[0].outcome is Outcome.FAIL
 
 
+def test_the_wheel_path_that_fails_the_simplest_case_is_told_not_that_of_the_worst(
+    plan, result_of, fake_device
+):
+    class OneSided(fake_device):
+        """Is wrong on the left in its first case and, less so, on the right in all others."""
+
+        def run(self, recording, profile):
+            wrong, factor = ("right", 0.5) if self.seen else ("left", 0.0)
+            self.spoil = lambda t: {n: z * (factor if n == wrong else 1.0) for n, z in t.items()}
+            super().run(recording, profile)
+
+    (check,) = result_of(plan(OneSided(), seed=1)).checks
+    assert check.worst.track == "left"
+    assert check.worst_track == "right"
+
+
 def test_a_case_may_have_several_runs_and_the_pictures_show_them_all(
     plan, result_of, halving, toy_check
 ):

@@ -93,10 +93,10 @@ def _pictures(check: CheckResult, anchor: str) -> list[tuple[int, Picture]]:
 
 
 def _tracks(done: Pass, check: CheckResult) -> list[str]:
-    """Return the wheel paths that truth and result have, that of the worst value first."""
+    """Return the wheel paths that truth and result have, the one that fails this case first."""
     delivered = {track.name for track in done.result.tracks}
     names = [track.name for track in done.truth.tracks if track.name in delivered]
-    worst = None if check.worst is None else check.worst.track
+    worst = check.worst_track
     return sorted(names, key=lambda name: name != worst)
 
 

@@ -201,6 +201,15 @@ def test_a_profile_of_which_nothing_was_measured_is_pictured_all_the_same(
     assert len(page(result(check(Outcome.FAIL, passes=(empty,)))).all("svg")) == 1
 
 
+@pytest.mark.parametrize("track", ["left", "right"])
+def test_the_first_picture_is_of_the_wheel_path_that_fails_the_case_shown(
+    page, check, result, track
+):
+    words = page(result(check(Outcome.FAIL, worst_track=track))).text
+    other = {"left": "right", "right": "left"}[track]
+    assert words.index(f"wheel path {track}:") < words.index(f"wheel path {other}:")
+
+
 def test_recordings_without_a_picture_are_counted(page, check, result, stopped):
     words = page(result(check(Outcome.FAIL, passes=(stopped,) * 5))).text
     assert "3 more recordings of this case are not pictured" in words
