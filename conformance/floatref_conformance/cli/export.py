@@ -1,6 +1,7 @@
 """`conformance export`: write the recordings that a `files:` device has to process."""
 
 import json
+import shlex
 from pathlib import Path
 
 import click
@@ -70,8 +71,9 @@ def export(
         "capabilities": list(capabilities),
     }
     (out / DESCRIPTION).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
-    command = f"conformance run --device files:{out} --seed {seed} --effort {effort}"
-    click.echo(f"{count} recordings in {out}; after processing: {command}")
+    words = ["conformance", "run", "--device", f"files:{out}", "--seed", str(seed)]
+    words += ["--effort", effort, *(word for id_ in ids for word in ("--check", id_))]
+    click.echo(f"{count} recordings in {out}; after processing: {shlex.join(words)}")
 
 
 def _tell(id_: str, count: int) -> None:
