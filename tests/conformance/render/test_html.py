@@ -16,7 +16,6 @@ from floatref_conformance.devices.interface import Description
 from floatref_conformance.events import RunFinished, RunStarted
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render import html
-from floatref_conformance.render.figures import stretches
 from floatref_conformance.render.html import HtmlReport, as_html
 from floatref_conformance.verdict import Outcome
 
@@ -250,18 +249,3 @@ def test_without_the_template_engine_the_user_is_told_what_to_install(tmp_path, 
     monkeypatch.setattr(html, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"pip install 'floatref\[conformance\]'"):
         HtmlReport.into(tmp_path)
-
-
-@pytest.mark.parametrize("size", [1, 7, 760, 5000])
-def test_flagged_stretches_hold_every_flagged_point(size):
-    flags = np.random.default_rng(size).random(size) < 0.05
-    flags[-1] = True
-    distance = np.arange(size, dtype=float)
-    found = stretches(distance, flags, 100)
-    held = np.zeros(size, dtype=bool)
-    for start, end in found:
-        held |= (distance >= start) & (distance <= end)
-    assert held[flags].all()
-    assert len(found) <= 100
-    if size <= 100:
-        assert (held == flags).all()
