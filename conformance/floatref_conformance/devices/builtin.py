@@ -49,11 +49,13 @@ class BuiltinDevice:
         write_profile(quietly_processed(read_recording(recording), self.pipeline), profile)
 
 
-def quietly_processed(recording: Recording, pipeline: str) -> Profile:
+def quietly_processed(
+    recording: Recording, pipeline: str, settings: Mapping[str, Any] | None = None
+) -> Profile:
     """Return what ``pipeline`` makes of ``recording``; what it repairs or flags is no news here."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
-        return floatref.process(recording, pipeline)
+        return floatref.process(recording, pipeline, settings)
 
 
 def make(pipeline: str) -> BuiltinDevice:

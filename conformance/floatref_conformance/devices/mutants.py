@@ -15,6 +15,7 @@ import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.devices.builtin import quietly_processed
 from floatref_conformance.devices.hostile import HOSTILE, hostile_device
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.devices.mistakes import MISTAKES
@@ -39,7 +40,7 @@ class Mutant:
     def run(self, recording: Path, profile: Path) -> None:
         """Spoil ``recording``, process it, spoil the profile and write it."""
         wrong, recorded = self.mistake, read_recording(recording)
-        made = floatref.process(wrong.before(recorded), wrong.pipeline, wrong.settings)
+        made = quietly_processed(wrong.before(recorded), wrong.pipeline, wrong.settings)
         write_profile(wrong.after(made, recorded), profile)
 
 

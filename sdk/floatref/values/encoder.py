@@ -86,6 +86,9 @@ def _goes_back(stretches: Iterator[tuple[int, FloatArray]]) -> tuple[int, float]
     """Return the first sample that lies behind, and by how much, if any does by too much."""
     reached, back = -np.inf, None
     for first, chunk in stretches:
+        if chunk[0] >= reached and (chunk[1:] >= chunk[:-1]).all():
+            reached = float(chunk[-1])
+            continue
         farthest = np.fmax.accumulate(np.append(reached, chunk))
         behind = farthest[:-1] - chunk
         if back is None and (behind > 0).any():

@@ -9,6 +9,7 @@ from floatref.files import read_profile, write_recording
 from floatref_conformance.bench import taken_of
 from floatref_conformance.checks.bounce import BOUNCE
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.checks.injuries import INJURIES
 from floatref_conformance.checks.quiescent import QUIESCENT
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.hostile import HOSTILE
@@ -58,6 +59,15 @@ def test_each_check_is_the_only_one_that_some_mutant_names():
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.name)
 def test_each_mistake_is_failed_by_a_check_that_it_names(mistake):
     assert attempt(Try(f"mutant:{mistake.name}", cheapest(mistake.fails), 0)).fails
+
+
+def test_what_a_mutant_repairs_is_no_news(tmp_path):
+    """A warning would be an error here."""
+    scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
+    hurt = INJURIES["laser-dropout"](taken_of(scenario).recording, {"at_m": 280.0, "length_s": 0.5})
+    write_recording(hurt.recording, tmp_path / "hurt")
+    KIND.make("noisy-where-flat").run(tmp_path / "hurt", tmp_path / "profile")
+    assert not read_profile(tmp_path / "profile").track("left").valid.all()
 
 
 def test_programs_that_behave_badly_are_mutants_too():
