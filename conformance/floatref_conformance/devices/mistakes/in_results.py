@@ -117,7 +117,7 @@ IN_RESULTS = (
     Mistake(
         "held-at-the-stop",
         "holds the elevation 20 m to either side of the slowest point, and vouches for it",
-        all_but("dead-start"),
+        all_but("dead-start", "distance"),
         after=p.held_at_the_slowest(20.0),
     ),
 )
