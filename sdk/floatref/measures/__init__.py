@@ -1,11 +1,15 @@
 """Measures of a profile: IRI, where its roughness lies, and its agreement with another.
 
-Every function takes a one-dimensional float64 elevation in m and its constant interval in m.
-NaN marks points that were not measured: gaps are bridged by a straight line, and nothing is
-calculated before the first and after the last measured point.
+Every function of them takes a one-dimensional float64 elevation in m and its constant interval in
+m. NaN marks points that were not measured: gaps are bridged by a straight line, and nothing is
+calculated before the first and after the last measured point. Measures of sensors at rest, by
+Allan deviation, take a channel or its samples.
 """
 
 from floatref.measures.alignment import on_common_grid
+from floatref.measures.allan import AllanDeviation, allan_deviation
+from floatref.measures.allan_fit import NoiseCoefficients, NoiseFit, fit_noise
+from floatref.measures.at_rest import ChannelNoise, channel_noise
 from floatref.measures.correlation import Agreement, cross_correlation
 from floatref.measures.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
 from floatref.measures.roughness_index import Segment, iri, iri_segments, iri_trace
@@ -36,15 +40,22 @@ __all__ = [
     "SAMPLE_ROADS",
     "WAVEBANDS",
     "Agreement",
+    "AllanDeviation",
+    "ChannelNoise",
     "IriSettings",
     "LocalizedRoughness",
+    "NoiseCoefficients",
+    "NoiseFit",
     "ProfileIndex",
     "QuarterCar",
     "RoadSpectrum",
     "Segment",
     "WavelengthThresholds",
     "agreement",
+    "allan_deviation",
+    "channel_noise",
     "cross_correlation",
+    "fit_noise",
     "high_pass",
     "in_per_mi",
     "iri",
