@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.catalogue import PIPELINES as PIPELINES
+from floatref.architectures.kalman_pipelines import KALMAN
 from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
@@ -88,7 +89,7 @@ class Defaults:
     @hookimpl
     def floatref_register_pipelines(self, register: Callable[[Pipeline], None]) -> None:
         """Register the pipelines."""
-        for pipeline in PIPELINES:
+        for pipeline in (*PIPELINES, *KALMAN):
             register(pipeline)
 
 

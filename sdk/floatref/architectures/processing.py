@@ -70,7 +70,7 @@ def run(
     resolved = chosen.resolve(settings or {})
     recording = _at_interval(recording, resolved)
     cautions = examine(recording)
-    source = Source(recording)
+    source = Source(recording, chosen.channels)
     stages = _stages(loaded, chosen, resolved, source)
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0

@@ -9,7 +9,7 @@ are flagged as that too. Samples that are there and yet measure nothing (`damage
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -42,10 +42,16 @@ class Source:
     `warnings` one line for each channel and kind of damage.
     """
 
-    def __init__(self, recording: Recording) -> None:
-        """Find the wheel paths that have a height, and the time that all channels cover."""
+    def __init__(self, recording: Recording, more: Sequence[str] = ()) -> None:
+        """Find the wheel paths that have a height, and the time that all channels cover.
+
+        Channels called one of ``more`` are taken beside the nominal ones. Raises InputError if a
+        channel is missing.
+        """
         self._tracks = profiled_tracks(recording)
         found = dict(_nominal(recording, self._tracks))
+        channels = (recording.channel(name, track) for track in self._tracks for name in more)
+        found.update({channel.id: channel for channel in channels})
         clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
         damage = {name: _damage(name, found) for name in found}
@@ -104,6 +110,8 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel]) -> Damage:
         return encoder_damage(found[name])
     if _is_force(name):
         return damaged_force(found[name])
+    if name.name != HEIGHT:
+        return Damage()
     force = found[ChannelId(SPECIFIC_FORCE, name.track)]
     return damaged_height(found[name], force, found[ChannelId(DISTANCE)])
 

@@ -1,14 +1,20 @@
 """Blocks: stretches of all channels on one clock, as stages see them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from fractions import Fraction
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FlagArray, FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup
+
+M = TypeVar("M", np.bool_, np.uint8)
 
 
 class Axis(Enum):
@@ -110,3 +116,45 @@ class Block:
             fresh={c: v for c, v in self.fresh.items() if c.name not in names},
             flags={c: v for c, v in self.flags.items() if c.name not in names},
         )
+
+    def part(self, begin: int, end: int) -> "Block":
+        """Return samples ``begin`` to ``end - 1`` of this block, counted from its first.
+
+        The events go with the part that holds the first sample.
+        """
+        where = slice(begin, end)
+        return Block(
+            self.first + begin,
+            {c: x[where] for c, x in self.values.items()},
+            {c: m[where] for c, m in self.fresh.items()},
+            {c: f[where] for c, f in self.flags.items()},
+            self.events if begin == 0 else (),
+        )
+
+
+def joined(blocks: Sequence[Block]) -> Block:
+    """Return ``blocks``, one or more and each behind the one before, as one."""
+    if len(blocks) == 1:
+        return blocks[0]
+    sizes = [len(block) for block in blocks]
+    return Block(
+        blocks[0].first,
+        {c: np.concatenate([b.values[c] for b in blocks]) for c in blocks[0].values},
+        _masks([b.fresh for b in blocks], sizes, True, np.bool_),
+        _masks([b.flags for b in blocks], sizes, 0, np.uint8),
+        tuple(event for block in blocks for event in block.events),
+    )
+
+
+def _masks(
+    masks: Sequence[Mapping[ChannelId, NDArray[M]]], sizes: Sequence[int], usual: int, kind: type[M]
+) -> dict[ChannelId, NDArray[M]]:
+    """Join the masks of every channel that has one; a block without it has the ``usual`` value."""
+    found = {}
+    for channel in {c for mask in masks for c in mask}:
+        parts = [
+            mask[channel] if channel in mask else np.full(size, usual, kind)
+            for mask, size in zip(masks, sizes, strict=True)
+        ]
+        found[channel] = np.concatenate(parts)
+    return found

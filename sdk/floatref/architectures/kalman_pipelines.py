@@ -1,0 +1,58 @@
+"""The five pipelines of chapter 6 by name, with their settings."""
+
+from floatref.architectures.kalman_steps import NOISE, Estimator, answers
+from floatref.architectures.question import Pipeline
+from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
+from floatref.stages.kalman.inputs import IMU
+
+_USUAL = vars(Noise())
+SETTINGS: dict[str, float | None] = {
+    "interval_m": None,
+    "anti_alias_hz": 1000.0,
+    "cutoff_wavelength_m": 105.91,
+    **{name: _USUAL[field] for name, field in NOISE.items()},
+}
+
+
+def _pipeline(
+    name: str, summary: str, plan: Plan, estimator: Estimator = KalmanSmoother
+) -> Pipeline:
+    return Pipeline(
+        name,
+        "temporal",
+        summary,
+        SETTINGS,
+        answers(plan, estimator),
+        channels=IMU,
+        capabilities=("imu", "gnss") if plan.gnss else ("imu",),
+    )
+
+
+KALMAN = (
+    _pipeline(
+        "kalman-filter",
+        "IMU and GNSS, filter alone (section 6.6.1)",
+        Plan(reflects=False),
+        KalmanFilter,
+    ),
+    _pipeline(
+        "kalman-smoother",
+        "IMU and GNSS, smoothed (section 6.6.2)",
+        Plan(reflects=False),
+    ),
+    _pipeline(
+        "kalman-smoother-reflection",
+        "the same, the height sensor in place of GNSS heights at a stop (section 6.6.3)",
+        Plan(),
+    ),
+    _pipeline(
+        "kalman-smoother-constant-attitude",
+        "the same without attitude from GNSS (section 6.6.4)",
+        Plan(attitude=False),
+    ),
+    _pipeline(
+        "kalman-smoother-constant-height-attitude",
+        "IMU without GNSS (section 6.6.5)",
+        Plan(gnss=False, attitude=False),
+    ),
+)

@@ -1,0 +1,61 @@
+"""The stages that the Kalman pipelines (chapter 6) put at the points of the temporal flow."""
+
+from collections.abc import Callable, Sequence
+
+from floatref.architectures import steps
+from floatref.architectures.question import Answer, Question
+from floatref.stages.butterworth import low_pass_b3
+from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.dropping import Drop
+from floatref.stages.kalman import Noise, Plan
+from floatref.stages.protocol import Stage
+from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
+from floatref.stages.speed import TravelSpeed
+
+Estimator = Callable[[Plan, Noise], Stage]
+NOISE = {
+    "acceleration_density": "acceleration",
+    "acceleration_walk": "acceleration_walk",
+    "roll_rate_density": "roll_rate",
+    "pitch_rate_density": "pitch_rate",
+    "yaw_rate_density": "yaw_rate",
+    "roll_rate_walk": "roll_rate_walk",
+    "pitch_rate_walk": "pitch_rate_walk",
+    "gnss_height_sigma_m": "gnss_height_m",
+    "gnss_velocity_sigma_mps": "gnss_velocity_mps",
+    "gnss_pitch_sigma_rad": "gnss_pitch_rad",
+    "gnss_roll_sigma_rad": "gnss_roll_rad",
+    "constant_height_density": "constant_height",
+    "constant_velocity_density": "constant_velocity",
+    "constant_pitch_density": "constant_pitch",
+    "constant_roll_density": "constant_roll",
+    "reflection_sigma_m": "reflection_m",
+    "reflection_offset_m": "reflection_offset_m",
+    "gnss_height_walk": "gnss_height_walk",
+    "lean_sigma_rad": "lean_rad",
+}
+"""From settings to what they are in `Noise`."""
+
+
+def condition(question: Question) -> Sequence[Stage]:
+    """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
+    stages: list[Stage] = [RemoveGravity()]
+    if question.header.rate > steps.LEAST_RATE_HZ:
+        cutoff = steps.cutoff_setting(question, "anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        stages += low_pass_b3(HEIGHT, cutoff)
+    return (*stages, TravelSpeed())
+
+
+def noise_of(question: Question) -> Noise:
+    """Return what the settings say of sensors and references."""
+    return Noise(**{field: question.setting(name) for name, field in NOISE.items()})
+
+
+def answers(plan: Plan, estimator: Estimator) -> dict[str, Answer]:
+    """Return the answers of the pipeline that observes what ``plan`` says."""
+
+    def estimate(question: Question) -> Sequence[Stage]:
+        return estimator(plan, noise_of(question)), Drop(TRAVEL_SPEED)
+
+    return {"temporal_condition": condition, "temporal_estimate": estimate}

@@ -1,0 +1,493 @@
+"""The multi-rate extended Kalman filter: states at every sample, covariance at every node.
+
+Between two nodes the linearized transitions A (C.3) of the samples are composed into one; its
+height and velocity rows depend on the attitude and on the gyros' bias alone, those of the biases
+are trivial. A node closes a sub-block, or is a sample with observations.
+"""
+
+from math import asin, cos, sin, sqrt
+
+import numpy as np
+
+from floatref.kernels.compiling import compiled
+from floatref.kernels.kalman_layout import (
+    BELIEVED_AT,
+    CAPTURE,
+    CAPTURED,
+    GATE,
+    IN_A_ROW,
+    INNOVATION,
+    INPUTS,
+    JUMP,
+    KINDS,
+    LATEST,
+    LEAN,
+    OFFSET,
+    ORIGIN,
+    REFLECTED,
+    REJECTED,
+    RELATIVE,
+    RENEW,
+    RENEWED,
+    RESTARTED,
+    SPREAD,
+    STATES,
+    STEPS,
+    TRANSITION,
+    TRUSTED,
+    Inputs,
+)
+from floatref.values.arrays import FloatArray, IndexArray
+
+
+@compiled
+def run(
+    u: Inputs,
+    first: int,
+    sub_block: int,
+    model: FloatArray,
+    at: IndexArray,
+    marks: IndexArray,
+    y: FloatArray,
+    x: FloatArray,
+    p: FloatArray,
+    memory: FloatArray,
+    height: FloatArray,
+    node_at: IndexArray,
+    nodes: FloatArray,
+    updates: FloatArray,
+) -> int:
+    """Advance by the samples of the six inputs ``u`` and return the number of nodes.
+
+    Sample number ``first`` is absolute. Observations at samples ``at``: four values in ``y``, NaN
+    if there is none, then four variances, shape (m, 8). ``x``, ``p`` and ``memory`` are changed;
+    ``height`` gets the filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what
+    the backward pass needs; a node's second number is the end of its updates.
+    """
+    size, observed, count, begin, done = height.size, 0, 0, 0, 0
+    work, h = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
+    while begin < size:
+        node = begin + (-(first + begin)) % sub_block
+        if observed < at.size:
+            node = min(node, at[observed] - first)
+        _advance(u, begin, min(node + 1, size), first, model, x, memory, height)
+        begin = node + 1
+        if node >= size:
+            break
+        before, speed = x[0], x[1]
+        _keep_transition(memory, nodes[count])
+        _predict(p, work, h, memory, model, x)
+        if observed < at.size and at[observed] == first + node:
+            mark, seen = marks[observed], y[observed]
+            done = _observe(
+                u, node, model, mark, seen, x, p, memory, h, work, nodes[count], updates, done
+            )
+            height[node] = x[0]
+            observed += 1
+        _close_node(
+            first + node, done, x[0] - before, x[1] - speed, p, nodes[count], node_at[count]
+        )
+        count += 1
+        _begin_sub_block(x, memory)
+    return count
+
+
+@compiled
+def end(
+    model: FloatArray,
+    x: FloatArray,
+    p: FloatArray,
+    memory: FloatArray,
+    node_at: IndexArray,
+    nodes: FloatArray,
+) -> int:
+    """Make a node of the sample advanced to last, unless it is one; returns how many it made."""
+    if memory[STEPS] == 0.0:
+        return 0
+    work, f = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
+    _keep_transition(memory, nodes[0])
+    _predict(p, work, f, memory, model, x)
+    _close_node(int(memory[LATEST]), 0, 0.0, 0.0, p, nodes[0], node_at[0])
+    return 1
+
+
+@compiled
+def _close_node(
+    at: int,
+    done: int,
+    rise: float,
+    climb: float,
+    p: FloatArray,
+    node: FloatArray,
+    place: IndexArray,
+) -> None:
+    node[JUMP], node[JUMP + 1] = rise, climb
+    k = SPREAD
+    for i in range(STATES):
+        for j in range(i, STATES):
+            node[k] = p[i, j]
+            k += 1
+    place[0], place[1] = at, done
+
+
+@compiled
+def _advance(
+    u: Inputs,
+    begin: int,
+    end: int,
+    first: int,
+    model: FloatArray,
+    x: FloatArray,
+    memory: FloatArray,
+    height: FloatArray,
+) -> None:
+    """(6.47) with the mean of both ends as the input of a step, and (C.3) composed.
+
+    So velocity and height are the trapezoidal integrals of the acceleration. Sine and cosine are
+    rotated by the steps of the angles, and computed anew at every node.
+    """
+    fx, fy, fz, wx, wy, wz = u
+    if begin < end and first + begin == 0:
+        for j in range(6):
+            memory[INPUTS + j] = u[j][0]
+        _begin_sub_block(x, memory)
+        height[0] = x[0]
+        begin = 1
+    step, gravity = model[0], model[1]
+    half = 0.5 * step * step
+    r, v, theta, phi, bias, bias_1, bias_2 = x[0], x[1], x[2], x[3], x[4], x[5], x[6]
+    r3, r4, r6, r7, v3, v4, v6, v7 = (
+        memory[0],
+        memory[1],
+        memory[2],
+        memory[3],
+        memory[4],
+        memory[5],
+        memory[6],
+        memory[7],
+    )
+    a3, a4, a6, a7, b3, b4, b6, b7 = (
+        memory[8],
+        memory[9],
+        memory[10],
+        memory[11],
+        memory[12],
+        memory[13],
+        memory[14],
+        memory[15],
+    )
+    ux, uy, uz, w1, w2, w3 = memory[18], memory[19], memory[20], memory[21], memory[22], memory[23]
+    st, ct, sp, cp = memory[24], memory[25], memory[26], memory[27]
+    sum_3, sum_4, lean, r8, v8 = memory[29], memory[30], x[LEAN], memory[16], memory[17]
+    for i in range(begin, end):
+        ax, ay, az = 0.5 * (ux + fx[i]), 0.5 * (uy + fy[i]), 0.5 * (uz + fz[i])
+        q1, q2, q3 = 0.5 * (w1 + wx[i]) + bias_1, 0.5 * (w2 + wy[i]) + bias_2, 0.5 * (w3 + wz[i])
+        ux, uy, uz, w1, w2, w3 = fx[i], fy[i], fz[i], wx[i], wy[i], wz[i]
+        across, along, tangent = sp * ay + cp * az, sp * q2 + cp * q3, st / ct
+        by_3, by_4 = -ct * ax - st * across, ct * (cp * ay - sp * az)
+        turn_3 = (cp * q2 - sp * q3) * step
+        turn_4 = (q1 + tangent * along) * step
+        rise = ct * across + (lean - st) * ax + bias - gravity
+        a34, a43, a44 = -step * along, along * step / (ct * ct), 1.0 + turn_3 * tangent
+        e3, e4, e6, e7 = (
+            by_3 * a3 + by_4 * b3,
+            by_3 * a4 + by_4 * b4,
+            by_3 * a6 + by_4 * b6,
+            by_3 * a7 + by_4 * b7,
+        )
+        r3, r4 = r3 + step * v3 + half * e3, r4 + step * v4 + half * e4
+        r6, r7 = r6 + step * v6 + half * e6, r7 + step * v7 + half * e7
+        v3, v4, v6, v7 = v3 + step * e3, v4 + step * e4, v6 + step * e6, v7 + step * e7
+        a3, b3 = a3 + a34 * b3, a44 * b3 + a43 * a3
+        a4, b4 = a4 + a34 * b4, a44 * b4 + a43 * a4
+        a6, b6 = a6 + a34 * b6, a44 * b6 + a43 * a6 + step
+        a7, b7 = a7 + a34 * b7 + cp * step, a44 * b7 + a43 * a7 + sp * tangent * step
+        r8, v8 = r8 + step * v8 + half * ax, v8 + step * ax
+        sum_3, sum_4 = sum_3 + by_3, sum_4 + by_4
+        r, v = r + (step * v + half * rise), v + step * rise
+        theta, phi = theta + turn_3, phi + turn_4
+        even, odd = 0.5 * turn_3 * turn_3, turn_3 - turn_3 * turn_3 * turn_3 / 6.0
+        st, ct = st + (ct * odd - st * even), ct - (st * odd + ct * even)
+        even, odd = 0.5 * turn_4 * turn_4, turn_4 - turn_4 * turn_4 * turn_4 / 6.0
+        sp, cp = sp + (cp * odd - sp * even), cp - (sp * odd + cp * even)
+        height[i] = r
+    x[0], x[1], x[2], x[3] = r, v, theta, phi
+    memory[0], memory[1], memory[2], memory[3] = r3, r4, r6, r7
+    memory[4], memory[5], memory[6], memory[7] = v3, v4, v6, v7
+    memory[8], memory[9], memory[10], memory[11] = a3, a4, a6, a7
+    memory[12], memory[13], memory[14], memory[15] = b3, b4, b6, b7
+    memory[16], memory[17] = r8, v8
+    memory[18], memory[19], memory[20] = ux, uy, uz
+    memory[21], memory[22], memory[23] = w1, w2, w3
+    memory[24], memory[25], memory[26], memory[27] = st, ct, sp, cp
+    memory[STEPS] += max(end - begin, 0)
+    memory[LATEST] = first + end - 1
+    memory[29], memory[30] = sum_3, sum_4
+
+
+@compiled
+def _begin_sub_block(x: FloatArray, memory: FloatArray) -> None:
+    for j in range(TRANSITION):
+        memory[j] = 0.0
+    memory[8], memory[13] = 1.0, 1.0
+    memory[24], memory[25], memory[26], memory[27] = sin(x[2]), cos(x[2]), sin(x[3]), cos(x[3])
+    memory[STEPS], memory[29], memory[30] = 0.0, 0.0, 0.0
+
+
+@compiled
+def _keep_transition(memory: FloatArray, node: FloatArray) -> None:
+    for j in range(TRANSITION):
+        node[j] = memory[j]
+    node[RESTARTED], node[RENEWED] = 0.0, 0.0
+
+
+@compiled
+def _predict(
+    p: FloatArray,
+    work: FloatArray,
+    f: FloatArray,
+    memory: FloatArray,
+    model: FloatArray,
+    x: FloatArray,
+) -> None:
+    """P <- F P F' + Q over the steps since the last node, (6.10)."""
+    steps = memory[STEPS]
+    if steps == 0.0:
+        return
+    span = steps * model[0]
+    columns = (2, 3, 5, 6)
+    for i in range(4):
+        for j in range(STATES):
+            f[i, j] = 0.0
+        for j in range(4):
+            f[i, columns[j]] = memory[4 * i + j]
+    f[0, 0], f[0, 1], f[0, 4] = 1.0, span, 0.5 * span * span
+    f[1, 1], f[1, 4] = 1.0, span
+    f[0, LEAN], f[1, LEAN] = memory[16], memory[17]
+    for i in range(4):
+        for j in range(STATES):
+            total = 0.0
+            for k in range(STATES):
+                total += f[i, k] * p[k, j]
+            work[i, j] = total
+    for i in range(4):
+        for j in range(i, 4):
+            total = 0.0
+            for k in range(STATES):
+                total += work[i, k] * f[j, k]
+            p[i, j] = total
+        for j in range(4, STATES):
+            p[i, j] = work[i, j]
+    _add_noise(p, memory, model, x, steps)
+    for i in range(STATES):
+        for j in range(i):
+            p[i, j] = p[j, i]
+
+
+@compiled
+def _add_noise(
+    p: FloatArray, memory: FloatArray, model: FloatArray, x: FloatArray, n: float
+) -> None:
+    """Add Q of ``n`` steps, (C.5) and (C.6), to the upper half of P.
+
+    A disturbance of a state with m steps to go moves velocity by m, and height by m squared over
+    two, times its acceleration; the sums over m are exact for a constant sensitivity.
+    """
+    step = model[0]
+    s1, s2 = n * (n - 1.0) / 2.0 * step, (n - 1.0) * n * (2.0 * n - 1.0) / 6.0 * step * step
+    s3 = s1 * s1 * step
+    s4 = s2 * (3.0 * n * n - 3.0 * n - 1.0) / 5.0 * step * step
+    by_3, by_4 = memory[29] / n, memory[30] / n
+    st, ct, sp, cp = sin(x[2]), cos(x[2]), sin(x[3]), cos(x[3])
+    tangent = st / ct
+    white, walk = model[5] * step, model[9] * step
+    p[1, 1] += white * n
+    p[0, 1] += white * n * n * step / 2.0
+    p[0, 0] += white * step * step * (n * n * n / 3.0 - n / 12.0)
+    p[4, 4] += walk * n
+    p[1, 4] += walk * s1
+    p[0, 4] += walk * s2 / 2.0
+    q1, q2, q3 = model[6] * step, model[7] * step, model[8] * step
+    c33 = cp * cp * q2 + sp * sp * q3
+    c34 = sp * cp * tangent * (q2 - q3)
+    c44 = q1 + tangent * tangent * (sp * sp * q2 + cp * cp * q3)
+    to_3, to_4 = by_3 * c33 + by_4 * c34, by_3 * c34 + by_4 * c44
+    both = by_3 * to_3 + by_4 * to_4 + walk
+    p[2, 2] += c33 * n
+    p[2, 3] += c34 * n
+    p[3, 3] += c44 * n
+    p[1, 2] += to_3 * s1
+    p[1, 3] += to_4 * s1
+    p[0, 2] += to_3 * s2 / 2.0
+    p[0, 3] += to_4 * s2 / 2.0
+    p[1, 1] += both * s2
+    p[0, 1] += both * s3 / 2.0
+    p[0, 0] += both * s4 / 4.0
+    walk_1, walk_2 = model[10] * step, model[11] * step
+    lean_3, lean_4 = cp, sp * tangent
+    p[5, 5] += walk_1 * n
+    p[6, 6] += walk_2 * n
+    p[3, 5] += walk_1 * s1
+    p[2, 6] += walk_2 * s1 * lean_3
+    p[3, 6] += walk_2 * s1 * lean_4
+    p[2, 2] += walk_2 * s2 * lean_3 * lean_3
+    p[2, 3] += walk_2 * s2 * lean_3 * lean_4
+    p[3, 3] += walk_2 * s2 * lean_4 * lean_4 + walk_1 * s2
+    p[1, 5] += walk_1 * by_4 * s2 / 2.0
+    p[1, 6] += walk_2 * (by_3 * lean_3 + by_4 * lean_4) * s2 / 2.0
+
+
+@compiled
+def _observe(
+    u: Inputs,
+    i: int,
+    model: FloatArray,
+    mark: int,
+    y: FloatArray,
+    x: FloatArray,
+    p: FloatArray,
+    memory: FloatArray,
+    h: FloatArray,
+    work: FloatArray,
+    node: FloatArray,
+    updates: FloatArray,
+    done: int,
+) -> int:
+    """Update by the observations ``y`` one after the other, linearized once, (6.13).
+
+    The innovation of a later one counts what the ones before have changed, so that the order is
+    of no matter. Returns the end of the updates.
+    """
+    predicted, prior = work[0], work[1]
+    for j in range(STATES):
+        prior[j] = x[j]
+    _linearize(x, u[3][i], u[4][i], u[5][i], model, h, predicted)
+    if mark & CAPTURE:
+        memory[CAPTURED] = predicted[0]
+    if mark & RENEW:
+        _renew(x, p, memory, model[13])
+        node[RENEWED] = 1.0
+    base = 0.0
+    if mark & REFLECTED:
+        base = memory[ORIGIN]
+        predicted[0] = x[0] + x[OFFSET]
+        h[0, 2], h[0, 3], h[0, OFFSET] = 0.0, 0.0, 1.0
+    elif mark & RELATIVE:
+        base = memory[CAPTURED]
+    node[RESTARTED] += y[2 * KINDS]
+    p[0, 0] += y[2 * KINDS]
+    for kind in range(KINDS):
+        seen = y[kind]
+        if seen != seen:
+            continue
+        if kind == 0:
+            seen += base
+        innovation, variance = seen - predicted[kind], y[KINDS + kind]
+        update = updates[done]
+        for j in range(STATES):
+            innovation -= h[kind, j] * (x[j] - prior[j])
+        spread = _project(p, h[kind], update)
+        total = spread + variance
+        if (
+            not mark & TRUSTED
+            and innovation * innovation > GATE * total
+            and abs(innovation) > model[14 + kind]
+        ):
+            memory[REJECTED + kind] += 1.0
+            if kind > 0:
+                continue
+            memory[IN_A_ROW] += 1.0
+            if memory[IN_A_ROW] < BELIEVED_AT:
+                continue
+            node[RESTARTED] += model[12]
+            p[0, 0] += model[12]
+            total = _project(p, h[kind], update) + variance
+        if kind == 0:
+            memory[IN_A_ROW] = 0.0
+        _update(p, x, h[kind], innovation, variance, total, update, work)
+        done += 1
+    return done
+
+
+@compiled
+def _renew(x: FloatArray, p: FloatArray, memory: FloatArray, variance: float) -> None:
+    """Begin a stop: heights are told from here, and the filter's own may be off."""
+    memory[ORIGIN], x[OFFSET] = x[0], 0.0
+    for j in range(STATES):
+        p[OFFSET, j], p[j, OFFSET] = 0.0, 0.0
+    p[OFFSET, OFFSET] = variance
+
+
+@compiled
+def _project(p: FloatArray, h: FloatArray, update: FloatArray) -> float:
+    """Write P H' into ``update`` and return H P H'."""
+    spread = 0.0
+    for i in range(STATES):
+        total = 0.0
+        for j in range(STATES):
+            total += p[i, j] * h[j]
+        update[STATES + i] = total
+        spread += h[i] * total
+    return spread
+
+
+@compiled
+def _update(
+    p: FloatArray,
+    x: FloatArray,
+    h: FloatArray,
+    innovation: float,
+    variance: float,
+    total: float,
+    update: FloatArray,
+    work: FloatArray,
+) -> None:
+    """Joseph form: P <- (I - K H) P (I - K H)' + K R K'."""
+    for i in range(STATES):
+        gain = update[STATES + i] / total
+        x[i] += gain * innovation
+        left = 0.0
+        for j in range(STATES):
+            left += (p[i, j] - gain * update[STATES + j]) * h[j]
+        work[2, i], work[3, i] = gain, left
+    for i in range(STATES):
+        for j in range(i, STATES):
+            p[i, j] += (
+                work[2, i] * variance * work[2, j]
+                - work[2, i] * update[STATES + j]
+                - work[3, i] * work[2, j]
+            )
+            p[j, i] = p[i, j]
+    for i in range(STATES):
+        update[i], update[STATES + i] = h[i], work[2, i]
+    update[INNOVATION], update[INNOVATION + 1] = innovation / total, 1.0 / total
+
+
+@compiled
+def _linearize(
+    x: FloatArray, w1: float, w2: float, w3: float, model: FloatArray, h: FloatArray, y: FloatArray
+) -> None:
+    """(6.48) into ``y`` and (C.8) into ``h``, with the lever arm's forward part."""
+    lx, ly, lz = model[2], model[3], model[4]
+    st, ct, sp, cp = sin(x[2]), cos(x[2]), sin(x[3]), cos(x[3])
+    q1, q2, q3 = w1 + x[5], w2 + x[6], w3
+    up, side = sp * ly + cp * lz, cp * ly - sp * lz
+    whirl_x, whirl_y, whirl_z = q2 * lz - q3 * ly, q3 * lx - q1 * lz, q1 * ly - q2 * lx
+    inclined = ct * sp
+    root = sqrt(1.0 - inclined * inclined)
+    y[0] = x[0] - st * lx + ct * up
+    y[1] = x[1] - st * whirl_x + ct * (sp * whirl_y + cp * whirl_z)
+    y[2] = x[2]
+    y[3] = asin(inclined)
+    for i in range(KINDS):
+        for j in range(STATES):
+            h[i, j] = 0.0
+    h[0, 0], h[0, 2], h[0, 3] = 1.0, -ct * lx - st * up, ct * side
+    h[1, 1], h[1, 2] = 1.0, -ct * whirl_x - st * (sp * whirl_y + cp * whirl_z)
+    h[1, 3], h[1, 5], h[1, 6] = (
+        ct * (cp * whirl_y - sp * whirl_z),
+        ct * side,
+        -st * lz - ct * cp * lx,
+    )
+    h[2, 2] = 1.0
+    h[3, 2], h[3, 3] = -st * sp / root, ct * cp / root

@@ -1,0 +1,241 @@
+"""The Bryson-Frazier backward pass over the nodes of the filter, and its result at every sample.
+
+The adjoint lambda takes the place of the gain L of (6.17): x_s = x - P lambda, without an inverse
+of P. Inside a sub-block the correction of the height is a cubic of its values and slopes at the
+ends.
+"""
+
+import numpy as np
+
+from floatref.kernels.compiling import compiled
+from floatref.kernels.kalman_layout import (
+    INNOVATION,
+    JUMP,
+    LEAN,
+    OFFSET,
+    RENEWED,
+    RESTARTED,
+    SPREAD,
+    STATES,
+)
+from floatref.values.arrays import FloatArray, IndexArray
+
+
+@compiled
+def smooth(
+    node_at: IndexArray,
+    nodes: FloatArray,
+    updates: FloatArray,
+    before: int,
+    step: float,
+    adjoint: FloatArray,
+    corrections: FloatArray,
+) -> None:
+    """Go back from the last node to the one at sample ``before``, which is not in ``nodes``.
+
+    ``adjoint``, shape (9,), is lambda behind the last node and becomes that behind ``before``.
+    Row k of ``corrections``, shape (n, 5), gets height and velocity to be added on the near side
+    of the update of node k, the same on the far side, and the leap of the height's datum.
+    """
+    for k in range(node_at.shape[0] - 1, -1, -1):
+        node, out = nodes[k], corrections[k]
+        correct(node, adjoint, out)
+        out[0], out[1] = out[2] + node[JUMP], out[3] + node[JUMP + 1]
+        low = node_at[k - 1, 1] if k > 0 else 0
+        for m in range(node_at[k, 1] - 1, low - 1, -1):
+            _undo(updates[m], adjoint)
+        if node[RENEWED] > 0.0:
+            adjoint[OFFSET] = 0.0
+        out[4] = -node[RESTARTED] * adjoint[0]
+        out[0] -= out[4]
+        earlier = node_at[k - 1, 0] if k > 0 else before
+        _back(node, (node_at[k, 0] - earlier) * step, adjoint)
+
+
+@compiled
+def correct(node: FloatArray, adjoint: FloatArray, out: FloatArray) -> None:
+    """Write -P lambda of height and velocity behind ``node`` into ``out[2:4]``."""
+    rise, climb = 0.0, node[SPREAD + 1] * adjoint[0]
+    for j in range(STATES):
+        rise -= node[SPREAD + j] * adjoint[j]
+    climb = -climb
+    for j in range(1, STATES):
+        climb -= node[SPREAD + STATES - 1 + j] * adjoint[j]
+    out[2], out[3] = rise, climb
+
+
+@compiled
+def _undo(update: FloatArray, adjoint: FloatArray) -> None:
+    """Lambda <- (I - K H)' lambda - H' (y - h) / S."""
+    total = update[INNOVATION]
+    for j in range(STATES):
+        total += update[STATES + j] * adjoint[j]
+    for j in range(STATES):
+        adjoint[j] -= update[j] * total
+
+
+@compiled
+def _back(node: FloatArray, span: float, adjoint: FloatArray) -> None:
+    """Lambda <- F' lambda over ``span`` in s."""
+    by_r, by_v, by_theta, by_phi = adjoint[0], adjoint[1], adjoint[2], adjoint[3]
+    adjoint[1] += span * by_r
+    adjoint[4] += span * by_v + 0.5 * span * span * by_r
+    adjoint[LEAN] += by_r * node[16] + by_v * node[17]
+    for j in range(4):
+        moved = by_r * node[j] + by_v * node[4 + j] + by_theta * node[8 + j] + by_phi * node[12 + j]
+        if j < 2:
+            adjoint[2 + j] = moved
+        else:
+            adjoint[3 + j] += moved
+
+
+@compiled
+def interpolate(
+    node_at: IndexArray,
+    corrections: FloatArray,
+    first: int,
+    start: FloatArray,
+    step: float,
+    datum: float,
+    height: FloatArray,
+) -> float:
+    """Add the corrections to the filtered ``height`` of samples ``first`` on.
+
+    ``start`` holds sample number, height and velocity correction of the node before; ``datum``
+    the leaps so far, which the result leaves out. Returns the leaps so far at the end.
+    """
+    begin, r_0, v_0 = int(start[0]), start[1], start[2]
+    for k in range(node_at.shape[0]):
+        end = node_at[k, 0]
+        span = (end - begin) * step
+        r_1, slope_0, slope_1 = corrections[k, 0], span * v_0, span * corrections[k, 1]
+        rise = r_1 - r_0
+        square, cube = 3.0 * rise - 2.0 * slope_0 - slope_1, slope_0 + slope_1 - 2.0 * rise
+        scale = 1.0 / max(end - begin, 1)
+        for i in range(max(begin, first), end):
+            t = (i - begin) * scale
+            height[i - first] += r_0 + t * (slope_0 + t * (square + t * cube)) - datum
+        datum += corrections[k, 4]
+        begin, r_0, v_0 = end, corrections[k, 2], corrections[k, 3]
+    height[begin - first] += r_0 - datum
+    return datum
+
+
+@compiled
+def spread(
+    node_at: IndexArray,
+    nodes: FloatArray,
+    updates: FloatArray,
+    before: int,
+    step: float,
+    information: FloatArray,
+    wanted: IndexArray,
+    found: FloatArray,
+) -> None:
+    """Carry the covariance of lambda back as `smooth` carries lambda.
+
+    ``information``, shape (9, 9), is that behind the last node, and becomes that behind
+    ``before``; ``found``, shape (n, 9, 9), gets that behind each of the nodes ``wanted``.
+    """
+    left = wanted.size - 1
+    by_gain = np.zeros(STATES)
+    for k in range(node_at.shape[0] - 1, -1, -1):
+        if left >= 0 and wanted[left] == k:
+            for i in range(STATES):
+                for j in range(STATES):
+                    found[left, i, j] = information[i, j]
+            left -= 1
+        low = node_at[k - 1, 1] if k > 0 else 0
+        for m in range(node_at[k, 1] - 1, low - 1, -1):
+            _gather(updates[m], information, by_gain)
+        if nodes[k, RENEWED] > 0.0:
+            for i in range(STATES):
+                information[i, OFFSET], information[OFFSET, i] = 0.0, 0.0
+        span = (node_at[k, 0] - (node_at[k - 1, 0] if k > 0 else before)) * step
+        for i in range(STATES):
+            _back(nodes[k], span, information[i])
+        for i in range(STATES):
+            _back(nodes[k], span, information[:, i])
+
+
+@compiled
+def _gather(update: FloatArray, information: FloatArray, by_gain: FloatArray) -> None:
+    """I <- (I - K H)' I (I - K H) + H' H / S."""
+    total = update[INNOVATION + 1]
+    for i in range(STATES):
+        row = 0.0
+        for j in range(STATES):
+            row += information[i, j] * update[STATES + j]
+        by_gain[i] = row
+        total += row * update[STATES + i]
+    for i in range(STATES):
+        for j in range(STATES):
+            information[i, j] += (
+                total * update[i] * update[j] - by_gain[i] * update[j] - update[i] * by_gain[j]
+            )
+
+
+@compiled
+def closed_loop(
+    node_at: IndexArray,
+    nodes: FloatArray,
+    updates: FloatArray,
+    before: int,
+    step: float,
+    wanted: IndexArray,
+    found: FloatArray,
+) -> None:
+    """Write how an error of the filter passes on from each of the nodes ``wanted`` to the next.
+
+    ``found``, shape (n + 1, 9, 9), gets the products of (I - K H) F from the sample ``before`` to
+    the first of them, between neighbours, and from the last to the last node.
+    """
+    psi, at = found[0], 0
+    _identity(psi)
+    for k in range(node_at.shape[0]):
+        span = (node_at[k, 0] - (node_at[k - 1, 0] if k > 0 else before)) * step
+        _forth(nodes[k], span, psi)
+        if nodes[k, RENEWED] > 0.0:
+            for i in range(STATES):
+                psi[OFFSET, i] = 0.0
+        for m in range(node_at[k - 1, 1] if k > 0 else 0, node_at[k, 1]):
+            _reduce(updates[m], psi)
+        if at < wanted.size and wanted[at] == k:
+            at += 1
+            psi = found[at]
+            _identity(psi)
+
+
+@compiled
+def _identity(psi: FloatArray) -> None:
+    for i in range(STATES):
+        for j in range(STATES):
+            psi[i, j] = 1.0 if i == j else 0.0
+
+
+@compiled
+def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
+    """Psi <- F Psi over ``span`` in s."""
+    for c in range(STATES):
+        moved = psi[0, c] + span * psi[1, c] + 0.5 * span * span * psi[4, c]
+        moved += node[16] * psi[LEAN, c]
+        climb = psi[1, c] + span * psi[4, c] + node[17] * psi[LEAN, c]
+        theta, phi = 0.0, 0.0
+        for j in range(4):
+            value = psi[2 + j, c] if j < 2 else psi[3 + j, c]
+            moved += node[j] * value
+            climb += node[4 + j] * value
+            theta += node[8 + j] * value
+            phi += node[12 + j] * value
+        psi[0, c], psi[1, c], psi[2, c], psi[3, c] = moved, climb, theta, phi
+
+
+@compiled
+def _reduce(update: FloatArray, psi: FloatArray) -> None:
+    """Psi <- (I - K H) Psi."""
+    for c in range(STATES):
+        seen = 0.0
+        for j in range(STATES):
+            seen += update[j] * psi[j, c]
+        for j in range(STATES):
+            psi[j, c] -= update[STATES + j] * seen

@@ -1,0 +1,123 @@
+"""The Kalman filter in place of both integrations, without the smoother."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.kernels.kalman_layout import JUMP, RESTARTED
+from floatref.stages.kalman.inputs import IMU, InputChannels, Readings, channel_of, stretch_of
+from floatref.stages.kalman.noise import Noise
+from floatref.stages.kalman.nodes import Nodes
+from floatref.stages.kalman.references import Plan
+from floatref.stages.kalman.track import TrackFilter
+from floatref.stages.marking import flags_of
+from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
+from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+from floatref.values.recording import ORIGIN
+
+
+class KalmanStage(Stage):
+    """What filter and smoother have in common: channels, references, forward pass.
+
+    Adds `floating_reference_height` of every track; the vertical acceleration and all channels of
+    the inertial unit are dropped.
+    """
+
+    declared = Declared(linear=False, zero_in_zero_out=False, shift_invariant=False)
+
+    def __init__(self, plan: Plan, noise: Noise) -> None:
+        """Observe what ``plan`` says, with ``noise``."""
+        super().__init__()
+        self.plan, self.noise = plan, noise
+        self._header: Header | None = None
+        self._channels: tuple[InputChannels, ...] = ()
+
+    def open(self, header: Header) -> Header:
+        """Ask for the sensors of every track and the travel speed, in time."""
+        if header.axis is not Axis.TIME:
+            raise InputError(f"stage {self.name}: the stream is not on the time axis")
+        header.require(self.name, ChannelId(TRAVEL_SPEED))
+        for track in header.tracks:
+            own = [ChannelId(name, track) for name in (ACCELERATION, HEIGHT)]
+            shared = [channel_of(header, name, track) for name in IMU]
+            header.require(self.name, *own, *shared)
+        self._header = header
+        self._channels = tuple(InputChannels.of(header, track) for track in header.tracks)
+        self.memory = {"readings": Readings(header), "filters": {}}
+        return header.replacing(ACCELERATION, REFERENCE_HEIGHT).without(*IMU)
+
+    def forward(self, block: Block) -> dict[str, tuple[FloatArray, Nodes]]:
+        """Filter every track; returns the filtered heights in m and the nodes."""
+        taken, rows = self.memory["readings"].take(block.events, block.first + len(block))
+        found = {}
+        for channels in self._channels:
+            track = channels.track
+            stretch = stretch_of(block, track, self.plan, taken, rows)
+            found[track] = self._filter(track, block).advance(channels.inputs(block), stretch)
+        return found
+
+    def ending(self) -> dict[str, Nodes]:
+        """Return the node at the last sample of every track that has had one."""
+        return {track: f.end() for track, f in self.memory["filters"].items()}
+
+    def _filter(self, track: str, block: Block) -> TrackFilter:
+        filters: dict[str, TrackFilter] = self.memory["filters"]
+        if track not in filters:
+            assert self._header is not None
+            setup = self._header.setup
+            point = setup.tracks[track].reference_point_m if track in setup.tracks else ORIGIN
+            x, y, z = np.subtract(setup.gnss_antenna_offset_m, point).tolist()
+            start = np.nan_to_num(block[ChannelId(HEIGHT, track)][:1])
+            filters[track] = TrackFilter.of(
+                self.plan, self.noise, self._header.step, (x, y, z), float(start[0])
+            )
+        return filters[track]
+
+    def flags(self, block: Block, channels: InputChannels) -> FlagArray | None:
+        """Return the flags of all inputs of a wheel path."""
+        return flags_of(block, *channels.names)
+
+
+class KalmanFilter(KalmanStage):
+    """The filter alone (section 6.6.1): its height steps at every reading.
+
+    A leap of the GNSS height's datum is left out of the result.
+    """
+
+    def open(self, header: Header) -> Header:
+        """Begin without a leap."""
+        out = super().open(header)
+        self.memory["leap"] = {track: 0.0 for track in header.tracks}
+        return out
+
+    def advance(self, block: Block) -> Block:
+        """Filter every track."""
+        values, flags = {}, {}
+        for channels, (height, nodes) in zip(
+            self._channels, self.forward(block).values(), strict=True
+        ):
+            target = ChannelId(REFERENCE_HEIGHT, channels.track)
+            values[target] = self._without_leaps(channels.track, block.first, height, nodes)
+            marks = self.flags(block, channels)
+            if marks is not None:
+                flags[target] = marks
+        return block.setting(values, flags).without(ACCELERATION, *IMU)
+
+    def _without_leaps(
+        self, track: str, first: int, height: FloatArray, nodes: Nodes
+    ) -> FloatArray:
+        leaps: dict[str, float] = self.memory["leap"]
+        height -= leaps[track]
+        for begin, rise in _leaps(nodes):
+            height[begin - first :] -= rise
+            leaps[track] += rise
+        return height
+
+
+def _leaps(nodes: Nodes) -> Iterator[tuple[int, float]]:
+    for k in np.flatnonzero(nodes.nodes[:, RESTARTED] > 0):
+        yield int(nodes.at[k, 0]), float(nodes.nodes[k, JUMP])

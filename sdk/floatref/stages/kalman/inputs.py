@@ -1,0 +1,108 @@
+"""From blocks to what the Kalman filter takes: inputs, GNSS readings, standstill, heights."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from floatref.kernels.kalman_layout import KINDS
+from floatref.stages.kalman.references import Plan, Stretch
+from floatref.stages.kalman.track import Inputs
+from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
+from floatref.values.block import Block, Event, Header
+from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+
+FORCES = ("longitudinal_specific_force", "lateral_specific_force")
+RATES = ("roll_rate", "pitch_rate", "yaw_rate")
+IMU = (*FORCES, *RATES)
+"""The channels that the Kalman pipelines need beside the nominal ones."""
+GNSS = ("gnss_height", "gnss_vertical_velocity", "gnss_pitch", "gnss_roll")
+QUALITY = ChannelId("gnss_quality")
+FIXED = 4.0
+"""Quality of a reading whose phase ambiguities are fixed (section 6.4.4)."""
+USUAL_S = 0.05
+"""Interval that the first reading is taken to have."""
+
+
+def channel_of(header: Header, name: str, track: str) -> ChannelId:
+    """Return channel ``name`` of ``track``, or the one that all wheel paths share."""
+    own = ChannelId(name, track)
+    return own if own in header.channels else ChannelId(name)
+
+
+@dataclass(frozen=True)
+class InputChannels:
+    """Where the inputs of one wheel path are found in a block."""
+
+    track: str
+    names: tuple[ChannelId, ...]
+
+    @classmethod
+    def of(cls, header: Header, track: str) -> "InputChannels":
+        """Return the channels of ``track``, in the order of (6.47)."""
+        longitudinal, lateral = (channel_of(header, name, track) for name in FORCES)
+        rates = (channel_of(header, name, track) for name in RATES)
+        return cls(track, (longitudinal, lateral, ChannelId(ACCELERATION, track), *rates))
+
+    def inputs(self, block: Block) -> Inputs:
+        """Return the six inputs; a missing sample is that of (1.4): nothing but gravity."""
+        x, y, z, roll, pitch, yaw = (_known(block[name]) for name in self.names)
+        return x, y, frozen(z + STANDARD_GRAVITY), roll, pitch, yaw
+
+
+def _known(values: FloatArray) -> FloatArray:
+    # Read-only throughout: the kernel is compiled for one kind of array.
+    return frozen(np.nan_to_num(values) if np.isnan(values.sum()) else values)
+
+
+@dataclass
+class Readings:
+    """Usable GNSS readings by sample, each at the sample next to it in time.
+
+    A reading without a height, or without fixed ambiguities, is left out.
+    """
+
+    header: Header
+    held: list[tuple[int, FloatArray]] = field(default_factory=list)
+    before_s: float = -np.inf
+
+    def take(self, events: Iterable[Event], end: int) -> tuple[IndexArray, FloatArray]:
+        """Return those before sample ``end``, shapes (m,) and (m, 5)."""
+        for event in events:
+            self._hold(event)
+        ready = [reading for reading in self.held if reading[0] < end]
+        self.held = self.held[len(ready) :]
+        at = np.array([index for index, _ in ready], np.int64)
+        return at, np.array([row for _, row in ready]).reshape(at.size, KINDS + 1)
+
+    def _hold(self, event: Event) -> None:
+        row = np.array([event.values.get(ChannelId(name), np.nan) for name in GNSS])
+        if np.isnan(row[0]) or event.values.get(QUALITY, FIXED) != FIXED:
+            return
+        interval_s = event.time_s - self.before_s
+        self.before_s = event.time_s
+        index = max(0, round((event.time_s - self.header.origin) / self.header.step))
+        if self.held and index <= self.held[-1][0]:
+            return
+        usual = interval_s if interval_s < 1e6 else USUAL_S
+        self.held.append((index, np.append(row, usual)))
+
+
+def stretch_of(
+    block: Block, track: str, plan: Plan, taken: IndexArray, readings: FloatArray
+) -> Stretch:
+    """Return what the references of ``track`` need to know of ``block``."""
+    standing: BoolArray = block[ChannelId(TRAVEL_SPEED)] < plan.reflection_speed_mps
+    height = ChannelId(HEIGHT, track)
+    there = ~np.isnan(block[height])
+    for mask in (block.fresh.get(height), _unflagged(block, height)):
+        if mask is not None:
+            there = there & mask
+    fresh = np.flatnonzero(there) + block.first
+    return Stretch(block.first, standing, block[height], fresh, taken, readings)
+
+
+def _unflagged(block: Block, channel: ChannelId) -> BoolArray | None:
+    flags = block.flags.get(channel)
+    return None if flags is None else flags == 0

@@ -1,0 +1,53 @@
+"""The stretches on which filter and smoother work, and what the filter leaves behind in them."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from floatref.kernels.kalman_layout import KINDS, NODE, UPDATE
+from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.block import Block
+
+
+@dataclass(eq=False)
+class Nodes:
+    """The nodes of a stretch: samples and ends of updates (k, 2), nodes, updates."""
+
+    at: IndexArray
+    nodes: FloatArray
+    updates: FloatArray
+
+    @classmethod
+    def room(cls, samples: int, sub_block: int, observations: int) -> "Nodes":
+        """Return room for the nodes of so many ``samples``."""
+        count = samples // sub_block + observations + 2
+        updates = np.empty((KINDS * observations, UPDATE))
+        return cls(np.empty((count, 2), np.int64), np.empty((count, NODE)), updates)
+
+    def filled(self, count: int) -> "Nodes":
+        """Return the first ``count``, without the room behind them."""
+        end = int(self.at[count - 1, 1]) if count else 0
+        return Nodes(self.at[:count].copy(), self.nodes[:count].copy(), self.updates[:end].copy())
+
+    @classmethod
+    def joined(cls, parts: list["Nodes"]) -> "Nodes":
+        """Return ``parts``, each behind the one before, as one."""
+        ends = np.cumsum([0, *(len(p.updates) for p in parts)])
+        at = [p.at + np.array([0, end]) for p, end in zip(parts, ends, strict=False)]
+        nodes, updates = [p.nodes for p in parts], [p.updates for p in parts]
+        return cls(np.concatenate(at), np.concatenate(nodes), np.concatenate(updates))
+
+
+@dataclass(eq=False)
+class Segment:
+    """Samples ``first`` to ``first + height.size - 1``, whose last is a node.
+
+    ``before`` is the sample of the node before the segment and ``origin`` that node's row.
+    """
+
+    first: int
+    before: int
+    origin: FloatArray
+    height: FloatArray
+    parts: list[Nodes] = field(default_factory=list)
+    filled: int = 0
