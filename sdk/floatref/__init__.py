@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from floatref.architectures.processing import FloatrefWarning as FloatrefWarning
+    from floatref.architectures.processing import pipeline_capabilities as pipeline_capabilities
     from floatref.architectures.processing import pipelines as pipelines
     from floatref.architectures.processing import process as process
     from floatref.errors import FloatrefError as FloatrefError
@@ -72,6 +73,7 @@ _PUBLIC = {
     "TrackSetup": "values.recording",
     "TravelSpeed": "retrofit",
     "UniformClock": "values.clock",
+    "pipeline_capabilities": "architectures.processing",
     "pipelines": "architectures.processing",
     "process": "architectures.processing",
     "read_profile": "files",

@@ -25,7 +25,7 @@ CLAIMS: Mapping[str, DeviceClass] = {
 
 @dataclass(frozen=True)
 class BuiltinDevice:
-    """Pipeline ``pipeline`` of floatref with its own settings and nominal channels alone."""
+    """Pipeline ``pipeline`` of floatref with its own settings and the channels that it needs."""
 
     pipeline: str
 
@@ -41,7 +41,7 @@ class BuiltinDevice:
             "name": self.pipeline,
             "version": floatref.__version__,
             "architecture": architecture if architecture in ARCHITECTURES else "temporal",
-            "capabilities": [],
+            "capabilities": list(floatref.pipeline_capabilities(self.pipeline)),
         }
 
     def run(self, recording: Path, profile: Path) -> None:

@@ -58,6 +58,14 @@ def pipelines() -> tuple[str, ...]:
     return tuple(plugins().pipelines())
 
 
+def pipeline_capabilities(name: str) -> tuple[str, ...]:
+    """Return what pipeline ``name`` needs beside nominal sensors: "imu", "gnss", both or none.
+
+    Raises InputError for a name that `process` does not know.
+    """
+    return plugins().pipeline(name).capabilities
+
+
 def run(
     recording: Recording,
     pipeline: str,
