@@ -11,6 +11,7 @@ COMMANDS = {
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters"),
+    "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
 }
 
 
