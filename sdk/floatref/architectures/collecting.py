@@ -1,12 +1,13 @@
 """Gathering the blocks at the end of a signal flow, without holding them twice."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.stages.signals import ELEVATION
+from floatref.stages.signals import ELEVATION, SIGMA
 from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Block
 from floatref.values.channels import ChannelId
@@ -46,19 +47,33 @@ class Growing(Generic[S]):
         self._array.resize(size, refcheck=False)
 
 
+@dataclass(frozen=True)
+class Gathered:
+    """Elevation and, where it is known, 1-σ in m, and flags of one wheel path, shape (N,) each."""
+
+    elevation: FloatArray
+    flags: FlagArray
+    sigma: FloatArray | None = None
+
+
 def collected(
-    blocks: Iterable[Block], tracks: tuple[str, ...], room: int = 0
-) -> dict[str, tuple[FloatArray, FlagArray]]:
-    """Return elevation in m and flags, shape (N,) each, of every one of ``tracks``.
+    blocks: Iterable[Block], tracks: tuple[str, ...], room: int = 0, with_sigma: bool = False
+) -> dict[str, Gathered]:
+    """Return elevation and flags of every one of ``tracks``, and 1-σ if there is one.
 
     ``room`` is about how many points to expect.
     """
     channels = [ChannelId(ELEVATION, track) for track in tracks]
     elevations = [Growing(np.float64, room) for _ in tracks]
     flags = [Growing(np.uint8, room) for _ in tracks]
+    sigmas = [Growing(np.float64, room) for _ in tracks if with_sigma]
     for block in blocks:
         for channel, elevation, marks in zip(channels, elevations, flags, strict=True):
             elevation.extend(block[channel])
             marks.extend(block.flags.get(channel, np.zeros(len(block), np.uint8)))
-    grown = zip(tracks, elevations, flags, strict=True)
-    return {track: (elevation.close(), marks.close()) for track, elevation, marks in grown}
+        for track, sigma in zip(tracks, sigmas, strict=False):
+            sigma.extend(block[ChannelId(SIGMA, track)])
+    known: list[FloatArray | None] = [sigma.close() for sigma in sigmas]
+    known += [None] * (len(tracks) - len(known))
+    grown = zip(tracks, elevations, flags, known, strict=True)
+    return {track: Gathered(z.close(), marks.close(), s) for track, z, marks, s in grown}

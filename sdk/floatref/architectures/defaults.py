@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 
 from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.catalogue import PIPELINES as PIPELINES
-from floatref.architectures.kalman_pipelines import KALMAN
 from floatref.architectures.hookspecs import hookimpl
+from floatref.architectures.kalman_pipelines import KALMAN
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
 from floatref.errors import FloatrefError, PluginError

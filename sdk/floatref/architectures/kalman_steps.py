@@ -12,7 +12,7 @@ from floatref.stages.protocol import Stage
 from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
 from floatref.stages.speed import TravelSpeed
 
-Estimator = Callable[[Plan, Noise], Stage]
+Estimator = Callable[[Plan, Noise, float], Stage]
 NOISE = {
     "acceleration_density": "acceleration",
     "acceleration_walk": "acceleration_walk",
@@ -29,10 +29,11 @@ NOISE = {
     "constant_velocity_density": "constant_velocity",
     "constant_pitch_density": "constant_pitch",
     "constant_roll_density": "constant_roll",
-    "reflection_sigma_m": "reflection_m",
+    "reflection_density": "reflection",
     "reflection_offset_m": "reflection_offset_m",
     "gnss_height_walk": "gnss_height_walk",
     "lean_sigma_rad": "lean_rad",
+    "height_noise_m": "height_m",
 }
 """From settings to what they are in `Noise`."""
 
@@ -56,6 +57,7 @@ def answers(plan: Plan, estimator: Estimator) -> dict[str, Answer]:
     """Return the answers of the pipeline that observes what ``plan`` says."""
 
     def estimate(question: Question) -> Sequence[Stage]:
-        return estimator(plan, noise_of(question)), Drop(TRAVEL_SPEED)
+        wavelength_m = question.setting("cutoff_wavelength_m")
+        return estimator(plan, noise_of(question), wavelength_m), Drop(TRAVEL_SPEED)
 
     return {"temporal_condition": condition, "temporal_estimate": estimate}

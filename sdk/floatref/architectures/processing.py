@@ -9,14 +9,16 @@ from typing import Any
 
 from floatref import __version__
 from floatref.architectures import flow
-from floatref.architectures.collecting import collected
+from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
+from floatref.stages.signals import SIGMA
 from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
 from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, check_interval
@@ -125,12 +127,10 @@ def _collect(
 ) -> Profile:
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
-    found = collected(blocks, header.tracks, room)
+    known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
+    found = collected(blocks, header.tracks, room, known)
     reach = Reach.of(resolved)
-    tracks = tuple(
-        ProfileTrack.of(name, elevation, valid_points(flags, header.step, reach))
-        for name, (elevation, flags) in ((name, found.pop(name)) for name in header.tracks)
-    )
+    tracks = tuple(_track(name, found.pop(name), header.step, reach) for name in header.tracks)
     return Profile(
         interval_m=header.step,
         tracks=tracks,
@@ -143,3 +143,8 @@ def _collect(
             "numpy": version("numpy"),
         },
     )
+
+
+def _track(name: str, found: Gathered, interval_m: float, reach: Reach) -> ProfileTrack:
+    valid = valid_points(found.flags, interval_m, reach)
+    return ProfileTrack.of(name, found.elevation, valid, found.sigma)

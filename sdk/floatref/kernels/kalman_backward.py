@@ -122,60 +122,6 @@ def interpolate(
 
 
 @compiled
-def spread(
-    node_at: IndexArray,
-    nodes: FloatArray,
-    updates: FloatArray,
-    before: int,
-    step: float,
-    information: FloatArray,
-    wanted: IndexArray,
-    found: FloatArray,
-) -> None:
-    """Carry the covariance of lambda back as `smooth` carries lambda.
-
-    ``information``, shape (9, 9), is that behind the last node, and becomes that behind
-    ``before``; ``found``, shape (n, 9, 9), gets that behind each of the nodes ``wanted``.
-    """
-    left = wanted.size - 1
-    by_gain = np.zeros(STATES)
-    for k in range(node_at.shape[0] - 1, -1, -1):
-        if left >= 0 and wanted[left] == k:
-            for i in range(STATES):
-                for j in range(STATES):
-                    found[left, i, j] = information[i, j]
-            left -= 1
-        low = node_at[k - 1, 1] if k > 0 else 0
-        for m in range(node_at[k, 1] - 1, low - 1, -1):
-            _gather(updates[m], information, by_gain)
-        if nodes[k, RENEWED] > 0.0:
-            for i in range(STATES):
-                information[i, OFFSET], information[OFFSET, i] = 0.0, 0.0
-        span = (node_at[k, 0] - (node_at[k - 1, 0] if k > 0 else before)) * step
-        for i in range(STATES):
-            _back(nodes[k], span, information[i])
-        for i in range(STATES):
-            _back(nodes[k], span, information[:, i])
-
-
-@compiled
-def _gather(update: FloatArray, information: FloatArray, by_gain: FloatArray) -> None:
-    """I <- (I - K H)' I (I - K H) + H' H / S."""
-    total = update[INNOVATION + 1]
-    for i in range(STATES):
-        row = 0.0
-        for j in range(STATES):
-            row += information[i, j] * update[STATES + j]
-        by_gain[i] = row
-        total += row * update[STATES + i]
-    for i in range(STATES):
-        for j in range(STATES):
-            information[i, j] += (
-                total * update[i] * update[j] - by_gain[i] * update[j] - update[i] * by_gain[j]
-            )
-
-
-@compiled
 def closed_loop(
     node_at: IndexArray,
     nodes: FloatArray,
@@ -183,42 +129,45 @@ def closed_loop(
     before: int,
     step: float,
     wanted: IndexArray,
-    found: FloatArray,
+    passed: FloatArray,
+    gathered: FloatArray,
 ) -> None:
-    """Write how an error of the filter passes on from each of the nodes ``wanted`` to the next.
+    """Write how an error of the filter passes on between the nodes ``wanted``.
 
-    ``found``, shape (n + 1, 9, 9), gets the products of (I - K H) F from the sample ``before`` to
-    the first of them, between neighbours, and from the last to the last node.
+    ``passed[k]``, shape (9, 9), gets Psi, the product of (I - K H) F from the node wanted before
+    (from the sample ``before``) to number k, ``gathered[k]`` the sum of Psi' H' H Psi / S on the
+    way: what the observations there add to the covariance of lambda.
     """
-    psi, at = found[0], 0
-    _identity(psi)
+    at, done = 0, 0
+    _identity(passed[0], gathered[0])
     for k in range(node_at.shape[0]):
+        psi, sums = passed[at], gathered[at]
         span = (node_at[k, 0] - (node_at[k - 1, 0] if k > 0 else before)) * step
         _forth(nodes[k], span, psi)
-        if nodes[k, RENEWED] > 0.0:
-            for i in range(STATES):
-                psi[OFFSET, i] = 0.0
-        for m in range(node_at[k - 1, 1] if k > 0 else 0, node_at[k, 1]):
-            _reduce(updates[m], psi)
-        if at < wanted.size and wanted[at] == k:
+        for m in range(done, node_at[k, 1]):
+            _reduce(updates[m], psi, sums)
+        done = node_at[k, 1]
+        if wanted[at] == k:
             at += 1
-            psi = found[at]
-            _identity(psi)
+            if at == wanted.size:
+                return
+            _identity(passed[at], gathered[at])
 
 
 @compiled
-def _identity(psi: FloatArray) -> None:
+def _identity(psi: FloatArray, sums: FloatArray) -> None:
     for i in range(STATES):
         for j in range(STATES):
-            psi[i, j] = 1.0 if i == j else 0.0
+            psi[i, j], sums[i, j] = 0.0, 0.0
+        psi[i, i] = 1.0
 
 
 @compiled
 def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
     """Psi <- F Psi over ``span`` in s."""
+    half = 0.5 * span * span
     for c in range(STATES):
-        moved = psi[0, c] + span * psi[1, c] + 0.5 * span * span * psi[4, c]
-        moved += node[16] * psi[LEAN, c]
+        moved = psi[0, c] + span * psi[1, c] + half * psi[4, c] + node[16] * psi[LEAN, c]
         climb = psi[1, c] + span * psi[4, c] + node[17] * psi[LEAN, c]
         theta, phi = 0.0, 0.0
         for j in range(4):
@@ -228,14 +177,30 @@ def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
             theta += node[8 + j] * value
             phi += node[12 + j] * value
         psi[0, c], psi[1, c], psi[2, c], psi[3, c] = moved, climb, theta, phi
+        if node[RENEWED] > 0.0:
+            psi[OFFSET, c] = 0.0
 
 
 @compiled
-def _reduce(update: FloatArray, psi: FloatArray) -> None:
-    """Psi <- (I - K H) Psi."""
+def _reduce(update: FloatArray, psi: FloatArray, sums: FloatArray) -> None:
+    """Add Psi' H' H Psi / S to ``sums``; Psi <- (I - K H) Psi."""
+    seen = np.zeros(STATES)
     for c in range(STATES):
-        seen = 0.0
         for j in range(STATES):
-            seen += update[j] * psi[j, c]
-        for j in range(STATES):
-            psi[j, c] -= update[STATES + j] * seen
+            seen[c] += update[j] * psi[j, c]
+    for i in range(STATES):
+        scaled, gain = seen[i] * update[INNOVATION + 1], update[STATES + i]
+        for c in range(STATES):
+            sums[i, c] += scaled * seen[c]
+            psi[i, c] -= gain * seen[c]
+
+
+@compiled
+def ramp(at: IndexArray, values: FloatArray, first: int, line: FloatArray) -> None:
+    """Write the line through ``values`` at the samples ``at``, in order, from sample ``first``."""
+    k = 0
+    for i in range(line.size):
+        while k + 2 < at.size and at[k + 1] <= first + i:
+            k += 1
+        slope = (values[k + 1] - values[k]) / max(at[k + 1] - at[k], 1)
+        line[i] = values[k] + slope * (first + i - at[k])

@@ -7,8 +7,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.kernels.kalman_layout import JUMP, RESTARTED
 from floatref.stages.kalman.inputs import IMU, InputChannels, Readings, channel_of, stretch_of
-from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.nodes import Nodes
+from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
 from floatref.stages.kalman.track import TrackFilter
 from floatref.stages.marking import flags_of
@@ -29,10 +29,10 @@ class KalmanStage(Stage):
 
     declared = Declared(linear=False, zero_in_zero_out=False, shift_invariant=False)
 
-    def __init__(self, plan: Plan, noise: Noise) -> None:
-        """Observe what ``plan`` says, with ``noise``."""
+    def __init__(self, plan: Plan, noise: Noise, wavelength_m: float = 105.91) -> None:
+        """Observe what ``plan`` says, with ``noise``; the result is cut off at ``wavelength_m``."""
         super().__init__()
-        self.plan, self.noise = plan, noise
+        self.plan, self.noise, self.wavelength_m = plan, noise, wavelength_m
         self._header: Header | None = None
         self._channels: tuple[InputChannels, ...] = ()
 
@@ -91,7 +91,7 @@ class KalmanFilter(KalmanStage):
     def open(self, header: Header) -> Header:
         """Begin without a leap."""
         out = super().open(header)
-        self.memory["leap"] = {track: 0.0 for track in header.tracks}
+        self.memory["leap"] = dict.fromkeys(header.tracks, 0.0)
         return out
 
     def advance(self, block: Block) -> Block:

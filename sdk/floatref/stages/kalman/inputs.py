@@ -95,14 +95,8 @@ def stretch_of(
     """Return what the references of ``track`` need to know of ``block``."""
     standing: BoolArray = block[ChannelId(TRAVEL_SPEED)] < plan.reflection_speed_mps
     height = ChannelId(HEIGHT, track)
-    there = ~np.isnan(block[height])
-    for mask in (block.fresh.get(height), _unflagged(block, height)):
-        if mask is not None:
-            there = there & mask
-    fresh = np.flatnonzero(there) + block.first
-    return Stretch(block.first, standing, block[height], fresh, taken, readings)
-
-
-def _unflagged(block: Block, channel: ChannelId) -> BoolArray | None:
-    flags = block.flags.get(channel)
-    return None if flags is None else flags == 0
+    there: BoolArray = ~np.isnan(block[height])
+    flags = block.flags.get(height)
+    if flags is not None:
+        there = there & (flags == 0)
+    return Stretch(block.first, standing, block[height], there, taken, readings)

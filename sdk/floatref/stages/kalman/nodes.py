@@ -6,7 +6,6 @@ import numpy as np
 
 from floatref.kernels.kalman_layout import KINDS, NODE, UPDATE
 from floatref.values.arrays import FloatArray, IndexArray
-from floatref.values.block import Block
 
 
 @dataclass(eq=False)

@@ -34,9 +34,10 @@ class Noise:
         gnss_height_walk: slow error of the GNSS height that a stop hides, in m/√s.
         constant_height, constant_velocity, constant_pitch, constant_roll: 1-σ of what stays the
             same for want of a reading, as densities in m/√Hz, m/s/√Hz and rad/√Hz.
-        reflection_m: 1-σ of a reading of the height sensor, at 3240 Hz or less, as a measure of
-            the reference point's motion at a standstill.
+        reflection: the height sensor as a measure of the reference point's motion at a standstill,
+            in m/√Hz.
         reflection_offset_m: 1-σ of the error of the filter's own height where a stop begins.
+        height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
     """
 
     acceleration: float = 6e-4 * STANDARD_GRAVITY * PER_STEP
@@ -56,8 +57,9 @@ class Noise:
     constant_velocity: float = 10.0 * PER_STEP
     constant_pitch: float = radians(5.0) / 20**0.5
     constant_roll: float = radians(2.0) / 20**0.5
-    reflection_m: float = 0.0015
+    reflection: float = 0.0015 / 3240**0.5
     reflection_offset_m: float = 0.1
+    height_m: float = 3e-5
 
     def process(self) -> FloatArray:
         """Return the squares of the process densities, shape (7,)."""

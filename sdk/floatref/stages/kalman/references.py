@@ -1,7 +1,7 @@
 """What the Kalman filter observes when: GNSS, constants in its place, the height at a stop."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -22,8 +22,6 @@ PATIENCE_S = 0.5
 """Without a usable GNSS reading for so long, constants take its place."""
 READING_S = 0.045
 """GNSS readings at shorter intervals count for less: their errors are those of the one before."""
-REFLECTIONS_PER_S = 3240.0
-"""Readings of the height sensor at a stop are taken at this rate at most."""
 DATUM_M = 100.0
 """1-σ of a new datum of the GNSS height, after an outage."""
 NEVER = -(1 << 40)
@@ -47,7 +45,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Samples ``first`` on: which of them stand still, the height, and which heights are new.
+    """Samples ``first`` on: which of them stand still, the height, and where it is there.
 
     ``readings``, shape (m, 5), are usable GNSS readings: height, velocity, pitch, roll, and the
     interval from the reading before in s; ``taken`` their samples.
@@ -56,19 +54,19 @@ class Stretch:
     first: int
     standing: BoolArray
     height: FloatArray
-    fresh: IndexArray
+    there: BoolArray
     taken: IndexArray
     readings: FloatArray
 
     def part(self, begin: int, end: int) -> "Stretch":
         """Return the samples from number ``begin`` of this stretch up to ``end``."""
         low, high = self.first + begin, self.first + end
-        fresh, taken = (slice(*np.searchsorted(a, (low, high))) for a in (self.fresh, self.taken))
+        taken = slice(*np.searchsorted(self.taken, (low, high)))
         return Stretch(
             low,
             self.standing[begin:end],
             self.height[begin:end],
-            self.fresh[fresh],
+            self.there[begin:end],
             self.taken[taken],
             self.readings[taken],
         )
@@ -100,7 +98,6 @@ class References:
     constant: bool = False
     still: bool = False
     stood: int = 0
-    reflected: int = NEVER
 
     def schedule(self, stretch: Stretch) -> Chunk:
         """Return the observations of ``stretch``, which follows the one before."""
@@ -116,8 +113,9 @@ class References:
 
     def _moving(self, stretch: Stretch) -> Iterator[Chunk]:
         yield from self._satellites(stretch)
-        if stretch.fresh.size:
-            self.height = float(stretch.height[stretch.fresh[-1] - stretch.first])
+        there = np.flatnonzero(stretch.there)
+        if there.size:
+            self.height = float(stretch.height[there[-1]])
 
     def _standing(self, stretch: Stretch) -> Iterator[Chunk]:
         """Yield the height sensor's readings in place of heights, the rest as ever."""
@@ -165,7 +163,7 @@ class References:
         begin = first
         if self.plan.gnss:
             begin = max(first, self.latest + round(PATIENCE_S / self.step))
-        at = np.arange(-(-begin // self.sub_block) * self.sub_block, end, self.sub_block)
+        at = self._ends(begin, end)
         if at.size == 0:
             return
         variance = self.noise.constants(self.sub_block * self.step)
@@ -175,9 +173,14 @@ class References:
         self.constant = True
         yield chunk
 
+    def _ends(self, begin: int, end: int) -> IndexArray:
+        """Return the samples from ``begin`` up to ``end`` that end a sub-block."""
+        return np.arange(-(-begin // self.sub_block) * self.sub_block, end, self.sub_block)
+
     def _reflections(self, stretch: Stretch) -> Chunk:
         """Return the readings of the height sensor as its own motion, (6.58)-(6.60)."""
-        at = self._thinned(stretch.fresh)
+        at = self._ends(stretch.first, stretch.first + stretch.height.size)
+        at = at[stretch.there[at - stretch.first]]
         if at.size == 0:
             return _joined([])
         height = stretch.height[at - stretch.first]
@@ -187,19 +190,10 @@ class References:
         y = np.full((at.size, KINDS), np.nan)
         y[:, 0] = height - self.origin
         chunk = _chunk(at, TRUSTED | REFLECTED, y, self.noise.readings())
-        chunk[2][:, KINDS] = self.noise.reflection_m**2
+        chunk[2][:, KINDS] = self.noise.reflection**2 / (self.sub_block * self.step)
         if begins:
             chunk[1][0] |= RENEW
         return chunk
-
-    def _thinned(self, fresh: IndexArray) -> IndexArray:
-        """Return at most one of ``fresh`` in a REFLECTIONS_PER_S-th of a second."""
-        apart = max(1, int(1.0 / (REFLECTIONS_PER_S * self.step)))
-        place = fresh // apart
-        kept = fresh[np.diff(place, prepend=self.reflected) > 0]
-        if fresh.size:
-            self.reflected = int(place[-1])
-        return kept
 
 
 def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:

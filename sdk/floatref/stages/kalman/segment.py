@@ -4,11 +4,64 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import NODE, STATES
+from floatref.kernels.kalman_layout import SPREAD, STATES
 from floatref.stages.kalman.nodes import Nodes
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 
 CORRECTIONS = 5
+"""Numbers of a correction: height and velocity on both sides of a node, leap of the datum."""
+APART_M = 4.0
+APART_S = 0.5
+"""Marks are so far apart, in travel and in time."""
+
+
+def covariance(node: FloatArray) -> FloatArray:
+    """Return P of the row ``node``, shape (9, 9)."""
+    p = np.zeros((STATES, STATES))
+    upper = np.triu_indices(STATES)
+    p[upper] = node[SPREAD:]
+    p.T[upper] = node[SPREAD:]
+    return p
+
+
+@dataclass(eq=False)
+class Marks:
+    """A few of a segment's nodes, the last among them, for what concerns covariances alone.
+
+    Attributes:
+        at: samples, shape (n,).
+        distance_m: encoder distance there, shape (n,).
+        covariance: P, shape (n, 9, 9).
+        passed: product of (I - K H) F from the mark before, or the node before the segment.
+        gathered: what the observations since then add to the covariance of lambda.
+    """
+
+    at: IndexArray
+    distance_m: FloatArray
+    covariance: FloatArray
+    passed: FloatArray
+    gathered: FloatArray
+
+    @classmethod
+    def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
+        """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
+        from floatref.kernels import kalman_backward
+
+        chosen = _chosen(nodes.at[:, 0], distance_m, step)
+        passed, gathered = np.empty((2, chosen.size, STATES, STATES))
+        kalman_backward.closed_loop(
+            nodes.at, nodes.nodes, nodes.updates, max(before, 0), step, chosen, passed, gathered
+        )
+        spread = np.array([covariance(node) for node in nodes.nodes[chosen]])
+        return cls(nodes.at[chosen, 0], distance_m[chosen], spread, passed, gathered)
+
+
+def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
+    """Return the nodes that are far enough from those before, in time or travel, and the last."""
+    travelled = np.floor((distance_m - distance_m[0]) / APART_M)
+    elapsed = np.floor((at - at[0]) * (step / APART_S))
+    moved = np.diff(travelled, prepend=travelled[0]) + np.diff(elapsed, prepend=elapsed[0])
+    return np.union1d(np.flatnonzero(moved > 0), [at.size - 1])
 
 
 @dataclass(eq=False)
@@ -20,34 +73,14 @@ class Segment:
         origin: row of that node.
         height: filtered height of the samples from ``before`` + 1 to the last node, in m.
         nodes: those after ``before``.
-        passed: how an error at ``before`` passes on to the last node, (7, 7).
+        marks: those of them that tell how covariances pass on.
     """
 
     before: int
     origin: FloatArray
     height: FloatArray
     nodes: Nodes
-    passed: FloatArray
-
-    @classmethod
-    def of(
-        cls,
-        before: int,
-        origin: FloatArray,
-        heights: list[FloatArray],
-        parts: list[Nodes],
-        step: float,
-    ) -> "Segment":
-        """Join what the filter made of the blocks of a segment."""
-        from floatref.kernels import kalman_backward
-
-        nodes = Nodes.joined(parts)
-        passed = np.empty((1, STATES, STATES))
-        none = np.empty(0, np.int64)
-        kalman_backward.closed_loop(
-            nodes.at, nodes.nodes, nodes.updates, max(before, 0), step, none, passed
-        )
-        return cls(before, origin, np.concatenate(heights), nodes, passed[0])
+    marks: Marks
 
     @property
     def last(self) -> int:

@@ -1,20 +1,16 @@
 """The Kalman smoother in place of both integrations."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import NODE, STATES
 from floatref.stages.kalman.filter import KalmanStage
 from floatref.stages.kalman.inputs import IMU
-from floatref.stages.kalman.lag import closing
+from floatref.stages.kalman.line import Closing, Line
 from floatref.stages.kalman.noise import Noise
-from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.references import Plan
-from floatref.stages.kalman.segment import Segment
-from floatref.stages.signals import ACCELERATION, REFERENCE_HEIGHT
-from floatref.values.arrays import FloatArray
+from floatref.stages.kalman.track import sub_block
+from floatref.stages.signals import ACCELERATION, DISTANCE, REFERENCE_HEIGHT, SIGMA
 from floatref.values.block import Block, Header, joined
 from floatref.values.channels import ChannelId
 
@@ -24,98 +20,61 @@ TOLERANCE_M = 2e-6
 """1-σ of what later readings may still change when a segment is closed."""
 
 
-@dataclass(eq=False)
-class Line:
-    """What the smoother keeps of one wheel path: a segment in the making, and those not closed.
-
-    ``smoothed`` are the heights of closed segments that have not come out yet.
-    """
-
-    heights: list[FloatArray] = field(default_factory=list)
-    parts: list[Nodes] = field(default_factory=list)
-    segments: list[Segment] = field(default_factory=list)
-    before: int = -1
-    origin: FloatArray = field(default_factory=lambda: np.zeros(NODE))
-    datum: float = 0.0
-    smoothed: list[FloatArray] = field(default_factory=list)
-
-    def add(self, height: FloatArray, nodes: Nodes) -> None:
-        """Keep what the filter made of a block."""
-        self.heights.append(height)
-        self.parts.append(nodes)
-
-    def end_segment(self, step: float) -> None:
-        """Make a segment of what was added; its last sample is a node."""
-        segment = Segment.of(self.before, self.origin, self.heights, self.parts, step)
-        self.segments.append(segment)
-        self.before, self.origin = segment.last, segment.nodes.nodes[-1].copy()
-        self.heights, self.parts = [], []
-
-    def close(self, count: int, step: float) -> None:
-        """Smooth the first ``count`` segments."""
-        adjoint = np.zeros(STATES)
-        found = []
-        for segment in reversed(self.segments):
-            corrections = segment.back(adjoint, step)
-            found.append((corrections, adjoint.copy()))
-        for segment, (corrections, behind) in zip(
-            self.segments[:count], reversed(found), strict=False
-        ):
-            height, self.datum = segment.smoothed(corrections, behind, self.datum, step)
-            self.smoothed.append(height)
-        del self.segments[:count]
-
-    def take(self, count: int) -> FloatArray:
-        """Return the next ``count`` smoothed heights, which are there."""
-        whole = np.concatenate(self.smoothed)
-        self.smoothed = [whole[count:]]
-        return whole[:count]
-
-
 class KalmanSmoother(KalmanStage):
     """Filter and smoother (section 6.6.2 and its variants).
 
-    A segment is smoothed, and comes out, once the readings behind it no longer matter.
+    Adds `floating_reference_height`, and `elevation_sigma`: 1-σ of the elevation after HPF_B3x2 at
+    ``wavelength_m``. Segments of four seconds come out once the readings behind them no longer
+    matter, and what is kept until then depends on the drive, not on its length (section 7.3.4).
     """
 
-    def __init__(self, plan: Plan, noise: Noise, tolerance_m: float = TOLERANCE_M) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        noise: Noise,
+        wavelength_m: float = 105.91,
+        tolerance_m: float = TOLERANCE_M,
+    ) -> None:
         """Observe what ``plan`` says, with ``noise``; close segments within ``tolerance_m``."""
-        super().__init__(plan, noise)
+        super().__init__(plan, noise, wavelength_m)
         self.tolerance_m = tolerance_m
-        self._step, self._length = 1.0, 1
+        self._length = 1
 
     def open(self, header: Header) -> Header:
         """Begin with nothing kept."""
         out = super().open(header)
-        self._step = header.step
-        self._length = SUB_BLOCKS * max(1, round(0.01 / header.step))
-        self.memory["lines"] = {track: Line() for track in header.tracks}
+        header.require(self.name, ChannelId(DISTANCE))
+        self._length = SUB_BLOCKS * sub_block(header.step)
+        rule = Closing(header.step, self.tolerance_m, self.wavelength_m, self.noise.height_m)
+        self.memory["lines"] = {track: Line(rule) for track in header.tracks}
         self.memory["blocks"] = []
         self.memory["closed"] = 0
-        return out
+        return out.adding(*(ChannelId(SIGMA, track) for track in header.tracks))
 
     def advance(self, block: Block) -> Block:
         """Filter the block; return the blocks whose segments are closed."""
         for part, full in self._split(block):
+            distance = part[ChannelId(DISTANCE)]
             for track, (height, nodes) in self.forward(part).items():
-                self.memory["lines"][track].add(height, nodes)
+                line: Line = self.memory["lines"][track]
+                line.add(height, nodes, distance[nodes.at[:, 0] - part.first])
             if full:
                 self._end_segment()
         self.memory["blocks"].append(self._without_inputs(block))
-        done = [out for out in self._closed_blocks()]
-        return joined(done) if done else self.memory["blocks"][0].part(0, 0)
+        done = list(self._closed_blocks())
+        return joined(done) if done else self._nothing()
 
     def close(self) -> tuple[Block, ...]:
         """Return all that is left."""
-        lines = self.memory["lines"]
-        for track, nodes in self.ending().items():
-            if len(nodes.at):
-                lines[track].add(np.empty(0), nodes)
-        for line in lines.values():
+        ending = self.ending()
+        for track, line in self.memory["lines"].items():
+            if track in ending and len(ending[track].at):
+                last = self.memory["blocks"][-1][ChannelId(DISTANCE)][-1:]
+                line.add(np.empty(0), ending[track], last)
             if line.heights:
-                line.end_segment(self._step)
+                line.end_segment()
             if line.segments:
-                line.close(len(line.segments), self._step)
+                line.close(len(line.segments))
         self.memory["closed"] = 1 << 62
         return tuple(self._closed_blocks())
 
@@ -130,25 +89,36 @@ class KalmanSmoother(KalmanStage):
             begin = stop
 
     def _end_segment(self) -> None:
-        lines = self.memory["lines"].values()
+        lines: list[Line] = list(self.memory["lines"].values())
         for line in lines:
-            line.end_segment(self._step)
-        count = min(closing(line.segments, self.tolerance_m) for line in lines)
-        if count:
+            line.end_segment()
+        count = min(line.ready() for line in lines)
+        # What is smoothed again later shall not be more than what is closed.
+        if 2 * count >= len(lines[0].segments):
+            self.memory["closed"] = lines[0].segments[count - 1].last + 1
             for line in lines:
-                self.memory["closed"] = line.segments[count - 1].last + 1
-                line.close(count, self._step)
+                line.close(count)
 
     def _closed_blocks(self) -> Iterator[Block]:
         """Yield the blocks that are kept and lie before the last closed sample."""
         blocks = self.memory["blocks"]
         while blocks and blocks[0].first + len(blocks[0]) <= self.memory["closed"]:
             block = blocks.pop(0)
-            heights = {
-                ChannelId(REFERENCE_HEIGHT, track): line.take(len(block))
-                for track, line in self.memory["lines"].items()
-            }
-            yield block.setting(heights)
+            values = {}
+            for track, line in self.memory["lines"].items():
+                height, deviation = line.take(len(block))
+                values[ChannelId(REFERENCE_HEIGHT, track)] = height
+                values[ChannelId(SIGMA, track)] = deviation
+            yield block.setting(values)
+
+    def _nothing(self) -> Block:
+        """Return an empty block at the place of the next one."""
+        block: Block = self.memory["blocks"][0]
+        names = (REFERENCE_HEIGHT, SIGMA)
+        tracks = self.memory["lines"]
+        return block.part(0, 0).setting(
+            {ChannelId(name, track): np.empty(0) for name in names for track in tracks}
+        )
 
     def _without_inputs(self, block: Block) -> Block:
         flags = {}

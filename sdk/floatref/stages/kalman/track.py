@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import KINDS, MEMORY, STATES
-from floatref.stages.kalman.noise import Noise
+from floatref.kernels.kalman_layout import MEMORY, STATES
 from floatref.stages.kalman.nodes import Nodes
+from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import DATUM_M, Plan, References, Stretch
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
@@ -20,6 +20,11 @@ FLOORS = (0.2, 0.5, np.radians(3.0), np.radians(3.0))
 """Innovations of GNSS readings up to here are taken, however small the filter expects them."""
 
 Inputs = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
+
+
+def sub_block(step: float) -> int:
+    """Return how many samples of ``step`` in s a sub-block has."""
+    return max(1, round(1.0 / (NODES_PER_S * step)))
 
 
 @dataclass(eq=False)
@@ -41,9 +46,8 @@ class TrackFilter:
         cls, plan: Plan, noise: Noise, step: float, arm: Vector, start_m: float
     ) -> "TrackFilter":
         """Return the filter before its first sample; ``arm`` leads to the antenna, in m."""
-        sub_block = max(1, round(1.0 / (NODES_PER_S * step)))
-        latest = 0 if plan.gnss else -(1 << 40)
-        references = References(plan, noise, sub_block, step, start_m, arm[2], latest=latest)
+        length = sub_block(step)
+        references = References(plan, noise, length, step, start_m, arm[2])
         model = np.array(
             [
                 step,
@@ -59,7 +63,7 @@ class TrackFilter:
         x[0] = start_m
         return cls(
             model,
-            sub_block,
+            length,
             references,
             x,
             np.diag(np.square([*START_SIGMA, noise.lean_rad, 0.0])),

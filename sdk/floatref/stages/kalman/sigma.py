@@ -1,0 +1,106 @@
+"""1-σ of the delivered elevation from the smoother's covariance.
+
+The delivered elevation is filtered by HPF_B3x2 over distance; what that leaves of the height's
+error e is e - L e, L the complementary low-pass of gain 1 / (1 + (2 pi nu / k_c)^6). Its variance
+needs the covariance of e between all marks within reach of the filter:
+E[e_i e_j'] = P_i Psi_ji' (I - Lambda_j P_j), i before j, Lambda the covariance of lambda.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.stages.kalman.segment import Marks
+from floatref.values.arrays import FloatArray, IndexArray
+
+REACH = 1.5
+"""Cut-off wavelengths to either side beyond which the low-pass is nothing."""
+
+
+@dataclass(eq=False)
+class Settled:
+    """Marks with what the readings behind them say.
+
+    Attributes:
+        at: samples, shape (n,).
+        distance_m: encoder distance, shape (n,).
+        column: P e_r, shape (n, 9).
+        left: (I - Lambda P) e_r, shape (n, 9).
+        passed: product of (I - K H) F from the mark before, shape (n, 9, 9).
+    """
+
+    at: IndexArray
+    distance_m: FloatArray
+    column: FloatArray
+    left: FloatArray
+    passed: FloatArray
+
+    @classmethod
+    def of(cls, marks: Sequence[Marks]) -> "Settled":
+        """Settle ``marks`` of segments one after the other, nothing known behind them."""
+        spread = np.concatenate([m.covariance for m in marks])
+        passed = np.concatenate([m.passed for m in marks])
+        gathered = np.concatenate([m.gathered for m in marks])
+        column = spread[:, :, 0]
+        left = np.zeros_like(column)
+        left[:, 0] = 1.0
+        information = np.zeros_like(spread[0])
+        for k in range(len(spread) - 1, -1, -1):
+            left[k] -= information @ column[k]
+            information = passed[k].T @ information @ passed[k] + gathered[k]
+        at = np.concatenate([m.at for m in marks])
+        distance = np.concatenate([m.distance_m for m in marks])
+        return cls(at, np.maximum.accumulate(distance), column, left, passed)
+
+    def part(self, where: slice) -> "Settled":
+        """Return the marks ``where``."""
+        return Settled(*(values[where] for values in vars(self).values()))
+
+    def behind(self, other: "Settled") -> "Settled":
+        """Return ``other`` with these marks behind it."""
+        pairs = zip(vars(other).values(), vars(self).values(), strict=True)
+        return Settled(*(np.concatenate(pair) for pair in pairs))
+
+
+def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: float) -> FloatArray:
+    """Return 1-σ in m at marks ``first`` to ``end - 1``, shape (end - first,).
+
+    ``wavelength_m`` is the cut-off of either pass of the filter, ``noise_m`` the 1-σ of a reading
+    of the height sensor, which passes the filter as it is.
+    """
+    error = covariances(marks)
+    weights = -low_pass(marks.distance_m, wavelength_m)[first:end]
+    weights[np.arange(end - first), np.arange(first, end)] += 1.0
+    variance = np.einsum("ij,ij->i", weights @ error, weights)
+    deviation: FloatArray = np.sqrt(np.maximum(variance, 0.0) + noise_m**2)
+    return deviation
+
+
+def covariances(marks: Settled) -> FloatArray:
+    """Return E[e_i e_j] of the smoothed height at all marks, shape (n, n), in m²."""
+    count = len(marks.at)
+    found = np.empty((count, count))
+    moved = np.empty((marks.column.shape[1], count))
+    for j in range(count):
+        moved[:, :j] = marks.passed[j] @ moved[:, :j]
+        moved[:, j] = marks.column[j]
+        found[: j + 1, j] = found[j, : j + 1] = marks.left[j] @ moved[:, : j + 1]
+    return found
+
+
+def low_pass(distance_m: FloatArray, wavelength_m: float) -> FloatArray:
+    """Return the weights of the low-pass at all marks, shape (n, n); each row sums to 1.
+
+    Its impulse response is k_c/6 (e^-a + e^(-a/2) (cos(b) + sqrt(3) sin(b))), a = k_c |x|,
+    b = sqrt(3)/2 a, k_c = 2 pi / ``wavelength_m``.
+    """
+    a = np.abs(distance_m[:, None] - distance_m) * (2 * np.pi / wavelength_m)
+    b = np.sqrt(0.75) * a
+    response = np.exp(-a) + np.exp(-a / 2) * (np.cos(b) + np.sqrt(3.0) * np.sin(b))
+    steps = np.diff(distance_m)
+    weights = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
+    total = weights.sum(axis=1, keepdims=True)
+    even = np.full_like(weights, 1.0 / distance_m.size)
+    np.divide(weights, total, out=even, where=total > 0)
+    return even
