@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from floatref_reference.chapter_6.section_6_5_implementation import kalman_filter, rts_smoother
@@ -95,7 +95,7 @@ def drawn(seed: int) -> tuple[np.random.Generator, Matrix, Matrix]:
 
 
 @pytest.mark.cites("(6.9)", "(6.13)", "(6.16)", "(6.17)", "(6.22)", "(6.47)", "(6.48)")
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=8, phases=[Phase.generate])
 @given(seed=st.integers(0, 9999), share=st.floats(0.1, 1.0), l_z=st.floats(-3, 3))
 def test_height_observed_at_level(seed: int, share: float, l_z: float) -> None:
     """Readings of height and velocity that agree with nothing, some of them missing."""
@@ -112,7 +112,7 @@ def test_height_observed_at_level(seed: int, share: float, l_z: float) -> None:
 
 
 @pytest.mark.cites("(6.10)", "(6.13)", "(6.22)", "(C.3)", "(C.6)", "(C.8)")
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=8, phases=[Phase.generate])
 @given(seed=st.integers(0, 9999), share=st.floats(0.1, 1.0))
 def test_covariance_with_any_lever_arm(seed: int, share: float) -> None:
     """Readings that the filter expects leave the body level, while all seven states interact."""

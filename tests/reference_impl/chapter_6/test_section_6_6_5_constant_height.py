@@ -50,10 +50,11 @@ def test_what_is_observed_when(seed: int, start: int) -> None:
 def test_start_at_a_stop_counts_from_the_first_reading() -> None:
     h, states = 0.3 + 0.001 * np.arange(10.0), 0.01 * np.arange(70.0).reshape(10, 7)
     observe = ConstantHeightAndAttitude(h, np.arange(10) >= 4, np.zeros(10), LEVER)
-    found = [observe(k, x) for k, x in enumerate(states)]
-    assert all(not y.any() and deviations(R) == pytest.approx(DRIVING) for y, R in found[:4])
-    y_rz = [y[0] for y, _ in found[4:]]
-    assert y_rz == pytest.approx(antenna(states[4]) + 0.001 * np.arange(6))
+    for run in (states, states[::-1]):
+        found = [observe(k, x) for k, x in enumerate(run)]
+        assert all(not y.any() and deviations(R) == pytest.approx(DRIVING) for y, R in found[:4])
+        y_rz = [y[0] for y, _ in found[4:]]
+        assert y_rz == pytest.approx(antenna(run[4]) + 0.001 * np.arange(6))
 
 
 @pytest.mark.cites("(6.58)", "(6.65)")
