@@ -4,6 +4,7 @@ from floatref.architectures.kalman_steps import NOISE, Estimator, answers
 from floatref.architectures.question import Pipeline
 from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import IMU
+from floatref.stages.kalman.noise import PER_STEP
 
 _USUAL = vars(Noise())
 SETTINGS: dict[str, float | None] = {
@@ -15,13 +16,13 @@ SETTINGS: dict[str, float | None] = {
 
 
 def _pipeline(
-    name: str, summary: str, plan: Plan, estimator: Estimator = KalmanSmoother
+    name: str, summary: str, plan: Plan, estimator: Estimator = KalmanSmoother, **settings: float
 ) -> Pipeline:
     return Pipeline(
         name,
         "temporal",
         summary,
-        SETTINGS,
+        {**SETTINGS, **settings},
         answers(plan, estimator),
         channels=IMU,
         capabilities=("imu", "gnss") if plan.gnss else ("imu",),
@@ -34,6 +35,9 @@ KALMAN = (
         "IMU and GNSS, filter alone (section 6.6.1)",
         Plan(reflects=False),
         KalmanFilter,
+        acceleration_walk=5e-8 / PER_STEP,
+        lean_sigma_rad=1e-9,
+        gnss_height_walk=1e-9,
     ),
     _pipeline(
         "kalman-smoother",

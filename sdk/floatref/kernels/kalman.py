@@ -14,6 +14,7 @@ from floatref.kernels.kalman_layout import (
     BELIEVED_AT,
     CAPTURE,
     CAPTURED,
+    DRIFT,
     GATE,
     IN_A_ROW,
     INNOVATION,
@@ -29,7 +30,6 @@ from floatref.kernels.kalman_layout import (
     RELATIVE,
     RENEW,
     RENEWED,
-    RESTARTED,
     SPREAD,
     STATES,
     STEPS,
@@ -180,7 +180,7 @@ def _advance(
     st, ct, sp, cp = memory[24], memory[25], memory[26], memory[27]
     sum_3, sum_4, lean, r8, v8 = memory[29], memory[30], x[LEAN], memory[16], memory[17]
     for i in range(begin, end):
-        ax, ay, az = 0.5 * (ux + fx[i]), 0.5 * (uy + fy[i]), 0.5 * (uz + fz[i])
+        ax, ay, az = 0.5 * (ux + fx[i]), 0.5 * (uy + fy[i]), 0.5 * (uz + fz[i]) + gravity
         q1, q2, q3 = 0.5 * (w1 + wx[i]) + bias_1, 0.5 * (w2 + wy[i]) + bias_2, 0.5 * (w3 + wz[i])
         ux, uy, uz, w1, w2, w3 = fx[i], fy[i], fz[i], wx[i], wy[i], wz[i]
         across, along, tangent = sp * ay + cp * az, sp * q2 + cp * q3, st / ct
@@ -238,7 +238,7 @@ def _begin_sub_block(x: FloatArray, memory: FloatArray) -> None:
 def _keep_transition(memory: FloatArray, node: FloatArray) -> None:
     for j in range(TRANSITION):
         node[j] = memory[j]
-    node[RESTARTED], node[RENEWED] = 0.0, 0.0
+    node[RENEWED] = 0.0
 
 
 @compiled
@@ -374,8 +374,10 @@ def _observe(
         h[0, 2], h[0, 3], h[0, OFFSET] = 0.0, 0.0, 1.0
     elif mark & RELATIVE:
         base = memory[CAPTURED]
-    node[RESTARTED] += y[2 * KINDS]
-    p[0, 0] += y[2 * KINDS]
+    else:
+        predicted[0] += x[DRIFT]
+        h[0, DRIFT] = 1.0
+    p[DRIFT, DRIFT] += y[2 * KINDS]
     for kind in range(KINDS):
         seen = y[kind]
         if seen != seen:
@@ -399,8 +401,7 @@ def _observe(
             memory[IN_A_ROW] += 1.0
             if memory[IN_A_ROW] < BELIEVED_AT:
                 continue
-            node[RESTARTED] += model[12]
-            p[0, 0] += model[12]
+            p[DRIFT, DRIFT] += model[12]
             total = _project(p, h[kind], update) + variance
         if kind == 0:
             memory[IN_A_ROW] = 0.0

@@ -14,7 +14,6 @@ from floatref.kernels.kalman_layout import (
     LEAN,
     OFFSET,
     RENEWED,
-    RESTARTED,
     SPREAD,
     STATES,
 )
@@ -33,9 +32,9 @@ def smooth(
 ) -> None:
     """Go back from the last node to the one at sample ``before``, which is not in ``nodes``.
 
-    ``adjoint``, shape (9,), is lambda behind the last node and becomes that behind ``before``.
-    Row k of ``corrections``, shape (n, 5), gets height and velocity to be added on the near side
-    of the update of node k, the same on the far side, and the leap of the height's datum.
+    ``adjoint``, shape (10,), is lambda behind the last node and becomes that behind ``before``.
+    Row k of ``corrections``, shape (n, 4), gets height and velocity to be added on the near side
+    of the update of node k, and the same on the far side.
     """
     for k in range(node_at.shape[0] - 1, -1, -1):
         node, out = nodes[k], corrections[k]
@@ -46,8 +45,6 @@ def smooth(
             _undo(updates[m], adjoint)
         if node[RENEWED] > 0.0:
             adjoint[OFFSET] = 0.0
-        out[4] = -node[RESTARTED] * adjoint[0]
-        out[0] -= out[4]
         earlier = node_at[k - 1, 0] if k > 0 else before
         _back(node, (node_at[k, 0] - earlier) * step, adjoint)
 
@@ -96,13 +93,11 @@ def interpolate(
     first: int,
     start: FloatArray,
     step: float,
-    datum: float,
     height: FloatArray,
-) -> float:
+) -> None:
     """Add the corrections to the filtered ``height`` of samples ``first`` on.
 
-    ``start`` holds sample number, height and velocity correction of the node before; ``datum``
-    the leaps so far, which the result leaves out. Returns the leaps so far at the end.
+    ``start`` holds sample number, height and velocity correction of the node before.
     """
     begin, r_0, v_0 = int(start[0]), start[1], start[2]
     for k in range(node_at.shape[0]):
@@ -114,11 +109,9 @@ def interpolate(
         scale = 1.0 / max(end - begin, 1)
         for i in range(max(begin, first), end):
             t = (i - begin) * scale
-            height[i - first] += r_0 + t * (slope_0 + t * (square + t * cube)) - datum
-        datum += corrections[k, 4]
+            height[i - first] += r_0 + t * (slope_0 + t * (square + t * cube))
         begin, r_0, v_0 = end, corrections[k, 2], corrections[k, 3]
-    height[begin - first] += r_0 - datum
-    return datum
+    height[begin - first] += r_0
 
 
 @compiled
@@ -134,7 +127,7 @@ def closed_loop(
 ) -> None:
     """Write how an error of the filter passes on between the nodes ``wanted``.
 
-    ``passed[k]``, shape (9, 9), gets Psi, the product of (I - K H) F from the node wanted before
+    ``passed[k]``, shape (10, 10), gets Psi, the product of (I - K H) F from the node wanted before
     (from the sample ``before``) to number k, ``gathered[k]`` the sum of Psi' H' H Psi / S on the
     way: what the observations there add to the covariance of lambda.
     """

@@ -4,11 +4,11 @@ from floatref.values.arrays import FloatArray
 
 Inputs = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]
 """Specific force and angular rate along the body's axes."""
-STATES = 9
+STATES = 10
 """Height, velocity, pitch, roll, the biases of acceleration, roll rate and pitch rate (C.2), then
-the lean of the vertical accelerometer's axis forward, and the offset of the height that is
-reflected at a stop."""
-LEAN, OFFSET = 7, 8
+the lean of the vertical accelerometer's axis forward, the drift of the GNSS height, and the offset
+of the height that is reflected at a stop."""
+LEAN, DRIFT, OFFSET = 7, 8, 9
 KINDS = 4
 """Observations: height, vertical velocity, pitch inclination, roll inclination."""
 TRANSITION = 18
@@ -16,15 +16,15 @@ TRANSITION = 18
 height and velocity by the lean."""
 COVARIANCE = STATES * (STATES + 1) // 2
 """Upper half of P."""
-JUMP, RESTARTED, RENEWED, SPREAD = TRANSITION, TRANSITION + 2, TRANSITION + 3, TRANSITION + 4
+JUMP, RENEWED, SPREAD = TRANSITION, TRANSITION + 2, TRANSITION + 3
 NODE = SPREAD + COVARIANCE
-"""Of a node: transition, jump of height and velocity by its update, variance added to the
-height's datum, whether the offset is another from here on, upper half of P."""
+"""Of a node: transition, jump of height and velocity by its update, whether the offset is another
+from here on, upper half of P."""
 INNOVATION = 2 * STATES
 UPDATE = INNOVATION + 2
 """Of a scalar update: row of H, gain, innovation over S, 1/S."""
 OBSERVATION = 2 * KINDS + 1
-"""Of an observation: values, variances, variance added to the height's datum."""
+"""Of an observation: values, variances, variance that the drift gains."""
 RELATIVE, CAPTURE, TRUSTED, REFLECTED, RENEW = 1, 2, 4, 8, 16
 """Bits of a time of observation: the height is relative to the one captured; capture the
 antenna's height; leave nothing out; the height is the reference point's, relative to where a stop

@@ -1,11 +1,8 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.kernels.kalman_layout import JUMP, RESTARTED
 from floatref.stages.kalman.inputs import IMU, InputChannels, Readings, channel_of, stretch_of
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
@@ -83,41 +80,16 @@ class KalmanStage(Stage):
 
 
 class KalmanFilter(KalmanStage):
-    """The filter alone (section 6.6.1): its height steps at every reading.
-
-    A leap of the GNSS height's datum is left out of the result.
-    """
-
-    def open(self, header: Header) -> Header:
-        """Begin without a leap."""
-        out = super().open(header)
-        self.memory["leap"] = dict.fromkeys(header.tracks, 0.0)
-        return out
+    """The filter alone (section 6.6.1): its height steps at every reading."""
 
     def advance(self, block: Block) -> Block:
         """Filter every track."""
         values, flags = {}, {}
-        for channels, (height, nodes) in zip(
-            self._channels, self.forward(block).values(), strict=True
-        ):
+        found = self.forward(block)
+        for channels in self._channels:
             target = ChannelId(REFERENCE_HEIGHT, channels.track)
-            values[target] = self._without_leaps(channels.track, block.first, height, nodes)
+            values[target] = found[channels.track][0]
             marks = self.flags(block, channels)
             if marks is not None:
                 flags[target] = marks
         return block.setting(values, flags).without(ACCELERATION, *IMU)
-
-    def _without_leaps(
-        self, track: str, first: int, height: FloatArray, nodes: Nodes
-    ) -> FloatArray:
-        leaps: dict[str, float] = self.memory["leap"]
-        height -= leaps[track]
-        for begin, rise in _leaps(nodes):
-            height[begin - first :] -= rise
-            leaps[track] += rise
-        return height
-
-
-def _leaps(nodes: Nodes) -> Iterator[tuple[int, float]]:
-    for k in np.flatnonzero(nodes.nodes[:, RESTARTED] > 0):
-        yield int(nodes.at[k, 0]), float(nodes.nodes[k, JUMP])

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from math import isnan
 
 import numpy as np
 
@@ -11,18 +12,20 @@ from floatref.stages.kalman.track import Inputs
 from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Block, Event, Header
-from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+from floatref.values.channels import ChannelId
 
 FORCES = ("longitudinal_specific_force", "lateral_specific_force")
 RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 IMU = (*FORCES, *RATES)
 """The channels that the Kalman pipelines need beside the nominal ones."""
-GNSS = ("gnss_height", "gnss_vertical_velocity", "gnss_pitch", "gnss_roll")
+GNSS = tuple(
+    ChannelId(name) for name in ("gnss_height", "gnss_vertical_velocity", "gnss_pitch", "gnss_roll")
+)
 QUALITY = ChannelId("gnss_quality")
 FIXED = 4.0
 """Quality of a reading whose phase ambiguities are fixed (section 6.4.4)."""
-USUAL_S = 0.05
-"""Interval that the first reading is taken to have."""
+LONGEST_S = 1.0
+"""Interval that the first reading is taken to have, and those after a gap."""
 
 
 def channel_of(header: Header, name: str, track: str) -> ChannelId:
@@ -46,9 +49,9 @@ class InputChannels:
         return cls(track, (longitudinal, lateral, ChannelId(ACCELERATION, track), *rates))
 
     def inputs(self, block: Block) -> Inputs:
-        """Return the six inputs; a missing sample is that of (1.4): nothing but gravity."""
+        """Return the six inputs; of Z the vertical acceleration; missing is zero."""
         x, y, z, roll, pitch, yaw = (_known(block[name]) for name in self.names)
-        return x, y, frozen(z + STANDARD_GRAVITY), roll, pitch, yaw
+        return x, y, z, roll, pitch, yaw
 
 
 def _known(values: FloatArray) -> FloatArray:
@@ -64,7 +67,7 @@ class Readings:
     """
 
     header: Header
-    held: list[tuple[int, FloatArray]] = field(default_factory=list)
+    held: list[tuple[int, tuple[float, ...]]] = field(default_factory=list)
     before_s: float = -np.inf
 
     def take(self, events: Iterable[Event], end: int) -> tuple[IndexArray, FloatArray]:
@@ -77,16 +80,15 @@ class Readings:
         return at, np.array([row for _, row in ready]).reshape(at.size, KINDS + 1)
 
     def _hold(self, event: Event) -> None:
-        row = np.array([event.values.get(ChannelId(name), np.nan) for name in GNSS])
-        if np.isnan(row[0]) or event.values.get(QUALITY, FIXED) != FIXED:
+        values = event.values
+        row = tuple(values.get(channel, np.nan) for channel in GNSS)
+        if isnan(row[0]) or values.get(QUALITY, FIXED) != FIXED:
             return
         interval_s = event.time_s - self.before_s
         self.before_s = event.time_s
         index = max(0, round((event.time_s - self.header.origin) / self.header.step))
-        if self.held and index <= self.held[-1][0]:
-            return
-        usual = interval_s if interval_s < 1e6 else USUAL_S
-        self.held.append((index, np.append(row, usual)))
+        if not self.held or index > self.held[-1][0]:
+            self.held.append((index, (*row, min(interval_s, LONGEST_S))))
 
 
 def stretch_of(

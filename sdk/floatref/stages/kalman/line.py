@@ -42,7 +42,6 @@ class Line:
             segment in the making.
         segments: those that are complete.
         before, origin: sample and row of the last node of a complete segment.
-        datum: leaps of the height's datum so far, in m.
         behind: marks of closed segments that the filter still reaches.
         smoothed, sigmas: what has been closed, per sample, in m.
     """
@@ -54,7 +53,6 @@ class Line:
     segments: list[Segment] = field(default_factory=list)
     before: int = -1
     origin: FloatArray = field(default_factory=lambda: np.zeros(NODE))
-    datum: float = 0.0
     behind: Settled | None = None
     smoothed: list[FloatArray] = field(default_factory=list)
     sigmas: list[FloatArray] = field(default_factory=list)
@@ -95,8 +93,8 @@ class Line:
             corrections = segment.back(adjoint, self.rule.step)
             found.append((segment, corrections, adjoint.copy()))
         for segment, corrections, behind in found[: -count - 1 : -1]:
-            height, self.datum = segment.smoothed(corrections, behind, self.datum, self.rule.step)
-            self.smoothed.append(height)
+            segment.smooth(corrections, behind, self.rule.step)
+            self.smoothed.append(segment.height)
         self._settle(count)
         del self.segments[:count]
 
@@ -122,6 +120,16 @@ class Line:
 
     def take(self, count: int) -> tuple[FloatArray, FloatArray]:
         """Return smoothed height and 1-σ of the next ``count`` samples, which are there."""
-        height, deviation = np.concatenate(self.smoothed), np.concatenate(self.sigmas)
-        self.smoothed, self.sigmas = [height[count:]], [deviation[count:]]
-        return height[:count], deviation[:count]
+        return _front(self.smoothed, count), _front(self.sigmas, count)
+
+
+def _front(pieces: list[FloatArray], count: int) -> FloatArray:
+    """Take the first ``count`` samples off ``pieces``."""
+    taken = []
+    while count:
+        piece = pieces.pop(0)
+        if piece.size > count:
+            pieces.insert(0, piece[count:])
+        taken.append(piece[:count])
+        count -= taken[-1].size
+    return taken[0] if len(taken) == 1 else np.concatenate(taken)

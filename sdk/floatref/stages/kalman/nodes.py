@@ -31,6 +31,8 @@ class Nodes:
     @classmethod
     def joined(cls, parts: list["Nodes"]) -> "Nodes":
         """Return ``parts``, each behind the one before, as one."""
+        if len(parts) == 1:
+            return parts[0]
         ends = np.cumsum([0, *(len(p.updates) for p in parts)])
         at = [p.at + np.array([0, end]) for p, end in zip(parts, ends, strict=False)]
         nodes, updates = [p.nodes for p in parts], [p.updates for p in parts]

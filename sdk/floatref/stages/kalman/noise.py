@@ -41,7 +41,7 @@ class Noise:
     """
 
     acceleration: float = 6e-4 * STANDARD_GRAVITY * PER_STEP
-    acceleration_walk: float = 1e-3
+    acceleration_walk: float = 3e-4
     roll_rate: float = radians(7.7e-3) * PER_STEP
     pitch_rate: float = radians(7.7e-3) * PER_STEP
     yaw_rate: float = radians(7.7e-3) * PER_STEP
@@ -52,14 +52,14 @@ class Noise:
     gnss_velocity_mps: float = 0.03
     gnss_pitch_rad: float = radians(0.12)
     gnss_roll_rad: float = radians(0.2)
-    gnss_height_walk: float = 2e-3
+    gnss_height_walk: float = 1.5e-3
     constant_height: float = 5.0 * PER_STEP
     constant_velocity: float = 10.0 * PER_STEP
     constant_pitch: float = radians(5.0) / 20**0.5
     constant_roll: float = radians(2.0) / 20**0.5
     reflection: float = 0.0015 / 3240**0.5
     reflection_offset_m: float = 0.1
-    height_m: float = 3e-5
+    height_m: float = 4e-5
 
     def process(self) -> FloatArray:
         """Return the squares of the process densities, shape (7,)."""

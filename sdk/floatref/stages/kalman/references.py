@@ -1,6 +1,6 @@
 """What the Kalman filter observes when: GNSS, constants in its place, the height at a stop."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -22,9 +22,10 @@ PATIENCE_S = 0.5
 """Without a usable GNSS reading for so long, constants take its place."""
 READING_S = 0.045
 """GNSS readings at shorter intervals count for less: their errors are those of the one before."""
+USUAL_S = 0.05
+"""Interval behind the errors of a reading in Table 6.1."""
 DATUM_M = 100.0
 """1-σ of a new datum of the GNSS height, after an outage."""
-NEVER = -(1 << 40)
 
 
 @dataclass(frozen=True)
@@ -81,8 +82,17 @@ class References:
     """The observations of one wheel path, in the order of time.
 
     What it remembers depends on samples that came before, never on how they were split.
-    ``start_m`` is the filter's first height, ``arm_m`` how far the antenna is above the
-    reference point.
+
+    Attributes:
+        sub_block, step: samples of a sub-block, and the time of one in s.
+        start_m: the filter's first height.
+        arm_m: how far the antenna is above the reference point.
+        datum: what GNSS heights are told from, in m; the first decides it.
+        latest, heard: sample of the latest reading, and of the latest whose height was observed.
+        constant: whether constants have been observed since then.
+        height: the latest from the height sensor before a stop, in m.
+        origin: that which the stop began with.
+        still: whether the sample before stood still.
     """
 
     plan: Plan
@@ -93,85 +103,78 @@ class References:
     arm_m: float
     datum: float = np.nan
     latest: int = 0
+    heard: int = 0
+    constant: bool = False
     height: float = np.nan
     origin: float = np.nan
-    constant: bool = False
     still: bool = False
-    stood: int = 0
 
     def schedule(self, stretch: Stretch) -> Chunk:
         """Return the observations of ``stretch``, which follows the one before."""
-        chunks = [c for run in _runs(stretch, self.plan.reflects) for c in self._of_run(*run)]
-        return _joined(chunks)
+        chunks = []
+        for part, standing in _runs(stretch, self.plan.reflects):
+            chunks.append(self._standing(part) if standing else self._moving(part))
+            self.still = standing
+        return chunks[0] if len(chunks) == 1 else _joined(chunks)
 
-    def _of_run(self, stretch: Stretch, standing: bool) -> Iterator[Chunk]:
-        if standing:
-            yield from self._standing(stretch)
-        else:
-            yield from self._moving(stretch)
-        self.still = standing
-
-    def _moving(self, stretch: Stretch) -> Iterator[Chunk]:
-        yield from self._satellites(stretch)
+    def _moving(self, stretch: Stretch) -> Chunk:
         there = np.flatnonzero(stretch.there)
         if there.size:
             self.height = float(stretch.height[there[-1]])
+        return self._observed(stretch, heights=True)
 
-    def _standing(self, stretch: Stretch) -> Iterator[Chunk]:
-        """Yield the height sensor's readings in place of heights, the rest as ever."""
-        stood = self.stood
-        beside = _joined(list(self._satellites(stretch)))
+    def _standing(self, stretch: Stretch) -> Chunk:
+        """Return the height sensor's readings in place of heights, the rest as ever."""
+        beside = self._observed(stretch, heights=False)
         beside[2][:, [0, -1]] = np.nan, 0.0
-        self.stood = stood + stretch.height.size
-        yield _merged(beside, self._reflections(stretch))
+        return _merged(beside, self._reflections(stretch))
 
-    def _satellites(self, stretch: Stretch) -> Iterator[Chunk]:
-        """Yield GNSS readings, and constants where they are missing."""
-        if self.plan.gnss:
-            for at, reading in zip(stretch.taken.tolist(), stretch.readings, strict=True):
-                yield from self._constants(stretch.first, at)
-                yield self._reading(at, reading)
-        yield from self._constants(stretch.first, stretch.first + stretch.height.size)
+    def _observed(self, stretch: Stretch, heights: bool) -> Chunk:
+        """Return GNSS readings, and constants where they are missing."""
+        end = stretch.first + stretch.height.size
+        if not self.plan.gnss:
+            return self._constants(stretch.first, end)
+        patience = round(PATIENCE_S / self.step)
+        edges = np.concatenate(([self.latest], stretch.taken, [end]))
+        lost = np.flatnonzero(np.diff(edges) > patience)
+        gaps = [
+            self._constants(max(stretch.first, int(edges[k]) + patience), int(edges[k + 1]))
+            for k in lost
+        ]
+        readings = self._readings(stretch, heights, lost)
+        if stretch.taken.size:
+            self.latest = int(stretch.taken[-1])
+        return _merged(readings, _joined(gaps)) if gaps else readings
 
-    def _reading(self, at: int, reading: FloatArray) -> Chunk:
-        """Return a GNSS reading, its height from the datum of this wheel path, (6.48)."""
-        if np.isnan(self.datum):
-            self.datum = float(reading[0]) - self.arm_m - self.start_m
-        moved = self._datum_variance()
-        self.latest, self.constant, self.stood = at, False, 0
-        y, interval_s = reading[:KINDS].copy(), float(reading[KINDS])
-        y[0] -= self.datum
-        variance = self.noise.readings()
-        if interval_s < READING_S:
-            variance *= 0.05 / interval_s
-        if not self.plan.attitude:
-            y[2:] = 0.0
-            variance[2:] = self.noise.constants(max(interval_s, READING_S))[2:]
-        return _chunk(np.array([at]), 0, y, variance, moved)
-
-    def _datum_variance(self) -> float:
-        """Return by how much the datum of the GNSS height may have moved since the last reading.
-
-        A stop hides its drift; after an outage, another satellite or base may carry it.
-        """
-        if self.constant:
-            return DATUM_M**2
-        return self.noise.gnss_height_walk**2 * self.stood * self.step
-
-    def _constants(self, first: int, end: int) -> Iterator[Chunk]:
-        """Yield what stands in for GNSS before sample ``end``, once per sub-block, (6.65)."""
-        begin = first
-        if self.plan.gnss:
-            begin = max(first, self.latest + round(PATIENCE_S / self.step))
-        at = self._ends(begin, end)
+    def _readings(self, stretch: Stretch, heights: bool, lost: IndexArray) -> Chunk:
+        """Return the GNSS readings, heights from the datum of this wheel path, (6.48)."""
+        at, interval_s = stretch.taken, stretch.readings[:, KINDS]
         if at.size == 0:
-            return
+            return _joined([])
+        if np.isnan(self.datum):
+            self.datum = float(stretch.readings[0, 0]) - self.arm_m - self.start_m
+        y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
+        crowded = np.where(interval_s < READING_S, USUAL_S / interval_s, 1.0)
+        variance = self.noise.readings() * crowded[:, None]
+        if not self.plan.attitude:
+            y[:, 2:] = 0.0
+            variance[:, 2:] = self.noise.constants(USUAL_S)[2:] * crowded[:, None]
+        moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
+        moved[lost[lost < at.size]] = DATUM_M**2
+        if heights:
+            moved[0] = DATUM_M**2 if self.constant else moved[0]
+            self.heard, self.constant = int(at[-1]), at.size in lost
+        return _chunk(at, 0, y, variance, moved)
+
+    def _constants(self, begin: int, end: int) -> Chunk:
+        """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
+        at = self._ends(begin, end)
         variance = self.noise.constants(self.sub_block * self.step)
         chunk = _chunk(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
-        if not self.constant:
+        if at.size and not self.constant:
             chunk[1][0] |= CAPTURE
-        self.constant = True
-        yield chunk
+            self.constant = True
+        return chunk
 
     def _ends(self, begin: int, end: int) -> IndexArray:
         """Return the samples from ``begin`` up to ``end`` that end a sub-block."""
@@ -189,8 +192,8 @@ class References:
             self.origin = float(height[0]) if np.isnan(self.height) else self.height
         y = np.full((at.size, KINDS), np.nan)
         y[:, 0] = height - self.origin
-        chunk = _chunk(at, TRUSTED | REFLECTED, y, self.noise.readings())
-        chunk[2][:, KINDS] = self.noise.reflection**2 / (self.sub_block * self.step)
+        variance = np.full(KINDS, self.noise.reflection**2 / (self.sub_block * self.step))
+        chunk = _chunk(at, TRUSTED | REFLECTED, y, variance)
         if begins:
             chunk[1][0] |= RENEW
         return chunk
@@ -207,7 +210,11 @@ def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
 
 
 def _chunk(
-    at: IndexArray, mark: int, y: FloatArray, variance: FloatArray, moved: float = 0.0
+    at: IndexArray,
+    mark: int,
+    y: FloatArray,
+    variance: FloatArray,
+    moved: FloatArray | float = 0.0,
 ) -> Chunk:
     rows = np.empty((at.size, OBSERVATION))
     rows[:, :KINDS], rows[:, KINDS:-1], rows[:, -1] = y, variance, moved
@@ -226,7 +233,7 @@ def _merged(one: Chunk, other: Chunk) -> Chunk:
     return at, marks, rows
 
 
-def _joined(chunks: list[Chunk]) -> Chunk:
+def _joined(chunks: Sequence[Chunk]) -> Chunk:
     if not chunks:
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty((0, OBSERVATION))
     at, marks, rows = zip(*chunks, strict=True)

@@ -8,19 +8,19 @@ from floatref.kernels.kalman_layout import SPREAD, STATES
 from floatref.stages.kalman.nodes import Nodes
 from floatref.values.arrays import FloatArray, IndexArray
 
-CORRECTIONS = 5
-"""Numbers of a correction: height and velocity on both sides of a node, leap of the datum."""
+CORRECTIONS = 4
+"""Numbers of a correction: height and velocity on both sides of a node."""
+UPPER = np.triu_indices(STATES)
 APART_M = 4.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
 
 
 def covariance(node: FloatArray) -> FloatArray:
-    """Return P of the row ``node``, shape (9, 9)."""
-    p = np.zeros((STATES, STATES))
-    upper = np.triu_indices(STATES)
-    p[upper] = node[SPREAD:]
-    p.T[upper] = node[SPREAD:]
+    """Return P of the row ``node``, shape (10, 10)."""
+    p = np.empty((STATES, STATES))
+    p[UPPER] = node[SPREAD:]
+    p.T[UPPER] = node[SPREAD:]
     return p
 
 
@@ -31,7 +31,7 @@ class Marks:
     Attributes:
         at: samples, shape (n,).
         distance_m: encoder distance there, shape (n,).
-        covariance: P, shape (n, 9, 9).
+        covariance: P, shape (n, 10, 10).
         passed: product of (I - K H) F from the mark before, or the node before the segment.
         gathered: what the observations since then add to the covariance of lambda.
     """
@@ -71,7 +71,7 @@ class Segment:
     Attributes:
         before: sample of the node before the first sample; -1 before the run.
         origin: row of that node.
-        height: filtered height of the samples from ``before`` + 1 to the last node, in m.
+        height: of the samples from ``before`` + 1 to the last node, in m, filtered until smoothed.
         nodes: those after ``before``.
         marks: those of them that tell how covariances pass on.
     """
@@ -96,21 +96,14 @@ class Segment:
         kalman_backward.smooth(n.at, n.nodes, n.updates, max(self.before, 0), step, adjoint, found)
         return found
 
-    def smoothed(
-        self, corrections: FloatArray, adjoint: FloatArray, datum: float, step: float
-    ) -> tuple[FloatArray, float]:
-        """Return the smoothed height, and the leaps of the datum so far.
-
-        ``adjoint`` is lambda behind the node ``before``.
-        """
+    def smooth(self, corrections: FloatArray, adjoint: FloatArray, step: float) -> None:
+        """Make `height` the smoothed one; ``adjoint`` is lambda behind the node ``before``."""
         from floatref.kernels import kalman_backward
 
         start = np.zeros(CORRECTIONS)
         if self.before >= 0:
             kalman_backward.correct(self.origin, adjoint, start)
         place = np.array([max(self.before, 0), start[2], start[3]])
-        height = self.height.copy()
-        leaps = kalman_backward.interpolate(
-            self.nodes.at, corrections, self.before + 1, place, step, datum, height
+        kalman_backward.interpolate(
+            self.nodes.at, corrections, self.before + 1, place, step, self.height
         )
-        return height, leaps

@@ -25,9 +25,9 @@ class Settled:
     Attributes:
         at: samples, shape (n,).
         distance_m: encoder distance, shape (n,).
-        column: P e_r, shape (n, 9).
-        left: (I - Lambda P) e_r, shape (n, 9).
-        passed: product of (I - K H) F from the mark before, shape (n, 9, 9).
+        column: P e_r, shape (n, 10).
+        left: (I - Lambda P) e_r, shape (n, 10).
+        passed: product of (I - K H) F from the mark before, shape (n, 10, 10).
     """
 
     at: IndexArray
@@ -99,8 +99,8 @@ def low_pass(distance_m: FloatArray, wavelength_m: float) -> FloatArray:
     b = np.sqrt(0.75) * a
     response = np.exp(-a) + np.exp(-a / 2) * (np.cos(b) + np.sqrt(3.0) * np.sin(b))
     steps = np.diff(distance_m)
-    weights = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
+    weights: FloatArray = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
     total = weights.sum(axis=1, keepdims=True)
     even = np.full_like(weights, 1.0 / distance_m.size)
-    np.divide(weights, total, out=even, where=total > 0)
-    return even
+    found: FloatArray = np.divide(weights, total, out=even, where=total > 0)
+    return found

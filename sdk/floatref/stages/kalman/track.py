@@ -66,7 +66,7 @@ class TrackFilter:
             length,
             references,
             x,
-            np.diag(np.square([*START_SIGMA, noise.lean_rad, 0.0])),
+            np.diag(np.square([*START_SIGMA, noise.lean_rad, 0.0, 0.0])),
             memory,
         )
 
