@@ -17,7 +17,7 @@ ROOMS = {
     "floatref_reference": "reference_impl",
     "floatref_conformance": "conformance",
 }
-EQUATION = re.compile(r"\(([\dA])\.(\d+)\)(?:(?: to |[-–])\([\dA]\.(\d+)\))?")
+EQUATION = re.compile(r"\(([\dAC])\.(\d+)\)(?:(?: to |[-–])\([\dAC]\.(\d+)\))?")
 TABLE = re.compile(r"Tables? ([\dA])\.(\d+)(?:( to | and )[\dA]\.(\d+))?")
 SECTION = re.compile(r"[Ss]ection (\d(?:\.\d+)+)")
 

@@ -159,7 +159,13 @@ def alone(groups: list[Row]) -> str:
         for where in cited(text.partition("Equation:")[2].strip().partition("\n")[0])
         if where.startswith("(")
     }
-    return ", ".join(sorted(found - listed, key=lambda w: [int(n) for n in re.findall(r"\d+", w)]))
+    return ", ".join(sorted(found - listed, key=in_print))
+
+
+def in_print(where: str) -> tuple[str, int]:
+    """Return what sorts equations as they are printed, the appendices last."""
+    chapter, number = where.strip("()").split(".")
+    return chapter, int(number)
 
 
 def page(rows: Row) -> str:

@@ -29,7 +29,7 @@ def matrix_h(x: npt.ArrayLike, u: npt.ArrayLike, lever: npt.ArrayLike) -> Matrix
     """Differentiate the measurement model with respect to the state.
 
     Equation:
-        (C.8), with the elements of (C.9): H = ∂h/∂x of (6.48), as printed if l_x = 0. Beyond the
+        (C.8) with (C.9): H of (6.14), that is ∂h/∂x of (6.48), as printed if l_x = 0. Beyond the
         print, l_x adds -c_φ c_θ l_x to H[2,7].
 
     Args:
@@ -94,7 +94,7 @@ def matrix_r(sigma: npt.ArrayLike) -> Matrix:
     """Compute the covariance of the measurement noise.
 
     Equation:
-        (C.10) R = diag(σ_rz², σ_vz², σ_θ², σ_φ²), V = I, for the measurements in the order of (C.7)
+        (C.10) R = diag(σ_rz², σ_vz², σ_θ², σ_φ²) in the order of (C.7); V of (6.15) is I.
 
     Args:
         sigma: standard deviations, m, m/s, rad, rad, shape (4,).

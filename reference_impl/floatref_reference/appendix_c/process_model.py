@@ -10,7 +10,7 @@ def matrix_a(x: npt.ArrayLike, u: npt.ArrayLike, dt: float) -> Matrix:
     """Differentiate the process model with respect to the state.
 
     Equation:
-        (C.3), with the elements of (C.4): A = ∂f/∂x of (6.47), as printed.
+        (C.3) with (C.4): A of (6.11) and (6.18), that is ∂f/∂x of (6.47), as printed.
 
     Args:
         x: state of (C.2), shape (7,).
@@ -73,7 +73,7 @@ def matrix_q(sigma: npt.ArrayLike) -> Matrix:
     """Compute the covariance of the process noise.
 
     Equation:
-        (C.5) Q = diag(σ_a², σ_ω1², σ_ω2², σ_ω3², σ_a'², σ_ω'1², σ_ω'2²)
+        (C.5) Q of (6.4) = diag(σ_a², σ_ω1², σ_ω2², σ_ω3², σ_a'², σ_ω'1², σ_ω'2²)
 
     Args:
         sigma: standard deviations per time step in this order: m/s², three in rad/s, m/s² and
@@ -89,7 +89,7 @@ def matrix_w(x: npt.ArrayLike, dt: float) -> Matrix:
     """Differentiate the process model with respect to the noise.
 
     Equation:
-        (C.6) W = ∂f/∂w of (6.47), as printed.
+        (C.6) W of (6.12) and (6.21), that is ∂f/∂w of (6.47), as printed.
 
     Args:
         x: state of (C.2), shape (7,).

@@ -31,8 +31,9 @@ def spectral_density(f: Real, r_a: Real = R_A, k_a: Real = K_A, n_a: Real = N_A)
     """Compute the spectral density of the rate that a gyroscope at rest reads.
 
     Equation:
-        (6.56) S_Ω(2πf) = R_A²/(2πf)³ + K_A²/(2πf)² + N_A². The text calls it one-sided; with the
-        coefficients of (6.53) it is the two-sided density, and the one-sided is twice that.
+        (6.56) S_Ω(2πf) = R_A²/(2πf)³ + K_A²/(2πf)² + N_A², by default with (6.54) and (6.55).
+        The text calls it one-sided; with coefficients as in (6.53) it is the two-sided density,
+        and the one-sided is twice that.
 
     Args:
         f: frequency, Hz, positive.

@@ -123,8 +123,8 @@ def rts_smoother(run: Run) -> tuple[Matrix, npt.NDArray[np.float64]]:
     """Run the fixed-interval smoother backward over what the filter left.
 
     Equation:
-        (6.17) and (6.22), with A_k of (6.18) at x̂_{k|k} and u_k, from the last step but one to
-        the first. x̂_{k+1|k} and P_{k+1|k} are those stored, which are (6.19) and (6.20).
+        (6.17) and (6.22), with A_k of (6.18), and (6.19) and (6.20) as the filter stored them,
+        from the last step but one to the first.
 
     Args:
         run: the filter's states and covariances.

@@ -18,7 +18,7 @@ def covariance(rng: np.random.Generator, n: int) -> Matrix:
     return root @ root.T + 0.1 * np.eye(n)
 
 
-@pytest.mark.cites("(6.5)", "(6.6)")
+@pytest.mark.cites("(6.5)")
 @settings(deadline=None, max_examples=20)
 @given(seed=st.integers(0, 999))
 def test_prediction_has_the_moments_of_the_linear_system(seed: int) -> None:

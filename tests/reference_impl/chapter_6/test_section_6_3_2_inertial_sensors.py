@@ -53,7 +53,7 @@ def test_braking_nose_down_reads_low_without_the_pitch() -> None:
     assert vertical_acceleration(u_a, 0.03, 0.0) == pytest.approx(0, abs=1e-12)
 
 
-@pytest.mark.cites("(6.29)", "(6.30)")
+@pytest.mark.cites("(6.30)")
 @settings(deadline=None, max_examples=30)
 @given(omega=TRIPLES, delta=TRIPLES, e=TRIPLES)
 def test_model_adds_what_the_gyroscopes_lack(omega, delta, e) -> None:
