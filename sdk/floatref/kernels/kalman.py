@@ -59,10 +59,13 @@ def run(
 ) -> int:
     """Advance by the samples of the six inputs ``u`` and return the number of nodes.
 
-    Sample number ``first`` is absolute. Observations at samples ``at``: four values in ``y``, NaN
-    if there is none, then four variances, shape (m, 8). ``x``, ``p`` and ``memory`` are changed;
-    ``height`` gets the filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what
-    the backward pass needs; a node's second number is the end of its updates.
+    Sample number ``first`` is absolute. ``model`` holds the step in s, g in m/s², the lever arm
+    (3) in m, squares of the process densities (7), variances in m² of a new datum and of an
+    offset, and up to where innovations are believed (4). Observations at samples ``at``: four
+    values in ``y``, NaN if there is none, four variances, and the variance that the drift of the
+    GNSS height gains, shape (m, 9). ``x``, ``p`` and ``memory`` are changed; ``height`` gets the
+    filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what the backward pass
+    needs; a node's second number is the end of its updates.
     """
     size, observed, count, begin, done = height.size, 0, 0, 0, 0
     work, h = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
@@ -76,12 +79,11 @@ def run(
             break
         before, speed = x[0], x[1]
         _keep_transition(memory, nodes[count])
-        _predict(p, work, h, memory, model, x)
+        _predict(p, work, memory, model, x)
         if observed < at.size and at[observed] == first + node:
             mark, seen = marks[observed], y[observed]
-            done = _observe(
-                u, node, model, mark, seen, x, p, memory, h, work, nodes[count], updates, done
-            )
+            done = _observe(u, node, model, mark, seen, x, p, memory, h, work, updates, done)
+            nodes[count, RENEWED] = 1.0 if mark & RENEW else 0.0
             height[node] = x[0]
             observed += 1
         _close_node(
@@ -104,9 +106,9 @@ def end(
     """Make a node of the sample advanced to last, unless it is one; returns how many it made."""
     if memory[STEPS] == 0.0:
         return 0
-    work, f = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
+    work = np.zeros((4, STATES))
     _keep_transition(memory, nodes[0])
-    _predict(p, work, f, memory, model, x)
+    _predict(p, work, memory, model, x)
     _close_node(int(memory[LATEST]), 0, 0.0, 0.0, p, nodes[0], node_at[0])
     return 1
 
@@ -243,45 +245,36 @@ def _keep_transition(memory: FloatArray, node: FloatArray) -> None:
 
 @compiled
 def _predict(
-    p: FloatArray,
-    work: FloatArray,
-    f: FloatArray,
-    memory: FloatArray,
-    model: FloatArray,
-    x: FloatArray,
+    p: FloatArray, work: FloatArray, memory: FloatArray, model: FloatArray, x: FloatArray
 ) -> None:
     """P <- F P F' + Q over the steps since the last node, (6.10)."""
     steps = memory[STEPS]
     if steps == 0.0:
         return
     span = steps * model[0]
-    columns = (2, 3, 5, 6)
+    for j in range(STATES):
+        work[0, j], work[1, j], work[2, j], work[3, j] = _carried(memory, span, p[j])
     for i in range(4):
-        for j in range(STATES):
-            f[i, j] = 0.0
-        for j in range(4):
-            f[i, columns[j]] = memory[4 * i + j]
-    f[0, 0], f[0, 1], f[0, 4] = 1.0, span, 0.5 * span * span
-    f[1, 1], f[1, 4] = 1.0, span
-    f[0, LEAN], f[1, LEAN] = memory[16], memory[17]
-    for i in range(4):
-        for j in range(STATES):
-            total = 0.0
-            for k in range(STATES):
-                total += f[i, k] * p[k, j]
-            work[i, j] = total
-    for i in range(4):
-        for j in range(i, 4):
-            total = 0.0
-            for k in range(STATES):
-                total += work[i, k] * f[j, k]
-            p[i, j] = total
+        p[i, 0], p[i, 1], p[i, 2], p[i, 3] = _carried(memory, span, work[i])
         for j in range(4, STATES):
             p[i, j] = work[i, j]
     _add_noise(p, memory, model, x, steps)
     for i in range(STATES):
         for j in range(i):
             p[i, j] = p[j, i]
+
+
+@compiled
+def _carried(f: FloatArray, span: float, a: FloatArray) -> tuple[float, float, float, float]:
+    """Return height, velocity, pitch and roll of F a; the other states stay as they are."""
+    rise = f[0] * a[2] + f[1] * a[3] + f[2] * a[5] + f[3] * a[6] + f[16] * a[LEAN]
+    climb = f[4] * a[2] + f[5] * a[3] + f[6] * a[5] + f[7] * a[6] + f[17] * a[LEAN]
+    return (
+        a[0] + span * (a[1] + 0.5 * span * a[4]) + rise,
+        a[1] + span * a[4] + climb,
+        f[8] * a[2] + f[9] * a[3] + f[10] * a[5] + f[11] * a[6],
+        f[12] * a[2] + f[13] * a[3] + f[14] * a[5] + f[15] * a[6],
+    )
 
 
 @compiled
@@ -349,7 +342,6 @@ def _observe(
     memory: FloatArray,
     h: FloatArray,
     work: FloatArray,
-    node: FloatArray,
     updates: FloatArray,
     done: int,
 ) -> int:
@@ -359,55 +351,77 @@ def _observe(
     of no matter. Returns the end of the updates.
     """
     predicted, prior = work[0], work[1]
+    _linearize(x, u[3][i], u[4][i], u[5][i], model, h, predicted)
+    base = _base(mark, model, x, p, memory, h, predicted)
+    p[DRIFT, DRIFT] += y[2 * KINDS]
     for j in range(STATES):
         prior[j] = x[j]
-    _linearize(x, u[3][i], u[4][i], u[5][i], model, h, predicted)
+    for kind in range(KINDS):
+        if y[kind] != y[kind]:
+            continue
+        innovation = y[kind] - predicted[kind]
+        innovation += base if kind == 0 else 0.0
+        for j in range(STATES):
+            innovation -= h[kind, j] * (x[j] - prior[j])
+        variance, update = y[KINDS + kind], updates[done]
+        if mark & TRUSTED or _believed(kind, innovation, variance, model, h, p, memory, update):
+            _update(p, x, h[kind], innovation, variance, update, work)
+            done += 1
+    return done
+
+
+@compiled
+def _base(
+    mark: int,
+    model: FloatArray,
+    x: FloatArray,
+    p: FloatArray,
+    memory: FloatArray,
+    h: FloatArray,
+    predicted: FloatArray,
+) -> float:
+    """Return what the observed height is told from; adapt its prediction and its row of H."""
     if mark & CAPTURE:
         memory[CAPTURED] = predicted[0]
     if mark & RENEW:
         _renew(x, p, memory, model[13])
-        node[RENEWED] = 1.0
-    base = 0.0
     if mark & REFLECTED:
-        base = memory[ORIGIN]
         predicted[0] = x[0] + x[OFFSET]
         h[0, 2], h[0, 3], h[0, OFFSET] = 0.0, 0.0, 1.0
-    elif mark & RELATIVE:
-        base = memory[CAPTURED]
-    else:
-        predicted[0] += x[DRIFT]
-        h[0, DRIFT] = 1.0
-    p[DRIFT, DRIFT] += y[2 * KINDS]
-    for kind in range(KINDS):
-        seen = y[kind]
-        if seen != seen:
-            continue
-        if kind == 0:
-            seen += base
-        innovation, variance = seen - predicted[kind], y[KINDS + kind]
-        update = updates[done]
-        for j in range(STATES):
-            innovation -= h[kind, j] * (x[j] - prior[j])
-        spread = _project(p, h[kind], update)
-        total = spread + variance
-        if (
-            not mark & TRUSTED
-            and innovation * innovation > GATE * total
-            and abs(innovation) > model[14 + kind]
-        ):
-            memory[REJECTED + kind] += 1.0
-            if kind > 0:
-                continue
-            memory[IN_A_ROW] += 1.0
-            if memory[IN_A_ROW] < BELIEVED_AT:
-                continue
-            p[DRIFT, DRIFT] += model[12]
-            total = _project(p, h[kind], update) + variance
-        if kind == 0:
-            memory[IN_A_ROW] = 0.0
-        _update(p, x, h[kind], innovation, variance, total, update, work)
-        done += 1
-    return done
+        return float(memory[ORIGIN])
+    if mark & RELATIVE:
+        return float(memory[CAPTURED])
+    predicted[0] += x[DRIFT]
+    h[0, DRIFT] = 1.0
+    return 0.0
+
+
+@compiled
+def _believed(
+    kind: int,
+    innovation: float,
+    variance: float,
+    model: FloatArray,
+    h: FloatArray,
+    p: FloatArray,
+    memory: FloatArray,
+    update: FloatArray,
+) -> bool:
+    """Tell whether a reading may be what it says; heights that insist are another datum."""
+    square = innovation * innovation
+    far = square > GATE * (_project(p, h[kind], update) + variance)
+    if not far or abs(innovation) <= model[14 + kind]:
+        memory[IN_A_ROW] = 0.0 if kind == 0 else memory[IN_A_ROW]
+        return True
+    memory[REJECTED + kind] += 1.0
+    if kind > 0:
+        return False
+    memory[IN_A_ROW] += 1.0
+    if memory[IN_A_ROW] < BELIEVED_AT:
+        return False
+    memory[IN_A_ROW] = 0.0
+    p[DRIFT, DRIFT] += model[12]
+    return True
 
 
 @compiled
@@ -439,11 +453,11 @@ def _update(
     h: FloatArray,
     innovation: float,
     variance: float,
-    total: float,
     update: FloatArray,
     work: FloatArray,
 ) -> None:
     """Joseph form: P <- (I - K H) P (I - K H)' + K R K'."""
+    total = _project(p, h, update) + variance
     for i in range(STATES):
         gain = update[STATES + i] / total
         x[i] += gain * innovation

@@ -79,7 +79,7 @@ class KalmanSmoother(KalmanStage):
         return tuple(self._closed_blocks())
 
     def _split(self, block: Block) -> Iterator[tuple[Block, bool]]:
-        """Yield ``block`` in parts that end with a segment, as the flag tells, or with the block."""
+        """Yield ``block`` in parts; the flag tells those that end a segment."""
         begin, end = 0, len(block)
         while begin < end:
             sample = block.first + begin
