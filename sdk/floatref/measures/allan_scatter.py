@@ -19,7 +19,11 @@ LOWEST = 0.05
 
 
 class AllanScatter:
-    """Covariance of the Allan variances of one signal, for any coefficients of its noise."""
+    """Covariance of the Allan variances of one signal, for any coefficients of its noise.
+
+    The spectral density is that of (6.56), two-sided as it has to be with (6.53), and those of
+    flicker, B_A²/(2πf), and quantization beside it.
+    """
 
     def __init__(self, allan: AllanDeviation) -> None:
         """Calculate the transfer functions of all cluster times."""
@@ -29,7 +33,7 @@ class AllanScatter:
         frequency = np.geomspace(lowest, highest, points)
         omega, half = 2.0 * np.pi * frequency, np.sin(np.pi * frequency * interval)
         flat = np.ones(points)
-        # Two sides of (6.56) in one, with flicker and quantization beside; the ramp is apart.
+        # Both sides together; the ramp, which is no noise, is apart.
         self._density = 2.0 * np.stack(
             [0.0 * flat, omega**-2, 1.0 / omega, flat, (2.0 * half) ** 2 / interval], axis=1
         )

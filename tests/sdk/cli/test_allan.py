@@ -9,6 +9,8 @@ import pytest
 from click.testing import CliRunner, Result
 from matplotlib.image import imread
 
+from floatref.architectures.plugins import plugins
+from floatref.cli.allan_report import SETTINGS
 from floatref.cli.main import main
 from floatref.files import write_recording
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
@@ -147,6 +149,13 @@ def test_settings_are_written_as_process_reads_them(still: Path, tmp_path: Path)
     assert "exists" in refused(still, "--settings", target)
 
 
+def test_every_setting_is_one_of_the_kalman_pipelines() -> None:
+    known = [p for name, p in plugins().pipelines().items() if name.startswith("kalman-")]
+    assert known
+    for pipeline in known:
+        assert set(SETTINGS) <= set(pipeline.settings)
+
+
 def test_the_plot_is_a_picture(still: Path, tmp_path: Path) -> None:
     assert run(still, "--plot", tmp_path / "a.png").exit_code == 0
     assert imread(tmp_path / "a.png").shape[0] > 800
@@ -217,6 +226,23 @@ def test_a_drive_is_doubted_and_gives_no_density(tmp_path: Path) -> None:
     assert "the curve is off by a factor of" in warnings
     assert "acceleration_density" not in found["settings"]
     assert "roll_rate_density" in found["settings"]
+
+
+def test_a_hum_that_the_curve_misses_gives_no_setting_but_beside_it(tmp_path: Path) -> None:
+    hum = 0.004 * np.sin(2.0 * np.pi * 12.3 * np.arange(36_000) / 100.0)
+    clock = UniformClock.of(100.0)
+    noisy = [
+        Channel.of("vertical_specific_force", 9.81 + hum + white(5e-5, 100.0, hum.size), clock, t)
+        for t in ("left", "right")
+    ]
+    found = report(written(tmp_path, *noisy))
+    left = next(c for c in found["channels"] if c["track"] == "left")
+    assert coefficient(left, "white_noise")["value"] is not None
+    assert left["worst_factor"] > 1.5
+    assert "acceleration_density" not in found["settings"]
+    assert "left.vertical_specific_force: the curve is off by a factor" in found["warnings"][0]
+    beside = report(tmp_path / "still", "--between", 10, 120)
+    assert beside["settings"]["acceleration_density"] == pytest.approx(5e-5, rel=0.2)
 
 
 def test_readings_without_fixed_ambiguities_are_said(tmp_path: Path) -> None:

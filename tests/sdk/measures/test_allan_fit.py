@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.measures.allan import AllanDeviation, allan_deviation, cluster_sizes
 from floatref.measures.allan_fit import NoiseCoefficients, fit_noise
+from floatref.measures.allan_scatter import AllanScatter
 from floatref_reference.chapter_6 import section_6_4_1_allan as reference
+from floatref_reference.chapter_6.section_6_4_2_gyroscopes import spectral_density
 
 FEW = settings(deadline=None, max_examples=10)
 TERMS = NoiseCoefficients._fields
@@ -192,6 +194,25 @@ def test_degrees_of_freedom_are_those_of_allantools(
         allantools.edf_simple(count + 1, int(n), alpha) for n in found.allan.clusters[inner]
     ]
     assert 0.5 / found.scatter[inner] ** 2 == pytest.approx(expected, rel=within)
+
+
+@pytest.mark.cites("(6.56)")
+def test_the_scatter_is_the_integral_over_the_printed_spectrum() -> None:
+    values = {"n_a": 0.1, "k_a": 0.4, "r_a": 0.0}
+    count, interval_s, sizes = 2000, 0.01, np.array([1, 3, 10, 40, 200])
+    f = (np.arange(20_000) + 0.5) / (20_000 * 2.0 * interval_s)
+    density = np.array([float(spectral_density(x, **values)) for x in f])
+    tau = sizes[:, None] * interval_s
+    gain = np.sin(np.pi * f * tau) ** 4 / (sizes[:, None] * np.sin(np.pi * f * interval_s)) ** 2
+    shares = 2.0 * density * 2.0 * gain
+    moved = (count - 2 * sizes[:, None] + 1) * interval_s
+    expected = (shares / np.sqrt(moved)) @ (shares / np.sqrt(moved)).T * (f[1] - f[0])
+    allan = AllanDeviation(interval_s, count, sizes, np.ones(5), 1.0)
+    squares = np.array([0.0, 0.4**2, 0.0, 0.1**2, 0.0])
+    scatter = AllanScatter(allan)
+    root = scatter.root(squares)
+    assert root @ root.T == pytest.approx(expected, rel=0.03)
+    assert scatter.variance(squares) == pytest.approx(np.diag(expected), rel=0.03)
 
 
 def test_drawn_deviations_scatter_as_they_are_said_to() -> None:
