@@ -22,6 +22,10 @@ BRIDGE_S = 0.01
 """A gap up to so long is bridged well: a line misses a 15-Hz swing of the body by a tenth."""
 BLIND_S = 0.5
 """A gap of the encoder longer than this can hide a stop."""
+TURN_S = 0.1
+"""A line over a gap so long misses a 2-Hz pitch of the body by a few hundredths of a degree."""
+BRIDGES_S = {DISTANCE: BLIND_S, **dict.fromkeys(("roll_rate", "pitch_rate", "yaw_rate"), TURN_S)}
+"""What may be bridged of channels for which it is not `BRIDGE_S`."""
 FAR = 1 << 40
 """Samples to the next known one, if there is none."""
 LOOK = 4096
@@ -34,8 +38,8 @@ Read = Callable[[int, int], FloatArray]
 class Stretch:
     """Samples of a channel on the clock of the blocks, and which of them are what.
 
-    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`,
-    of the encoder `BLIND_S`, or in one of lasting damage. Samples of void damage are NaN.
+    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`
+    or what `BRIDGES_S` says, or in one of lasting damage. Samples of void damage are NaN.
     """
 
     values: FloatArray
@@ -60,7 +64,7 @@ class AlignedChannel:
         self._clock, self._first = clock, first
         self._offset = _common_grid(channel.clock, clock)
         self._gap_s = _gap(channel)
-        self._bridge_s = BLIND_S if channel.id.name == DISTANCE else BRIDGE_S
+        self._bridge_s = BRIDGES_S.get(channel.id.name, BRIDGE_S)
 
     def take(self, begin: int, end: int) -> Stretch:
         """Return samples ``begin`` to ``end - 1``, which lie within the channel's span."""

@@ -2,20 +2,29 @@
 
 from math import ceil
 
+import numpy as np
+
+from floatref.architectures.damage import NONE, within
+from floatref.values.arrays import IndexArray
 from floatref.values.block import Event
 from floatref.values.channels import ChannelId
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 
 PREFIX = "gnss_"
+HEIGHT = "gnss_height"
 
 
 class GnssEvents:
     """The GNSS samples of a recording, in the order of their times."""
 
-    def __init__(self, recording: Recording) -> None:
-        """Keep the channels whose names begin with ``gnss_``."""
+    def __init__(self, recording: Recording, stuck: IndexArray = NONE) -> None:
+        """Keep the channels whose names begin with ``gnss_``.
+
+        ``stuck``, shape (k, 2), are first index and the one behind of heights to be left out.
+        """
         self._channels = [c for c in recording.channels if c.id.name.startswith(PREFIX)]
+        self._stuck = stuck
 
     def between(self, begin_s: float, end_s: float) -> tuple[Event, ...]:
         """Return the events from ``begin_s`` up to, but without, ``end_s``.
@@ -24,15 +33,21 @@ class GnssEvents:
         """
         found: dict[float, dict[ChannelId, float]] = {}
         for channel in self._channels:
-            for time, value in _samples(channel, begin_s, end_s):
+            stuck = self._stuck if channel.id.name == HEIGHT else NONE
+            for time, value in _samples(channel, begin_s, end_s, stuck):
                 found.setdefault(time, {})[channel.id] = value
         return tuple(Event(time, values) for time, values in sorted(found.items()))
 
 
-def _samples(channel: Channel, begin_s: float, end_s: float) -> list[tuple[float, float]]:
+def _samples(
+    channel: Channel, begin_s: float, end_s: float, stuck: IndexArray
+) -> list[tuple[float, float]]:
     low, high = _range(channel, begin_s, end_s)
     times = channel.clock.times(high - low, low).tolist()
-    pairs = zip(times, channel.values[low:high].tolist(), strict=True)
+    values, mask = channel.values[low:high], within(stuck, low, high)
+    if mask is not None:
+        values = np.where(mask, np.nan, values)
+    pairs = zip(times, values.tolist(), strict=True)
     return [(time, value) for time, value in pairs if value == value]
 
 

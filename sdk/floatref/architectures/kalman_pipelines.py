@@ -3,7 +3,7 @@
 from floatref.architectures.kalman_steps import NOISE, Estimator, answers
 from floatref.architectures.question import Pipeline
 from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
-from floatref.stages.kalman.inputs import IMU
+from floatref.stages.kalman.inputs import GNSS, IMU
 from floatref.stages.kalman.noise import PER_STEP
 
 _USUAL = vars(Noise())
@@ -13,6 +13,13 @@ SETTINGS: dict[str, float | None] = {
     "cutoff_wavelength_m": 105.91,
     **{name: _USUAL[field] for name, field in NOISE.items()},
 }
+
+
+def _readings(plan: Plan) -> tuple[str, ...]:
+    names = [channel.name for channel in GNSS]
+    if not plan.gnss:
+        return ()
+    return tuple(names if plan.attitude else names[:2])
 
 
 def _pipeline(
@@ -25,6 +32,7 @@ def _pipeline(
         {**SETTINGS, **settings},
         answers(plan, estimator),
         channels=IMU,
+        readings=_readings(plan),
         capabilities=("imu", "gnss") if plan.gnss else ("imu",),
     )
 

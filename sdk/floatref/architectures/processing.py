@@ -10,6 +10,7 @@ from typing import Any
 from floatref import __version__
 from floatref.architectures import flow
 from floatref.architectures.collecting import Gathered, collected
+from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import SIGNAL_FLOWS
@@ -19,7 +20,7 @@ from floatref.errors import InputError
 from floatref.stages.signals import SIGMA
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
-from floatref.values.plausibility import examine
+from floatref.values.plausibility import examine, profiled_tracks
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, check_interval
 
@@ -79,13 +80,22 @@ def run(
     chosen = loaded.pipeline(pipeline)
     resolved = chosen.resolve(settings or {})
     recording = _at_interval(recording, resolved)
-    cautions = examine(recording)
+    cautions = (*examine(recording), *_kinematic_cautions(recording, chosen))
     source = Source(recording, chosen.channels)
     stages = _stages(loaded, chosen, resolved, source)
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = _collect(header, blocks, chosen, resolved, room)
     return Result(profile, (*cautions, *source.warnings, *loaded.reports))
+
+
+def _kinematic_cautions(recording: Recording, chosen: Pipeline) -> Iterator[str]:
+    if not chosen.channels:
+        return
+    gnss, attitude = bool(chosen.readings), "gnss_pitch" in chosen.readings
+    tracks = profiled_tracks(recording)
+    lines = (line for t in tracks for line in check_kinematics(recording, t, gnss, attitude))
+    yield from dict.fromkeys(lines)
 
 
 def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Recording:

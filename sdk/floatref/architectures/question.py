@@ -22,7 +22,8 @@ class Pipeline:
     ``answers`` replaces the architecture's own stages at the points it names; ``settings`` are
     the pipeline's numbers with their defaults, all above zero. None is a number that the
     recording decides. ``channels`` are those of the recording that it takes beside the nominal
-    ones, for every track or shared; ``capabilities`` the sensors that deliver them.
+    ones, for every track or shared, and ``readings`` those of GNSS; ``capabilities`` are the
+    sensors that deliver them.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Pipeline:
     settings: Mapping[str, float | None] = field(default_factory=dict)
     answers: Defaults = field(default_factory=dict)
     channels: tuple[str, ...] = ()
+    readings: tuple[str, ...] = ()
     capabilities: tuple[str, ...] = ()
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:

@@ -14,9 +14,11 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from floatref.architectures.aligned import AlignedChannel, Stretch
+from floatref.architectures.covering import covering
 from floatref.architectures.damage import Damage
 from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.events import GnssEvents
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.architectures.saturation import damaged_force
 from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
@@ -50,10 +52,12 @@ class Source:
         """
         self._tracks = profiled_tracks(recording)
         found = dict(_nominal(recording, self._tracks))
-        channels = (recording.channel(name, track) for track in self._tracks for name in more)
-        found.update({channel.id: channel for channel in channels})
         clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
+        begin_s, end_s = clock.times(2, first, self.length - 1).tolist()
+        for channel in (recording.channel(name, t) for name in more for t in self._tracks):
+            if channel.id not in found:
+                found[channel.id] = covering(channel, begin_s, end_s)
         damage = {name: _damage(name, found) for name in found}
         holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
@@ -70,7 +74,7 @@ class Source:
             tracks=self._tracks,
             setup=recording.setup,
         )
-        self._events = GnssEvents(recording)
+        self._events = GnssEvents(recording, gnss_faults(recording))
         self.origin_m = self._distance(0)
         self.distance_m = np.fmax(self._distance(self.length - 1) - self.origin_m, 0.0)
 
@@ -137,7 +141,9 @@ def _flags(name: ChannelId, stretch: Stretch) -> FlagArray | None:
     if stretch.missing is None:
         return None
     flags = np.where(stretch.missing, np.uint8(Flag.MISSING), np.uint8(0))
-    lasting = {SPECIFIC_FORCE: Flag.DRIFT, DISTANCE: Flag.SLOW}.get(name.name)
+    lasting = None if name.name == HEIGHT else Flag.DRIFT
+    if name.name == DISTANCE:
+        lasting = Flag.SLOW
     if lasting is not None and stretch.lost is not None:
         flags |= np.where(stretch.lost, np.uint8(lasting), np.uint8(0))
     return flags
