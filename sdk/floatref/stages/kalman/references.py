@@ -192,7 +192,8 @@ class References:
             self.origin = float(height[0]) if np.isnan(self.height) else self.height
         y = np.full((at.size, KINDS), np.nan)
         y[:, 0] = height - self.origin
-        variance = np.full(KINDS, self.noise.reflection**2 / (self.sub_block * self.step))
+        variance = np.full(KINDS, np.nan)
+        variance[0] = self.noise.reflection**2 / (self.sub_block * self.step)
         chunk = _chunk(at, TRUSTED | REFLECTED, y, variance)
         if begins:
             chunk[1][0] |= RENEW
