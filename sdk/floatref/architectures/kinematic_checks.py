@@ -1,0 +1,76 @@
+"""Whether IMU and GNSS are installed as a Kalman pipeline takes them to be.
+
+A wrong sign, a wrong unit or an exchanged axis leaves a profile that looks like one. What a run
+contradicts beyond doubt is refused; what it makes likely, and what is bridged, is a warning.
+"""
+
+from collections.abc import Iterator
+
+from floatref.architectures.kinematic_alive import check_alive
+from floatref.architectures.kinematic_channels import check_present, imu_silences
+from floatref.architectures.kinematic_forces import check_curves, check_travel_force
+from floatref.architectures.kinematic_gnss import (
+    faults_told,
+    fixed_told,
+    gnss_faults,
+    jumps_told,
+)
+from floatref.architectures.kinematic_lever import check_antenna
+from floatref.architectures.kinematic_rates import check_plausible_rates, check_rates
+from floatref.architectures.kinematic_series import Motion
+from floatref.architectures.kinematic_timing import check_delay, check_epoch, check_velocity
+from floatref.values.recording import Recording
+
+__all__ = ["check_kinematics", "gnss_faults"]
+
+
+def check_kinematics(
+    recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool
+) -> tuple[str, ...]:
+    """Return warnings about the IMU and GNSS channels of ``track``, one line each.
+
+    Args:
+        recording: one that `examine` has found plausible.
+        track: a wheel path; channels without one are shared.
+        uses_gnss: whether the pipeline reads gnss_height and gnss_vertical_velocity.
+        uses_attitude: whether it reads gnss_pitch and gnss_roll.
+
+    Raises InputError with one line naming the channel, the value and what to do, for channels that
+    are missing, silent for most of the run or beyond what a vehicle does, GNSS of another time
+    base, and a sign, unit or axis that is certainly wrong.
+    """
+    check_present(recording, track, uses_gnss, uses_attitude)
+    begin_s, end_s = recording.channel("distance", track).span_s
+    warnings = list(imu_silences(recording, track))
+    if uses_gnss:
+        warnings += check_epoch(recording, begin_s, end_s)
+    motion = Motion.of(recording, track)
+    if motion is not None:
+        warnings += _installation(recording, track, motion, uses_gnss, uses_attitude)
+    if uses_gnss:
+        warnings += _gnss(recording, track, motion, begin_s, end_s)
+    return tuple(warnings)
+
+
+def _installation(
+    recording: Recording, track: str, motion: Motion, uses_gnss: bool, uses_attitude: bool
+) -> Iterator[str]:
+    check_alive(recording, track, motion)
+    check_plausible_rates(recording, track, motion)
+    yield from check_travel_force(recording, track, motion)
+    yield from check_curves(recording, track, motion)
+    if uses_gnss:
+        yield from check_delay(recording, motion)
+        yield from check_velocity(recording, motion)
+    yield from check_rates(recording, track, motion, uses_attitude)
+
+
+def _gnss(
+    recording: Recording, track: str, motion: Motion | None, begin_s: float, end_s: float
+) -> Iterator[str]:
+    faults = gnss_faults(recording)
+    yield from fixed_told(recording, begin_s, end_s)
+    yield from faults_told(recording, faults)
+    yield from jumps_told(recording, faults)
+    if motion is not None:
+        yield from check_antenna(recording, track, motion, faults)

@@ -1,0 +1,132 @@
+"""Whether GNSS is on the recording's time base: its span, and when it sees the body swing."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from floatref.architectures.kinematic_evidence import RIGHT, Look, said, weigh
+from floatref.architectures.kinematic_readings import Readings
+from floatref.architectures.kinematic_series import (
+    STEP_S,
+    Motion,
+    integrated,
+    means,
+    smoothed,
+)
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+from floatref.values.recording import Recording
+
+SLOW_S = 2.0
+"""Swings of the body are faster than means over this time, taken twice."""
+FARTHEST_S = 30.0
+"""Time stamps are looked for up to so far off: leap seconds are 18 s."""
+CLEAR, ALONE = 5.0, 8.0
+"""The right delay stands out by so many standard deviations of all others; more, if no other
+channel tells it."""
+TOGETHER_S = 0.05
+"""Two channels agree up to this."""
+LATE_S, WRONG_S = 0.06, 0.5
+"""From the first on a warning is given, from the second on the recording is refused."""
+
+
+def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
+    """Yield a warning if GNSS covers less than half of the run from ``begin_s`` to ``end_s``.
+
+    Raises InputError if it covers none of it: its time stamps have another epoch.
+    """
+    channel = recording.channel("gnss_height")
+    first, last = channel.span_s
+    run = f"the run lasts from {begin_s:.9g} s to {end_s:.9g} s"
+    covered = min(last, end_s) - max(first, begin_s)
+    if covered < 0:
+        raise InputError(
+            f"channel {channel.id}: time stamps from {first:.9g} s to {last:.9g} s, but {run}; "
+            "they are of another epoch or in another unit, so give them in s on the time base of "
+            f"the other channels (a shift of {begin_s - first:.9g} s makes both start together)"
+        )
+    if covered < (end_s - begin_s) / 2:
+        yield (
+            f"channel {channel.id}: time stamps from {first:.9g} s to {last:.9g} s, but {run}; "
+            f"only {covered:.4g} s of it are covered, so check the epoch and the file's length"
+        )
+
+
+def check_delay(recording: Recording, motion: Motion) -> Iterator[str]:
+    """Yield a warning if GNSS sees the body swing earlier or later than the IMU does.
+
+    Raises InputError from `WRONG_S` on: the time stamps are of another time base.
+    """
+    found = _delay(recording, motion)
+    if found is None or abs(found) < LATE_S:
+        return
+    late = "late" if found > 0 else "early"
+    line = (
+        f"channel gnss_height: GNSS sees the body swing {abs(found):.2f} s too {late} for the IMU; "
+        f"add {-found:.2f} s to its time stamps"
+    )
+    if abs(found) >= WRONG_S:
+        raise InputError(f"{line} (UTC and GPS time differ by leap seconds)")
+    yield f"{line}, if the receiver does not say otherwise"
+
+
+HEAVE = Look(span_s=2.5, floor=0.01)
+
+
+def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
+    """Yield a warning if the antenna seems to fall where the body rises.
+
+    Raises InputError where that is certain.
+    """
+    readings = Readings.of(recording.channel("gnss_vertical_velocity"), motion)
+    rising = readings.beside(integrated(motion.lift))
+    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrated(motion.lift))}
+    evidence = weigh(readings.times, readings.values, explained, HEAVE)
+    yield from said(
+        evidence,
+        {
+            "sign": "channel gnss_vertical_velocity: the sign is inverted against "
+            "vertical_specific_force; multiply by -1 (up is positive)"
+        },
+    )
+
+
+def _delay(recording: Recording, motion: Motion) -> float | None:
+    """Return by how many s GNSS is late: two channels agree on it, or one is sure by itself."""
+    own = {
+        "gnss_vertical_velocity": integrated(motion.lift),
+        "gnss_roll": motion.swing[0],
+        "gnss_pitch": motion.swing[1],
+    }
+    found = []
+    for name, row in own.items():
+        channel = recording.find(name)
+        if channel is not None:
+            found.append(_peak(_correlation(row, means(channel, motion.grid))))
+    clear = sorted((d, c) for d, c in found if c >= CLEAR)
+    close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
+    if close:
+        return min((b - a, (a + b) / 2) for a, b in close)[1]
+    return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else None
+
+
+def _peak(correlation: FloatArray) -> tuple[float, float]:
+    """Return the delay of the peak in s, and by how many standard deviations it stands out."""
+    peak = int(np.argmax(correlation))
+    beside = np.abs(np.arange(correlation.size) - peak) > SLOW_S / STEP_S
+    spread = float(np.std(correlation[beside])) if beside.any() else 0.0
+    if peak in (0, correlation.size - 1) or not spread > 0:
+        return 0.0, 0.0
+    before, at, after = correlation[peak - 1 : peak + 2].tolist()
+    delay = peak - correlation.size // 2 + (before - after) / (2 * (before - 2 * at + after))
+    return delay * STEP_S, at / spread
+
+
+def _correlation(own: FloatArray, told: FloatArray) -> FloatArray:
+    """Return the correlation of two rows by the delay of the second, up to `FARTHEST_S`."""
+    x, y = (np.nan_to_num(row - smoothed(row, SLOW_S)) for row in (own, told))
+    reach = min(int(FARTHEST_S / STEP_S), x.size // 2)
+    size = 1 << (2 * x.size - 1).bit_length()
+    product = np.fft.irfft(np.conj(np.fft.rfft(x, size)) * np.fft.rfft(y, size), size)
+    return np.concatenate([product[-reach:], product[: reach + 1]])
