@@ -35,22 +35,10 @@ CUSTOMARY: Mapping[str, tuple[float, str]] = MappingProxyType(
 
 def print_tables(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> None:
     """Print channels, coefficients and settings on stdout, and warnings on stderr."""
-    columns = (
-        "channel",
-        "from s",
-        "to s",
-        "samples/s",
-        "σ of all",
-        "unit",
-        "curve off by factor",
-        "at s",
-    )
-    print_table("Channels at rest", columns, [_channel_row(noise) for noise in found])
-    terms = [
-        row for noise in found for term in NoiseCoefficients._fields for row in _rows(noise, term)
-    ]
-    columns = ("channel", "coefficient", "value", "±", "unit", "customary", "largest from", "to s")
-    print_table("Noise coefficients", columns, terms)
+    columns = ("coefficient", "value", "±", "unit", "customary", "largest from s", "to s")
+    for noise in found:
+        rows = [row for term in NoiseCoefficients._fields for row in _rows(noise, term)]
+        print_table(_title(noise), columns, rows)
     print_table(
         "Settings of the Kalman pipelines",
         ("setting", "value", "unit", "from"),
@@ -60,18 +48,15 @@ def print_tables(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> None
         click.echo(f"Warning: {line}", err=True)
 
 
-def _channel_row(noise: ChannelNoise) -> list[str]:
+def _title(noise: ChannelNoise) -> str:
+    """Return what was analysed, how it spreads, and how well the curve describes it."""
     factor, at_s = noise.fit.worst()
-    return [
-        str(noise.id),
-        number(noise.begin_s),
-        number(noise.end_s),
-        f"{1.0 / noise.allan.interval_s:.6g}",
-        f"{noise.allan.standard_deviation:.3g}",
-        noise.unit.replace("^2", "²"),
-        f"{factor:.3g}",
-        _seconds(at_s),
-    ]
+    unit = noise.unit.replace("^2", "²")
+    return (
+        f"{noise.id}: {noise.begin_s:.6g} s to {noise.end_s:.6g} s at "
+        f"{1.0 / noise.allan.interval_s:.6g} Hz, σ {noise.allan.standard_deviation:.3g} {unit}, "
+        f"curve off by a factor of {factor:.3g} at {_seconds(at_s)} s"
+    )
 
 
 def _rows(noise: ChannelNoise, term: str) -> Iterator[list[str]]:
@@ -82,14 +67,17 @@ def _rows(noise: ChannelNoise, term: str) -> Iterator[list[str]]:
         factor, customary = CUSTOMARY.get(unit, (1.0, ""))
         begin, end = noise.fit.dominates(term) or (nan, nan)
         yield [
-            *(str(noise.id), name, f"{value:.3g}"),
-            f"{100 * getattr(noise.fit.uncertainties, term) / value:.2g} %",
+            *(
+                name,
+                f"{value:.3g}",
+                f"{100 * getattr(noise.fit.uncertainties, term) / value:.2g} %",
+            ),
             *(unit, f"{factor * value:.3g} {customary}" if customary else ""),
             *(_seconds(begin), _seconds(end)),
         ]
     elif (noise.id.name, term) in SETTINGS.values():
         limit = getattr(noise.fit.limits, term)
-        yield [str(noise.id), name, f"< {limit:.2g}", "", unit, "", "–", "–"]
+        yield [name, f"< {limit:.2g}", "", unit, "", "–", "–"]
 
 
 def _setting_rows(found: Sequence[ChannelNoise]) -> Iterator[list[str]]:
