@@ -11,6 +11,7 @@ SETTINGS: dict[str, float | None] = {
     "interval_m": None,
     "anti_alias_hz": 1000.0,
     "cutoff_wavelength_m": 105.91,
+    "distance_scale_sigma": 2e-4,
     **{name: _USUAL[field] for name, field in NOISE.items()},
 }
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from floatref import __version__
 from floatref.architectures import flow
+from floatref.architectures.axis_error import with_axis_error
 from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
@@ -140,7 +141,10 @@ def _collect(
     known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
     found = collected(blocks, header.tracks, room, known)
     reach = Reach.of(resolved)
-    tracks = tuple(_track(name, found.pop(name), header.step, reach) for name in header.tracks)
+    scale = resolved.get("distance_scale_sigma") or 0.0
+    tracks = tuple(
+        _track(name, found.pop(name), header.step, reach, scale) for name in header.tracks
+    )
     return Profile(
         interval_m=header.step,
         tracks=tracks,
@@ -155,6 +159,10 @@ def _collect(
     )
 
 
-def _track(name: str, found: Gathered, interval_m: float, reach: Reach) -> ProfileTrack:
-    valid = valid_points(found.flags, interval_m, reach)
-    return ProfileTrack.of(name, found.elevation, valid, found.sigma)
+def _track(
+    name: str, found: Gathered, interval_m: float, reach: Reach, scale: float
+) -> ProfileTrack:
+    valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
+    if sigma is not None:
+        sigma = with_axis_error(sigma, found.elevation, interval_m, scale)
+    return ProfileTrack.of(name, found.elevation, valid, sigma)

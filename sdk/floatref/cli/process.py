@@ -1,11 +1,11 @@
 """`floatref process`: a recording, or a native file, into a road profile."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from math import nan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +18,9 @@ from floatref.files.document import read_document
 from floatref.files.sources import naming
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
 
 WRITERS = {"profile": write_profile, "csv": write_profile_csv}
 SUFFIXES = {"": "profile", ".csv": "csv"}
@@ -122,14 +125,19 @@ def _processed(
         naming(source),
         Progress(console=console, transient=True) if shown else nullcontext() as bar,
     ):
-        task = bar.add_task("Processing", total=1.0) if bar else None
-        result = run(
-            recording,
-            pipeline,
-            settings,
-            lambda done: bar.update(task, completed=done) if bar and task is not None else None,
-        )
+        result = run(recording, pipeline, settings, _shown(bar) if bar else None)
     return result.profile, result.warnings
+
+
+def _shown(bar: "Progress") -> Callable[[float], None]:
+    """Return what shows the part of the run that has been read on ``bar``."""
+    # Until the first block is through, loops may be compiled: seconds, once per installation.
+    task = bar.add_task("Starting (the first time, this compiles)", total=1.0)
+
+    def show(done: float) -> None:
+        bar.update(task, completed=done, description="Processing")
+
+    return show
 
 
 def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:
