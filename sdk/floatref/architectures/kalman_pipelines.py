@@ -4,7 +4,6 @@ from floatref.architectures.kalman_steps import NOISE, Estimator, answers
 from floatref.architectures.question import Pipeline
 from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import GNSS, IMU
-from floatref.stages.kalman.noise import PER_STEP
 
 _USUAL = vars(Noise())
 SETTINGS: dict[str, float | None] = {
@@ -44,7 +43,7 @@ KALMAN = (
         "IMU and GNSS, filter alone (section 6.6.1)",
         Plan(reflects=False),
         KalmanFilter,
-        acceleration_walk=5e-8 / PER_STEP,
+        acceleration_walk=6.32e-6,
         lean_sigma_rad=1e-9,
         gnss_height_walk=1e-9,
     ),

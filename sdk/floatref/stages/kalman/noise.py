@@ -1,17 +1,10 @@
 """What the Kalman filter takes for the errors of sensors and references."""
 
 from dataclasses import dataclass
-from math import radians
 
 import numpy as np
 
 from floatref.values.arrays import FloatArray
-from floatref.values.channels import STANDARD_GRAVITY
-
-TABLE_RATE_HZ = 16000.0
-"""Steps per second behind the process noise of Table 6.1."""
-PER_STEP = TABLE_RATE_HZ**-0.5
-"""From a standard deviation per step to a density, for white noise; the inverse for a walk."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +13,9 @@ class Noise:
 
     White noise of density S per √Hz has the standard deviation S·√f when sampled at f, a walk of
     density K per √s moves by K·√t in the time t. So no result depends on a sampling rate. The
-    defaults are those of Table 6.1, read as standard deviations of a step of 1/16000 s, but for
-    the walk of the acceleration and what has no place in that table.
+    defaults of acceleration, walks and GNSS follow Table 6.1, its process noise read as standard
+    deviations of a step of 1/16000 s, that of the rates of a reading at 100 Hz; but for the walk
+    of the acceleration, and for what has no place in that table.
 
     Attributes:
         acceleration: vertical acceleration, in m/s²/√Hz.
@@ -40,24 +34,24 @@ class Noise:
         height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
     """
 
-    acceleration: float = 6e-4 * STANDARD_GRAVITY * PER_STEP
+    acceleration: float = 4.65e-5
     acceleration_walk: float = 3e-4
-    roll_rate: float = radians(7.7e-3) * PER_STEP
-    pitch_rate: float = radians(7.7e-3) * PER_STEP
-    yaw_rate: float = radians(7.7e-3) * PER_STEP
-    roll_rate_walk: float = radians(4.2e-6) / PER_STEP
-    pitch_rate_walk: float = radians(2.2e-4) / PER_STEP
+    roll_rate: float = 1.34e-5
+    pitch_rate: float = 1.34e-5
+    yaw_rate: float = 1.34e-5
+    roll_rate_walk: float = 9.27e-6
+    pitch_rate_walk: float = 4.86e-4
     lean_rad: float = 0.01
     gnss_height_m: float = 0.012
     gnss_velocity_mps: float = 0.03
-    gnss_pitch_rad: float = radians(0.12)
-    gnss_roll_rad: float = radians(0.2)
+    gnss_pitch_rad: float = 2.09e-3
+    gnss_roll_rad: float = 3.49e-3
     gnss_height_walk: float = 1.5e-3
-    constant_height: float = 5.0 * PER_STEP
-    constant_velocity: float = 10.0 * PER_STEP
-    constant_pitch: float = radians(5.0) / 20**0.5
-    constant_roll: float = radians(2.0) / 20**0.5
-    reflection: float = 0.0015 / 3240**0.5
+    constant_height: float = 0.04
+    constant_velocity: float = 0.08
+    constant_pitch: float = 0.0195
+    constant_roll: float = 0.0078
+    reflection: float = 2.64e-5
     reflection_offset_m: float = 0.1
     height_m: float = 4e-5
 
