@@ -13,7 +13,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.recording import Recording
 
 SMOOTH_S = 0.5
-SPEEDS_UP, TURNS, SWINGS = 0.5, 2.0, 0.01
+SPEEDS_UP, TURNS, SWINGS = 0.5, 2.0, 0.004
 """What a sensor that works does not miss: acceleration and that of a curve, beyond any bank of a
 road, in m/s², and an angle in rad."""
 CONSTANT = 1e-12
@@ -36,11 +36,13 @@ def check_alive(recording: Recording, track: str, motion: Motion) -> None:
     """
     for name, moved in _moved(recording, motion).items():
         known = moved.row[~np.isnan(moved.row)]
-        constant = known.size and float(np.ptp(known)) <= CONSTANT * max(1.0, abs(known[0]))
-        if constant and float(np.nanmax(np.abs(moved.shown), initial=0.0)) > moved.enough:
+        if not known.size or np.ptp(known) > CONSTANT * max(1.0, abs(known[0])):
+            continue
+        if np.nanmax(np.abs(moved.shown), initial=0.0) > moved.enough:
             raise InputError(
-                f"channel {recording.channel(name, track).id}: every sample is {known[0]:.4g}, but "
-                f"{moved.what}; connect the sensor, and mark missing samples as NaN"
+                f"channel {recording.channel(name, track).id}: every sample is "
+                f"{known[0] + 0.0:.4g}, but {moved.what}; connect the sensor, and mark missing "
+                "samples as NaN"
             )
 
 
@@ -63,8 +65,7 @@ def _moved(recording: Recording, motion: Motion) -> dict[str, Moved]:
     }
     for axis in AXES:
         shown = _swing(motion, told, axis)
-        what = f"the body {axis.rate.removesuffix('_rate')}s"
-        found[axis.rate] = Moved(motion.rates[axis.row], shown, SWINGS, what)
+        found[axis.rate] = Moved(motion.rates[axis.row], shown, SWINGS, "the body swings")
     return found
 
 

@@ -18,6 +18,12 @@ HEIGHT_CHANNELS = ("gnss_height", "gnss_vertical_velocity")
 ATTITUDE_CHANNELS = ("gnss_pitch", "gnss_roll")
 HIGHEST_RATE = 20.0
 """No vehicle on a road turns faster than this, in rad/s, about any axis."""
+LARGEST_READINGS = {
+    "gnss_height": 1e4,
+    "gnss_vertical_velocity": 100.0,
+    **dict.fromkeys(("gnss_pitch", "gnss_roll", "gnss_latitude", "gnss_longitude"), 360.0),
+}
+"""No antenna on a road has a reading beyond this, in m and m/s, nor an angle, even in degrees."""
 SILENT_S = 0.1
 """A silence of the IMU up to so long is bridged without a word."""
 STEPS = 2.5
@@ -57,6 +63,14 @@ def imu_silences(recording: Recording, track: str) -> Iterator[str]:
                 f"channel {channel.id}: no samples for {told_spans(silences)}; bridged and flagged"
             )
             _check_share(channel, float(lengths.sum()))
+
+
+def check_readings(recording: Recording) -> None:
+    """Raise InputError for a GNSS reading that no antenna on a road gives."""
+    for name, limit in LARGEST_READINGS.items():
+        channel = recording.find(name)
+        if channel is not None:
+            _check_range(channel, limit)
 
 
 def told_spans(spans: FloatArray) -> str:

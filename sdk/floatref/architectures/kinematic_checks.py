@@ -7,7 +7,7 @@ contradicts beyond doubt is refused; what it makes likely, and what is bridged, 
 from collections.abc import Iterator
 
 from floatref.architectures.kinematic_alive import check_alive
-from floatref.architectures.kinematic_channels import check_present, imu_silences
+from floatref.architectures.kinematic_channels import check_present, check_readings, imu_silences
 from floatref.architectures.kinematic_forces import check_curves, check_travel_force
 from floatref.architectures.kinematic_gnss import (
     faults_told,
@@ -18,7 +18,13 @@ from floatref.architectures.kinematic_gnss import (
 from floatref.architectures.kinematic_lever import check_antenna
 from floatref.architectures.kinematic_rates import check_plausible_rates, check_rates
 from floatref.architectures.kinematic_series import Motion
-from floatref.architectures.kinematic_timing import check_delay, check_epoch, check_velocity
+from floatref.architectures.kinematic_timing import (
+    check_epoch,
+    check_velocity,
+    delay,
+    delay_told,
+    on_time,
+)
 from floatref.values.recording import Recording
 
 __all__ = ["check_kinematics", "gnss_faults"]
@@ -40,37 +46,34 @@ def check_kinematics(
     base, and a sign, unit or axis that is certainly wrong.
     """
     check_present(recording, track, uses_gnss, uses_attitude)
-    begin_s, end_s = recording.channel("distance", track).span_s
+    span_s = recording.channel("distance", track).span_s
+    check_readings(recording)
     warnings = list(imu_silences(recording, track))
     if uses_gnss:
-        warnings += check_epoch(recording, begin_s, end_s)
+        warnings += check_epoch(recording, *span_s)
     motion = Motion.of(recording, track)
     if motion is not None:
-        warnings += _installation(recording, track, motion, uses_gnss, uses_attitude)
+        check_alive(recording, track, motion)
+        check_plausible_rates(recording, track, motion)
+        if uses_gnss:
+            delay_s = delay(recording, motion)
+            warnings += delay_told(delay_s)
+            recording = on_time(recording, delay_s)
+        warnings += check_travel_force(recording, track, motion)
+        warnings += check_curves(recording, track, motion)
+        warnings += check_rates(recording, track, motion, uses_attitude)
     if uses_gnss:
-        warnings += _gnss(recording, track, motion, begin_s, end_s)
+        warnings += _gnss(recording, track, motion, span_s)
     return tuple(warnings)
 
 
-def _installation(
-    recording: Recording, track: str, motion: Motion, uses_gnss: bool, uses_attitude: bool
-) -> Iterator[str]:
-    check_alive(recording, track, motion)
-    check_plausible_rates(recording, track, motion)
-    yield from check_travel_force(recording, track, motion)
-    yield from check_curves(recording, track, motion)
-    if uses_gnss:
-        yield from check_delay(recording, motion)
-        yield from check_velocity(recording, motion)
-    yield from check_rates(recording, track, motion, uses_attitude)
-
-
 def _gnss(
-    recording: Recording, track: str, motion: Motion | None, begin_s: float, end_s: float
+    recording: Recording, track: str, motion: Motion | None, span_s: tuple[float, float]
 ) -> Iterator[str]:
     faults = gnss_faults(recording)
-    yield from fixed_told(recording, begin_s, end_s)
+    yield from fixed_told(recording, *span_s)
     yield from faults_told(recording, faults)
-    yield from jumps_told(recording, faults)
     if motion is not None:
+        yield from check_velocity(recording, motion)
         yield from check_antenna(recording, track, motion, faults)
+    yield from jumps_told(recording, faults)

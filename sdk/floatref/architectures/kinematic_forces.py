@@ -14,7 +14,7 @@ TRAVEL = Look(span_s=20.0, floor=0.05)
 """Braking and setting off; the slope of the road and a bias are free."""
 CURVES = Look(span_s=10.0, floor=1.5, degree=-1)
 """A road banked by 15 % takes 1.5 m/s² off, and nothing is free: a long curve is constant."""
-COURSE = Look(span_s=20.0, floor=0.01, degree=0)
+COURSE = Look(span_s=8.0, floor=0.01, degree=0)
 """Turns of the course; where it starts is free."""
 
 

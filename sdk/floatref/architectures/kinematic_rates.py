@@ -65,7 +65,8 @@ def check_rates(
     names = [str(recording.channel(axis.rate, track).id) for axis in AXES]
     for axis, own, other in zip(AXES, (roll, pitch), (pitch, roll), strict=True):
         yield from _told_by_attitude(axis, names, own, other, uses_attitude)
-        yield from _told_by_tilt(axis, names, own, other, uses_attitude)
+        if not own.attitude.certain:
+            yield from _told_by_tilt(axis, names, own, other, uses_attitude)
 
 
 def _told_by_attitude(

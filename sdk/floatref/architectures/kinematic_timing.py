@@ -1,6 +1,7 @@
 """Whether GNSS is on the recording's time base: its span, and when it sees the body swing."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -16,7 +17,8 @@ from floatref.architectures.kinematic_series import (
 )
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
-from floatref.values.recording import Recording
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.recording import Channel, Recording
 
 SLOW_S = 2.0
 """Swings of the body are faster than means over this time, taken twice."""
@@ -27,6 +29,8 @@ CLEAR, ALONE = 5.0, 8.0
 channel tells it."""
 TOGETHER_S = 0.05
 """Two channels agree up to this."""
+MOST = 0.75
+"""They are looked for up to such a share of the run off."""
 LATE_S, WRONG_S = 0.06, 0.5
 """From the first on a warning is given, from the second on the recording is refused."""
 
@@ -53,22 +57,38 @@ def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[
         )
 
 
-def check_delay(recording: Recording, motion: Motion) -> Iterator[str]:
-    """Yield a warning if GNSS sees the body swing earlier or later than the IMU does.
+def delay_told(delay_s: float) -> Iterator[str]:
+    """Yield a warning if GNSS is late (or early, below 0) for the IMU by ``delay_s``.
 
     Raises InputError from `WRONG_S` on: the time stamps are of another time base.
     """
-    found = _delay(recording, motion)
-    if found is None or abs(found) < LATE_S:
+    if abs(delay_s) < LATE_S:
         return
-    late = "late" if found > 0 else "early"
+    late = "late" if delay_s > 0 else "early"
     line = (
-        f"channel gnss_height: GNSS sees the body swing {abs(found):.2f} s too {late} for the IMU; "
-        f"add {-found:.2f} s to its time stamps"
+        f"channel gnss_height: GNSS sees the body swing {abs(delay_s):.2f} s too {late} for the "
+        f"IMU; add {-delay_s:.2f} s to its time stamps"
     )
-    if abs(found) >= WRONG_S:
+    if abs(delay_s) >= WRONG_S:
         raise InputError(f"{line} (UTC and GPS time differ by leap seconds)")
-    yield f"{line}, if the receiver does not say otherwise"
+    yield line
+
+
+def on_time(recording: Recording, delay_s: float) -> Recording:
+    """Return the recording with the GNSS channels ``delay_s`` earlier, if that is worth a word."""
+    if abs(delay_s) < LATE_S:
+        return recording
+    channels = (
+        _earlier(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
+    )
+    return replace(recording, channels=tuple(channels))
+
+
+def _earlier(channel: Channel, by_s: float) -> Channel:
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        return replace(channel, clock=StampedClock.of(clock.times_s - by_s))
+    return replace(channel, clock=UniformClock(clock.rate, clock.start_s - by_s))
 
 
 HEAVE = Look(span_s=2.5, floor=0.01)
@@ -92,8 +112,11 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
     )
 
 
-def _delay(recording: Recording, motion: Motion) -> float | None:
-    """Return by how many s GNSS is late: two channels agree on it, or one is sure by itself."""
+def delay(recording: Recording, motion: Motion) -> float:
+    """Return by how many s GNSS sees the body swing later than the IMU does; 0 if none tells it.
+
+    Two channels have to agree on it, or one to be sure by itself.
+    """
     own = {
         "gnss_vertical_velocity": integrated(motion.lift),
         "gnss_roll": motion.swing[0],
@@ -108,7 +131,7 @@ def _delay(recording: Recording, motion: Motion) -> float | None:
     close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
     if close:
         return min((b - a, (a + b) / 2) for a, b in close)[1]
-    return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else None
+    return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else 0.0
 
 
 def _peak(correlation: FloatArray) -> tuple[float, float]:
@@ -126,7 +149,7 @@ def _peak(correlation: FloatArray) -> tuple[float, float]:
 def _correlation(own: FloatArray, told: FloatArray) -> FloatArray:
     """Return the correlation of two rows by the delay of the second, up to `FARTHEST_S`."""
     x, y = (np.nan_to_num(row - smoothed(row, SLOW_S)) for row in (own, told))
-    reach = min(int(FARTHEST_S / STEP_S), x.size // 2)
+    reach = min(int(FARTHEST_S / STEP_S), int(MOST * x.size))
     size = 1 << (2 * x.size - 1).bit_length()
     product = np.fft.irfft(np.conj(np.fft.rfft(x, size)) * np.fft.rfft(y, size), size)
     return np.concatenate([product[-reach:], product[: reach + 1]])
