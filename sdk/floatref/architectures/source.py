@@ -141,9 +141,7 @@ def _flags(name: ChannelId, stretch: Stretch) -> FlagArray | None:
     if stretch.missing is None:
         return None
     flags = np.where(stretch.missing, np.uint8(Flag.MISSING), np.uint8(0))
-    lasting = None if name.name == HEIGHT else Flag.DRIFT
-    if name.name == DISTANCE:
-        lasting = Flag.SLOW
+    lasting = {SPECIFIC_FORCE: Flag.DRIFT, DISTANCE: Flag.SLOW}.get(name.name)
     if lasting is not None and stretch.lost is not None:
         flags |= np.where(stretch.lost, np.uint8(lasting), np.uint8(0))
     return flags

@@ -12,9 +12,11 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.kernels.kalman_layout import (
     BELIEVED_AT,
+    BIAS,
     CAPTURE,
     CAPTURED,
     DRIFT,
+    FORGET,
     GATE,
     IN_A_ROW,
     INNOVATION,
@@ -23,6 +25,7 @@ from floatref.kernels.kalman_layout import (
     KINDS,
     LATEST,
     LEAN,
+    LEVEL,
     OFFSET,
     ORIGIN,
     REFLECTED,
@@ -30,6 +33,9 @@ from floatref.kernels.kalman_layout import (
     RELATIVE,
     RENEW,
     RENEWED,
+    RUNNING,
+    RUNNING_S,
+    SHIFT,
     SPREAD,
     STATES,
     STEPS,
@@ -61,9 +67,9 @@ def run(
 
     Sample number ``first`` is absolute. ``model`` holds the step in s, g in m/s², the lever arm
     (3) in m, squares of the process densities (7), variances in m² of a new datum and of an
-    offset, and up to where innovations are believed (4). Observations at samples ``at``: four
-    values in ``y``, NaN if there is none, four variances, and the variance that the drift of the
-    GNSS height gains, shape (m, 9). ``x``, ``p`` and ``memory`` are changed; ``height`` gets the
+    offset, up to where innovations are believed (4), and the variance of a lean in rad².
+    Observations at samples ``at``: four values in ``y``, NaN if there is none, four variances, and
+    the variance that the drift of the GNSS height gains, shape (m, 9). ``x``, ``p`` and ``memory`` are changed; ``height`` gets the
     filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what the backward pass
     needs; a node's second number is the end of its updates.
     """
@@ -78,12 +84,14 @@ def run(
         if node >= size:
             break
         before, speed = x[0], x[1]
-        _keep_transition(memory, nodes[count])
+        _keep_transition(memory, model[0], nodes[count])
         _predict(p, work, memory, model, x)
         if observed < at.size and at[observed] == first + node:
             mark, seen = marks[observed], y[observed]
+            if mark & FORGET and not mark & RENEW:
+                nodes[count, SHIFT] = _forget(model[18], x, p, memory)
             done = _observe(u, node, model, mark, seen, x, p, memory, h, work, updates, done)
-            nodes[count, RENEWED] = 1.0 if mark & RENEW else 0.0
+            nodes[count, RENEWED] = _other(mark)
             height[node] = x[0]
             observed += 1
         _close_node(
@@ -107,7 +115,7 @@ def end(
     if memory[STEPS] == 0.0:
         return 0
     work = np.zeros((4, STATES))
-    _keep_transition(memory, nodes[0])
+    _keep_transition(memory, model[0], nodes[0])
     _predict(p, work, memory, model, x)
     _close_node(int(memory[LATEST]), 0, 0.0, 0.0, p, nodes[0], node_at[0])
     return 1
@@ -180,17 +188,20 @@ def _advance(
     )
     ux, uy, uz, w1, w2, w3 = memory[18], memory[19], memory[20], memory[21], memory[22], memory[23]
     st, ct, sp, cp = memory[24], memory[25], memory[26], memory[27]
-    sum_3, sum_4, lean, r8, v8 = memory[29], memory[30], x[LEAN], memory[16], memory[17]
+    sum_3, sum_4, lean, level = memory[29], memory[30], x[LEAN], memory[LEVEL]
+    r8, v8 = memory[16], memory[17]
     for i in range(begin, end):
         ax, ay, az = 0.5 * (ux + fx[i]), 0.5 * (uy + fy[i]), 0.5 * (uz + fz[i]) + gravity
         q1, q2, q3 = 0.5 * (w1 + wx[i]) + bias_1, 0.5 * (w2 + wy[i]) + bias_2, 0.5 * (w3 + wz[i])
         ux, uy, uz, w1, w2, w3 = fx[i], fy[i], fz[i], wx[i], wy[i], wz[i]
-        across, along, tangent = sp * ay + cp * az, sp * q2 + cp * q3, st / ct
+        across, along, inverse = sp * ay + cp * az, sp * q2 + cp * q3, 1.0 / ct
+        tangent = st * inverse
         by_3, by_4 = -ct * ax - st * across, ct * (cp * ay - sp * az)
         turn_3 = (cp * q2 - sp * q3) * step
         turn_4 = (q1 + tangent * along) * step
-        rise = ct * across + (lean - st) * ax + bias - gravity
-        a34, a43, a44 = -step * along, along * step / (ct * ct), 1.0 + turn_3 * tangent
+        surge = ax - level
+        rise = ct * across - st * ax + lean * surge + bias - gravity
+        a34, a43, a44 = -step * along, along * step * inverse * inverse, 1.0 + turn_3 * tangent
         e3, e4, e6, e7 = (
             by_3 * a3 + by_4 * b3,
             by_3 * a4 + by_4 * b4,
@@ -204,13 +215,13 @@ def _advance(
         a4, b4 = a4 + a34 * b4, a44 * b4 + a43 * a4
         a6, b6 = a6 + a34 * b6, a44 * b6 + a43 * a6 + step
         a7, b7 = a7 + a34 * b7 + cp * step, a44 * b7 + a43 * a7 + sp * tangent * step
-        r8, v8 = r8 + step * v8 + half * ax, v8 + step * ax
+        r8, v8 = r8 + step * v8 + half * surge, v8 + step * surge
         sum_3, sum_4 = sum_3 + by_3, sum_4 + by_4
         r, v = r + (step * v + half * rise), v + step * rise
         theta, phi = theta + turn_3, phi + turn_4
-        even, odd = 0.5 * turn_3 * turn_3, turn_3 - turn_3 * turn_3 * turn_3 / 6.0
+        even, odd = 0.5 * turn_3 * turn_3, turn_3 - turn_3 * turn_3 * turn_3 * (1.0 / 6.0)
         st, ct = st + (ct * odd - st * even), ct - (st * odd + ct * even)
-        even, odd = 0.5 * turn_4 * turn_4, turn_4 - turn_4 * turn_4 * turn_4 / 6.0
+        even, odd = 0.5 * turn_4 * turn_4, turn_4 - turn_4 * turn_4 * turn_4 * (1.0 / 6.0)
         sp, cp = sp + (cp * odd - sp * even), cp - (sp * odd + cp * even)
         height[i] = r
     x[0], x[1], x[2], x[3] = r, v, theta, phi
@@ -237,10 +248,15 @@ def _begin_sub_block(x: FloatArray, memory: FloatArray) -> None:
 
 
 @compiled
-def _keep_transition(memory: FloatArray, node: FloatArray) -> None:
+def _keep_transition(memory: FloatArray, step: float, node: FloatArray) -> None:
+    """Copy the transition to ``node``, and follow the longitudinal specific force."""
     for j in range(TRANSITION):
         node[j] = memory[j]
-    node[RENEWED] = 0.0
+    node[RENEWED], node[SHIFT] = 0.0, 0.0
+    span = memory[STEPS] * step
+    if span > 0.0:
+        mean = memory[17] / span + memory[LEVEL]
+        memory[RUNNING] += (mean - memory[RUNNING]) * min(1.0, span / RUNNING_S)
 
 
 @compiled
@@ -384,7 +400,8 @@ def _base(
     if mark & CAPTURE:
         memory[CAPTURED] = predicted[0]
     if mark & RENEW:
-        _renew(x, p, memory, model[13])
+        memory[ORIGIN] = x[0]
+        _renew(OFFSET, model[13], x, p)
     if mark & REFLECTED:
         predicted[0] = x[0] + x[OFFSET]
         h[0, 2], h[0, 3], h[0, OFFSET] = 0.0, 0.0, 1.0
@@ -425,12 +442,37 @@ def _believed(
 
 
 @compiled
-def _renew(x: FloatArray, p: FloatArray, memory: FloatArray, variance: float) -> None:
-    """Begin a stop: heights are told from here, and the filter's own may be off."""
-    memory[ORIGIN], x[OFFSET] = x[0], 0.0
+def _other(mark: int) -> float:
+    """Return the state that an observation of ``mark`` begins anew, 0 if there is none."""
+    if mark & RENEW:
+        return float(OFFSET)
+    return float(LEAN) if mark & FORGET else 0.0
+
+
+@compiled
+def _forget(variance: float, x: FloatArray, p: FloatArray, memory: FloatArray) -> float:
+    """Begin the lean anew, told from the present specific force; returns how far that moved.
+
+    What the lean made of this force so far becomes part of the acceleration's bias.
+    """
+    shift = memory[RUNNING] - memory[LEVEL]
+    memory[LEVEL] = memory[RUNNING]
+    x[BIAS] += shift * x[LEAN]
     for j in range(STATES):
-        p[OFFSET, j], p[j, OFFSET] = 0.0, 0.0
-    p[OFFSET, OFFSET] = variance
+        p[BIAS, j] += shift * p[LEAN, j]
+    for j in range(STATES):
+        p[j, BIAS] += shift * p[j, LEAN]
+    _renew(LEAN, variance, x, p)
+    return float(shift)
+
+
+@compiled
+def _renew(state: int, variance: float, x: FloatArray, p: FloatArray) -> None:
+    """Begin ``state`` anew, from zero."""
+    x[state] = 0.0
+    for j in range(STATES):
+        p[state, j], p[j, state] = 0.0, 0.0
+    p[state, state] = variance
 
 
 @compiled

@@ -9,11 +9,12 @@ import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.kernels.kalman_layout import (
+    BIAS,
     INNOVATION,
     JUMP,
     LEAN,
-    OFFSET,
     RENEWED,
+    SHIFT,
     SPREAD,
     STATES,
 )
@@ -44,7 +45,7 @@ def smooth(
         for m in range(node_at[k, 1] - 1, low - 1, -1):
             _undo(updates[m], adjoint)
         if node[RENEWED] > 0.0:
-            adjoint[OFFSET] = 0.0
+            adjoint[int(node[RENEWED])] = node[SHIFT] * adjoint[BIAS]
         earlier = node_at[k - 1, 0] if k > 0 else before
         _back(node, (node_at[k, 0] - earlier) * step, adjoint)
 
@@ -171,7 +172,8 @@ def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
             phi += node[12 + j] * value
         psi[0, c], psi[1, c], psi[2, c], psi[3, c] = moved, climb, theta, phi
         if node[RENEWED] > 0.0:
-            psi[OFFSET, c] = 0.0
+            psi[BIAS, c] += node[SHIFT] * psi[LEAN, c]
+            psi[int(node[RENEWED]), c] = 0.0
 
 
 @compiled

@@ -1,16 +1,31 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.stages.kalman.inputs import IMU, InputChannels, Readings, channel_of, stretch_of
+from floatref.stages.kalman.inputs import (
+    IMU,
+    InputChannels,
+    Quiet,
+    Readings,
+    channel_of,
+    stretch_of,
+)
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
 from floatref.stages.kalman.track import TrackFilter
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
-from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
+from floatref.stages.signals import (
+    ACCELERATION,
+    DISTANCE,
+    HEIGHT,
+    REFERENCE_HEIGHT,
+    TRAVEL_SPEED,
+)
 from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
@@ -37,23 +52,25 @@ class KalmanStage(Stage):
         """Ask for the sensors of every track and the travel speed, in time."""
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
-        header.require(self.name, ChannelId(TRAVEL_SPEED))
+        header.require(self.name, ChannelId(TRAVEL_SPEED), ChannelId(DISTANCE))
         for track in header.tracks:
             own = [ChannelId(name, track) for name in (ACCELERATION, HEIGHT)]
             shared = [channel_of(header, name, track) for name in IMU]
             header.require(self.name, *own, *shared)
         self._header = header
         self._channels = tuple(InputChannels.of(header, track) for track in header.tracks)
-        self.memory = {"readings": Readings(header), "filters": {}}
+        quiet = Quiet(round(1.0 / header.step))
+        self.memory = {"readings": Readings(header), "quiet": quiet, "filters": {}}
         return header.replacing(ACCELERATION, REFERENCE_HEIGHT).without(*IMU)
 
     def forward(self, block: Block) -> dict[str, tuple[FloatArray, Nodes]]:
         """Filter every track; returns the filtered heights in m and the nodes."""
-        taken, rows = self.memory["readings"].take(block.events, block.first + len(block))
+        readings = self.memory["readings"].take(block.events, block.first + len(block))
+        quiet = self.memory["quiet"].take(block.first, block[ChannelId(DISTANCE)])
         found = {}
         for channels in self._channels:
             track = channels.track
-            stretch = stretch_of(block, track, self.plan, taken, rows)
+            stretch = stretch_of(block, track, self.plan, readings, quiet)
             found[track] = self._filter(track, block).advance(channels.inputs(block), stretch)
         return found
 
@@ -74,6 +91,14 @@ class KalmanStage(Stage):
             )
         return filters[track]
 
+    def empty(self, block: Block, *names: str) -> Block:
+        """Return an output without samples at the place of ``block``."""
+        assert self._header is not None
+        made = (REFERENCE_HEIGHT, *names)
+        values = {ChannelId(n, track): np.empty(0) for n in made for track in self._header.tracks}
+        nothing = block.part(0, 0).without(ACCELERATION, *IMU)
+        return replace(nothing.setting(values), events=())
+
     def flags(self, block: Block, channels: InputChannels) -> FlagArray | None:
         """Return the flags of all inputs of a wheel path."""
         return flags_of(block, *channels.names)
@@ -85,6 +110,8 @@ class KalmanFilter(KalmanStage):
     def advance(self, block: Block) -> Block:
         """Filter every track."""
         values, flags = {}, {}
+        if len(block) == 0:
+            return self.empty(block)
         found = self.forward(block)
         for channels in self._channels:
             target = ChannelId(REFERENCE_HEIGHT, channels.track)

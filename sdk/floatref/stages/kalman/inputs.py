@@ -24,6 +24,8 @@ GNSS = tuple(
 QUALITY = ChannelId("gnss_quality")
 FIXED = 4.0
 """Quality of a reading whose phase ambiguities are fixed (section 6.4.4)."""
+SECONDS, MOVING, STEADY = 4, 5.0, 0.4
+"""A constant speed is one beyond 5 m/s that changes by less than 0.4 m/s in four seconds."""
 LONGEST_S = 1.0
 """Interval that the first reading is taken to have, and those after a gap."""
 
@@ -91,8 +93,37 @@ class Readings:
             self.held.append((index, (*row, min(interval_s, LONGEST_S))))
 
 
+@dataclass
+class Quiet:
+    """Where the vehicle has been travelling at a constant speed for four seconds.
+
+    Looked for at every fourth second of the run, from what the encoder went in each of them.
+    """
+
+    second: int
+    travelled: list[float] = field(default_factory=list)
+
+    def take(self, first: int, distance_m: FloatArray) -> IndexArray:
+        """Return the samples of ``distance_m``, whose first is ``first``, that are such places."""
+        at = np.arange(-(-first // self.second) * self.second, first + distance_m.size, self.second)
+        found = []
+        for sample, travelled in zip(at, distance_m[at - first].tolist(), strict=True):
+            self.travelled = [*self.travelled[-SECONDS:], travelled]
+            if sample % (SECONDS * self.second) == 0 and self._steady():
+                found.append(sample)
+        return np.array(found, np.int64)
+
+    def _steady(self) -> bool:
+        speeds = np.diff(self.travelled)
+        return bool(speeds.size == SECONDS and speeds.min() > MOVING and np.ptp(speeds) < STEADY)
+
+
 def stretch_of(
-    block: Block, track: str, plan: Plan, taken: IndexArray, readings: FloatArray
+    block: Block,
+    track: str,
+    plan: Plan,
+    readings: tuple[IndexArray, FloatArray],
+    quiet: IndexArray,
 ) -> Stretch:
     """Return what the references of ``track`` need to know of ``block``."""
     standing: BoolArray = block[ChannelId(TRAVEL_SPEED)] < plan.reflection_speed_mps
@@ -101,4 +132,4 @@ def stretch_of(
     flags = block.flags.get(height)
     if flags is not None:
         there = there & (flags == 0)
-    return Stretch(block.first, standing, block[height], there, taken, readings)
+    return Stretch(block.first, standing, block[height], there, *readings, quiet)

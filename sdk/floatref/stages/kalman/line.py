@@ -75,13 +75,14 @@ class Line:
 
     def ready(self) -> int:
         """Return how many segments may be closed: those that neither readings nor filter reach."""
-        count = closing(self.segments, self.rule.tolerance_m)
+        rule = self.rule
+        count = closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
         latest = self.segments[-1].marks
         while count:
             marks = self.segments[count - 1].marks
             travelled = latest.distance_m[-1] - marks.distance_m[-1]
-            waited = (latest.at[-1] - marks.at[-1]) * self.rule.step
-            if travelled >= REACH * self.rule.wavelength_m or waited >= WAITED_S:
+            waited = (latest.at[-1] - marks.at[-1]) * rule.step
+            if travelled >= REACH * rule.wavelength_m or waited >= WAITED_S:
                 break
             count -= 1
         return count
@@ -125,7 +126,7 @@ class Line:
 
 def _front(pieces: list[FloatArray], count: int) -> FloatArray:
     """Take the first ``count`` samples off ``pieces``."""
-    taken = []
+    taken = [np.empty(0)] if count == 0 else []
     while count:
         piece = pieces.pop(0)
         if piece.size > count:

@@ -1,6 +1,6 @@
-"""The stretches on which filter and smoother work, and what the filter leaves behind in them."""
+"""What the filter leaves behind for the backward pass."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -37,18 +37,3 @@ class Nodes:
         at = [p.at + np.array([0, end]) for p, end in zip(parts, ends, strict=False)]
         nodes, updates = [p.nodes for p in parts], [p.updates for p in parts]
         return cls(np.concatenate(at), np.concatenate(nodes), np.concatenate(updates))
-
-
-@dataclass(eq=False)
-class Segment:
-    """Samples ``first`` to ``first + height.size - 1``, whose last is a node.
-
-    ``before`` is the sample of the node before the segment and ``origin`` that node's row.
-    """
-
-    first: int
-    before: int
-    origin: FloatArray
-    height: FloatArray
-    parts: list[Nodes] = field(default_factory=list)
-    filled: int = 0

@@ -35,7 +35,7 @@ class Noise:
     """
 
     acceleration: float = 4.65e-5
-    acceleration_walk: float = 3e-4
+    acceleration_walk: float = 1e-4
     roll_rate: float = 1.34e-5
     pitch_rate: float = 1.34e-5
     yaw_rate: float = 1.34e-5

@@ -8,6 +8,7 @@ import numpy as np
 
 from floatref.kernels.kalman_layout import (
     CAPTURE,
+    FORGET,
     KINDS,
     OBSERVATION,
     REFLECTED,
@@ -24,6 +25,7 @@ READING_S = 0.045
 """GNSS readings at shorter intervals count for less: their errors are those of the one before."""
 USUAL_S = 0.05
 """Interval behind the errors of a reading in Table 6.1."""
+UNSEEN = np.full(KINDS, np.nan)
 DATUM_M = 100.0
 """1-σ of a new datum of the GNSS height, after an outage."""
 
@@ -49,7 +51,8 @@ class Stretch:
     """Samples ``first`` on: which of them stand still, the height, and where it is there.
 
     ``readings``, shape (m, 5), are usable GNSS readings: height, velocity, pitch, roll, and the
-    interval from the reading before in s; ``taken`` their samples.
+    interval from the reading before in s; ``taken`` their samples; at samples ``quiet`` the
+    vehicle has been travelling at a constant speed.
     """
 
     first: int
@@ -58,11 +61,12 @@ class Stretch:
     there: BoolArray
     taken: IndexArray
     readings: FloatArray
+    quiet: IndexArray
 
     def part(self, begin: int, end: int) -> "Stretch":
         """Return the samples from number ``begin`` of this stretch up to ``end``."""
         low, high = self.first + begin, self.first + end
-        taken = slice(*np.searchsorted(self.taken, (low, high)))
+        taken, quiet = (slice(*np.searchsorted(at, (low, high))) for at in (self.taken, self.quiet))
         return Stretch(
             low,
             self.standing[begin:end],
@@ -70,6 +74,7 @@ class Stretch:
             self.there[begin:end],
             self.taken[taken],
             self.readings[taken],
+            self.quiet[quiet],
         )
 
 
@@ -121,7 +126,10 @@ class References:
         there = np.flatnonzero(stretch.there)
         if there.size:
             self.height = float(stretch.height[there[-1]])
-        return self._observed(stretch, heights=True)
+        observed = self._observed(stretch, heights=True)
+        if stretch.quiet.size == 0:
+            return observed
+        return _merged(observed, _chunk(stretch.quiet, FORGET, UNSEEN, UNSEEN, np.nan))
 
     def _standing(self, stretch: Stretch) -> Chunk:
         """Return the height sensor's readings in place of heights, the rest as ever."""
@@ -131,23 +139,30 @@ class References:
 
     def _observed(self, stretch: Stretch, heights: bool) -> Chunk:
         """Return GNSS readings, and constants where they are missing."""
-        end = stretch.first + stretch.height.size
+        end, taken = stretch.first + stretch.height.size, stretch.taken
         if not self.plan.gnss:
             return self._constants(stretch.first, end)
         patience = round(PATIENCE_S / self.step)
-        edges = np.concatenate(([self.latest], stretch.taken, [end]))
+        edges = np.concatenate(([self.latest], taken, [end]))
         lost = np.flatnonzero(np.diff(edges) > patience)
-        gaps = [
-            self._constants(max(stretch.first, int(edges[k]) + patience), int(edges[k + 1]))
-            for k in lost
-        ]
-        readings = self._readings(stretch, heights, lost)
-        if stretch.taken.size:
-            self.latest = int(stretch.taken[-1])
+        again = lost[lost < taken.size].tolist() + ([0] if self.constant and taken.size else [])
+        readings = self._readings(stretch, heights, again)
+        gaps = []
+        for k in lost:
+            self.constant = self.constant and not (heights and k > 0)
+            begin = max(stretch.first, int(edges[k]) + patience)
+            gaps.append(self._constants(begin, int(edges[k + 1])))
+        if heights and taken.size and taken.size not in lost:
+            self.constant = False
+        self.latest = int(edges[-2])
         return _merged(readings, _joined(gaps)) if gaps else readings
 
-    def _readings(self, stretch: Stretch, heights: bool, lost: IndexArray) -> Chunk:
-        """Return the GNSS readings, heights from the datum of this wheel path, (6.48)."""
+    def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Chunk:
+        """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
+
+        The datum may have moved slowly since the reading before, and anywhere in an outage, behind
+        which the readings ``again`` come.
+        """
         at, interval_s = stretch.taken, stretch.readings[:, KINDS]
         if at.size == 0:
             return _joined([])
@@ -160,20 +175,21 @@ class References:
             y[:, 2:] = 0.0
             variance[:, 2:] = self.noise.constants(USUAL_S)[2:] * crowded[:, None]
         moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
-        moved[lost[lost < at.size]] = DATUM_M**2
-        if heights:
-            moved[0] = DATUM_M**2 if self.constant else moved[0]
-            self.heard, self.constant = int(at[-1]), at.size in lost
+        moved[again] = DATUM_M**2
+        self.heard = int(at[-1]) if heights else self.heard
         return _chunk(at, 0, y, variance, moved)
 
     def _constants(self, begin: int, end: int) -> Chunk:
         """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
-        variance = self.noise.constants(self.sub_block * self.step)
+        if at.size == 0:
+            return _joined([])
+        weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
+        variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
         chunk = _chunk(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
-        if at.size and not self.constant:
+        if not self.constant:
             chunk[1][0] |= CAPTURE
-            self.constant = True
+        self.constant = True
         return chunk
 
     def _ends(self, begin: int, end: int) -> IndexArray:

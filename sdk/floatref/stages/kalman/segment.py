@@ -4,24 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import SPREAD, STATES
+from floatref.kernels.kalman_layout import STATES
 from floatref.stages.kalman.nodes import Nodes
 from floatref.values.arrays import FloatArray, IndexArray
 
 CORRECTIONS = 4
 """Numbers of a correction: height and velocity on both sides of a node."""
-UPPER = np.triu_indices(STATES)
 APART_M = 4.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
-
-
-def covariance(node: FloatArray) -> FloatArray:
-    """Return P of the row ``node``, shape (10, 10)."""
-    p = np.empty((STATES, STATES))
-    p[UPPER] = node[SPREAD:]
-    p.T[UPPER] = node[SPREAD:]
-    return p
 
 
 @dataclass(eq=False)
@@ -45,14 +36,15 @@ class Marks:
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        from floatref.kernels import kalman_backward
+        from floatref.kernels import kalman_backward, kalman_covariance
 
         chosen = _chosen(nodes.at[:, 0], distance_m, step)
         passed, gathered = np.empty((2, chosen.size, STATES, STATES))
         kalman_backward.closed_loop(
             nodes.at, nodes.nodes, nodes.updates, max(before, 0), step, chosen, passed, gathered
         )
-        spread = np.array([covariance(node) for node in nodes.nodes[chosen]])
+        spread = np.empty_like(passed)
+        kalman_covariance.unpack(nodes.nodes, chosen, spread)
         return cls(nodes.at[chosen, 0], distance_m[chosen], spread, passed, gathered)
 
 

@@ -39,16 +39,13 @@ class Settled:
     @classmethod
     def of(cls, marks: Sequence[Marks]) -> "Settled":
         """Settle ``marks`` of segments one after the other, nothing known behind them."""
-        spread = np.concatenate([m.covariance for m in marks])
+        from floatref.kernels import kalman_covariance
+
+        column = np.concatenate([m.covariance[:, :, 0] for m in marks])
         passed = np.concatenate([m.passed for m in marks])
         gathered = np.concatenate([m.gathered for m in marks])
-        column = spread[:, :, 0]
-        left = np.zeros_like(column)
-        left[:, 0] = 1.0
-        information = np.zeros_like(spread[0])
-        for k in range(len(spread) - 1, -1, -1):
-            left[k] -= information @ column[k]
-            information = passed[k].T @ information @ passed[k] + gathered[k]
+        left = np.empty_like(column)
+        kalman_covariance.settle(column, passed, gathered, left)
         at = np.concatenate([m.at for m in marks])
         distance = np.concatenate([m.distance_m for m in marks])
         return cls(at, np.maximum.accumulate(distance), column, left, passed)
@@ -70,8 +67,7 @@ def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: fl
     of the height sensor, which passes the filter as it is.
     """
     error = covariances(marks)
-    weights = -low_pass(marks.distance_m, wavelength_m)[first:end]
-    weights[np.arange(end - first), np.arange(first, end)] += 1.0
+    weights = high_pass(marks.distance_m, wavelength_m, np.arange(first, end))
     variance = np.einsum("ij,ij->i", weights @ error, weights)
     deviation: FloatArray = np.sqrt(np.maximum(variance, 0.0) + noise_m**2)
     return deviation
@@ -79,28 +75,27 @@ def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: fl
 
 def covariances(marks: Settled) -> FloatArray:
     """Return E[e_i e_j] of the smoothed height at all marks, shape (n, n), in m²."""
-    count = len(marks.at)
-    found = np.empty((count, count))
-    moved = np.empty((marks.column.shape[1], count))
-    for j in range(count):
-        moved[:, :j] = marks.passed[j] @ moved[:, :j]
-        moved[:, j] = marks.column[j]
-        found[: j + 1, j] = found[j, : j + 1] = marks.left[j] @ moved[:, : j + 1]
+    from floatref.kernels import kalman_covariance
+
+    found = np.empty((len(marks.at), len(marks.at)))
+    kalman_covariance.relate(marks.column, marks.left, marks.passed, found)
     return found
 
 
-def low_pass(distance_m: FloatArray, wavelength_m: float) -> FloatArray:
-    """Return the weights of the low-pass at all marks, shape (n, n); each row sums to 1.
+def high_pass(distance_m: FloatArray, wavelength_m: float, wanted: IndexArray) -> FloatArray:
+    """Return what HPF_B3x2 takes of all marks for those ``wanted``, shape (m, n).
 
-    Its impulse response is k_c/6 (e^-a + e^(-a/2) (cos(b) + sqrt(3) sin(b))), a = k_c |x|,
-    b = sqrt(3)/2 a, k_c = 2 pi / ``wavelength_m``.
+    1 for the mark itself less the low-pass, whose weights sum to 1. Its impulse response is
+    k_c/6 (e^-a + e^(-a/2) (cos(b) + sqrt(3) sin(b))), a = k_c |x|, b = sqrt(3)/2 a,
+    k_c = 2 pi / ``wavelength_m``.
     """
-    a = np.abs(distance_m[:, None] - distance_m) * (2 * np.pi / wavelength_m)
+    a = np.abs(distance_m[wanted, None] - distance_m) * (2 * np.pi / wavelength_m)
     b = np.sqrt(0.75) * a
     response = np.exp(-a) + np.exp(-a / 2) * (np.cos(b) + np.sqrt(3.0) * np.sin(b))
     steps = np.diff(distance_m)
     weights: FloatArray = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
     total = weights.sum(axis=1, keepdims=True)
     even = np.full_like(weights, 1.0 / distance_m.size)
-    found: FloatArray = np.divide(weights, total, out=even, where=total > 0)
+    found: FloatArray = -np.divide(weights, total, out=even, where=total > 0)
+    found[np.arange(wanted.size), wanted] += 1.0
     return found

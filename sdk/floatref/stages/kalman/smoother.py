@@ -43,7 +43,6 @@ class KalmanSmoother(KalmanStage):
     def open(self, header: Header) -> Header:
         """Begin with nothing kept."""
         out = super().open(header)
-        header.require(self.name, ChannelId(DISTANCE))
         self._length = SUB_BLOCKS * sub_block(header.step)
         rule = Closing(header.step, self.tolerance_m, self.wavelength_m, self.noise.height_m)
         self.memory["lines"] = {track: Line(rule) for track in header.tracks}
@@ -53,6 +52,8 @@ class KalmanSmoother(KalmanStage):
 
     def advance(self, block: Block) -> Block:
         """Filter the block; return the blocks whose segments are closed."""
+        if len(block) == 0:
+            return self._nothing(block)
         for part, full in self._split(block):
             distance = part[ChannelId(DISTANCE)]
             for track, (height, nodes) in self.forward(part).items():
@@ -62,7 +63,7 @@ class KalmanSmoother(KalmanStage):
                 self._end_segment()
         self.memory["blocks"].append(self._without_inputs(block))
         done = list(self._closed_blocks())
-        return joined(done) if done else self._nothing()
+        return joined(done) if done else self._nothing(block)
 
     def close(self) -> tuple[Block, ...]:
         """Return all that is left."""
@@ -111,14 +112,10 @@ class KalmanSmoother(KalmanStage):
                 values[ChannelId(SIGMA, track)] = deviation
             yield block.setting(values)
 
-    def _nothing(self) -> Block:
-        """Return an empty block at the place of the next one."""
-        block: Block = self.memory["blocks"][0]
-        names = (REFERENCE_HEIGHT, SIGMA)
-        tracks = self.memory["lines"]
-        return block.part(0, 0).setting(
-            {ChannelId(name, track): np.empty(0) for name in names for track in tracks}
-        )
+    def _nothing(self, block: Block) -> Block:
+        """Return an empty block at the place of the next one, ``block`` if none is kept."""
+        blocks: list[Block] = self.memory["blocks"]
+        return self.empty(blocks[0] if blocks else block, SIGMA)
 
     def _without_inputs(self, block: Block) -> Block:
         flags = {}

@@ -57,6 +57,7 @@ class TrackFilter:
                 DATUM_M**2,
                 noise.reflection_offset_m**2,
                 *FLOORS,
+                noise.lean_rad**2,
             ]
         )
         x, memory = np.zeros(STATES), np.zeros(MEMORY)

@@ -1,0 +1,97 @@
+"""How covariances of the smoother follow from those of the filter, between a few of its nodes."""
+
+import numpy as np
+
+from floatref.kernels.compiling import compiled
+from floatref.kernels.kalman_layout import SPREAD, STATES
+from floatref.values.arrays import FloatArray, IndexArray
+
+
+@compiled
+def unpack(nodes: FloatArray, chosen: IndexArray, found: FloatArray) -> None:
+    """Write P of the nodes ``chosen`` into ``found``, shape (n, 10, 10)."""
+    for k in range(chosen.size):
+        at = SPREAD
+        for i in range(STATES):
+            for j in range(i, STATES):
+                found[k, i, j] = nodes[chosen[k], at]
+                found[k, j, i] = nodes[chosen[k], at]
+                at += 1
+
+
+@compiled
+def settle(column: FloatArray, passed: FloatArray, gathered: FloatArray, left: FloatArray) -> None:
+    """Write (I - Lambda P) e_r of all marks into ``left``, nothing known behind the last.
+
+    Lambda, the covariance of lambda, goes back as Psi' Lambda Psi + G.
+    """
+    information = np.zeros((STATES, STATES))
+    half = np.zeros((STATES, STATES))
+    for k in range(column.shape[0] - 1, -1, -1):
+        for i in range(STATES):
+            total = 1.0 if i == 0 else 0.0
+            for j in range(STATES):
+                total -= information[i, j] * column[k, j]
+            left[k, i] = total
+        _times(information, passed[k], half, False)
+        _times(passed[k], half, information, True)
+        for i in range(STATES):
+            for j in range(STATES):
+                information[i, j] += gathered[k, i, j]
+
+
+@compiled
+def _times(a: FloatArray, b: FloatArray, product: FloatArray, turned: bool) -> None:
+    """Write a b, or a' b, into ``product``."""
+    for i in range(STATES):
+        for j in range(STATES):
+            total = 0.0
+            for k in range(STATES):
+                total += (a[k, i] if turned else a[i, k]) * b[k, j]
+            product[i, j] = total
+
+
+@compiled
+def relate(column: FloatArray, left: FloatArray, passed: FloatArray, found: FloatArray) -> None:
+    """Write E[e_i e_j] of the smoothed heights at all marks into ``found``, shape (n, n)."""
+    moved, carried = np.zeros(STATES), np.zeros(STATES)
+    for i in range(column.shape[0]):
+        for s in range(STATES):
+            moved[s] = column[i, s]
+        for j in range(i, column.shape[0]):
+            if j > i:
+                _apply(passed[j], moved, carried)
+            total = 0.0
+            for s in range(STATES):
+                total += left[j, s] * moved[s]
+            found[i, j], found[j, i] = total, total
+
+
+@compiled
+def reach(column: FloatArray, passed: FloatArray, found: FloatArray) -> None:
+    """Write Psi P e_r, from each mark to the last, into ``found``, shape (n, 10)."""
+    size = column.shape[0]
+    psi, product = np.zeros((STATES, STATES)), np.zeros((STATES, STATES))
+    for i in range(STATES):
+        psi[i, i] = 1.0
+    for k in range(size - 1, -1, -1):
+        for i in range(STATES):
+            total = 0.0
+            for j in range(STATES):
+                total += psi[i, j] * column[k, j]
+            found[k, i] = total
+        _times(psi, passed[k], product, False)
+        for i in range(STATES):
+            for j in range(STATES):
+                psi[i, j] = product[i, j]
+
+
+@compiled
+def _apply(psi: FloatArray, vector: FloatArray, carried: FloatArray) -> None:
+    for i in range(STATES):
+        total = 0.0
+        for j in range(STATES):
+            total += psi[i, j] * vector[j]
+        carried[i] = total
+    for i in range(STATES):
+        vector[i] = carried[i]
