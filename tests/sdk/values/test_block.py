@@ -1,12 +1,15 @@
 """Blocks and headers change by making new ones; the old ones stay."""
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.values.block import Axis, Block, Header
+from floatref.values.block import Axis, Block, Event, Header, joined
 from floatref.values.channels import ChannelId
 
 A = ChannelId("vertical_specific_force", "left")
@@ -62,3 +65,47 @@ def test_what_a_stage_needs_and_lacks_is_named(header: Header) -> None:
     header.require("combine", A, H)
     with pytest.raises(InputError, match="stage combine needs channel distance; add what makes it"):
         header.require("combine", A, ChannelId("distance"))
+
+
+def _long(count: int) -> Block:
+    rng = np.random.default_rng(count)
+    return Block(
+        100,
+        {A: rng.normal(size=count), H: rng.normal(size=count)},
+        {H: rng.uniform(size=count) < 0.5},
+        {A: rng.integers(0, 4, count).astype(np.uint8)},
+        (Event(0.5, {A: 1.0}), Event(0.7, {A: 2.0})),
+    )
+
+
+def _same(one: Block, other: Block) -> None:
+    assert (one.first, one.events) == (other.first, other.events)
+    for name in ("values", "fresh", "flags"):
+        found, wanted = getattr(one, name), getattr(other, name)
+        assert found.keys() == wanted.keys()
+        for channel, samples in found.items():
+            assert samples.dtype == wanted[channel].dtype
+            np.testing.assert_array_equal(samples, wanted[channel])
+
+
+@settings(deadline=None)
+@given(count=st.integers(1, 40), cuts=st.sets(st.integers(1, 39)))
+def test_parts_joined_are_the_block(count: int, cuts: set[int]) -> None:
+    block = _long(count)
+    edges = [0, *sorted(cut for cut in cuts if cut < count), count]
+    parts = [block.part(a, b) for a, b in pairwise(edges)]
+    assert [part.first for part in parts] == [100 + a for a in edges[:-1]]
+    assert [len(part) for part in parts] == np.diff(edges).tolist()
+    assert [part.events for part in parts[1:]] == [()] * (len(parts) - 1)
+    _same(joined(parts), block)
+
+
+def test_where_one_of_the_joined_has_no_mask_its_samples_are_fresh_and_trusted(
+    block: Block,
+) -> None:
+    bare = Block(10, {A: np.zeros(2), H: np.zeros(2)})
+    whole = joined([block, bare])
+    assert whole.fresh[H].tolist() == [True, False, True, True, True]
+    assert whole.flags[H].tolist() == [0, 1, 0, 0, 0]
+    assert (set(whole.fresh), set(whole.flags)) == ({H}, {H})
+    assert joined([block]) is block
