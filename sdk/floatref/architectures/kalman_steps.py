@@ -30,7 +30,6 @@ NOISE = {
     "constant_pitch_density": "constant_pitch",
     "constant_roll_density": "constant_roll",
     "reflection_density": "reflection",
-    "reflection_offset_m": "reflection_offset_m",
     "gnss_height_walk": "gnss_height_walk",
     "lean_sigma_rad": "lean_rad",
     "height_noise_m": "height_m",

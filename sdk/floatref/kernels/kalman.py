@@ -66,12 +66,12 @@ def run(
     """Advance by the samples of the six inputs ``u`` and return the number of nodes.
 
     Sample number ``first`` is absolute. ``model`` holds the step in s, g in m/s², the lever arm
-    (3) in m, squares of the process densities (7), variances in m² of a new datum and of an
-    offset, up to where innovations are believed (4), and the variance of a lean in rad².
-    Observations at samples ``at``: four values in ``y``, NaN if there is none, four variances, and
-    the variance that the drift of the GNSS height gains, shape (m, 9). ``x``, ``p`` and ``memory`` are changed; ``height`` gets the
-    filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what the backward pass
-    needs; a node's second number is the end of its updates.
+    (3) in m, squares of the process densities (7), the variance of a new datum in m², up to where
+    innovations are believed (4), and the variance of a lean in rad². Observations at samples
+    ``at``: four values in ``y``, NaN if there is none, four variances, and the variance that the
+    drift of the GNSS height gains, shape (m, 9). ``x``, ``p`` and ``memory`` are changed;
+    ``height`` gets the filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what
+    the backward pass needs; a node's second number is the end of its updates.
     """
     size, observed, count, begin, done = height.size, 0, 0, 0, 0
     work, h = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
@@ -89,7 +89,7 @@ def run(
         if observed < at.size and at[observed] == first + node:
             mark, seen = marks[observed], y[observed]
             if mark & FORGET and not mark & RENEW:
-                nodes[count, SHIFT] = _forget(model[18], x, p, memory)
+                nodes[count, SHIFT] = _forget(model[17], x, p, memory)
             done = _observe(u, node, model, mark, seen, x, p, memory, h, work, updates, done)
             nodes[count, RENEWED] = _other(mark)
             height[node] = x[0]
@@ -401,7 +401,7 @@ def _base(
         memory[CAPTURED] = predicted[0]
     if mark & RENEW:
         memory[ORIGIN] = x[0]
-        _renew(OFFSET, model[13], x, p)
+        _clone(x, p)
     if mark & REFLECTED:
         predicted[0] = x[0] + x[OFFSET]
         h[0, 2], h[0, 3], h[0, OFFSET] = 0.0, 0.0, 1.0
@@ -427,7 +427,7 @@ def _believed(
     """Tell whether a reading may be what it says; heights that insist are another datum."""
     square = innovation * innovation
     far = square > GATE * (_project(p, h[kind], update) + variance)
-    if not far or abs(innovation) <= model[14 + kind]:
+    if not far or abs(innovation) <= model[13 + kind]:
         memory[IN_A_ROW] = 0.0 if kind == 0 else memory[IN_A_ROW]
         return True
     memory[REJECTED + kind] += 1.0
@@ -464,6 +464,16 @@ def _forget(variance: float, x: FloatArray, p: FloatArray, memory: FloatArray) -
         p[j, BIAS] += shift * p[j, LEAN]
     _renew(LEAN, variance, x, p)
     return float(shift)
+
+
+@compiled
+def _clone(x: FloatArray, p: FloatArray) -> None:
+    """Let the offset be what the height is off by where a stop begins."""
+    x[OFFSET] = 0.0
+    for j in range(STATES):
+        p[OFFSET, j] = -p[0, j]
+    for j in range(STATES):
+        p[j, OFFSET] = -p[j, 0]
 
 
 @compiled

@@ -13,6 +13,7 @@ from floatref.kernels.kalman_layout import (
     INNOVATION,
     JUMP,
     LEAN,
+    OFFSET,
     RENEWED,
     SHIFT,
     SPREAD,
@@ -44,8 +45,11 @@ def smooth(
         low = node_at[k - 1, 1] if k > 0 else 0
         for m in range(node_at[k, 1] - 1, low - 1, -1):
             _undo(updates[m], adjoint)
-        if node[RENEWED] > 0.0:
-            adjoint[int(node[RENEWED])] = node[SHIFT] * adjoint[BIAS]
+        if node[RENEWED] == LEAN:
+            adjoint[LEAN] = node[SHIFT] * adjoint[BIAS]
+        elif node[RENEWED] == OFFSET:
+            adjoint[0] -= adjoint[OFFSET]
+            adjoint[OFFSET] = 0.0
         earlier = node_at[k - 1, 0] if k > 0 else before
         _back(node, (node_at[k, 0] - earlier) * step, adjoint)
 
@@ -171,9 +175,11 @@ def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
             theta += node[8 + j] * value
             phi += node[12 + j] * value
         psi[0, c], psi[1, c], psi[2, c], psi[3, c] = moved, climb, theta, phi
-        if node[RENEWED] > 0.0:
+        if node[RENEWED] == LEAN:
             psi[BIAS, c] += node[SHIFT] * psi[LEAN, c]
-            psi[int(node[RENEWED]), c] = 0.0
+            psi[LEAN, c] = 0.0
+        elif node[RENEWED] == OFFSET:
+            psi[OFFSET, c] = -psi[0, c]
 
 
 @compiled

@@ -6,8 +6,8 @@ Inputs = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Float
 """Specific force and angular rate along the body's axes."""
 STATES = 10
 """Height, velocity, pitch, roll, the biases of acceleration, roll rate and pitch rate (C.2), then
-the lean of the vertical accelerometer's axis forward, the drift of the GNSS height, and the offset
-of the height that is reflected at a stop."""
+the lean of the vertical accelerometer's axis forward, the drift of the GNSS height, and minus
+what the height is off by where a stop begins."""
 BIAS, LEAN, DRIFT, OFFSET = 4, 7, 8, 9
 KINDS = 4
 """Observations: height, vertical velocity, pitch inclination, roll inclination."""

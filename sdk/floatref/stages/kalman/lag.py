@@ -4,9 +4,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from floatref.kernels.kalman_layout import DRIFT, OFFSET, STATES
 from floatref.stages.kalman.segment import Segment
 from floatref.stages.kalman.sigma import Settled, high_pass
 from floatref.values.arrays import FloatArray, IndexArray
+
+SEEN = np.delete(np.eye(STATES), (DRIFT, OFFSET), axis=0)
+"""What readings to come can tell of the state at last: never the height but with GNSS's drift."""
+SEEN[0, DRIFT] = 1.0
+STANDING = np.eye(STATES)[0] + np.eye(STATES)[OFFSET]
+"""At a stop also how far the height is from where the stop began."""
+SMALLEST = 1e-10
+"""Directions of so small a variance, relative, are known as they are."""
 
 
 def influence(
@@ -14,20 +23,23 @@ def influence(
 ) -> FloatArray:
     """Return by how much, 1-σ in m, readings to come can change the result at marks ``wanted``.
 
-    They act through the state x_T at the last mark alone, of covariance ``latest``. Were it known,
-    a height before it would change by E[e_j | e_T], of covariance w_j' P_T^-1 w_k with
-    w = Psi P e_r, Psi the product of (I - K H) F from there to T; no reading can tell more. What
-    counts is what HPF_B3x2 leaves of that: an error of the whole run's height is none.
+    They act through z_T, what can be seen of the state at the last mark, alone; ``latest`` is that
+    state's covariance. Were z_T known, a height before it would change by E[e_j | z_T], of
+    covariance w_j' Z^-1 w_k with w the part of Psi P e_r that can be seen, Psi the product of
+    (I - K H) F from there to T, and Z the covariance of z_T; no reading can tell more. What counts
+    is what HPF_B3x2 leaves of that: an error of the whole run's height is none.
     """
     from floatref.kernels import kalman_covariance
 
     reach = np.empty_like(marks.column)
     kalman_covariance.reach(marks.column, marks.passed, reach)
-    weights = high_pass(marks.distance_m, wavelength_m, wanted)
-    known = np.diag(latest) > 0
-    passed = (weights @ reach)[:, known]
-    inverse = np.linalg.inv(latest[np.ix_(known, known)])
-    change: FloatArray = np.sqrt(np.einsum("ij,jk,ik->i", passed, inverse, passed))
+    standing = marks.distance_m[-2:-1] == marks.distance_m[-1]
+    seen = np.vstack([SEEN, STANDING]) if standing.any() else SEEN
+    spread = seen @ latest @ seen.T
+    scale = np.sqrt(np.maximum(np.diag(spread), np.finfo(np.float64).tiny))
+    inverse = np.linalg.pinv(spread / np.outer(scale, scale), SMALLEST, hermitian=True)
+    passed = high_pass(marks.distance_m, wavelength_m, wanted) @ reach @ seen.T / scale
+    change: FloatArray = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", passed, inverse, passed), 0.0))
     return change
 
 

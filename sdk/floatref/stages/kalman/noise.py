@@ -30,7 +30,6 @@ class Noise:
             same for want of a reading, as densities in m/√Hz, m/s/√Hz and rad/√Hz.
         reflection: the height sensor as a measure of the reference point's motion at a standstill,
             in m/√Hz.
-        reflection_offset_m: 1-σ of the error of the filter's own height where a stop begins.
         height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
     """
 
@@ -52,7 +51,6 @@ class Noise:
     constant_pitch: float = 0.0195
     constant_roll: float = 0.0078
     reflection: float = 2.64e-5
-    reflection_offset_m: float = 0.1
     height_m: float = 4e-5
 
     def process(self) -> FloatArray:

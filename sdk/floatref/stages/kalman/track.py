@@ -55,7 +55,6 @@ class TrackFilter:
                 *arm,
                 *noise.process(),
                 DATUM_M**2,
-                noise.reflection_offset_m**2,
                 *FLOORS,
                 noise.lean_rad**2,
             ]
