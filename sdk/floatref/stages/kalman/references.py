@@ -95,8 +95,7 @@ class References:
         datum: what GNSS heights are told from, in m; the first decides it.
         latest, heard: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
-        height: the latest from the height sensor before a stop, in m.
-        origin: that which the stop began with.
+        origin: what the height sensor read where the stop began, in m.
         still: whether the sample before stood still.
     """
 
@@ -110,7 +109,6 @@ class References:
     latest: int = 0
     heard: int = 0
     constant: bool = False
-    height: float = np.nan
     origin: float = np.nan
     still: bool = False
 
@@ -123,9 +121,6 @@ class References:
         return chunks[0] if len(chunks) == 1 else _joined(chunks)
 
     def _moving(self, stretch: Stretch) -> Chunk:
-        there = np.flatnonzero(stretch.there)
-        if there.size:
-            self.height = float(stretch.height[there[-1]])
         observed = self._observed(stretch, heights=True)
         if stretch.quiet.size == 0:
             return observed
@@ -205,7 +200,7 @@ class References:
         height = stretch.height[at - stretch.first]
         begins = not self.still or np.isnan(self.origin)
         if begins:
-            self.origin = float(height[0]) if np.isnan(self.height) else self.height
+            self.origin = float(height[0])
         y = np.full((at.size, KINDS), np.nan)
         y[:, 0] = height - self.origin
         variance = np.full(KINDS, np.nan)
