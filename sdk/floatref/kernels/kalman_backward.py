@@ -198,10 +198,15 @@ def _reduce(update: FloatArray, psi: FloatArray, sums: FloatArray) -> None:
 
 @compiled
 def ramp(at: IndexArray, values: FloatArray, first: int, line: FloatArray) -> None:
-    """Write the line through ``values`` at the samples ``at``, in order, from sample ``first``."""
+    """Write the line through ``values`` at the samples ``at``, in order, from sample ``first``.
+
+    Before the first of them, and behind the last, it stays level.
+    """
     k = 0
     for i in range(line.size):
-        while k + 2 < at.size and at[k + 1] <= first + i:
+        while k + 1 < at.size and at[k + 1] <= first + i:
             k += 1
-        slope = (values[k + 1] - values[k]) / max(at[k + 1] - at[k], 1)
-        line[i] = values[k] + slope * (first + i - at[k])
+        line[i] = values[k]
+        if k + 1 < at.size and first + i > at[k]:
+            share = (first + i - at[k]) / (at[k + 1] - at[k])
+            line[i] += share * (values[k + 1] - values[k])
