@@ -32,11 +32,11 @@ def smooth(
     adjoint: FloatArray,
     corrections: FloatArray,
 ) -> None:
-    """Go back from the last node to the one at sample ``before``, which is not in ``nodes``.
+    """Go back from the last node to the one at sample ``before``, in place of (6.17).
 
-    ``adjoint``, shape (10,), is lambda behind the last node and becomes that behind ``before``.
-    Row k of ``corrections``, shape (n, 4), gets height and velocity to be added on the near side
-    of the update of node k, and the same on the far side.
+    That one is not in ``nodes``. ``adjoint``, shape (10,), is lambda behind the last node and
+    becomes that behind ``before``. Row k of ``corrections``, shape (n, 4), gets height and velocity
+    to be added on the near side of the update of node k, and the same on the far side.
     """
     for k in range(node_at.shape[0] - 1, -1, -1):
         node, out = nodes[k], corrections[k]
