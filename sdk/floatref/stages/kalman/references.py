@@ -95,8 +95,7 @@ class References:
         datum: what GNSS heights are told from, in m; the first decides it.
         latest, heard: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
-        origin: what the height sensor read where the stop began, in m.
-        still: whether the sample before stood still.
+        origin: what the height sensor read where the stop began, in m; NaN while moving.
     """
 
     plan: Plan
@@ -110,17 +109,16 @@ class References:
     heard: int = 0
     constant: bool = False
     origin: float = np.nan
-    still: bool = False
 
     def schedule(self, stretch: Stretch) -> Chunk:
         """Return the observations of ``stretch``, which follows the one before."""
         chunks = []
         for part, standing in _runs(stretch, self.plan.reflects):
             chunks.append(self._standing(part) if standing else self._moving(part))
-            self.still = standing
         return chunks[0] if len(chunks) == 1 else _joined(chunks)
 
     def _moving(self, stretch: Stretch) -> Chunk:
+        self.origin = np.nan
         observed = self._observed(stretch, heights=True)
         if stretch.quiet.size == 0:
             return observed
@@ -198,7 +196,7 @@ class References:
         if at.size == 0:
             return _joined([])
         height = stretch.height[at - stretch.first]
-        begins = not self.still or np.isnan(self.origin)
+        begins = np.isnan(self.origin)
         if begins:
             self.origin = float(height[0])
         y = np.full((at.size, KINDS), np.nan)

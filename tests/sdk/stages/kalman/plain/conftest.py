@@ -69,8 +69,7 @@ class Ten:
         if k in self.readings or k % self.sub_block == 0:
             self.follow(k)
         if self.standing[k] and self.origin is None and k % self.sub_block == 0:
-            moving = np.flatnonzero(~self.standing[:k])
-            self.origin = self.drive.height[moving[-1] if moving.size else 0] - self.x[0]
+            self.origin = self.drive.height[k] - self.x[0]
             J[OFFSET] = -EYE[0]
         elif self.steady(k) and not self.standing[k]:
             J[LEAN], J[BIAS, LEAN] = 0.0, self.running - self.level
