@@ -30,7 +30,7 @@ def test_a_kept_case_of_a_receiver_is_skipped_without_one(
 ):
     cases = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
     kept = KeptCase("kept.json", cases["gnss-outage"], DeviceClass.NOMINAL)
-    alone = replace(FAULTS, receiver=False)
+    alone = replace(FAULTS, capabilities=frozenset())
     monkeypatch.setattr(type(alone), "cases", lambda *_: (cases["laser-dropout"],))
     result = result_of(plan(fake_device(), alone, kept=(kept,), searching=False))
     (again,) = result.replayed

@@ -1,14 +1,16 @@
 """The drives whose recordings `invariance` changes: fixed by the edition, or drawn."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.checks.augmented_changes import AUGMENTED_CHANGES, SLOPE, UNIT_BIAS
 from floatref_conformance.checks.case import Case, Number
-from floatref_conformance.checks.changes import CHANGES, number
+from floatref_conformance.checks.change import number
+from floatref_conformance.checks.changes import CHANGES
 from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.phases import brake_to_stop, extent
@@ -41,6 +43,18 @@ STOPS: tuple[Mapping[str, Any], ...] = (
     {"speed_kmh": 75.0, "rate_hz": 8000.0, "dwell_s": 0.5, "deceleration_g": 0.3},
 )
 """Drives of the seeded cases with a stop."""
+THROTTLES: tuple[Mapping[str, Any], ...] = tuple(
+    {"manoeuvre": "throttle", "event_at_m": 190.0, "final_speed_kmh": 70.0, **numbers}
+    for numbers in (
+        {"speed_kmh": 45.0, "rate_hz": 4000.0, "deceleration_g": 0.2},
+        {"speed_kmh": 32.0, "rate_hz": 8000.0, "deceleration_g": 0.15, "vehicle": "minivan"},
+        {"speed_kmh": 50.0, "rate_hz": 4000.0, "deceleration_g": 0.18, "vehicle": "pickup"},
+    )
+)
+"""Drives of the seeded cases in which the body pitches, and changes its speed."""
+UNSTEADY: Mapping[str, tuple[Mapping[str, Any], ...]] = MappingProxyType(
+    {STOP: STOPS, SLOPE: THROTTLES, UNIT_BIAS: THROTTLES}
+)
 NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
     {
         "later-start": ({"samples": 6007}, {"samples": 1}, {"samples": 4096}),
@@ -51,6 +65,19 @@ NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
         "road-height": ({"factor": 2.5}, {"factor": 0.4}, {"factor": 1.5}),
         "sample-rate": ({"rate_hz": 4000.0}, {"rate_hz": 16000.0}, {"rate_hz": 5000.0}),
         STOP: ({}, {}, {}),
+        "gnss-datum": ({"shift_m": 100.0}, {"shift_m": -100.0}, {"shift_m": 2500.0}),
+        "gnss-rate": ({"every": 2}, {"every": 4}, {"every": 2}),
+        "gyro-rate": ({"gyro_rate_hz": 200.0}, {"gyro_rate_hz": 400.0}, {"gyro_rate_hz": 160.0}),
+        UNIT_BIAS: (
+            {"bias": 0.03, "rate_bias": 0.0005},
+            {"bias": -0.03, "rate_bias": -0.0005},
+            {"bias": 0.015, "rate_bias": 0.0002},
+        ),
+        SLOPE: (
+            {"grade_percent": 4.0, "cross_slope_percent": -3.0},
+            {"grade_percent": -3.0, "cross_slope_percent": 2.0},
+            {"grade_percent": 2.0, "cross_slope_percent": 3.0},
+        ),
     }
 )
 """For each change, the numbers of the seeded cases in turn."""
@@ -66,15 +93,18 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(CHANGES)).tolist())
+    # Nominal changes come first: their roads are the same for whatever device is judged.
+    nominal = [change for change in CHANGES if change not in AUGMENTED_CHANGES]
     return tuple(
         Case(
             CHECK,
-            drive(change, next(roads), **(STOPS if change == STOP else ROUNDS)[n]),
+            drive(change, next(roads), **UNSTEADY.get(change, ROUNDS)[n]),
             {"change": change, **NUMBERS[change][n]},
             f"{CHECK}-{change}-{n + 1}",
         )
+        for changes in (nominal, AUGMENTED_CHANGES)
         for n in rounds
-        for change in CHANGES
+        for change in changes
     )
 
 
@@ -101,13 +131,13 @@ def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
     return float(drive_of(scenario).motion(np.array([begin_s])).distance[0])
 
 
-def drawn() -> "SearchStrategy[Case]":
-    """Return the strategy of any change of any drive."""
+def drawn(changes: Sequence[str] = tuple(CHANGES)) -> "SearchStrategy[Case]":
+    """Return the strategy of any of ``changes`` of any drive."""
     from hypothesis import strategies as st
 
     @st.composite
     def case(draw: "DrawFn") -> Case:
-        change = draw(st.sampled_from(tuple(CHANGES)))
+        change = draw(st.sampled_from(changes))
         numbers = draw(_DRAWN.get(change, _travel)())
         variation = draw(_numbers(change, numbers["rate_hz"]))
         variation = {"change": change, **variation}
@@ -190,5 +220,13 @@ def _numbers(change: str, rate_hz: float) -> "SearchStrategy[dict[str, Number]]"
         "distance-origin": {"shift_m": rounded(-1e5, 1e5, 2)},
         "road-height": {"factor": rounded(0.4, 0.8) | rounded(1.3, 2.7)},
         "sample-rate": {"rate_hz": st.sampled_from(others)},
+        "gnss-datum": {"shift_m": rounded(-3000.0, 3000.0)},
+        "gnss-rate": {"every": st.integers(2, 4)},
+        "gyro-rate": {"gyro_rate_hz": st.sampled_from((125.0, 160.0, 200.0, 400.0))},
+        UNIT_BIAS: {"bias": rounded(-0.03, 0.03, 3), "rate_bias": rounded(-0.0005, 0.0005, 5)},
+        SLOPE: {
+            "grade_percent": rounded(-4.0, -1.0) | rounded(1.0, 4.0),
+            "cross_slope_percent": rounded(-3.0, 3.0),
+        },
     }
     return st.fixed_dictionaries(dict(strategies.get(change, {})))

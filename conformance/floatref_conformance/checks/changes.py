@@ -1,7 +1,7 @@
 """What must not matter: changes of a recording, or of a drive, that leave the road alone."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from math import ceil
 from types import MappingProxyType
 
@@ -11,61 +11,13 @@ from floatref.errors import InputError
 from floatref.values.clock import StampedClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.case import Number
-from floatref_conformance.proving_ground.scenario import LIMITS, Scenario
+from floatref_conformance.checks.augmented_changes import AUGMENTED_CHANGES
+from floatref_conformance.checks.change import Change, Numbers, each, number, raised
+from floatref_conformance.proving_ground.scenario import Scenario
 
-Numbers = Mapping[str, Number]
 LATER = "later-start"
-RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
-    {
-        "samples": (0, 1e6),
-        "bias": (-10.0, 10.0),
-        "shift_s": (-1e9, 1e9),
-        "shift_m": (-1e7, 1e7),
-        "factor": (0.01, 100.0),
-        "rate_hz": LIMITS["rate_hz"],
-        "at_m": LIMITS["event_at_m"],
-        "length_s": (0.0, 600.0),
-        "span_m": (0.0, 1e4),
-        "count": (1, 1000),
-        "side": (-1, 1),
-        "size_m": (-100.0, 100.0),
-        "full_scale_g": (-1000.0, 1000.0),
-    }
-)
-"""Smallest and largest value of every number that a change or a fault may have."""
 EARLY = 1e-6
 """A sample so much before a time, in steps, was taken at that time: times are rounded."""
-
-
-@dataclass(frozen=True)
-class Change:
-    """One thing that must not matter, and how it is undone in the result.
-
-    Attributes:
-        says: what is changed, in words.
-        scenario: the changed drive, road or sensors.
-        recording: the changed recording.
-        truth: where the road lies on the changed axis of distance.
-        profile: the result as it should have been without the change.
-    """
-
-    says: str
-    scenario: Callable[[Scenario, Numbers], Scenario] = lambda scenario, _: scenario
-    recording: Callable[[Recording, Numbers], Recording] = lambda recording, _: recording
-    truth: Callable[[Profile, Numbers], Profile] = lambda truth, _: truth
-    profile: Callable[[Profile, Numbers], Profile] = lambda profile, _: profile
-
-
-def number(numbers: Numbers, name: str) -> float:
-    """Return number ``name`` of a case's variation; InputError if it is none, or out of range."""
-    value = numbers.get(name)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise InputError(f"variation {name} is {value!r}; give a number")
-    low, high = RANGES[name]
-    if not low <= value <= high:
-        raise InputError(f"variation {name} is {value!r}; it must lie between {low:g} and {high:g}")
-    return float(value)
 
 
 def later_start(recording: Recording, numbers: Numbers) -> Recording:
@@ -75,14 +27,12 @@ def later_start(recording: Recording, numbers: Numbers) -> Recording:
     """
     force = next(c for c in recording.channels if c.id.name == "vertical_specific_force")
     begin_s = float(force.clock.times(1, int(number(numbers, "samples")))[0])
-    return _each(recording, lambda channel: _from(channel, begin_s))
+    return each(recording, lambda channel: _from(channel, begin_s))
 
 
 def other_storage(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with a time stamp for every sample in place of rates."""
-    return _each(
-        recording, lambda channel: replace(channel, clock=StampedClock.of(channel.times_s))
-    )
+    return each(recording, lambda channel: replace(channel, clock=StampedClock.of(channel.times_s)))
 
 
 def other_bias(recording: Recording, numbers: Numbers) -> Recording:
@@ -91,15 +41,15 @@ def other_bias(recording: Recording, numbers: Numbers) -> Recording:
     def biased(channel: Channel) -> Channel:
         if channel.id.name != "vertical_specific_force":
             return channel
-        return _with(channel, channel.values + number(numbers, "bias"))
+        return raised(channel, number(numbers, "bias"))
 
-    return _each(recording, biased)
+    return each(recording, biased)
 
 
 def other_time(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with a time stamp for every sample, all ``shift_s`` later."""
     shift_s = number(numbers, "shift_s")
-    return _each(recording, lambda c: replace(c, clock=StampedClock.of(c.times_s + shift_s)))
+    return each(recording, lambda c: replace(c, clock=StampedClock.of(c.times_s + shift_s)))
 
 
 def other_place(recording: Recording, numbers: Numbers) -> Recording:
@@ -108,9 +58,9 @@ def other_place(recording: Recording, numbers: Numbers) -> Recording:
     def moved(channel: Channel) -> Channel:
         if channel.id.name != "distance":
             return channel
-        return _with(channel, channel.values + number(numbers, "shift_m"))
+        return raised(channel, number(numbers, "shift_m"))
 
-    return _each(recording, moved)
+    return each(recording, moved)
 
 
 def truth_there(truth: Profile, numbers: Numbers) -> Profile:
@@ -164,6 +114,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         ),
         "sample-rate": Change("another rate of the accelerometers", other_rate),
         "longer-stop": Change("twice the time at a standstill", longer_stop),
+        **AUGMENTED_CHANGES,
     }
 )
 """All changes by the name that a case's variation gives under ``change``."""
@@ -180,14 +131,6 @@ def change_of(numbers: Numbers) -> Change:
 def begins_later_m(before: Recording, after: Recording) -> float:
     """Return the distance in m that ``after`` lacks at its beginning."""
     return float(np.diff([r.channel("distance").values[0] for r in (before, after)])[0])
-
-
-def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
-    return replace(recording, channels=tuple(change(c) for c in recording.channels))
-
-
-def _with(channel: Channel, values: np.ndarray) -> Channel:
-    return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
 
 
 def _from(channel: Channel, begin_s: float) -> Channel:

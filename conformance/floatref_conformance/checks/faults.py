@@ -4,9 +4,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from floatref.errors import InputError
 from floatref_conformance.checks import injured_drives
+from floatref_conformance.checks.augmented_injuries import needed_by
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.change import check_equipped
 from floatref_conformance.checks.fault_scores import (
     BASE_M,
     FLAGGED_LIMITS,
@@ -17,7 +18,6 @@ from floatref_conformance.checks.fault_scores import (
     fault_measurements,
 )
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
-from floatref_conformance.checks.injured_drives import of_a_receiver
 from floatref_conformance.checks.injuries import INJURIES, injury_of
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rule import ELSEWHERE
@@ -25,6 +25,7 @@ from floatref_conformance.checks.rules import UNPROVOKED
 from floatref_conformance.checks.scoring import Compared, compare
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
 
@@ -40,8 +41,8 @@ class FaultsCheck:
     title: str = "missing and damaged samples are flagged and stay local"
     clause: str = "derived: right or flagged; the high-pass' reach; the limits of an event"
     needs: frozenset[str] = frozenset()
-    receiver: bool = True
-    """Whether the device has one, whose faults are among the cases."""
+    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    """Those of the device: faults of sensors that it lacks are no cases."""
 
     @property
     def derivation(self) -> str:
@@ -85,12 +86,12 @@ class FaultsCheck:
         return injured_drives.drawn(self._faults)
 
     def fitted(self, capabilities: Iterable[str]) -> "FaultsCheck":
-        """Return the check without the faults of a receiver if ``capabilities`` have no gnss."""
-        return replace(self, receiver="gnss" in capabilities)
+        """Return the check without the faults of sensors that no one of ``capabilities`` gives."""
+        return replace(self, capabilities=frozenset(capabilities))
 
     @property
     def _faults(self) -> tuple[str, ...]:
-        return tuple(f for f in INJURIES if self.receiver or not of_a_receiver(f))
+        return tuple(f for f in INJURIES if needed_by(f) <= self.capabilities)
 
     def scored(self, case: Case) -> Stretches:
         """Return all of the drive: every point counts that the device vouches for."""
@@ -101,17 +102,16 @@ class FaultsCheck:
 
         The device is given the fault first: nothing that it keeps shows it the road below.
         Raises InputError for a variation that names no fault or lacks a number of it, and for
-        the fault of a receiver that the device does not have.
+        the fault of a sensor that the device does not have.
         """
         taken = bench.simulate(case.scenario)
-        injured = injury_of(case.variation)(taken.recording, case.variation)
-        if injured.recording is taken.recording:
-            fault = case.variation["fault"]
-            raise InputError(f"variation fault {fault}: needs gnss, which the device lacks")
+        injure, fault = injury_of(case.variation), str(case.variation["fault"])
+        check_equipped(taken.recording, needed_by(fault), f"fault {fault}")
+        injured = injure(taken.recording, case.variation)
         hurt = replace(taken, recording=injured.recording)
         after = bench.run(hurt, "with the fault")
         before = bench.run(taken, "without the fault")
-        part = str(case.variation["fault"]).partition("-")[0]
+        part = fault.partition("-")[0]
         alike = (beside(taken.truth, before), beside(taken.truth, after, injured))
         # What the encoder never told lies on no device's axis: nobody has flagged it.
         delivered = compare(taken.truth, before)
@@ -144,8 +144,12 @@ DERIVATION = (
     "accelerometer loses samples (one to 1 s) or is driven to a full scale of 2, 4 or 5 g (2 to "
     "20 ms); all channels have a gap (50 ms to 1 s), of missing samples or of missing time; the "
     "encoder loses samples, leaps by 0.1 to 3 m, is silent and makes up for it, loses counts for "
-    "good, tells single counts that lie back, or rolls back by 20 to 500 mm at a stop; a "
-    "receiver that the device declares loses its fix for 2 to 10 s or is 0.3 to 3 m too high. "
+    "good, tells single counts that lie back, or rolls back by 20 to 500 mm at a stop. Of a "
+    "device that declares them, a receiver loses its fix for 2 to 10 s, or for 8 to 30 s around a "
+    "stop, is 0.3 to 3 m too high and says so, wanders by up to 1 m without fixed ambiguities, "
+    "jumps by 0.3 to 3 m for good and says nothing, repeats one height for 2 to 10 s on a slope, "
+    "or is never fixed at all; an inertial unit loses its rates for up to 1 s while the vehicle "
+    "brakes for a stop, or up to 60 single samples. "
     "Every case has a road of its own. "
     "Each is normal life in the field: an error in place of a profile is a failure. Metres that "
     "the encoder told too many or too few are taken out of the axis before the comparison. "
@@ -159,8 +163,9 @@ DERIVATION = (
     "that stricter classes may flag at an event. An accelerometer's is integrated twice and "
     "spread to either side by the high-pass (105.91 m): each side may have the length of an "
     "event, 125 m; class adequate has half a cut-off wavelength on each side, reference a "
-    "quarter; the same for gaps and receivers. An encoder's fault looks like an event, and has "
-    "its limits."
+    "quarter; the same for gaps, inertial units and receivers. For a receiver that jumps or is "
+    "never fixed nothing but that may be flagged: a profiler without one profiles the road as "
+    "well. An encoder's fault looks like an event, and has its limits."
 )
 """What is done to the recordings, and why the limits are what they are."""
 FLOOR = (

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from floatref_conformance.checks.augmented_injuries import AUGMENTED
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.injuries import INJURIES
 from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 CHECK = "faults"
 ROLLING = "encoder-rolling-back"
+AT_A_STOP = (ROLLING, "gnss-outage-at-a-stop", "imu-gyro-gap")
+"""Faults of drives with a stop; in the others the vehicle does not change its speed."""
 LENGTH_M = 560.0
 STOP_M = 320.0
 ROUNDS: tuple[tuple[Mapping[str, Any], ...], ...] = (
@@ -40,6 +43,8 @@ STOP: Mapping[str, Any] = {
     "rate_hz": 4000.0,
     "event_at_m": STOP_M,
 }
+SLOPES_PERCENT: Mapping[str, tuple[float, ...]] = MappingProxyType({"gnss-stuck": (3.0, -2.0, 4.0)})
+"""Grades of seeded cases: on a level road a height that is stuck would nearly be right."""
 NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
     {
         "laser-dropout": ({"length_s": 1.0}, {"length_s": 0.0}, {"length_s": 2.0}),
@@ -78,6 +83,21 @@ NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
             {"length_s": 2.0, "size_m": -0.3},
             {"length_s": 10.0, "size_m": 3.0},
         ),
+        "gnss-float": (
+            {"length_s": 6.0, "size_m": 0.4},
+            {"length_s": 3.0, "size_m": -0.2},
+            {"length_s": 10.0, "size_m": 1.0},
+        ),
+        "gnss-jump": ({"size_m": 1.0}, {"size_m": -0.3}, {"size_m": 3.0}),
+        "gnss-stuck": ({"length_s": 4.0}, {"length_s": 2.0}, {"length_s": 8.0}),
+        "gnss-never-fixed": ({"size_m": 0.5}, {"size_m": -0.2}, {"size_m": 1.5}),
+        "gnss-outage-at-a-stop": ({"length_s": 15.0}, {"length_s": 30.0}, {"length_s": 8.0}),
+        "imu-gyro-gap": ({"length_s": 1.0}, {"length_s": 0.2}, {"length_s": 0.5}),
+        "imu-flicker": (
+            {"count": 20, "span_m": 40.0},
+            {"count": 5, "span_m": 10.0},
+            {"count": 60, "span_m": 60.0},
+        ),
     }
 )
 """For each fault, the numbers of the seeded cases in turn."""
@@ -91,11 +111,6 @@ FULL_SCALES_G = (-5.0, -4.0, -2.0, 2.0, 4.0, 5.0)
 Numbers = Mapping[str, "SearchStrategy[Any]"]
 
 
-def of_a_receiver(fault: str) -> bool:
-    """Return whether ``fault`` is one of a receiver."""
-    return fault.startswith("gnss-")
-
-
 def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     """Return every fault once, in a certification three times; ``seed`` draws their roads.
 
@@ -104,6 +119,8 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(INJURIES)).tolist())
+    # Nominal faults come first: their roads are the same for whatever device is judged.
+    nominal = [fault for fault in INJURIES if fault not in AUGMENTED]
     return tuple(
         Case(
             CHECK,
@@ -111,8 +128,9 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
             {"fault": fault, "at_m": PLACES_M[n], **NUMBERS[fault][n]},
             f"{CHECK}-{fault}-{n + 1}",
         )
+        for faults in (nominal, AUGMENTED)
         for n in rounds
-        for number, fault in enumerate(INJURIES)
+        for number, fault in enumerate(faults)
     )
 
 
@@ -123,7 +141,8 @@ def drawn(faults: Sequence[str] = tuple(INJURIES)) -> "SearchStrategy[Case]":
     @st.composite
     def case(draw: "DrawFn") -> Case:
         fault = draw(st.sampled_from(faults))
-        numbers = draw(st.fixed_dictionaries(dict(_stop() if fault == ROLLING else _steady())))
+        drives = _stop() if fault in AT_A_STOP else _steady(fault)
+        numbers = draw(st.fixed_dictionaries(dict(drives)))
         variation = draw(st.fixed_dictionaries(dict(_numbers(fault))))
         at_m = draw(rounded(NEAREST_M, FARTHEST_M))
         variation = {"fault": fault, "at_m": at_m, **variation}
@@ -135,7 +154,9 @@ def drawn(faults: Sequence[str] = tuple(INJURIES)) -> "SearchStrategy[Case]":
 
 def _drive(fault: str, number: int, n: int, seed: int) -> Scenario:
     """Return the drive of a seeded case of round ``n``."""
-    fields = STOP if fault == ROLLING else ROUNDS[n][number % 2]
+    fields = dict(STOP if fault in AT_A_STOP else ROUNDS[n][number % 2])
+    if fault in SLOPES_PERCENT:
+        fields["grade_percent"] = SLOPES_PERCENT[fault][n]
     return Scenario(seed=seed, length_m=LENGTH_M, **fields)
 
 
@@ -150,8 +171,11 @@ def _common() -> Numbers:
     }
 
 
-def _steady() -> Numbers:
-    return {**_common(), "speed_kmh": rounded(40.0, 97.0)}
+def _steady(fault: str) -> Numbers:
+    drives = {**_common(), "speed_kmh": rounded(40.0, 97.0)}
+    if fault in SLOPES_PERCENT:
+        drives["grade_percent"] = rounded(-4.0, -2.0) | rounded(2.0, 4.0)
+    return drives
 
 
 def _stop() -> Numbers:
@@ -193,5 +217,11 @@ def _numbers(fault: str) -> Numbers:
         ROLLING: {"size_m": rounded(0.02, 0.5, 2)},
         "gnss-outage": {"length_s": rounded(2.0, 10.0)},
         "gnss-wrong-fix": {"length_s": rounded(2.0, 10.0), "size_m": rounded(-3.0, 3.0)},
+        "gnss-float": {"length_s": rounded(2.0, 10.0), "size_m": rounded(-1.0, 1.0)},
+        "gnss-jump": {"size_m": rounded(0.3, 3.0) | rounded(-3.0, -0.3)},
+        "gnss-stuck": {"length_s": rounded(2.0, 10.0)},
+        "gnss-never-fixed": {"size_m": rounded(-1.5, 1.5)},
+        "gnss-outage-at-a-stop": {"length_s": rounded(8.0, 30.0)},
+        "imu-flicker": {"count": st.integers(5, 60), "span_m": rounded(5.0, 60.0)},
     }
     return numbers.get(fault, {"length_s": rounded(0.05, 1.0, 2)})

@@ -4,7 +4,7 @@ An injury begins where the vehicle passes ``at_m`` of the encoder's distance. Se
 path are injured in the first; the encoder serves them all.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -15,11 +15,12 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.changes import Numbers, number
+from floatref_conformance.checks.augmented_injuries import AUGMENTED
+from floatref_conformance.checks.change import Numbers, number
 from floatref_conformance.checks.spoiling import (
     DISTANCE,
     Injured,
-    Spoil,
+    Injury,
     hold,
     injured_until,
     lose,
@@ -29,16 +30,13 @@ from floatref_conformance.checks.spoiling import (
     with_values,
 )
 
-FORCE, HEIGHT, GNSS = "vertical_specific_force", "height", "gnss_"
+FORCE, HEIGHT = "vertical_specific_force", "height"
 BEYOND_M = 0.05
 """The laser's range ends so far beyond all that it measured, in m."""
 COUNTS_APART_M = 0.5
 """Counts that go back are so far apart, in m."""
 ROLLING = 0.8
 """Share of a standstill in which the vehicle rolls back and forth."""
-SINGLE, NONE = 1.0, 0.0
-"""Values of `gnss_quality`."""
-Injury = Callable[[Recording, Numbers], Injured]
 
 
 def dropout(name: str) -> Injury:
@@ -159,21 +157,6 @@ def rolling_back(recording: Recording, numbers: Numbers) -> Injured:
     return Injured(with_values(recording, DISTANCE, None, values), 0.0, float(values[first]))
 
 
-def outage(recording: Recording, numbers: Numbers) -> Injured:
-    """Leave the receiver without a fix for ``length_s``."""
-    return _receiver(recording, numbers, NONE, lose)
-
-
-def wrong_fix(recording: Recording, numbers: Numbers) -> Injured:
-    """Have the receiver tell ``size_m`` too much height for ``length_s``, and a worse quality."""
-    size_m = number(numbers, "size_m")
-
-    def lift(values: FloatArray, where: slice) -> None:
-        values[where] += size_m
-
-    return _receiver(recording, numbers, SINGLE, lift)
-
-
 INJURIES: Mapping[str, Injury] = MappingProxyType(
     {
         "laser-dropout": dropout(HEIGHT),
@@ -190,8 +173,7 @@ INJURIES: Mapping[str, Injury] = MappingProxyType(
         "encoder-lost-counts": lost_counts,
         "encoder-counts-back": counts_back,
         "encoder-rolling-back": rolling_back,
-        "gnss-outage": outage,
-        "gnss-wrong-fix": wrong_fix,
+        **AUGMENTED,
     }
 )
 """All injuries by the name that a case's variation gives under ``fault``."""
@@ -203,21 +185,3 @@ def injury_of(numbers: Numbers) -> Injury:
     if name not in INJURIES:
         raise InputError(f"variation fault {name!r}: unknown; known: {', '.join(INJURIES)}")
     return INJURIES[str(name)]
-
-
-def _receiver(recording: Recording, numbers: Numbers, quality: float, spoil: Spoil) -> Injured:
-    """Return ``recording`` with its heights by GNSS spoilt; as it is if it has none."""
-    begin_s, end_s = times_of(recording, numbers)
-
-    def worse(values: FloatArray, where: slice) -> None:
-        values[where] = quality
-
-    changed = tuple(
-        spoilt(c, begin_s, end_s, worse if c.id.name == "gnss_quality" else spoil)
-        if c.id.name in ("gnss_quality", "gnss_height")
-        or (c.id.name.startswith(GNSS) and spoil is lose)
-        else c
-        for c in recording.channels
-    )
-    hurt = recording if changed == recording.channels else replace(recording, channels=changed)
-    return injured_until(hurt, recording, numbers, end_s)

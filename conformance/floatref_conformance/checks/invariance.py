@@ -1,13 +1,14 @@
 """`invariance`: what must not matter does not matter."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks import changed_drives
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.change import Change, check_equipped
 from floatref_conformance.checks.changed_drives import BEFORE_M, BEHIND_M, END_M, FREE_M, STOP
-from floatref_conformance.checks.changes import LATER, Change, begins_later_m, change_of
+from floatref_conformance.checks.changes import CHANGES, LATER, begins_later_m, change_of
 from floatref_conformance.checks.differences import (
     LOSS_LIMITS,
     PLACE_LIMITS,
@@ -21,6 +22,7 @@ from floatref_conformance.checks.interface import Bench, Taken
 from floatref_conformance.checks.scoring import Compared, compare, correlation
 from floatref_conformance.checks.stretches import Stretches, fitting
 from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
@@ -45,6 +47,8 @@ class InvarianceCheck:
     title: str = "what must not matter does not matter"
     clause: str = "derived: a tenth of the class's limits at constant speed; 10 % more at a stop"
     needs: frozenset[str] = frozenset()
+    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    """Those of the device: changes of sensors that it lacks are no cases."""
 
     @property
     def derivation(self) -> str:
@@ -76,11 +80,20 @@ class InvarianceCheck:
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every change once, in a certification three times, each on a road of its own."""
-        return changed_drives.fixed(seed, effort)
+        cases = changed_drives.fixed(seed, effort)
+        return tuple(c for c in cases if c.variation["change"] in self._changes)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any change of any drive."""
-        return changed_drives.drawn()
+        return changed_drives.drawn(self._changes)
+
+    def fitted(self, capabilities: Iterable[str]) -> "InvarianceCheck":
+        """Return the check without changes of what no one of ``capabilities`` gives."""
+        return replace(self, capabilities=frozenset(capabilities))
+
+    @property
+    def _changes(self) -> tuple[str, ...]:
+        return tuple(name for name, c in CHANGES.items() if c.needs <= self.capabilities)
 
     def scored(self, case: Case) -> Stretches:
         """Return what is compared; of a stop, what is compared and where the road shows.
@@ -100,12 +113,13 @@ class InvarianceCheck:
         """Return how far both results differ, and how well the unchanged one shows the road.
 
         The changed recording comes first: what is kept of it has to serve both.
-        Raises InputError for a variation that names no change or lacks a number of it, and for
-        what `scored` refuses.
+        Raises InputError for a variation that names no change or lacks a number of it, for a
+        change of sensors that the device does not have, and for what `scored` refuses.
         """
         change = change_of(case.variation)
         self.scored(case)
         before = bench.simulate(case.scenario)
+        check_equipped(before.recording, change.needs, f"change {case.variation['change']}")
         after = _changed(case, change, before, bench)
         undone = change.profile(bench.run(after, "changed"), case.variation)
         result = bench.run(before, "unchanged")
@@ -160,7 +174,11 @@ DERIVATION = (
     "in place of a rate; a bias of up to 0.03 m/s² (3 mg) added to the vertical accelerometers; "
     "time stamps up to 1e6 s and distances up to 100 km from where they were, where single "
     "precision is coarse; another sampling rate; the road 0.4 to 2.7 times as high under ideal "
-    "sensors, the result scaled back; twice the time at a standstill. Drives of constant speed "
+    "sensors, the result scaled back; twice the time at a standstill. Of a device that declares "
+    "a receiver: its heights up to 3 km from where they were, a half to a quarter of its readings; "
+    "an inertial unit: gyros at 125 to 400 Hz in place of 100, biases of up to 0.03 m/s² and "
+    "0.03 °/s; both: a road that climbs by up to 4 % and leans by up to 3 %, on which gravity is "
+    "no longer along the body's axes. Drives of constant speed "
     f"or throttle are compared from {FROM_M:g} m behind the later beginning to {END_M:g} m before "
     "the end: what software starts with differs, and leaves the high-pass (105.91 m) and the "
     "car of the IRI by then. Nothing there may differ by more than a tenth of what the class may "

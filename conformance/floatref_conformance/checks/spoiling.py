@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.changes import Numbers, number
+from floatref_conformance.checks.change import Numbers, number
 
 DISTANCE = "distance"
 Spoil = Callable[[FloatArray, slice], None]
@@ -29,6 +29,10 @@ class Injured:
     extent_m: float
     at_m: float
     shift_m: float = 0.0
+
+
+Injury = Callable[[Recording, Numbers], Injured]
+"""Returns a recording with a fault in it, of numbers that a case gives."""
 
 
 def lose(values: FloatArray, where: slice) -> None:

@@ -56,6 +56,7 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "encoder_error_percent": (-50.0, 50.0),
         "slip_percent_per_g": (0.0, 100.0),
         "rate_hz": (1000.0, 64000.0),
+        "gyro_rate_hz": (10.0, 10000.0),
         "profile_interval_m": (0.001, 1.0),
     }
 )
@@ -93,6 +94,7 @@ class Scenario:
         imu, gnss: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
+        gyro_rate_hz: of the gyros.
         profile_interval_m: of the truth, and what the recording asks for.
     """
 
@@ -123,6 +125,7 @@ class Scenario:
     gnss: bool = True
     tracks: tuple[str, ...] = ("left", "right")
     rate_hz: float = 16000.0
+    gyro_rate_hz: float = 100.0
     profile_interval_m: float = 0.00508
 
     def __post_init__(self) -> None:

@@ -91,6 +91,7 @@ def suite_of(scenario: Scenario) -> SensorSuite:
         suite.scaled(scenario.sensors),
         slip_per_g=scenario.sensors * scenario.slip_percent_per_g / 100,
         encoder_error=scenario.encoder_error_percent / 100,
+        gyro_rate_hz=scenario.gyro_rate_hz,
     )
 
 

@@ -7,7 +7,7 @@ from floatref_conformance.checks.fault_scores import BASE_M
 from floatref_conformance.checks.faults import FaultsCheck
 from floatref_conformance.checks.rule import ELSEWHERE
 from floatref_conformance.classes import Effort
-from floatref_conformance.devices.interface import Description
+from floatref_conformance.devices.interface import CAPABILITIES, Description
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.selftest import put_in
 from floatref_conformance.selftest.grading import Graded, Put, Situation
@@ -16,7 +16,7 @@ from floatref_conformance.selftest.truth_bench import Spoil
 INTERVAL_M = 0.02
 LOCAL_AT_M = 400.0
 """A local error lies here, away from the fault."""
-EQUIPPED = Description("perfect", "1", "temporal", ("gnss",))
+EQUIPPED = Description("perfect", "1", "temporal", tuple(CAPABILITIES))
 LABEL = "with the fault"
 CLEAR_M = 30.0
 """Farther than this from a stop no vehicle travels below 16 km/h."""

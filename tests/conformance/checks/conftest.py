@@ -10,6 +10,7 @@ from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.checks.interface import Taken
+from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.staging import drive_of
 
 INTERVAL_M = 0.025
@@ -27,11 +28,12 @@ def road(scenario, length_m):
 class RightBench:
     """Delivers the truth, filtered alike, on the axis that the encoder tells.
 
-    ``spoil`` gets the label of every run and its profile, and returns what is delivered.
+    ``spoil`` gets the label of every run and its profile, and returns what is delivered. An
+    ``augmented`` device has an inertial unit and a receiver, of channels that only fill a place.
     """
 
-    def __init__(self, spoil=lambda label, profile: profile, gnss=False):
-        self.spoil, self.gnss = spoil, gnss
+    def __init__(self, spoil=lambda label, profile: profile, augmented=False):
+        self.spoil, self.augmented = spoil, augmented
         self.labels = []
         self.taken = {}
 
@@ -48,11 +50,8 @@ class RightBench:
             height = 0.3 + 0.002 * rng.standard_normal(times.size)
             channels.append(Channel.of("vertical_specific_force", force, clock, track))
             channels.append(Channel.of("height", height, clock, track))
-        if self.gnss:
-            slow = UniformClock.of(20.0)
-            fixes = times[:: int(rate_hz / 20)].size
-            channels.append(Channel.of("gnss_height", np.linspace(0, 1, fixes), slow))
-            channels.append(Channel.of("gnss_quality", np.full(fixes, 4.0), slow))
+        if self.augmented:
+            channels += self._augmented(times[-1], scenario, rng)
         tracks = tuple(
             ProfileTrack.of(t, road(replace(scenario, seed=scenario.seed + n), distance[-1]))
             for n, t in enumerate(scenario.tracks)
@@ -84,6 +83,15 @@ class RightBench:
             for t in taken.truth.tracks
         )
         return self.spoil(label, Profile(INTERVAL_M, tracks, float(points[0])))
+
+    @staticmethod
+    def _augmented(last_s, scenario, rng):
+        rates = {"imu": scenario.gyro_rate_hz, "gnss": 20.0}
+        for capability, rate_hz in rates.items():
+            clock, count = UniformClock.of(rate_hz), int(last_s * rate_hz) + 1
+            for name in sorted(CAPABILITIES[capability]):
+                values = np.full(count, 4.0) if name == "gnss_quality" else rng.random(count)
+                yield Channel.of(name, values, clock)
 
     @staticmethod
     def _span(channel):

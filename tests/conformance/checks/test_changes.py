@@ -1,5 +1,7 @@
 """Every change leaves what it does not name, and is undone in the result."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -23,6 +25,7 @@ def recorded():
             Channel.of("distance", np.arange(4000) * 0.02, UniformClock.of(1000.0)),
             Channel.of("vertical_specific_force", rng.random(4000), UniformClock.of(1000.0, 0.2)),
             Channel.of("pitch_rate", rng.random(400), UniformClock.of(100.0)),
+            Channel.of("lateral_specific_force", rng.random(4000), UniformClock.of(1000.0)),
             Channel.of("gnss_height", rng.random(80), fixes),
         )
     )
@@ -86,6 +89,40 @@ def test_changes_are_undone_in_the_result(factor, shift_m):
     np.testing.assert_allclose(lower.tracks[0].elevation, np.arange(5.0), rtol=1e-12)
     scenario = CHANGES["road-height"].scenario(Scenario(), {"factor": factor})
     assert scenario.iri_m_per_km == pytest.approx(factor * Scenario().iri_m_per_km)
+
+
+@laws
+@given(shift_m=st.floats(-1e3, 1e3), bias=st.floats(-0.1, 0.1), rate_bias=st.floats(-0.01, 0.01))
+def test_datum_and_biases_of_augmented_devices_move_what_they_name_alone(shift_m, bias, rate_bias):
+    moved = {"gnss_height": shift_m, "pitch_rate": rate_bias, "lateral_specific_force": bias}
+    datum = changed("gnss-datum", shift_m=shift_m)
+    biased = changed("imu-bias", bias=bias, rate_bias=rate_bias)
+    for recording, named in ((datum, "gnss"), (biased, "pitch_rate lateral")):
+        for before, after in pairs(recording):
+            by = moved.get(after.id.name, 0.0) if after.id.name.split("_")[0] in named else 0.0
+            np.testing.assert_array_equal(after.values, before.values + by)
+
+
+@laws
+@given(every=st.integers(1, 5))
+def test_of_a_receivers_readings_every_so_manyth_is_left(every):
+    for before, after in pairs(changed("gnss-rate", every=every)):
+        step = every if before.id.name.startswith("gnss") else 1
+        np.testing.assert_array_equal(after.values, before.values[::step])
+        np.testing.assert_array_equal(after.times_s, before.times_s[::step])
+
+
+@laws
+@given(
+    gyro_rate_hz=st.floats(50.0, 500.0),
+    grade=st.floats(-5.0, 5.0),
+    cross_slope=st.floats(-5.0, 5.0),
+)
+def test_gyro_rate_and_slope_are_those_of_another_drive(gyro_rate_hz, grade, cross_slope):
+    plain = Scenario()
+    slope = {"grade_percent": grade, "cross_slope_percent": cross_slope}
+    for name, numbers in (("gyro-rate", {"gyro_rate_hz": gyro_rate_hz}), ("slope", slope)):
+        assert CHANGES[name].scenario(plain, numbers) == replace(plain, **numbers)
 
 
 def test_a_variation_names_a_change_and_its_numbers():

@@ -54,7 +54,7 @@ def spoiling(change, label="with the fault"):
 
 @pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
 def test_a_right_device_need_flag_nothing(right_bench, case):
-    measured = FAULTS.judge(case, right_bench(gnss=True))
+    measured = FAULTS.judge(case, right_bench(augmented=True))
     assert {m.quantity for m in measured} <= FAULTS.limits.keys()
     assert {m.track for m in measured} == {"left", "right"}
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.6
@@ -87,7 +87,7 @@ def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
     def flag(x, z, valid):
         return z, valid & (np.abs(x - 300.0) > 50.0)
 
-    measured = FAULTS.judge(case, right_bench(lambda _, p: changed(p, flag), gnss=True))
+    measured = FAULTS.judge(case, right_bench(lambda _, p: changed(p, flag), augmented=True))
     fails = max(m.ratio(NOMINAL) for m in measured) > 1.0
     assert fails == (case.scenario.manoeuvre != "stop")
 
@@ -170,25 +170,27 @@ def test_the_fault_comes_first(right_bench):
     assert bench.labels == ["with the fault", "without the fault"]
 
 
-def test_a_fault_of_a_receiver_needs_one(right_bench):
+@pytest.mark.parametrize(("fault", "needed"), [("gnss-outage", "gnss"), ("imu-flicker", "imu")])
+def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
     without = right_bench()
-    with pytest.raises(InputError, match="variation fault gnss-outage: needs gnss"):
-        FAULTS.judge(QUICK["gnss-outage"], without)
+    with pytest.raises(InputError, match=f"variation fault {fault}: needs {needed}, which"):
+        FAULTS.judge(QUICK[fault], without)
     assert without.labels == []
 
 
 @pytest.mark.parametrize("effort", list(Effort))
-def test_without_a_receiver_its_faults_are_no_cases_and_all_others_stay(effort):
-    without, having = fitted(FAULTS, ("imu",)), fitted(FAULTS, ("gnss",))
-    assert having.cases(1, effort) == FAULTS.cases(1, effort)
-    assert without.cases(1, effort) == tuple(
-        case for case in FAULTS.cases(1, effort) if "gnss" not in case.variation["fault"]
+@pytest.mark.parametrize("having", [(), ("imu",), ("gnss",), ("imu", "gnss")])
+def test_faults_of_sensors_that_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
+    lacking = {"imu", "gnss"} - set(having)
+    assert fitted(FAULTS, having).cases(1, effort) == tuple(
+        case
+        for case in FAULTS.cases(1, effort)
+        if case.variation["fault"].split("-")[0] not in lacking
     )
-    assert len(without.cases(1, effort)) < len(having.cases(1, effort))
 
 
 @settings(deadline=None, max_examples=60)
-@given(case=fitted(FAULTS, ()).strategy())
+@given(case=fitted(FAULTS, ("imu",)).strategy())
 def test_without_a_receiver_its_faults_are_not_searched_for(case):
     assert "gnss" not in case.variation["fault"]
 

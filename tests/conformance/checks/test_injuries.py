@@ -6,6 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref_conformance.checks.augmented_injuries import AUGMENTED
 from floatref_conformance.checks.faults import FAULTS
 from floatref_conformance.checks.injuries import INJURIES, injury_of
 from floatref_conformance.classes import Effort
@@ -16,13 +17,14 @@ STOP = Scenario(length_m=560.0, rate_hz=1000.0, manoeuvre="stop", event_at_m=320
 SPEED, RATE = 20.0, 1000.0
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
 INJURED = {"laser": {HEIGHT}, "accelerometer": {FORCE}, "encoder": {DISTANCE}}
+NOMINAL = [c for c in FAULTS.cases(0, Effort.QUICK) if c.variation["fault"] not in AUGMENTED]
 few = settings(
     deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 
 
-def recording_of(right_bench, scenario=STEADY, gnss=False):
-    return right_bench(gnss=gnss).simulate(scenario).recording
+def recording_of(right_bench, scenario=STEADY, augmented=False):
+    return right_bench(augmented=augmented).simulate(scenario).recording
 
 
 def injured(recording, fault, **numbers):
@@ -33,20 +35,18 @@ def samples(recording, name, track=None):
     return recording.channel(name, track).values
 
 
-@pytest.mark.parametrize("case", FAULTS.cases(0, Effort.QUICK), ids=lambda c: c.name)
+@pytest.mark.parametrize("case", NOMINAL, ids=lambda c: c.name)
 def test_only_what_is_named_is_injured_and_only_there(right_bench, case):
     fault = case.variation["fault"]
-    before = recording_of(right_bench, case.scenario, gnss=True)
+    before = recording_of(right_bench, case.scenario, augmented=True)
     hurt = injury_of(case.variation)(before, case.variation)
     part = fault.split("-")[0]
     if fault == "gap-in-time":
         return
     for one, other in zip(before.channels, hurt.recording.channels, strict=True):
         same = (one.values == other.values).all()
-        touched = (
-            part == "gap"
-            or (one.id.name in INJURED.get(part, ()) and one.id.track in (None, "left"))
-            or (part == "gnss" and one.id.name.startswith("gnss"))
+        touched = part == "gap" or (
+            one.id.name in INJURED.get(part, ()) and one.id.track in (None, "left")
         )
         assert same != touched
         assert other.clock is one.clock
@@ -97,7 +97,7 @@ def test_a_saturated_accelerometer_is_at_its_full_scale(right_bench):
 
 
 def test_a_gap_is_in_all_channels_at_once(right_bench):
-    before = recording_of(right_bench, gnss=True)
+    before = recording_of(right_bench, augmented=True)
     missing = injured(before, "gap", length_s=0.5).recording
     absent = injured(before, "gap-in-time", length_s=0.5).recording
     spans = []
@@ -158,25 +158,6 @@ def test_a_vehicle_rolls_back_where_it_stands(right_bench):
     assert (true - told).max() == pytest.approx(0.3, rel=1e-3)
     assert np.abs(np.diff(told)).max() < 0.03
     assert hurt.at_m == pytest.approx(320.0)
-
-
-def test_a_receiver_says_that_it_is_worse(right_bench):
-    before = recording_of(right_bench, gnss=True)
-    out = injured(before, "gnss-outage", length_s=3.0).recording
-    wrong = injured(before, "gnss-wrong-fix", length_s=3.0, size_m=1.5).recording
-    lost = np.isnan(samples(out, "gnss_height"))
-    assert lost.sum() == pytest.approx(60, abs=1)
-    assert set(samples(out, "gnss_quality")[lost]) == {0.0}
-    lifted = samples(wrong, "gnss_height") - samples(before, "gnss_height")
-    np.testing.assert_allclose(lifted[lost], 1.5)
-    assert set(samples(wrong, "gnss_quality")[lost]) == {1.0}
-    assert not lifted[~lost].any()
-
-
-@pytest.mark.parametrize("fault", ["gnss-outage", "gnss-wrong-fix"])
-def test_without_a_receiver_nothing_changes(right_bench, fault):
-    before = recording_of(right_bench)
-    assert injured(before, fault, length_s=3.0, size_m=1.0).recording is before
 
 
 def test_a_variation_names_a_fault_and_its_numbers(right_bench):

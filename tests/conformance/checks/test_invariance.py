@@ -7,10 +7,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance import oracle
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.changes import CHANGES
+from floatref_conformance.checks.interface import fitted
 from floatref_conformance.checks.invariance import INVARIANCE
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
@@ -20,6 +22,7 @@ from floatref_conformance.proving_ground.staging import drive_of
 QUICK = INVARIANCE.cases(0, Effort.QUICK)
 ALIKE = next(case for case in QUICK if case.variation["change"] == "clock-storage")
 LONGER = next(case for case in QUICK if case.variation["change"] == "longer-stop")
+DRIVEN_AGAIN = ("road-height", "sample-rate", "longer-stop", "gyro-rate", "slope")
 few = settings(
     deadline=None, max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
@@ -36,7 +39,7 @@ def judged(case, bench):
 
 @pytest.mark.parametrize("case", INVARIANCE.cases(3, Effort.CERTIFICATION), ids=lambda c: c.name)
 def test_a_right_device_keeps_every_limit_of_every_case(right_bench, case):
-    bench = right_bench()
+    bench = right_bench(augmented=True)
     measured = INVARIANCE.judge(case, bench)
     assert bench.labels == ["changed", "unchanged"]
     assert {m.quantity for m in measured} <= INVARIANCE.limits.keys()
@@ -144,6 +147,31 @@ def test_whatever_is_drawn_is_a_drive_and_a_change(case):
     changed = change.scenario(case.scenario, case.variation)
     assert drive_of(changed).length_m >= case.scenario.length_m - 1e-6
     assert isinstance(changed, Scenario)
-    assert (changed != case.scenario) == (
-        case.variation["change"] in ("road-height", "sample-rate", "longer-stop")
+    assert (changed != case.scenario) == (case.variation["change"] in DRIVEN_AGAIN)
+
+
+@pytest.mark.parametrize(
+    ("change", "needed"), [("gnss-datum", "gnss"), ("gyro-rate", "imu"), ("imu-bias", "imu")]
+)
+def test_a_change_of_a_sensor_needs_it(right_bench, change, needed):
+    case = next(case for case in QUICK if case.variation["change"] == change)
+    without = right_bench()
+    with pytest.raises(InputError, match=f"variation change {change}: needs {needed}, which"):
+        INVARIANCE.judge(case, without)
+    assert without.labels == []
+
+
+@pytest.mark.parametrize("effort", list(Effort))
+@pytest.mark.parametrize("having", [(), ("imu",), ("gnss",), ("imu", "gnss")])
+def test_changes_of_what_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
+    assert fitted(INVARIANCE, having).cases(1, effort) == tuple(
+        case
+        for case in INVARIANCE.cases(1, effort)
+        if CHANGES[case.variation["change"]].needs <= set(having)
     )
+
+
+@settings(deadline=None, max_examples=40)
+@given(case=fitted(INVARIANCE, ()).strategy())
+def test_what_a_device_lacks_is_not_searched_for(case):
+    assert not CHANGES[case.variation["change"]].needs

@@ -18,13 +18,15 @@ from floatref_conformance.plugins import load_registry
 
 CHECKS = load_registry().checks
 CASES = [*INVARIANCE.cases(1, Effort.QUICK), *FAULTS.cases(1, Effort.QUICK)]
+EVERYWHERE = ("encoder-rolling-back", "gnss-never-fixed")
+"""Faults without a place: a vehicle rolls back where it stands."""
 OWN = [
     (case, key)
     for case in CASES
     for key in case.variation
-    if (case.variation.get("fault"), key) != ("encoder-rolling-back", "at_m")
+    if key != "at_m" or case.variation["fault"] not in EVERYWHERE
 ]
-"""Their own numbers; a vehicle that rolls back does so where it stands."""
+"""Their own numbers."""
 SECOND = {"second_seed": 1, "second_speed_kmh": 60.0, "second_vehicle": "minivan"}
 DRIVEN = [id_ for id_ in CHECKS if id_ not in ("quiescent", "bounce")]
 
@@ -32,7 +34,7 @@ DRIVEN = [id_ for id_ in CHECKS if id_ not in ("quiescent", "bounce")]
 def judged(bench, case, **scenario):
     slow = {"rate_hz": 1000.0, "tracks": ("left",), **scenario}
     return CHECKS[case.check].judge(
-        replace(case, scenario=replace(case.scenario, **slow)), bench(gnss=True)
+        replace(case, scenario=replace(case.scenario, **slow)), bench(augmented=True)
     )
 
 

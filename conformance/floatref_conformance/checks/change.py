@@ -1,0 +1,93 @@
+"""One thing that must not matter, and the numbers of a case that say how much of it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
+from floatref.values.recording import Channel, Recording
+from floatref_conformance.checks.case import Number
+from floatref_conformance.devices.interface import CAPABILITIES
+from floatref_conformance.proving_ground.scenario import LIMITS, Scenario
+
+Numbers = Mapping[str, Number]
+RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "samples": (0, 1e6),
+        "bias": (-10.0, 10.0),
+        "rate_bias": (-0.1, 0.1),
+        "shift_s": (-1e9, 1e9),
+        "shift_m": (-1e7, 1e7),
+        "factor": (0.01, 100.0),
+        "every": (1, 100),
+        "at_m": LIMITS["event_at_m"],
+        "length_s": (0.0, 600.0),
+        "span_m": (0.0, 1e4),
+        "count": (1, 1000),
+        "side": (-1, 1),
+        "size_m": (-100.0, 100.0),
+        "full_scale_g": (-1000.0, 1000.0),
+        **{
+            name: LIMITS[name]
+            for name in ("rate_hz", "gyro_rate_hz", "grade_percent", "cross_slope_percent")
+        },
+    }
+)
+"""Smallest and largest value of every number that a change or a fault may have."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """One thing that must not matter, and how it is undone in the result.
+
+    Attributes:
+        says: what is changed, in words.
+        scenario: the changed drive, road or sensors.
+        recording: the changed recording.
+        truth: where the road lies on the changed axis of distance.
+        profile: the result as it should have been without the change.
+        needs: capabilities without which it is no change to a device.
+    """
+
+    says: str
+    scenario: Callable[[Scenario, Numbers], Scenario] = lambda scenario, _: scenario
+    recording: Callable[[Recording, Numbers], Recording] = lambda recording, _: recording
+    truth: Callable[[Profile, Numbers], Profile] = lambda truth, _: truth
+    profile: Callable[[Profile, Numbers], Profile] = lambda profile, _: profile
+    needs: frozenset[str] = frozenset()
+
+
+def number(numbers: Numbers, name: str) -> float:
+    """Return number ``name`` of a case's variation; InputError if it is none, or out of range."""
+    value = numbers.get(name)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InputError(f"variation {name} is {value!r}; give a number")
+    low, high = RANGES[name]
+    if not low <= value <= high:
+        raise InputError(f"variation {name} is {value!r}; it must lie between {low:g} and {high:g}")
+    return float(value)
+
+
+def check_equipped(recording: Recording, needs: frozenset[str], what: str) -> None:
+    """Raise InputError if ``recording`` has no channel of a capability that ``what`` needs."""
+    names = {channel.id.name for channel in recording.channels}
+    for capability in sorted(needs):
+        if not names & CAPABILITIES[capability]:
+            raise InputError(f"variation {what}: needs {capability}, which the device lacks")
+
+
+def each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
+    """Return ``recording`` with what ``change`` makes of its channels."""
+    return replace(recording, channels=tuple(change(c) for c in recording.channels))
+
+
+def raised(channel: Channel, offset: float) -> Channel:
+    """Return ``channel`` with ``offset`` added to its samples, in its unit."""
+    return with_samples(channel, channel.values + offset)
+
+
+def with_samples(channel: Channel, values: FloatArray) -> Channel:
+    """Return ``channel`` with other ``values`` at the same times."""
+    return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
