@@ -59,8 +59,9 @@ class KalmanStage(Stage):
             header.require(self.name, *own, *shared)
         self._header = header
         self._channels = tuple(InputChannels.of(header, track) for track in header.tracks)
+        readings = Readings(header.origin, header.step)
         quiet = Quiet(round(1.0 / header.step))
-        self.memory = {"readings": Readings(header), "quiet": quiet, "filters": {}}
+        self.memory = {"readings": readings, "quiet": quiet, "filters": {}}
         return header.replacing(ACCELERATION, REFERENCE_HEIGHT).without(*IMU)
 
     def forward(self, block: Block) -> dict[str, tuple[FloatArray, Nodes]]:
@@ -100,8 +101,8 @@ class KalmanStage(Stage):
         return replace(nothing.setting(values), events=())
 
     def flags(self, block: Block, channels: InputChannels) -> FlagArray | None:
-        """Return the flags of all inputs of a wheel path."""
-        return flags_of(block, *channels.names)
+        """Return the flags of all inputs of a wheel path, and of the height at a stop."""
+        return flags_of(block, *channels.names, ChannelId(HEIGHT, channels.track))
 
 
 class KalmanFilter(KalmanStage):

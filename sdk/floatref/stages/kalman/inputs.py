@@ -65,10 +65,12 @@ def _known(values: FloatArray) -> FloatArray:
 class Readings:
     """Usable GNSS readings by sample, each at the sample next to it in time.
 
-    A reading without a height, or without fixed ambiguities, is left out.
+    A reading without a height, or without fixed ambiguities, is left out. Sample 0 is at
+    ``origin_s``, and ``step`` in s between two of them.
     """
 
-    header: Header
+    origin_s: float
+    step: float
     held: list[tuple[int, tuple[float, ...]]] = field(default_factory=list)
     before_s: float = -np.inf
 
@@ -88,7 +90,7 @@ class Readings:
             return
         interval_s = event.time_s - self.before_s
         self.before_s = event.time_s
-        index = max(0, round((event.time_s - self.header.origin) / self.header.step))
+        index = max(0, round((event.time_s - self.origin_s) / self.step))
         if not self.held or index > self.held[-1][0]:
             self.held.append((index, (*row, min(interval_s, LONGEST_S))))
 

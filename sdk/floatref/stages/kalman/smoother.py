@@ -1,6 +1,8 @@
 """The Kalman smoother in place of both integrations."""
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -10,7 +12,9 @@ from floatref.stages.kalman.line import Closing, Line
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
 from floatref.stages.kalman.track import sub_block
+from floatref.stages.protocol import Declared
 from floatref.stages.signals import ACCELERATION, DISTANCE, REFERENCE_HEIGHT, SIGMA
+from floatref.values.arrays import FlagArray
 from floatref.values.block import Block, Header, joined
 from floatref.values.channels import ChannelId
 
@@ -18,6 +22,8 @@ SUB_BLOCKS = 400
 """Sub-blocks of a segment: four seconds."""
 TOLERANCE_M = 2e-6
 """1-σ of what later readings may still change when a segment is closed."""
+ALL = 1 << 62
+"""More samples than any run has."""
 
 
 class KalmanSmoother(KalmanStage):
@@ -27,6 +33,8 @@ class KalmanSmoother(KalmanStage):
     ``wavelength_m``. Segments of four seconds come out once the readings behind them no longer
     matter, and what is kept until then depends on the drive, not on its length (section 7.3.4).
     """
+
+    declared: ClassVar[Declared] = replace(KalmanStage.declared, delay=ALL)
 
     def __init__(
         self,
@@ -76,7 +84,7 @@ class KalmanSmoother(KalmanStage):
                 line.end_segment()
             if line.segments:
                 line.close(len(line.segments))
-        self.memory["closed"] = 1 << 62
+        self.memory["closed"] = ALL
         return tuple(self._closed_blocks())
 
     def _split(self, block: Block) -> Iterator[tuple[Block, bool]]:
@@ -118,9 +126,10 @@ class KalmanSmoother(KalmanStage):
         return self.empty(blocks[0] if blocks else block, SIGMA)
 
     def _without_inputs(self, block: Block) -> Block:
-        flags = {}
+        flags: dict[ChannelId, FlagArray] = {}
         for channels in self._channels:
             marks = self.flags(block, channels)
             if marks is not None:
-                flags[ChannelId(REFERENCE_HEIGHT, channels.track)] = marks
+                names = REFERENCE_HEIGHT, SIGMA
+                flags |= {ChannelId(name, channels.track): marks for name in names}
         return block.setting({}, flags).without(ACCELERATION, *IMU)
