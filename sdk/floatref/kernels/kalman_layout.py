@@ -1,4 +1,8 @@
-"""How the Kalman kernels lay out states, nodes and updates in plain arrays."""
+"""How the Kalman kernels lay out states, nodes and updates in plain arrays.
+
+Compiled kernels hold these numbers, and numba's cache does not see that they change: who changes one
+in a clone deletes `__pycache__/kalman*.nb?` beside this file. An installation is compiled anew.
+"""
 
 from floatref.values.arrays import FloatArray
 
