@@ -1,6 +1,6 @@
 """How the Kalman kernels lay out states, nodes and updates in plain arrays.
 
-Compiled kernels hold these numbers, and numba's cache does not see that they change: who changes one
+Compiled kernels hold these numbers, and numba's cache does not see a change here: who makes one
 in a clone deletes `__pycache__/kalman*.nb?` beside this file. An installation is compiled anew.
 """
 
