@@ -24,6 +24,8 @@ BREACHES = {
     "sdk/floatref/architectures/tape.py": "floatref_conformance",
     "sdk/floatref/errors.py": "floatref_reference",
     "sdk/floatref/plots/figure.py": "floatref_adapters",
+    "sdk/floatref/plots/sensitivity.py": "floatref.tuning.levels",
+    "sdk/floatref/tuning/levels.py": "floatref.cli.printing",
     "adapters/floatref_adapters/stamps.py": "floatref.values.clock",
     "reference_impl/floatref_reference/signals.py": "scipy",
     "reference_impl/floatref_reference/appendix_a/filters.py": "floatref.values.arrays",

@@ -12,6 +12,7 @@ COMMANDS = {
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters"),
     "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
+    "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
 }
 
 

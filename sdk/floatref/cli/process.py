@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.cli.settings import read_settings
 from floatref.cli.sources import origin_of, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import write_profile, write_profile_csv
 from floatref.files.atomic import check_target, replacing_file
-from floatref.files.document import read_document
 from floatref.files.sources import naming
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
@@ -57,7 +57,7 @@ def process(
     _check_targets(source, out, plot, overwrite)
     reader = reader_of(source, adapter)
     recording = read_source(reader, source)
-    profile, warnings = _processed(recording, pipeline, _settings(settings), source, as_json)
+    profile, warnings = _processed(recording, pipeline, read_settings(settings), source, as_json)
     profile = replace(profile, provenance={**profile.provenance, **origin_of(source, reader)})
     report = _report(profile, out, warnings)
     with _drawn(profile, recording, plot):
@@ -100,15 +100,6 @@ def _form(out: Path) -> str:
     if suffix not in SUFFIXES:
         raise InputError(f"{out}: suffix {suffix} is no format; use .csv, no suffix, or --format")
     return SUFFIXES[suffix]
-
-
-def _settings(path: Path | None) -> Mapping[str, Any]:
-    if path is None:
-        return {}
-    document = read_document(path)
-    if not isinstance(document, dict):
-        raise InputError(f"{path}: expected one JSON object of settings by name")
-    return document
 
 
 def _processed(

@@ -1,0 +1,186 @@
+"""The procedure of section 6.4.4: do no harm at speed, then braking and stops, then low speed."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from floatref.tuning.drives import STOPS, Kind
+from floatref.tuning.levels import START, TUNED, Levels, Point, moved
+from floatref.tuning.search import (
+    LEAST_GAIN,
+    TOLERANCE,
+    Range,
+    best_range,
+    climb,
+    good_range,
+    lowest_good,
+)
+
+DENSITY, WALK, PITCH, ROLL = range(len(TUNED))
+PRIORITY = 2.0
+"""A wheel path that comes first counts so many times as much as another one."""
+ROUNDS = 3
+"""Steps 2 to 4 are repeated so often at most."""
+MOST_CLIMBED = 40
+"""Combinations that step 6 looks at from either of its beginnings."""
+MOST = 850
+"""No tuning looks at more combinations of values."""
+
+Losses = Mapping[str, Sequence[float]]
+"""Of every wheel path of the runs, by the runs' names."""
+Evaluate = Callable[[Point, Sequence[str]], Losses]
+
+
+@dataclass(frozen=True)
+class Found:
+    """What tuning has found.
+
+    Attributes:
+        point: the values that do best.
+        ranges: of the settings, steps that were as good in steps 2 to 4 where runs told them.
+        rounds: how often these were gone through.
+        harmless: whether any values did no harm at high speed and in light braking.
+    """
+
+    point: Point
+    ranges: Mapping[str, Range]
+    rounds: int
+    harmless: bool
+
+
+@dataclass
+class Procedure:
+    """One tuning: which runs there are, what they lose, and what has been found.
+
+    Attributes:
+        kinds: of the runs by name, one at high speed among them.
+        nominal: losses of the nominal profiler.
+        levels: the values that may be tried.
+        evaluate: gives the losses of the runs asked for at a point.
+        begin: where step 1 puts the walks of the rates: what sensors at rest showed, else lowest.
+        tell: is told each step.
+    """
+
+    kinds: Mapping[str, Kind]
+    nominal: Losses
+    levels: Levels
+    evaluate: Evaluate
+    begin: Point
+    tell: Callable[[str], None] = field(default=lambda _: None)
+    ranges: dict[str, Range] = field(default_factory=dict)
+    harmless: bool = True
+
+    def search(self) -> Found:
+        """Go through steps 2 to 6 and return the best of what they lead to.
+
+        The start stays if nothing is better than it.
+        """
+        point, total, rounds = self.begin, float("inf"), 0
+        for number in range(ROUNDS):
+            there = self._low_speed(self._braking(self._no_harm(point)))
+            found = self.collective(there)
+            rounds = number + 1
+            if found > total - LEAST_GAIN:
+                break
+            point, total = there, found
+        self.tell("Step 6: the three walks together")
+        best = self._climbed(START)
+        other = self._climbed(point)
+        if self.collective(other) < self.collective(best) - LEAST_GAIN:
+            best = other
+        return Found(best, dict(self.ranges), rounds, self.harmless)
+
+    def collective(self, point: Point) -> float:
+        """Return the mean loss of all runs, and what they are worse than nominal at speed."""
+        return self._mean(point, self._all) + max(self._harm(point) - TOLERANCE, 0.0)
+
+    def _no_harm(self, point: Point) -> Point:
+        """Step 2: the lowest accelerations that are as good as nominal, at speed and braking."""
+        self.tell("Step 2: no harm at high speed and in light braking")
+
+        def good(density: int, walk: int) -> bool:
+            return self._harm(moved(moved(point, DENSITY, density), WALK, walk)) <= TOLERANCE
+
+        low, high = self.levels.lowest, self.levels.highest
+        pair = lowest_good((low[DENSITY], low[WALK]), (high[DENSITY], high[WALK]), good)
+        self.harmless = pair is not None
+        if pair is None:
+            return moved(moved(point, DENSITY, START[DENSITY]), WALK, START[WALK])
+        density, walk = pair
+        self.ranges[TUNED[DENSITY]] = good_range(
+            density, low[DENSITY], high[DENSITY], lambda step: good(step, walk)
+        )
+        self.ranges[TUNED[WALK]] = good_range(
+            walk, low[WALK], high[WALK], lambda step: good(density, step)
+        )
+        return moved(moved(point, DENSITY, density), WALK, walk)
+
+    def _braking(self, point: Point) -> Point:
+        """Step 3: the walk of the pitch rate for heavy braking and stops, left side first."""
+        self.tell("Step 3: pitch rate walk, heavy braking and stops")
+        return self._lowest_best(point, PITCH, self._of(Kind.HEAVY, *STOPS), self._guarded, 0)
+
+    def _low_speed(self, point: Point) -> Point:
+        """Step 4: the walk of the roll rate for low speed and heavy braking, right side first."""
+        self.tell("Step 4: roll rate walk, low speed and heavy braking")
+        runs = self._of(Kind.LOW, Kind.HEAVY)
+        others = [name for name in self._all if name not in runs]
+        return self._lowest_best(point, ROLL, runs, others, -1)
+
+    def _lowest_best(
+        self, point: Point, which: int, runs: list[str], others: list[str], favoured: int
+    ) -> Point:
+        """Return ``point`` with setting ``which`` at the lowest step that is best for ``runs``.
+
+        What ``others`` lose against ``point`` counts as well.
+        """
+        if not runs:
+            return point
+        before = self._each(point, others)
+
+        def loss(step: int) -> float:
+            there = moved(point, which, step)
+            worse = [
+                max(a - b, 0.0) for a, b in zip(self._each(there, others), before, strict=True)
+            ]
+            return self._mean(there, runs, favoured) + (sum(worse) / len(worse) if worse else 0.0)
+
+        found = best_range(self.levels.lowest[which], self.levels.highest[which], loss)
+        self.ranges[TUNED[which]] = found
+        return moved(point, which, found.lowest)
+
+    def _climbed(self, point: Point) -> Point:
+        free = (WALK, PITCH, ROLL)
+        low, high = self.levels.lowest, self.levels.highest
+        return climb(point, free, low, high, self.collective, MOST_CLIMBED)
+
+    def _harm(self, point: Point) -> float:
+        """Return by how much the worst of the runs of step 2 is worse than nominal."""
+        found = self._each(point, self._guarded)
+        nominal = [_weighted(self.nominal[name]) for name in self._guarded]
+        return max(a - b for a, b in zip(found, nominal, strict=True))
+
+    def _mean(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> float:
+        return sum(self._each(point, runs, favoured)) / len(runs)
+
+    def _each(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> list[float]:
+        losses = self.evaluate(point, runs) if runs else {}
+        return [_weighted(losses[name], favoured) for name in runs]
+
+    @property
+    def _all(self) -> list[str]:
+        return list(self.kinds)
+
+    @property
+    def _guarded(self) -> list[str]:
+        return self._of(Kind.HIGH, Kind.LIGHT)
+
+    def _of(self, *kinds: Kind) -> list[str]:
+        return [name for name, kind in self.kinds.items() if kind in kinds]
+
+
+def _weighted(losses: Sequence[float], favoured: int | None = None) -> float:
+    """Return the mean over the wheel paths, that of number ``favoured`` counting more."""
+    weights = [1.0] * len(losses)
+    if favoured is not None:
+        weights[favoured] = PRIORITY
+    return sum(w * x for w, x in zip(weights, losses, strict=True)) / sum(weights)

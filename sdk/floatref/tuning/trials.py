@@ -1,0 +1,89 @@
+"""Preliminary runs put through a pipeline with values to try: each once, several at a time."""
+
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from floatref.architectures.processing import run
+from floatref.errors import FloatrefError
+from floatref.tuning.levels import Levels, Point
+from floatref.tuning.scores import HOPELESS, Comparison, Scores
+from floatref.values.recording import Recording
+
+
+@dataclass(frozen=True)
+class Preliminary:
+    """A preliminary run, and what its profiles are compared with."""
+
+    name: str
+    recording: Recording
+    comparison: Comparison
+
+
+@dataclass
+class Trials:
+    """Every score that was asked for, kept.
+
+    Attributes:
+        pipeline: which one is tuned.
+        given: settings that stay.
+        levels: what the steps of a point stand for.
+        runs: by name.
+        done: is told after each profile that was made how many there are.
+    """
+
+    pipeline: str
+    given: Mapping[str, Any]
+    levels: Levels
+    runs: Mapping[str, Preliminary]
+    done: Callable[[int], None] = field(default=lambda _: None)
+    profiles: int = 0
+    known: dict[tuple[str, tuple[tuple[str, Any], ...]], Scores] = field(default_factory=dict)
+    workers: ThreadPoolExecutor | None = None
+
+    @contextmanager
+    def working(self) -> Iterator["Trials"]:
+        """Let as many runs go at a time as there are processors."""
+        with ThreadPoolExecutor(os.cpu_count()) as workers:
+            self.workers = workers
+            try:
+                yield self
+            finally:
+                workers.shutdown(cancel_futures=True)
+                self.workers = None
+
+    def losses(self, point: Point, names: Sequence[str]) -> dict[str, list[float]]:
+        """Return the losses of every wheel path of the runs called ``names`` at ``point``."""
+        scores = self.scores(self.levels.settings(point), names)
+        return {name: [score.loss for score in scores[name]] for name in names}
+
+    def scores(self, values: Mapping[str, float], names: Sequence[str]) -> dict[str, Scores]:
+        """Return the scores of runs with ``values`` in place of the settings given."""
+        settings = {**self.given, **values}
+        key = tuple(sorted(settings.items()))
+        missing = [name for name in names if (name, key) not in self.known]
+        found = (self.workers.map if self.workers else map)(
+            lambda name: self._scored(name, settings), missing
+        )
+        for name, scores in zip(missing, found, strict=True):
+            self.known[name, key] = scores
+            self.profiles += 1
+            self.done(self.profiles)
+        return {name: self.known[name, key] for name in names}
+
+    @property
+    def combinations(self) -> int:
+        """How many combinations of values were tried on any run."""
+        return len({key for _, key in self.known})
+
+    def _scored(self, name: str, settings: Mapping[str, Any]) -> Scores:
+        chosen = self.runs[name]
+        try:
+            profile = run(chosen.recording, self.pipeline, settings).profile
+            return chosen.comparison.scores(profile)
+        except FloatrefError:
+            # The same recording went through before, so it is these values that give no profile.
+            return (HOPELESS,) * len(chosen.comparison.reference.tracks)
