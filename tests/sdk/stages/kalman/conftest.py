@@ -141,7 +141,8 @@ def make(seed, seconds, rate, stop=(1e9, 1e9), every_s=0.05, lever=(0.8, -0.5, 1
     """Return a drive; its sensors' errors are those of a good unit times ``quiet``."""
     rng = np.random.default_rng(seed)
     times = np.arange(round(seconds * rate)) / rate
-    speed, braking = speeds(times, stop)
+    speed, braking = speeds(np.append(times, seconds), stop)
+    speed, braking = speed[:-1], braking[:-1]
     true, motion = inputs(rng, times, braking)
     bias = quiet * rng.normal(size=3) * [0.03, 0.002, 0.002]
     x = np.hstack([motion, np.tile(bias, (times.size, 1))])
