@@ -19,6 +19,7 @@ RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
 CLAIMS: Mapping[str, DeviceClass] = {
     RECOMMENDED: DeviceClass.NOMINAL,
     "spatial-hpf-timer-distortion-reflection": DeviceClass.NOMINAL,
+    "kalman-smoother-reflection": DeviceClass.ADEQUATE,
 }
 """The classes that pipelines claim to keep; the others claim none."""
 

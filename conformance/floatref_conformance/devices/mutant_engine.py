@@ -35,12 +35,12 @@ class Signals:
         times = force.times_s
         height = recording.channel("height", track)
         distance = recording.channel("distance")
-        h = _at(times, height.times_s, height.values)
+        h = at_times(times, height.times_s, height.values)
         return cls(
             float(np.round(1.0 / np.median(np.diff(times)), 6)),
-            _at(times, times, force.values) - STANDARD_GRAVITY,
+            at_times(times, times, force.values) - STANDARD_GRAVITY,
             h - h[0],
-            np.maximum.accumulate(_at(times, distance.times_s, distance.values)),
+            np.maximum.accumulate(at_times(times, distance.times_s, distance.values)),
         )
 
 
@@ -110,7 +110,7 @@ def _integral(x: FloatArray, step: float | FloatArray, carry: float = 1.0) -> Fl
     return out
 
 
-def _at(times: FloatArray, own: FloatArray, values: FloatArray) -> FloatArray:
+def at_times(times: FloatArray, own: FloatArray, values: FloatArray) -> FloatArray:
     """Return ``values`` of the instants ``own`` at ``times``, across what is missing."""
     seen = np.isfinite(values)
     return np.interp(times, own[seen], values[seen])

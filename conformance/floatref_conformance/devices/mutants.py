@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.devices.builtin import quietly_processed
+from floatref_conformance.devices.builtin import BuiltinDevice, quietly_processed
 from floatref_conformance.devices.hostile import HOSTILE, hostile_device
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.devices.mistakes import MISTAKES
@@ -29,13 +28,8 @@ class Mutant:
     mistake: Mistake
 
     def describe(self) -> Mapping[str, Any]:
-        """Return the description of a device with nominal channels."""
-        return {
-            "name": self.mistake.name,
-            "version": floatref.__version__,
-            "architecture": self.mistake.pipeline.split("-")[0],
-            "capabilities": [],
-        }
+        """Return the description of a device like the sound pipeline."""
+        return {**BuiltinDevice(self.mistake.pipeline).describe(), "name": self.mistake.name}
 
     def run(self, recording: Path, profile: Path) -> None:
         """Spoil ``recording``, process it, spoil the profile and write it."""
