@@ -84,7 +84,7 @@ Chunk = tuple[IndexArray, IndexArray, FloatArray]
 
 @dataclass
 class References:
-    """The observations of one wheel path, in the order of time.
+    """The observations of one wheel path, in the order of time: (6.48), (6.58) and (6.65).
 
     What it remembers depends on samples that came before, never on how they were split.
 
