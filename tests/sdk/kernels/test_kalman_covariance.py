@@ -1,0 +1,79 @@
+"""Covariances of the smoother between marks, against products of matrices."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.kernels import kalman_covariance as covariance
+from floatref.kernels import kalman_layout as layout
+from floatref.kernels.kalman_layout import STATES
+
+laws = settings(deadline=None, max_examples=20)
+SEEDS = st.integers(0, 2**32 - 1)
+COUNTS = st.integers(1, 6)
+
+
+def drawn(seed, count):
+    """Return P, Psi from the mark before, and what the observations in between gather."""
+    rng = np.random.default_rng(seed)
+    roots = rng.normal(size=(2, count, STATES, STATES)) / 3
+    p, gathered = roots @ roots.transpose(0, 1, 3, 2)
+    return p, rng.normal(size=(count, STATES, STATES)) / 3, gathered
+
+
+def settled(p, passed, gathered):
+    """Return (I - Lambda P) e_r at every mark, nothing known behind the last."""
+    found, information = [], np.zeros((STATES, STATES))
+    for spread, psi, sums in zip(p[::-1], passed[::-1], gathered[::-1], strict=True):
+        found.append(np.eye(STATES)[0] - information @ spread[:, 0])
+        information = psi.T @ information @ psi + sums
+    return np.array(found[::-1])
+
+
+@given(seed=SEEDS, count=COUNTS)
+@laws
+def test_the_upper_half_unpacks_to_a_symmetric_matrix(seed, count):
+    rng = np.random.default_rng(seed)
+    nodes, chosen = rng.normal(size=(9, layout.NODE)), rng.integers(0, 9, count)
+    found = np.empty((count, STATES, STATES))
+    covariance.unpack(nodes, chosen, found)
+    rows, columns = np.triu_indices(STATES)
+    np.testing.assert_array_equal(found[:, rows, columns], nodes[chosen, layout.SPREAD :])
+    np.testing.assert_array_equal(found, found.transpose(0, 2, 1))
+
+
+@pytest.mark.cites("(6.22)")
+@given(seed=SEEDS, count=COUNTS)
+@laws
+def test_what_the_readings_behind_a_mark_leave_of_its_error(seed, count):
+    p, passed, gathered = drawn(seed, count)
+    left = np.full((count, STATES), np.nan)
+    covariance.settle(p[:, :, 0].copy(), passed, gathered, left)
+    np.testing.assert_allclose(left, settled(p, passed, gathered), atol=1e-10)
+
+
+@given(seed=SEEDS, count=COUNTS)
+@laws
+def test_how_two_marks_are_related(seed, count):
+    """E[e_i e_j'] = P_i Psi_ji' (I - Lambda_j P_j), i not behind j."""
+    p, passed, gathered = drawn(seed, count)
+    left, found = settled(p, passed, gathered), np.full((count, count), np.nan)
+    covariance.relate(p[:, :, 0].copy(), left, passed, found)
+    for i in range(count):
+        moved = p[i]
+        for j in range(i, count):
+            moved = moved if j == i else moved @ passed[j].T
+            assert found[i, j] == found[j, i] == pytest.approx(moved[0] @ left[j], abs=1e-10)
+
+
+@given(seed=SEEDS, count=COUNTS)
+@laws
+def test_what_of_a_height_reaches_the_last_mark(seed, count):
+    p, passed, _ = drawn(seed, count)
+    found = np.full((count, STATES), np.nan)
+    covariance.reach(p[:, :, 0].copy(), passed, found)
+    psi = np.eye(STATES)
+    for i in range(count - 1, -1, -1):
+        np.testing.assert_allclose(found[i], psi @ p[i][:, 0], atol=1e-10)
+        psi = psi @ passed[i]
