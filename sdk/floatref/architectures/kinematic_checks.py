@@ -25,6 +25,7 @@ from floatref.architectures.kinematic_timing import (
     delay_told,
     on_time,
 )
+from floatref.values.plausibility import profiled_tracks
 from floatref.values.recording import Recording
 
 __all__ = ["check_kinematics", "gnss_faults"]
@@ -34,6 +35,9 @@ def check_kinematics(
     recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool
 ) -> tuple[str, ...]:
     """Return warnings about the IMU and GNSS channels of ``track``, one line each.
+
+    What each track's accelerometers measure of the antenna, its place and its delay, differs by
+    their noise; it is told with the first track.
 
     Args:
         recording: one that `examine` has found plausible.
@@ -57,7 +61,8 @@ def check_kinematics(
         check_plausible_rates(recording, track, motion)
         if uses_gnss:
             delay_s = delay(recording, motion)
-            warnings += delay_told(delay_s)
+            told = tuple(delay_told(delay_s))
+            warnings += told if _is_first(recording, track) else ()
             recording = on_time(recording, delay_s)
         warnings += check_travel_force(recording, track, motion)
         warnings += check_curves(recording, track, motion)
@@ -75,5 +80,10 @@ def _gnss(
     yield from faults_told(recording, faults)
     if motion is not None:
         yield from check_velocity(recording, motion)
-        yield from check_antenna(recording, track, motion, faults)
+        if _is_first(recording, track):
+            yield from check_antenna(recording, track, motion, faults)
     yield from jumps_told(recording, faults)
+
+
+def _is_first(recording: Recording, track: str) -> bool:
+    return track == profiled_tracks(recording)[0]

@@ -146,6 +146,7 @@ def _of_either(axis: Axis, names: list[str]) -> dict[str, str]:
     rate, twin, angle = names[axis.row], names[1 - axis.row], axis.angle
     other = AXES[1 - axis.row].angle
     return {
+        **_of_angle(axis, rate),
         **_of_rate(axis, names, angle),
         "sign": f"channels {rate} and {angle}: turn against each other; multiply the one whose "
         f"sign is inverted by -1 ({axis.positive})",

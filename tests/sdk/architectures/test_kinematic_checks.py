@@ -34,6 +34,8 @@ DRIVES: dict[str, dict[str, Any]] = {
     "constant": {"length_m": 250.0, "vehicle": "soft-van"},
     "banked": {"length_m": 150.0, "speed_kmh": 30.0, "curvature_per_km": 20.0,
                "cross_slope_percent": -15.0, "vehicle": "pickup"},
+    "banked stop": {**BRAKE, "speed_kmh": 40.0, "final_speed_kmh": 40.0, "curvature_per_km": 20.0,
+                    "cross_slope_percent": -15.0},
     "quiescent": {"manoeuvre": "quiescent"},
     "bounce": {"manoeuvre": "bounce", "vehicle": "minivan"},
     "perfect": {**BRAKE, "sensors": 0.0},

@@ -68,6 +68,16 @@ def test_noise_follows_nothing(seed: int, size: float) -> None:
 
 
 @laws
+@given(seed=st.integers(0, 999), share=st.floats(0.0, 0.1))
+def test_what_explains_little_is_not_heard(seed: int, share: float) -> None:
+    """A hundredth of the signal, squared, may be chance, however often it is met."""
+    own, other, rest = swings(seed)
+    small = share * own * np.std(rest) / np.std(own)
+    evidence = weigh(TIMES, small + rest, explained(-small, 0.0 * other), LOOK)
+    assert (evidence.right, evidence.wrong) == (0.0, 0.0)
+
+
+@laws
 @given(seed=st.integers(0, 999), small=st.floats(0.0, 0.3))
 def test_what_is_below_the_floor_is_not_heard(seed: int, small: float) -> None:
     own, *_ = swings(seed)

@@ -137,6 +137,30 @@ def test_tilts_are_what_gravity_adds_to_the_travel(
     np.testing.assert_allclose(inner, np.broadcast_to([[roll], [pitch]], inner.shape), atol=1e-3)
 
 
+@laws
+@given(pitch=st.floats(-0.1, 0.1), roll=st.floats(-0.1, 0.1), turn=st.floats(-0.5, 0.5))
+def test_a_turn_on_a_slope_is_no_pitch_and_no_roll(pitch: float, roll: float, turn: float) -> None:
+    """About a vertical axis, with constant Euler angles: the rates are (6.28)'s inverse."""
+
+    def sensed(name: str, times: np.ndarray) -> np.ndarray:
+        rate = turn * np.minimum(times / 10.0, 1.0)
+        return {
+            "roll_rate": -np.sin(pitch) * rate,
+            "pitch_rate": np.cos(pitch) * np.sin(roll) * rate,
+            "yaw_rate": np.cos(pitch) * np.cos(roll) * rate,
+        }.get(name, 0 * times)
+
+    motion = Motion.of(recorded(sensed), "main")
+    assert motion is not None
+    tilts = np.broadcast_to([[roll], [pitch]], (2, motion.times.size))
+    rolled, pitched, yawed = motion.turned(tilts)
+    assert np.ptp(rolled) <= 0.02 * abs(np.ptp(yawed) * pitch) + 1e-12
+    assert np.ptp(pitched) <= 0.02 * abs(np.ptp(yawed) * roll) + 1e-12
+    assert abs(yawed[-1]) == pytest.approx(
+        15.0 * abs(turn) * np.cos(pitch) * np.cos(roll), rel=0.01, abs=1e-9
+    )
+
+
 def test_a_short_run_tells_nothing() -> None:
     assert Motion.of(recorded(lambda _, times: times, 2.0), "main") is None
 
