@@ -1,0 +1,187 @@
+"""Time the Kalman smoother of chapter 6 as a stage, beside C and other packages.
+
+One wheel path at 16 kHz, whose blocks are ready before the clock starts. `kalman_c` is the same
+design in C, built here by ``cc -O3 -march=native``; filterpy and a scan in JAX filter a few seconds
+at every sample, if ``pip install -r tests/benchmarks/requirements-kalman.txt`` has installed them.
+Times are of the processor, in turns, so that other work on the machine counts little. Prints
+medians and ratios, then how long whole processes take to start. Run as
+``python tests/benchmarks/bench_kalman.py [metres of constant speed]``.
+"""
+
+import ctypes
+import importlib.util
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
+
+import kalman_peers as peers
+import numpy as np
+from kalman_task import TRACK, Prepared, Task
+
+import floatref
+from floatref.files import write_recording
+from floatref.kernels.kalman_layout import FORGET
+from floatref.stages.kalman import Noise, Plan
+from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
+from floatref_conformance.proving_ground.simulate import simulate
+
+RATE_HZ, ROUNDS = 16_000, 9
+PLANS = {"kalman-smoother": Plan(reflects=False), "kalman-smoother-reflection": Plan()}
+SOURCES = Path(__file__).with_name("kalman_c")
+SEVEN_STATES = Noise(gnss_height_walk=0.0, lean_rad=0.0)
+"""The drift of the GNSS height and the lean are nothing: the model of appendix C is left."""
+PEER_BLOCKS = 2
+RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
+
+
+class Observations(ctypes.Structure):
+    _fields_ = (
+        ("count", ctypes.c_int64),
+        *((name, ctypes.c_void_p) for name in ("at", "marks", "rows")),
+    )
+
+
+class InC:
+    """The smoother of `kalman_c` on a task."""
+
+    def __init__(self, folder: Path, task: Task) -> None:
+        """Build the library in ``folder``, unless it is there, and lay out the arguments."""
+        library = folder / "kalman.so"
+        if not library.exists():
+            command = ["cc", "-O3", "-march=native", "-fPIC", "-shared", "-o", library]
+            subprocess.run([*command, *SOURCES.glob("*.c"), "-lm"], check=True)
+        self.call = ctypes.CDLL(str(library)).kalman_smoother
+        self.call.restype = ctypes.c_int64
+        self.task, self.height = task, np.empty(task.height.size)
+        self.model = np.concatenate((task.model, task.x, task.variance, [task.sub_block]))
+        self.u = (ctypes.c_void_p * 6)(*(a.ctypes.data for a in task.u))
+        arrays = (a.ctypes.data for a in (task.at, task.marks, task.rows))
+        self.seen = Observations(task.at.size, *arrays)
+
+    def __call__(self) -> None:
+        """Smooth."""
+        size, model = ctypes.c_int64(self.height.size), ctypes.c_void_p(self.model.ctypes.data)
+        out = ctypes.c_void_p(self.height.ctypes.data)
+        if self.call(model, size, self.u, ctypes.byref(self.seen), out) < 0:
+            raise MemoryError
+
+
+def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
+    """Processor seconds of every call, taken in turns after one warm-up."""
+    for call in calls:
+        call()
+    times: list[list[float]] = [[] for _ in calls]
+    for _ in range(rounds):
+        for call, taken in zip(calls, times, strict=True):
+            begin = time.process_time()
+            call()
+            taken.append(time.process_time() - begin)
+    return times
+
+
+def ratio(times: list[float], peer: list[float]) -> float:
+    """Median of the ratios of neighbours."""
+    return statistics.median(a / b for a, b in zip(times, peer, strict=True))
+
+
+def report_stage(folder: Path, name: str, prepared: Prepared) -> None:
+    """Print the stage beside C, by every plan."""
+    count = prepared.samples
+    print(f"{name}, {count / RATE_HZ:.1f} s at {RATE_HZ / 1000:g} kHz, one wheel path")
+    for pipeline, plan in PLANS.items():
+        task = Task(prepared, plan, Noise())
+        in_c = InC(folder, task)
+        ours, peer = in_turns(lambda plan=plan: prepared.smoothed(plan, Noise()), in_c)
+        apart = np.abs(in_c.height - task.height).max()
+        taken, peer_ns = statistics.median(ours), statistics.median(peer) / count * 1e9
+        print(
+            f"  {pipeline:26} {taken / count * 1e9:6.1f} ns/sample "
+            f"{count / RATE_HZ / taken:6.0f} x real time    C {peer_ns:5.1f} ns/sample, "
+            f"ratio {ratio(ours, peer):5.2f}, {apart:.1e} m apart",
+            flush=True,
+        )
+
+
+def report_peers(prepared: Prepared) -> None:
+    """Print the stage beside the packages on the first blocks of a drive."""
+    short = Prepared(prepared.header, prepared.blocks[:PEER_BLOCKS])
+    task = Task(short, PLANS["kalman-smoother"], SEVEN_STATES)
+    seen = ~np.isnan(task.rows[:, 0])
+    if (task.marks[seen] & ~FORGET).any():
+        raise ValueError("the peers know GNSS readings alone")
+    model, at, rows = task.model, task.at[seen], task.rows[seen, :8]
+    inputs = np.array(task.u)
+    inputs[2] += model[1]
+    arm, process, states = model[2:5], model[5:12], peers.STATES
+    start, variance = task.x[:states], task.variance[:states]
+    problem = peers.Problem(model[0], model[1], arm, process, start, variance, inputs, at, rows)
+    print(f"at every sample, {short.samples / RATE_HZ:.1f} s, seven states, GNSS at 20 Hz")
+    if importlib.util.find_spec("filterpy"):
+        report_peer("filterpy", short, task, lambda: peers.by_filterpy(problem), rounds=1)
+    if importlib.util.find_spec("jax"):
+        report_peer("JAX scan", short, task, peers.by_jax(problem), rounds=5)
+
+
+def report_peer(
+    name: str, short: Prepared, task: Task, peer: Callable[[], np.ndarray], rounds: int
+) -> None:
+    """Print the time of ``peer`` and how far its height is from ours."""
+    plan, found = PLANS["kalman-smoother"], []
+    ours, theirs = in_turns(
+        lambda: [short.smoothed(plan, SEVEN_STATES) for _ in range(3)],
+        lambda: found.append(peer()),
+        rounds=rounds,
+    )
+    apart = np.abs(found[-1][1:] - task.height[1:]).max()
+    print(
+        f"  {name:26} {statistics.median(theirs) / short.samples * 1e9:9.0f} ns/sample    "
+        f"{3 * ratio(theirs, ours):6.0f} of ours, {apart:.1e} m apart",
+        flush=True,
+    )
+
+
+def report_start(recording: floatref.Recording) -> None:
+    """Print how long the command takes with nothing compiled, and with all of it."""
+    with tempfile.TemporaryDirectory(prefix="floatref-kalman-") as name:
+        write_recording(recording, Path(name) / "run")
+        command = ["process", f"{name}/run", "--out", f"{name}/profile", "--overwrite", "--json"]
+        command += ["--pipeline", "kalman-smoother-reflection"]
+        environment = {**os.environ, "NUMBA_CACHE_DIR": f"{name}/cache"}
+        taken = [seconds_of([sys.executable, "-c", RUN, *command], environment) for _ in range(6)]
+    print(f"floatref {' '.join(command[-2:])}, {recording.channels[0].span_s[1]:.1f} s of driving")
+    for state, runs in (("nothing compiled", taken[:1]), ("compiled", taken[1:])):
+        wall, processor = (statistics.median(column) for column in zip(*runs, strict=True))
+        print(f"  {state:26} {wall:6.2f} s, {processor:6.2f} s of the processor")
+
+
+def seconds_of(command: list[str], environment: dict[str, str]) -> tuple[float, float]:
+    """Run a process; return its wall time and its processor time in s."""
+    begin = time.perf_counter()
+    child = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
+    _, status, used = os.wait4(child.pid, 0)
+    if status:
+        sys.exit(1)
+    return time.perf_counter() - begin, used.ru_utime + used.ru_stime
+
+
+def main(length_m: float) -> None:
+    """Report on a drive at constant speed, and on one with a stop."""
+    constant = Scenario(speed_kmh=72.0, length_m=length_m, tracks=(TRACK,))
+    stop = scenario_of_run("sg_10.7s_0.20g", tracks=(TRACK,))
+    drives = {name: simulate(s).recording for name, s in (("72 km/h", constant), ("stop", stop))}
+    with tempfile.TemporaryDirectory(prefix="floatref-kalman-") as folder:
+        for name, recording in drives.items():
+            report_stage(Path(folder), name, Prepared.of(recording))
+    report_peers(Prepared.of(drives["72 km/h"]))
+    report_start(simulate(Scenario(length_m=100.0, tracks=(TRACK,))).recording)
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else 3000.0)

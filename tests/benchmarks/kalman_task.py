@@ -1,0 +1,82 @@
+"""What `bench_kalman.py` gives the stage and its peers to do."""
+
+from dataclasses import dataclass
+from typing import Any
+from unittest import mock
+
+import numpy as np
+
+import floatref
+from floatref.architectures.source import BLOCK, Source
+from floatref.kernels import kalman
+from floatref.stages.butterworth import low_pass_b3
+from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.kalman import KalmanSmoother, Noise, Plan
+from floatref.stages.kalman.inputs import IMU
+from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT
+from floatref.stages.speed import TravelSpeed
+from floatref.values.block import Block, Header
+from floatref.values.channels import ChannelId
+
+TRACK = "left"
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """What the stage is pushed."""
+
+    header: Header
+    blocks: list[Block]
+
+    @classmethod
+    def of(cls, recording: floatref.Recording) -> "Prepared":
+        """Pass ``recording`` through what comes before the stage in its pipelines."""
+        source = Source(recording, IMU)
+        header, blocks = source.header, list(source.blocks(BLOCK))
+        filters = low_pass_b3(ACCELERATION, 1000.0), low_pass_b3(HEIGHT, 1000.0)
+        for stage in (RemoveGravity(), *filters[0], *filters[1], TravelSpeed()):
+            header = stage.start(header)
+            order = stage.direction.value
+            blocks = [*map(stage.push, blocks[::order])][::order]
+            blocks = [block for block in (*blocks, *stage.finish()) if len(block)]
+        return cls(header, blocks)
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return sum(map(len, self.blocks))
+
+    def smoothed(self, plan: Plan, noise: Noise, **options: float) -> list[Block]:
+        """Run the stage."""
+        stage = KalmanSmoother(plan, noise, **options)
+        stage.start(self.header)
+        pushed = [stage.push(block) for block in self.blocks]
+        return [*pushed, *stage.finish()]
+
+    def height(self, plan: Plan, noise: Noise) -> np.ndarray:
+        """Run the stage with no segment closed before the end; return the smoothed height."""
+        blocks = self.smoothed(plan, noise, tolerance_m=0.0)
+        return np.concatenate([block[ChannelId(REFERENCE_HEIGHT, TRACK)] for block in blocks])
+
+
+class Task:
+    """What the stage hands to the forward kernel, for others to do the same."""
+
+    def __init__(self, prepared: Prepared, plan: Plan, noise: Noise) -> None:
+        """Listen to a run of the stage."""
+        heard: list[Any] = []
+        run = kalman.run
+
+        def listening(u: Any, first: int, size: int, model: Any, *rest: Any) -> int:
+            at, marks, rows, x, p = rest[:5]
+            heard.append((u, at, marks, rows, size, model, x.copy(), np.diag(p).copy()))
+            return run(u, first, size, model, *rest)
+
+        with mock.patch.object(kalman, "run", listening):
+            self.height = prepared.height(plan, noise)
+        inputs, at, marks, rows = zip(*(call[:4] for call in heard), strict=True)
+        self.sub_block, self.model, self.x, self.variance = heard[0][4:]
+        self.u = [np.concatenate(pieces) for pieces in zip(*inputs, strict=True)]
+        self.at = np.concatenate(at).astype(np.int64)
+        self.marks = np.concatenate(marks).astype(np.int64)
+        self.rows = np.ascontiguousarray(np.concatenate(rows))
