@@ -101,8 +101,8 @@ class Motion:
     def turned(self, tilts: FloatArray) -> FloatArray:
         """Return the angles that the rates integrate to, shape (3, n), in rad: roll, pitch, yaw.
 
-        ``tilts``, shape (2, n), tell how much of a turn of the course is roll and pitch, (6.28)
-        for small angles.
+        ``tilts``, shape (2, n), tell how much of a turn of the course is roll and pitch, (6.27)
+        and (6.28) for small angles.
         """
         roll, pitch = tilts
         p, q, r = self.rates

@@ -120,7 +120,7 @@ def recorded(make: Callable[[str, np.ndarray], np.ndarray], seconds: float = 20.
 def test_tilts_are_what_gravity_adds_to_the_travel(
     pitch: float, roll: float, turn: float, acceleration: float
 ) -> None:
-    """A nose-down vehicle feels gravity forward of its acceleration, (2.17)."""
+    """Nose down, the accelerometer reads less than the acceleration, by g sin θ, (2.17)."""
 
     def sensed(name: str, times: np.ndarray) -> np.ndarray:
         speed = 50.0 + acceleration * times
@@ -140,7 +140,7 @@ def test_tilts_are_what_gravity_adds_to_the_travel(
 @laws
 @given(pitch=st.floats(-0.1, 0.1), roll=st.floats(-0.1, 0.1), turn=st.floats(-0.5, 0.5))
 def test_a_turn_on_a_slope_is_no_pitch_and_no_roll(pitch: float, roll: float, turn: float) -> None:
-    """About a vertical axis, with constant Euler angles: the rates are (6.28)'s inverse."""
+    """About a vertical axis, with constant Euler angles: the rates are the inverse of (6.27) and (6.28)."""
 
     def sensed(name: str, times: np.ndarray) -> np.ndarray:
         rate = turn * np.minimum(times / 10.0, 1.0)

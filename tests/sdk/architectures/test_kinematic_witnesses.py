@@ -56,7 +56,7 @@ def swinging(roll: float, turn: float, pitches: float, seed: int, sign: float = 
 def test_a_slalom_on_a_bank_hides_neither_a_right_pitch_nor_a_wrong_one(
     roll: float, turn: float, seed: int, inverted: bool
 ) -> None:
-    """The pitch rate of a turn on a bank is no pitch: θ′ = q cos φ - r sin φ, (6.28)."""
+    """The pitch rate of a turn on a bank is no pitch: θ′ = q cos φ - r sin φ, (6.27)."""
     recording = swinging(roll, turn, 0.01, seed, -1.0 if inverted else 1.0)
     motion = Motion.of(recording, "main")
     assert motion is not None
