@@ -140,7 +140,7 @@ def test_tilts_are_what_gravity_adds_to_the_travel(
 @laws
 @given(pitch=st.floats(-0.1, 0.1), roll=st.floats(-0.1, 0.1), turn=st.floats(-0.5, 0.5))
 def test_a_turn_on_a_slope_is_no_pitch_and_no_roll(pitch: float, roll: float, turn: float) -> None:
-    """About a vertical axis, with constant Euler angles: the rates are the inverse of (6.27) and (6.28)."""
+    """About a vertical axis, at constant Euler angles: the inverse of (6.27) and (6.28)."""
 
     def sensed(name: str, times: np.ndarray) -> np.ndarray:
         rate = turn * np.minimum(times / 10.0, 1.0)
