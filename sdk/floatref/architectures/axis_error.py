@@ -10,6 +10,8 @@ from floatref.values.arrays import FloatArray
 
 LAG_M = 0.05
 """Slopes are those over so far: what an encoder is off by after a few hundred metres."""
+PIECE = 1 << 18
+"""Points looked at together, so that memory stays bounded on a long profile."""
 AROUND_M = 50.0
 """The slope is the root mean square within half of this to either side."""
 
@@ -18,8 +20,13 @@ def with_axis_error(
     sigma: FloatArray, elevation: FloatArray, interval_m: float, scale: float
 ) -> FloatArray:
     """Return ``sigma`` in m, shape (N,), with what a relative error ``scale`` of distance adds."""
-    travelled = interval_m * np.arange(sigma.size)
-    found: FloatArray = np.hypot(sigma, scale * travelled * slope(elevation, interval_m))
+    found, beside = np.empty(sigma.size), round((AROUND_M / 2 + LAG_M) / interval_m) + 1
+    for begin in range(0, sigma.size, PIECE):
+        end = min(begin + PIECE, sigma.size)
+        low = max(begin - beside, 0)
+        slopes = slope(elevation[low : end + beside], interval_m)[begin - low : end - low]
+        off = scale * interval_m * np.arange(begin, end)
+        found[begin:end] = np.hypot(sigma[begin:end], off * slopes)
     return found
 
 

@@ -52,19 +52,46 @@ def _times(a: FloatArray, b: FloatArray, product: FloatArray, turned: bool) -> N
 
 
 @compiled
-def relate(column: FloatArray, left: FloatArray, passed: FloatArray, found: FloatArray) -> None:
-    """Write E[e_i e_j] of the smoothed heights at all marks into ``found``, shape (n, n)."""
+def relate(
+    column: FloatArray,
+    left: FloatArray,
+    passed: FloatArray,
+    distance_m: FloatArray,
+    width_m: float,
+    found: FloatArray,
+) -> None:
+    """Write E[e_i e_j] of the smoothed heights at all marks up to ``width_m`` apart, (n, n)."""
     moved, carried = np.zeros(STATES), np.zeros(STATES)
     for i in range(column.shape[0]):
         for s in range(STATES):
             moved[s] = column[i, s]
         for j in range(i, column.shape[0]):
+            if distance_m[j] - distance_m[i] > width_m:
+                break
             if j > i:
                 _apply(passed[j], moved, carried)
             total = 0.0
             for s in range(STATES):
                 total += left[j, s] * moved[s]
             found[i, j], found[j, i] = total, total
+
+
+@compiled
+def spread(
+    related: FloatArray, weights: FloatArray, low: IndexArray, high: IndexArray, found: FloatArray
+) -> None:
+    """Write the variance of the weighted sums of errors into ``found``, shape (m,).
+
+    Row k of ``weights``, shape (m, n), is 0 but for marks ``low[k]`` to ``high[k] - 1``.
+    """
+    for k in range(found.size):
+        total = 0.0
+        for i in range(low[k], high[k]):
+            inner = 0.5 * weights[k, i] * related[i, i]
+            for j in range(i + 1, high[k]):
+                inner += weights[k, j] * related[i, j]
+            total += 2.0 * weights[k, i] * inner
+        found[k] = total
 
 
 @compiled

@@ -53,18 +53,36 @@ def test_what_the_readings_behind_a_mark_leave_of_its_error(seed, count):
     np.testing.assert_allclose(left, settled(p, passed, gathered), atol=1e-10)
 
 
-@given(seed=SEEDS, count=COUNTS)
+@given(seed=SEEDS, count=COUNTS, width=st.sampled_from([2.5, np.inf]))
 @laws
-def test_how_two_marks_are_related(seed, count):
-    """E[e_i e_j'] = P_i Psi_ji' (I - Lambda_j P_j), i not behind j."""
+def test_how_two_marks_are_related(seed, count, width):
+    """E[e_i e_j'] = P_i Psi_ji' (I - Lambda_j P_j), i not behind j, and no further than a width."""
     p, passed, gathered = drawn(seed, count)
-    left, found = settled(p, passed, gathered), np.full((count, count), np.nan)
-    covariance.relate(p[:, :, 0].copy(), left, passed, found)
+    left, found = settled(p, passed, gathered), np.zeros((count, count))
+    place = np.arange(float(count))
+    covariance.relate(p[:, :, 0].copy(), left, passed, place, width, found)
     for i in range(count):
         moved = p[i]
         for j in range(i, count):
             moved = moved if j == i else moved @ passed[j].T
-            assert found[i, j] == found[j, i] == pytest.approx(moved[0] @ left[j], abs=1e-10)
+            expected = moved[0] @ left[j] if j - i <= width else 0.0
+            assert found[i, j] == found[j, i] == pytest.approx(expected, abs=1e-10)
+
+
+@given(seed=SEEDS, count=COUNTS)
+@laws
+def test_variance_of_weighted_sums(seed, count):
+    """It is w C w', of the marks that have a weight."""
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(count, count))
+    related, weights = root @ root.T, np.zeros((3, count))
+    low, high = np.sort(rng.integers(0, count + 1, (2, 3)), axis=0)
+    for row, begin, end in zip(weights, low, high, strict=True):
+        row[begin:end] = rng.normal(size=end - begin)
+    found = np.empty(3)
+    covariance.spread(related, weights, low, high, found)
+    expected = np.einsum("ki,ij,kj->k", weights, related, weights)
+    np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
 @given(seed=SEEDS, count=COUNTS)

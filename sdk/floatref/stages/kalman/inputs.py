@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import isnan
+from operator import itemgetter
 
 import numpy as np
 
@@ -21,6 +22,7 @@ IMU = (*FORCES, *RATES)
 GNSS = tuple(
     ChannelId(name) for name in ("gnss_height", "gnss_vertical_velocity", "gnss_pitch", "gnss_roll")
 )
+WHOLE = itemgetter(*GNSS)
 QUALITY = ChannelId("gnss_quality")
 FIXED = 4.0
 """Quality of a reading whose phase ambiguities are fixed (section 6.4.4)."""
@@ -84,9 +86,12 @@ class Readings:
         return at, np.array([row for _, row in ready]).reshape(at.size, KINDS + 1)
 
     def _hold(self, event: Event) -> None:
-        values = event.values
-        row = tuple(values.get(channel, np.nan) for channel in GNSS)
-        if isnan(row[0]) or values.get(QUALITY, FIXED) != FIXED:
+        try:
+            row, quality = WHOLE(event.values), event.values.get(QUALITY, FIXED)
+        except KeyError:
+            row = tuple(event.values.get(channel, np.nan) for channel in GNSS)
+            quality = event.values.get(QUALITY, FIXED)
+        if isnan(row[0]) or quality != FIXED:
             return
         interval_s = event.time_s - self.before_s
         self.before_s = event.time_s

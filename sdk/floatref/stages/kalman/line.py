@@ -11,9 +11,6 @@ from floatref.stages.kalman.segment import Marks, Segment
 from floatref.stages.kalman.sigma import REACH, Settled, sigma
 from floatref.values.arrays import FloatArray
 
-WAITED_S = 60.0
-"""After so long, a segment need not wait for travel behind it."""
-
 
 @dataclass(frozen=True)
 class Closing:
@@ -74,18 +71,9 @@ class Line:
         self.heights, self.parts, self.distances = [], [], []
 
     def ready(self) -> int:
-        """Return how many segments may be closed: those that neither readings nor filter reach."""
+        """Return how many segments nothing to come changes by more than the tolerance."""
         rule = self.rule
-        count = closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
-        latest = self.segments[-1].marks
-        while count:
-            marks = self.segments[count - 1].marks
-            travelled = latest.distance_m[-1] - marks.distance_m[-1]
-            waited = (latest.at[-1] - marks.at[-1]) * rule.step
-            if travelled >= REACH * rule.wavelength_m or waited >= WAITED_S:
-                break
-            count -= 1
-        return count
+        return closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
 
     def close(self, count: int) -> None:
         """Smooth the first ``count`` segments and let go of them."""

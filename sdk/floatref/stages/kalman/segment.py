@@ -10,7 +10,7 @@ from floatref.values.arrays import FloatArray, IndexArray
 
 CORRECTIONS = 4
 """Numbers of a correction: height and velocity on both sides of a node."""
-APART_M = 4.0
+APART_M = 8.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
 

@@ -66,19 +66,29 @@ def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: fl
     ``wavelength_m`` is the cut-off of either pass of the filter, ``noise_m`` the 1-σ of a reading
     of the height sensor, which passes the filter as it is.
     """
-    error = covariances(marks)
-    weights = high_pass(marks.distance_m, wavelength_m, np.arange(first, end))
-    variance = np.einsum("ij,ij->i", weights @ error, weights)
+    from floatref.kernels import kalman_covariance
+
+    place, reach = marks.distance_m, REACH * wavelength_m
+    weights = high_pass(place, wavelength_m, np.arange(first, end))
+    low = np.searchsorted(place, place[first:end] - reach)
+    high = np.searchsorted(place, place[first:end] + reach, "right")
+    variance = np.empty(end - first)
+    kalman_covariance.spread(covariances(marks, 2 * reach), weights, low, high, variance)
     deviation: FloatArray = np.sqrt(np.maximum(variance, 0.0) + noise_m**2)
     return deviation
 
 
-def covariances(marks: Settled) -> FloatArray:
-    """Return E[e_i e_j] of the smoothed height at all marks, shape (n, n), in m²."""
+def covariances(marks: Settled, width_m: float = np.inf) -> FloatArray:
+    """Return E[e_i e_j] of the smoothed height at all marks, shape (n, n), in m².
+
+    It is left 0 for marks further than ``width_m`` apart.
+    """
     from floatref.kernels import kalman_covariance
 
-    found = np.empty((len(marks.at), len(marks.at)))
-    kalman_covariance.relate(marks.column, marks.left, marks.passed, found)
+    found = np.zeros((len(marks.at), len(marks.at)))
+    kalman_covariance.relate(
+        marks.column, marks.left, marks.passed, marks.distance_m, width_m, found
+    )
     return found
 
 
@@ -92,6 +102,7 @@ def high_pass(distance_m: FloatArray, wavelength_m: float, wanted: IndexArray) -
     a = np.abs(distance_m[wanted, None] - distance_m) * (2 * np.pi / wavelength_m)
     b = np.sqrt(0.75) * a
     response = np.exp(-a) + np.exp(-a / 2) * (np.cos(b) + np.sqrt(3.0) * np.sin(b))
+    response[a > 2 * np.pi * REACH] = 0.0
     steps = np.diff(distance_m)
     weights: FloatArray = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
     total = weights.sum(axis=1, keepdims=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import ceil
 from typing import ClassVar
 
 import numpy as np
@@ -15,11 +16,14 @@ from floatref.stages.kalman.track import sub_block
 from floatref.stages.protocol import Declared
 from floatref.stages.signals import ACCELERATION, DISTANCE, REFERENCE_HEIGHT, SIGMA
 from floatref.values.arrays import FlagArray
-from floatref.values.block import Block, Header, joined
+from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
 
-SUB_BLOCKS = 400
-"""Sub-blocks of a segment: four seconds."""
+SUB_BLOCKS, SEGMENT_S = 400, 4.0
+"""Sub-blocks of a segment, and its duration."""
+WAITING_S = 60.0
+"""A segment waits so long, whatever the bound says: what changes since at the place where one part
+has come out and the next has not would be a step there."""
 TOLERANCE_M = 2e-6
 """1-σ of what later readings may still change when a segment is closed."""
 ALL = 1 << 62
@@ -30,8 +34,9 @@ class KalmanSmoother(KalmanStage):
     """Filter and smoother (section 6.6.2 and its variants).
 
     Adds `floating_reference_height`, and `elevation_sigma`: 1-σ of the elevation after HPF_B3x2 at
-    ``wavelength_m``. Segments of four seconds come out once the readings behind them no longer
-    matter, and what is kept until then depends on the drive, not on its length (section 7.3.4).
+    ``wavelength_m``. Segments of four seconds are smoothed once the readings behind them no longer
+    matter, and a block comes out with each that is pushed from then on. What is kept until then
+    depends on the drive, not on its length (section 7.3.4).
     """
 
     declared: ClassVar[Declared] = replace(KalmanStage.declared, delay=ALL)
@@ -42,10 +47,14 @@ class KalmanSmoother(KalmanStage):
         noise: Noise,
         wavelength_m: float = 105.91,
         tolerance_m: float = TOLERANCE_M,
+        waiting_s: float = WAITING_S,
     ) -> None:
-        """Observe what ``plan`` says, with ``noise``; close segments within ``tolerance_m``."""
+        """Observe what ``plan`` says, with ``noise``.
+
+        Segments are closed within ``tolerance_m``, after ``waiting_s`` at the earliest.
+        """
         super().__init__(plan, noise, wavelength_m)
-        self.tolerance_m = tolerance_m
+        self.tolerance_m, self.waiting_s = tolerance_m, waiting_s
         self._length = 1
 
     def open(self, header: Header) -> Header:
@@ -70,8 +79,7 @@ class KalmanSmoother(KalmanStage):
             if full:
                 self._end_segment()
         self.memory["blocks"].append(self._without_inputs(block))
-        done = list(self._closed_blocks())
-        return joined(done) if done else self._nothing(block)
+        return next(self._closed_blocks(), None) or self._nothing(block)
 
     def close(self) -> tuple[Block, ...]:
         """Return all that is left."""
@@ -101,9 +109,13 @@ class KalmanSmoother(KalmanStage):
         lines: list[Line] = list(self.memory["lines"].values())
         for line in lines:
             line.end_segment()
-        count = min(line.ready() for line in lines)
+        waiting = ceil(self.waiting_s / SEGMENT_S)
         # What is smoothed again later shall not be more than what is closed.
-        if 2 * count >= len(lines[0].segments):
+        least, open_ones = max(waiting, 1), len(lines[0].segments)
+        if open_ones < 2 * least:
+            return
+        count = min(min(line.ready() for line in lines), open_ones - waiting)
+        if 2 * count >= open_ones:
             self.memory["closed"] = lines[0].segments[count - 1].last + 1
             for line in lines:
                 line.close(count)

@@ -21,7 +21,7 @@ LENGTH = round(RATE * SECONDS)
 SEGMENT = 4 * RATE
 STAGES = {
     "filter": lambda plan: KalmanFilter(plan, Noise()),
-    "smoother": lambda plan: KalmanSmoother(plan, Noise(), wavelength_m=20.0, tolerance_m=1e-4),
+    "smoother": lambda plan: KalmanSmoother(plan, Noise(), 20.0, tolerance_m=1e-4, waiting_s=0.0),
 }
 every_stage = pytest.mark.parametrize("name", STAGES)
 PLANS = st.sampled_from([Plan(), Plan(reflects=False), Plan(gnss=False, attitude=False)])
