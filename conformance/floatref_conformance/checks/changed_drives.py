@@ -74,9 +74,9 @@ NUMBERS: Mapping[str, tuple[Mapping[str, Number], ...]] = MappingProxyType(
             {"bias": 0.015, "rate_bias": 0.0002},
         ),
         SLOPE: (
-            {"grade_percent": 4.0, "cross_slope_percent": -3.0},
-            {"grade_percent": -3.0, "cross_slope_percent": 2.0},
-            {"grade_percent": 2.0, "cross_slope_percent": 3.0},
+            {"grade_percent": 2.0, "cross_slope_percent": -2.0},
+            {"grade_percent": -2.0, "cross_slope_percent": 1.5},
+            {"grade_percent": 1.5, "cross_slope_percent": 2.0},
         ),
     }
 )
@@ -225,8 +225,8 @@ def _numbers(change: str, rate_hz: float) -> "SearchStrategy[dict[str, Number]]"
         "gyro-rate": {"gyro_rate_hz": st.sampled_from((125.0, 160.0, 200.0, 400.0))},
         UNIT_BIAS: {"bias": rounded(-0.03, 0.03, 3), "rate_bias": rounded(-0.0005, 0.0005, 5)},
         SLOPE: {
-            "grade_percent": rounded(-4.0, -1.0) | rounded(1.0, 4.0),
-            "cross_slope_percent": rounded(-3.0, 3.0),
+            "grade_percent": rounded(-2.0, -1.0) | rounded(1.0, 2.0),
+            "cross_slope_percent": rounded(-2.0, 2.0),
         },
     }
     return st.fixed_dictionaries(dict(strategies.get(change, {})))
