@@ -115,8 +115,8 @@ def waves(rng, times, amplitude, low_hz, high_hz, count=4):
 
 
 def speeds(times, stop, cruise=15.0, brake=5.0):
-    """Return speed and acceleration: at ``cruise`` but for a stop from ``stop[0]`` to [1]."""
-    gone = np.maximum(stop[0] - times, times - stop[1])
+    """Return speed and acceleration: at ``cruise`` but for stops, pairs of when they last."""
+    gone = np.min([np.maximum(a - times, times - b) for a, b in np.reshape(stop, (-1, 2))], axis=0)
     ramp = np.clip(gone / (cruise / brake), 0.0, 1.0)
     speed = cruise * ramp * ramp * (3.0 - 2.0 * ramp)
     return speed, np.gradient(speed, times)

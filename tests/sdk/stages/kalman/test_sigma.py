@@ -70,7 +70,7 @@ def test_errors_that_have_nothing_in_common_add_as_squares(seed, count, noise_m,
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
-NOISE = Noise(acceleration=1e-3, acceleration_walk=2e-3, gnss_height_walk=3e-3, height_m=1e-3)
+NOISE = Noise(acceleration=1e-3, acceleration_walk=2e-3, gnss_height_walk=3e-3, height_m=2e-4)
 RATE, SECONDS = 100, 40.0
 
 
