@@ -10,6 +10,7 @@ SETTINGS: dict[str, float | None] = {
     "interval_m": None,
     "anti_alias_hz": 1000.0,
     "cutoff_wavelength_m": 105.91,
+    "drift_reach_m": 26.4775,
     "distance_scale_sigma": 2e-4,
     **{name: _USUAL[field] for name, field in NOISE.items()},
 }
@@ -43,6 +44,7 @@ KALMAN = (
         "IMU and GNSS, filter alone (section 6.6.1)",
         Plan(reflects=False),
         KalmanFilter,
+        drift_reach_m=105.91,
         acceleration_walk=6.32e-6,
         lean_sigma_rad=1e-9,
         gnss_height_walk=1e-9,
