@@ -27,8 +27,10 @@ from kalman_task import TRACK, Prepared, Task
 
 import floatref
 from floatref.files import write_recording
-from floatref.kernels.kalman_layout import FORGET
+from floatref.kernels import kalman, kalman_backward
+from floatref.kernels.kalman_layout import FORGET, KINDS, MEMORY, NODE, STATES, UPDATE
 from floatref.stages.kalman import Noise, Plan
+from floatref.values.arrays import frozen
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -73,6 +75,33 @@ class InC:
             raise MemoryError
 
 
+class InKernels:
+    """Our kernels on a task, without the stage around them."""
+
+    def __init__(self, task: Task) -> None:
+        """Make room for the nodes."""
+        self.task, self.u = task, tuple(frozen(values) for values in task.u)
+        self.height = np.empty(task.height.size)
+        rooms = self.height.size // task.sub_block + task.at.size + 2
+        self.at, self.nodes = np.empty((rooms, 2), np.int64), np.empty((rooms, NODE))
+        self.updates = np.empty((KINDS * task.at.size, UPDATE))
+        self.corrections = np.empty((rooms, 4))
+
+    def __call__(self) -> None:
+        """Smooth."""
+        t, step = self.task, self.task.model[0]
+        x, p, memory = t.x.copy(), np.diag(t.variance), np.zeros(MEMORY)
+        seen = t.at, t.marks, t.rows
+        kept = self.at, self.nodes, self.updates
+        n = kalman.run(self.u, 0, t.sub_block, t.model, *seen, x, p, memory, self.height, *kept)
+        done = self.at[n - 1, 1]
+        n += kalman.end(t.model, x, p, memory, self.at[n:], self.nodes[n:])
+        self.at[n - 1, 1] = done
+        at, nodes, corrections = self.at[:n], self.nodes[:n], self.corrections[:n]
+        kalman_backward.smooth(at, nodes, self.updates, 0, step, np.zeros(STATES), corrections)
+        kalman_backward.interpolate(at, corrections, 0, np.zeros(4), step, self.height)
+
+
 def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
     """Processor seconds of every call, taken in turns after one warm-up."""
     for call in calls:
@@ -92,21 +121,27 @@ def ratio(times: list[float], peer: list[float]) -> float:
 
 
 def report_stage(folder: Path, name: str, prepared: Prepared) -> None:
-    """Print the stage beside C, by every plan."""
+    """Print the stage, and its kernels alone, beside C, by every plan."""
     count = prepared.samples
     print(f"{name}, {count / RATE_HZ:.1f} s at {RATE_HZ / 1000:g} kHz, one wheel path")
     for pipeline, plan in PLANS.items():
         task = Task(prepared, plan, Noise())
-        in_c = InC(folder, task)
-        ours, peer = in_turns(lambda plan=plan: prepared.smoothed(plan, Noise()), in_c)
-        apart = np.abs(in_c.height - task.height).max()
-        taken, peer_ns = statistics.median(ours), statistics.median(peer) / count * 1e9
-        print(
-            f"  {pipeline:26} {taken / count * 1e9:6.1f} ns/sample "
-            f"{count / RATE_HZ / taken:6.0f} x real time    C {peer_ns:5.1f} ns/sample, "
-            f"ratio {ratio(ours, peer):5.2f}, {apart:.1e} m apart",
-            flush=True,
+        in_c, kernels = InC(folder, task), InKernels(task)
+        stage, alone, peer = in_turns(
+            lambda plan=plan: prepared.smoothed(plan, Noise()), kernels, in_c
         )
+        apart = np.abs(in_c.height - task.height).max()
+        print(f"  {pipeline}, C {line(peer, count)}, {apart:.1e} m apart")
+        for what, taken in (("stage", stage), ("kernels alone", alone)):
+            print(
+                f"    {what:24} {line(taken, count)}    ratio {ratio(taken, peer):5.2f}", flush=True
+            )
+
+
+def line(times: list[float], count: int) -> str:
+    """Median as time per sample, and as a multiple of real time."""
+    each = statistics.median(times) / count
+    return f"{each * 1e9:6.1f} ns/sample {1 / RATE_HZ / each:6.0f} x real time"
 
 
 def report_peers(prepared: Prepared) -> None:
