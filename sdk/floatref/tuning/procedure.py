@@ -72,7 +72,7 @@ class Procedure:
     def search(self) -> Found:
         """Go through steps 2 to 6 and return the best of what they lead to.
 
-        The start stays if nothing is better than it.
+        The start stays if nothing is better than it, and so does each value that does not matter.
         """
         point, total, rounds = self.begin, float("inf"), 0
         for number in range(ROUNDS):
@@ -87,7 +87,7 @@ class Procedure:
         other = self._climbed(point)
         if self.collective(other) < self.collective(best) - LEAST_GAIN:
             best = other
-        return Found(best, dict(self.ranges), rounds, self.harmless)
+        return Found(self._restored(best), dict(self.ranges), rounds, self.harmless)
 
     def collective(self, point: Point) -> float:
         """Return the mean loss of all runs, and what they are worse than nominal at speed."""
@@ -152,6 +152,15 @@ class Procedure:
         free = (WALK, PITCH, ROLL)
         low, high = self.levels.lowest, self.levels.highest
         return climb(point, free, low, high, self.collective, MOST_CLIMBED)
+
+    def _restored(self, point: Point) -> Point:
+        """Return ``point`` with every setting back at its start that loses nothing by it."""
+        limit = self.collective(point) + LEAST_GAIN
+        for which, step in enumerate(START):
+            there = moved(point, which, step)
+            if self.collective(there) <= limit:
+                point = there
+        return point
 
     def _harm(self, point: Point) -> float:
         """Return by how much the worst of the runs of step 2 is worse than nominal."""

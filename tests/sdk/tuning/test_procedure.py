@@ -88,6 +88,12 @@ def test_where_nothing_matters_the_start_stays() -> None:
         assert (found.lowest, found.highest) == (LEVELS.lowest[which], LEVELS.highest[which])
 
 
+@pytest.mark.parametrize("which", [1, 2, 3])
+def test_what_does_not_matter_stays_where_it_was(which: int) -> None:
+    found = Bench(lambda _, __, p: valley(p[which], 7)).found
+    assert found.point == tuple(7 if k == which else 0 for k in range(4))
+
+
 def test_the_same_losses_are_looked_at_in_the_same_order() -> None:
     def loss(_: str, track: int, p: Point) -> float:
         return 0.01 * sum(abs(x - 3 + track) for x in p)

@@ -51,4 +51,4 @@ def test_a_smaller_walk_is_better_than_one_far_too_large(trials: Callable[[], Tr
 @pytest.mark.filterwarnings("ignore:(overflow|invalid value) encountered")
 def test_values_that_give_no_profile_are_hopeless(trials: Callable[[], Trials]) -> None:
     scores = trials().scores(dict.fromkeys(TUNED, 1e200), ["fast"])
-    assert scores["fast"] == (HOPELESS, HOPELESS)
+    assert all(score == HOPELESS or score.cross_correlation <= 0 for score in scores["fast"])
