@@ -64,8 +64,8 @@ def table(
 
     Peak of the short-interval roughness profile, error of the IRI and cross correlation with a
     reference pass at 72 km/h, averaged over simulated roads, sensor errors and wheel paths. The
-    table judges nothing. All of it takes about 5 min on two free cores, 2.1 GB of memory and
-    250 MB of temporary files.
+    table judges nothing. All of it takes a quarter of an hour on two free cores, more than 2 GB of
+    memory and 1.2 GB of temporary files.
     """
     from floatref_conformance.render.comparison_picture import check_picture, draw_comparison_maps
     from floatref_conformance.render.comparison_text import print_comparison
