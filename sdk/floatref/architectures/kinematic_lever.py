@@ -9,7 +9,7 @@ from floatref.architectures.kinematic_evidence import detrended, windows
 from floatref.architectures.kinematic_readings import fixed_readings
 from floatref.architectures.kinematic_series import Motion, integrated
 from floatref.values.arrays import FloatArray, IndexArray
-from floatref.values.recording import ORIGIN, Recording, TrackSetup
+from floatref.values.recording import ORIGIN, Recording, TrackSetup, Vector
 
 SPAN_S = 5.0
 DEGREE = 3
@@ -20,13 +20,22 @@ KNOWN_M = 0.3
 """An arm is known to this standard deviation, or it is not told."""
 OFF_M, OFF = 0.5, 4.0
 """It contradicts the setup beyond both, the second in standard deviations."""
+NO_ARM_M = 0.1
+"""Rates in deg/s make any arm so short, or shorter."""
 
 
 @dataclass(frozen=True)
 class Antenna:
-    """Where the antenna is in body X and Y, and the standard deviations of that, in m."""
+    """Where the antenna is in body X and Y, by its swing.
+
+    Attributes:
+        place_m: from the vehicle point, in m.
+        arm_m: from the reference point of the track, in m.
+        sigma_m: standard deviations of both, in m.
+    """
 
     place_m: tuple[float, float]
+    arm_m: tuple[float, float]
     sigma_m: tuple[float, float]
 
 
@@ -47,13 +56,24 @@ def check_antenna(
         return
     if found is None:
         return
-    for axis in (0, 1):
-        off_m = abs(found.place_m[axis] - given[axis])
-        if off_m > max(OFF_M, OFF * found.sigma_m[axis]):
-            yield (
-                f"setup.gnss_antenna_offset_m: {'XY'[axis]} is {given[axis]:.4g} m, but the "
-                f"antenna swings as at {_place(found, axis)}; measure it again"
-            )
+    off = [axis for axis in (0, 1) if _is_off(found, given, axis)]
+    if off and max(np.abs(found.arm_m)) < NO_ARM_M:
+        yield (
+            "channels roll_rate, pitch_rate: the antenna swings a fraction of what they say; if "
+            "they are in deg/s, multiply by 0.0174533, else measure setup.gnss_antenna_offset_m "
+            "again"
+        )
+        return
+    for axis in off:
+        yield (
+            f"setup.gnss_antenna_offset_m: {'XY'[axis]} is {given[axis]:.4g} m, but the antenna "
+            f"swings as at {_place(found, axis)}; measure it again"
+        )
+
+
+def _is_off(found: Antenna, given: Vector, axis: int) -> bool:
+    off_m = abs(found.place_m[axis] - given[axis])
+    return off_m > max(OFF_M, OFF * found.sigma_m[axis])
 
 
 def _place(antenna: Antenna, axis: int) -> str:
@@ -81,8 +101,8 @@ def located(recording: Recording, track: str, motion: Motion, faults: IndexArray
     if not (sigma < KNOWN_M).all():
         return None
     point = recording.setup.tracks.get(track, TrackSetup()).reference_point_m
-    x, y = (float(arm[k] + point[k]) for k in (0, 1))
-    return Antenna((x, y), (float(sigma[0]), float(sigma[1])))
+    x, y = arm.tolist()
+    return Antenna((x + point[0], y + point[1]), (x, y), (float(sigma[0]), float(sigma[1])))
 
 
 def _normal_equations(

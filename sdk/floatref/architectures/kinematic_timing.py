@@ -27,6 +27,8 @@ FARTHEST_S = 30.0
 CLEAR, ALONE = 5.0, 8.0
 """The right delay stands out by so many standard deviations of all others; more, if no other
 channel tells it."""
+FEWEST, APART_S = 200, 0.25
+"""Readings of a channel that tells it, and how far apart they are at most: swings last 0.5 s."""
 TOGETHER_S = 0.05
 """Two channels agree up to this."""
 MOST = 0.75
@@ -125,13 +127,20 @@ def delay(recording: Recording, motion: Motion) -> float:
     found = []
     for name, row in own.items():
         channel = recording.find(name)
-        if channel is not None:
-            found.append(_peak(_correlation(row, means(channel, motion.grid))))
+        told = np.empty(0) if channel is None else means(channel, motion.grid)
+        if _is_dense(told):
+            found.append(_peak(_correlation(row, told)))
     clear = sorted((d, c) for d, c in found if c >= CLEAR)
     close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
     if close:
         return min((b - a, (a + b) / 2) for a, b in close)[1]
     return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else 0.0
+
+
+def _is_dense(told: FloatArray) -> bool:
+    """Return whether the readings follow a swing of the body, and are enough to tell its time."""
+    known = np.flatnonzero(~np.isnan(told))
+    return known.size >= FEWEST and float(np.median(np.diff(known))) * STEP_S <= APART_S
 
 
 def _peak(correlation: FloatArray) -> tuple[float, float]:

@@ -63,6 +63,14 @@ def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
     assert "(its swing says X = -" in line
 
 
+def test_rates_in_degrees_are_not_blamed_on_the_antenna() -> None:
+    recording, motion = driven("soft-van")
+    in_degrees = replace(motion, rates=180.0 / np.pi * motion.rates)
+    (line,) = told(recording, in_degrees)
+    assert line.startswith("channels roll_rate, pitch_rate: the antenna swings a fraction")
+    assert "multiply by 0.0174533" in line
+
+
 def test_a_parked_vehicle_tells_nothing_of_the_arm() -> None:
     numbers = {"manoeuvre": "quiescent", "rate_hz": 1000.0}
     recording = simulate(Scenario.from_dict(numbers)).recording

@@ -117,6 +117,21 @@ def test_a_slow_receiver_is_checked_like_a_fast_one() -> None:
         checked(gnss(driven(), slow))
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_receiver_too_slow_to_follow_the_body_tells_no_delay(seed: int) -> None:
+    """One reading a second fits several swings."""
+
+    def slow(channel: Channel) -> Channel:
+        return replace(
+            channel,
+            values=channel.values[::20],
+            clock=StampedClock.of(channel.times_s[::20] + 5.4),
+        )
+
+    (line,) = checked(gnss(driven(seed), slow))
+    assert line.startswith("channel gnss_height: no RTK-fixed reading for 5.4")
+
+
 def test_readings_that_are_missing_are_no_readings() -> None:
     def lost(channel: Channel) -> Channel:
         values = channel.values.copy()
