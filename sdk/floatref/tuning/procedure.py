@@ -1,6 +1,6 @@
 """The procedure of section 6.4.4: do no harm at speed, then braking and stops, then low speed."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from floatref.tuning.drives import STOPS, Kind
@@ -185,6 +185,14 @@ class Procedure:
 
     def _of(self, *kinds: Kind) -> list[str]:
         return [name for name, kind in self.kinds.items() if kind in kinds]
+
+
+def first_point(given: Collection[str], levels: Levels) -> Point:
+    """Step 1: the walks of the rates that sensors at rest showed, else the lowest, for none."""
+    point = START
+    for which in (PITCH, ROLL):
+        point = point if TUNED[which] in given else moved(point, which, levels.lowest[which])
+    return point
 
 
 def _weighted(losses: Sequence[float], favoured: int | None = None) -> float:

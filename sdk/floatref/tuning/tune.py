@@ -7,7 +7,7 @@ from typing import Any
 from floatref.architectures.processing import pipeline_capabilities
 from floatref.tuning.levels import START, TUNED, Levels, Point, moved
 from floatref.tuning.preparation import Prepared, check_pipeline, prepare
-from floatref.tuning.procedure import PITCH, ROLL, Found, Procedure
+from floatref.tuning.procedure import Found, Procedure, first_point
 from floatref.tuning.scores import Scores
 from floatref.tuning.sensitivity import Sensitivity, sensitivities
 from floatref.tuning.trials import Trials
@@ -81,7 +81,7 @@ def tune(
     levels = Levels.of(numbers, usual)
     trials = Trials(pipeline, given, levels, prepared.runs, done)
     with trials.working():
-        procedure = _procedure(prepared, levels, trials, _begin(given, levels), tell)
+        procedure = _procedure(prepared, levels, trials, first_point(given, levels), tell)
         found = procedure.search()
         tell("Sensitivity")
         chosen = levels.settings(found.point)
@@ -115,14 +115,6 @@ def _procedure(
 ) -> Procedure:
     nominal = {name: [score.loss for score in scores] for name, scores in prepared.nominal.items()}
     return Procedure(prepared.kinds, nominal, levels, trials.losses, begin, tell)
-
-
-def _begin(given: Mapping[str, Any], levels: Levels) -> Point:
-    """Step 1: walks of the rates that sensors at rest showed, else the lowest, for none."""
-    point = START
-    for which in (PITCH, ROLL):
-        point = point if TUNED[which] in given else moved(point, which, levels.lowest[which])
-    return point
 
 
 def _varied(pipeline: str, numbers: Mapping[str, float]) -> dict[str, float]:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from floatref.tuning.drives import Kind
 from floatref.tuning.levels import START, TUNED, Levels, Point
-from floatref.tuning.procedure import MOST, Procedure
+from floatref.tuning.procedure import MOST, Procedure, first_point
 from floatref.tuning.search import LEAST_GAIN, TOLERANCE
 
 pytestmark = pytest.mark.cites("section 6.4.4")
@@ -162,6 +162,13 @@ def test_what_other_runs_lose_speaks_against_a_value(name: str, which: int, othe
         return valley(p[which], 8, 0.005)
 
     assert Bench(loss).found.ranges[name].highest <= 0
+
+
+def test_walks_of_the_rates_that_are_not_given_begin_at_the_lowest() -> None:
+    low = LEVELS.lowest
+    assert first_point({}, LEVELS) == (0, 0, low[2], low[3])
+    assert first_point({PITCH: 1e-6}, LEVELS) == (0, 0, 0, low[3])
+    assert first_point([PITCH, ROLL], LEVELS) == START
 
 
 def test_where_the_rates_walks_begin_is_where_step_2_looks() -> None:
