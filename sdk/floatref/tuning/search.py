@@ -95,11 +95,11 @@ def climb(
     best, known = loss(point), 1
     for width in (COARSE, COARSE // 2, COARSE // 4):
         gained = True
-        while gained and known < most:
+        while gained:
             gained = False
             for there in _around(point, free, width, lowest, highest):
                 if known >= most:
-                    break
+                    return point
                 found, known = loss(there), known + 1
                 if found < best - LEAST_GAIN:
                     point, best, gained = there, found, True

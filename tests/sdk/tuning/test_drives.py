@@ -73,6 +73,16 @@ def test_a_stop_is_short_or_long_and_lies_where_it_is(
     assert found.deceleration_g > 0.7 * rate_g
 
 
+def test_where_there_is_a_stop_it_alone_is_critical() -> None:
+    down = [held(20.0, 3.0), ramp(20.0, 12.0, 0.4), held(12.0, 5.0), ramp(12.0, 0.0, 0.2)]
+    place = float(np.concatenate(down).sum()) / RATE_HZ
+    speed = np.concatenate([*down, held(0.0, 5.0), ramp(0.0, 10.0, 0.2), held(10.0, 4.0)])
+    found = drive_of(driven(speed, 0.0003), 20.0, place + 20.0)
+    assert found.kind is Kind.LONG
+    assert found.critical_m == pytest.approx([place], abs=0.1)
+    assert found.deceleration_g == pytest.approx(0.4, rel=0.1)
+
+
 def test_what_happens_elsewhere_does_not_count() -> None:
     speed = [held(20.0, 10.0), ramp(20.0, 0.0, 0.3), held(0.0, 4.0)]
     found = drive_of(driven(np.concatenate(speed), 0.0003), 10.0, 190.0)

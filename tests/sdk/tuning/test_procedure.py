@@ -94,6 +94,33 @@ def test_what_does_not_matter_stays_where_it_was(which: int) -> None:
     assert found.point == tuple(7 if k == which else 0 for k in range(4))
 
 
+def test_a_start_that_nothing_leads_back_to_is_kept() -> None:
+    def loss(run: str, _: int, p: Point) -> float:
+        return 0.1 if run == "fast" else 0.02 if p == START else 0.4 + 0.001 * p[1]
+
+    assert Bench(loss, begin=(0, 0, -12, -12)).found.point == START
+
+
+def test_of_a_better_place_far_away_only_what_matters_is_taken() -> None:
+    """From the start, steps of two octaves and less along the pitch gain nothing."""
+    found = Bench(lambda _, __, p: 0.05 if p[2] <= -10 else 0.2, begin=(0, 0, -12, -12)).found
+    assert found.point == (0, 0, -12, 0)
+
+
+def test_each_step_goes_on_from_the_lowest_values_of_the_one_before() -> None:
+    def loss(run: str, _: int, p: Point) -> float:
+        if run in ("fast", "light"):
+            return 0.2 if p[1] < -7 or p[1] > 3 else 0.1
+        return 0.0 if 2 <= p[2] <= 6 else 0.1
+
+    begin = (0, 0, -12, -12)
+    bench = Bench(loss, begin=begin)
+    pitched = next(p for p in bench.points if p[2] != begin[2])
+    assert pitched[1] == bench.found.ranges[WALK].lowest == -7
+    rolled = next(p for p in bench.points if p[3] != begin[3])
+    assert rolled[2] == bench.found.ranges[PITCH].lowest == 2
+
+
 def test_the_same_losses_are_looked_at_in_the_same_order() -> None:
     def loss(_: str, track: int, p: Point) -> float:
         return 0.01 * sum(abs(x - 3 + track) for x in p)

@@ -67,6 +67,16 @@ def test_the_worst_of_several_places_counts() -> None:
     assert score.peak_error > 0.5 > abs(other.peak_error)
 
 
+def test_around_a_critical_location_both_are_seen_at_the_same_road() -> None:
+    """A bump that lies within 24 m in the profile lies farther off in the reference."""
+    z = rough(10)
+    z[round(120.0 / DX) : round(120.0 / DX) + 40] += 0.2
+    comparison = Comparison(profile(z), 60.0, 240.0, STOP, max_offset_m=10.0)
+    (score,) = comparison.scores(profile(z, start_m=8.0))
+    assert score.offset_m == pytest.approx(8.0)
+    assert abs(score.peak_error) < 0.02
+
+
 def test_every_point_counts_valid_or_not() -> None:
     z = rough(3)
     found = compared(STEADY, z).scores(profile(z[::-1].copy()))

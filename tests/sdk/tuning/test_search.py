@@ -53,6 +53,13 @@ def test_where_nothing_matters_the_range_is_everything() -> None:
     assert len(flat.asked) <= 12
 
 
+@given(st.integers(-12, -1), st.integers(1, 12))
+def test_where_the_search_begins_is_one_of_the_steps(lowest: int, highest: int) -> None:
+    flat = Counted(lambda _: 0.3)
+    assert best_range(lowest, highest, flat) == Range(lowest, highest)
+    assert {0, lowest, highest} <= flat.asked
+
+
 @settings(deadline=None, max_examples=60)
 @given(steps, steps, st.integers(-12, 9), st.integers(-12, 9))
 def test_the_lowest_pair_is_the_corner_of_what_is_good(a: int, b: int, c: int, d: int) -> None:

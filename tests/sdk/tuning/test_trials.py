@@ -48,7 +48,6 @@ def test_a_smaller_walk_is_better_than_one_far_too_large(trials: Callable[[], Tr
     assert max(after) < 0.5 * min(before)
 
 
-@pytest.mark.filterwarnings("ignore:(overflow|invalid value) encountered")
 def test_values_that_give_no_profile_are_hopeless(trials: Callable[[], Trials]) -> None:
-    scores = trials().scores(dict.fromkeys(TUNED, 1e200), ["fast"])
-    assert all(score == HOPELESS or score.cross_correlation <= 0 for score in scores["fast"])
+    scores = trials().scores({TUNED[0]: 0.0}, ["fast"])
+    assert scores["fast"] == (HOPELESS, HOPELESS)
