@@ -13,7 +13,7 @@ from floatref_conformance.checks.injured_drives import NUMBERS, ROLLING
 from floatref_conformance.checks.injuries import INJURIES
 
 STOP = {"manoeuvre": "stop", "length_m": 300.0, "event_at_m": 150.0, "speed_kmh": 50.0}
-FAULTS = [name for name in INJURIES if not name.startswith("gnss")]
+FAULTS = [name for name in INJURIES if not name.startswith(("gnss", "imu"))]
 REPAIRED = (ROLLING, "encoder-counts-back")
 AT_M = 140.0
 CASES = [(name, n) for name in FAULTS for n in range(len(NUMBERS[name]))]
