@@ -12,7 +12,6 @@ from floatref.tuning.levels import START, TUNED, Levels, Point
 from floatref.tuning.procedure import MOST, Procedure, first_point
 from floatref.tuning.search import LEAST_GAIN, TOLERANCE
 
-
 USUAL = dict.fromkeys(TUNED, 1e-4)
 LEVELS = Levels.of(USUAL, USUAL)
 DENSITY, WALK, PITCH, ROLL = TUNED
