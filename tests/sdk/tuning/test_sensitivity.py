@@ -11,7 +11,6 @@ from floatref.tuning.sensitivity import FACTORS, Sensitivity, sensitivities
 from floatref.tuning.trials import Trials
 from floatref_conformance.proving_ground.simulate import Simulation
 
-pytestmark = pytest.mark.cites("section 6.4.4")
 PIPELINE = "kalman-smoother-reflection"
 
 
