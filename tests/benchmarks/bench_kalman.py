@@ -57,7 +57,7 @@ class InC:
         """Build the library in ``folder``, unless it is there, and lay out the arguments."""
         library = folder / "kalman.so"
         if not library.exists():
-            command = ["cc", "-O3", "-march=native", "-fPIC", "-shared", "-o", library]
+            command = ["cc", "-O3", "-fPIC", "-shared", "-o", library]
             subprocess.run([*command, *SOURCES.glob("*.c"), "-lm"], check=True)
         self.call = ctypes.CDLL(str(library)).kalman_smoother
         self.call.restype = ctypes.c_int64

@@ -73,7 +73,9 @@ def run(
     ``height`` gets the filtered height, and ``node_at`` (k, 2), ``nodes`` and ``updates`` what
     the backward pass needs; a node's second number is the end of its updates.
     """
-    size, observed, count, begin, done = height.size, 0, 0, 0, 0
+    size, observed, count = height.size, 0, 0
+    # A literal 0 has all that is called with it compiled once more.
+    begin = done = int(np.int64(0))
     work, h = np.zeros((STATES, STATES)), np.zeros((KINDS, STATES))
     while begin < size:
         node = begin + (-(first + begin)) % sub_block
@@ -117,7 +119,8 @@ def end(
     work = np.zeros((4, STATES))
     _keep_transition(memory, model[0], nodes[0])
     _predict(p, work, memory, model, x)
-    _close_node(int(memory[LATEST]), 0, 0.0, 0.0, p, nodes[0], node_at[0])
+    nothing = int(np.int64(0))
+    _close_node(int(memory[LATEST]), nothing, 0.0, 0.0, p, nodes[0], node_at[0])
     return 1
 
 

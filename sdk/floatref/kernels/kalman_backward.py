@@ -104,7 +104,7 @@ def interpolate(
 
     ``start`` holds sample number, height and velocity correction of the node before.
     """
-    begin, r_0, v_0 = int(start[0]), start[1], start[2]
+    begin, r_0, v_0, behind = int(start[0]), start[1], start[2], first + height.size
     for k in range(node_at.shape[0]):
         end = node_at[k, 0]
         span = (end - begin) * step
@@ -112,11 +112,12 @@ def interpolate(
         rise = r_1 - r_0
         square, cube = 3.0 * rise - 2.0 * slope_0 - slope_1, slope_0 + slope_1 - 2.0 * rise
         scale = 1.0 / max(end - begin, 1)
-        for i in range(max(begin, first), end):
+        for i in range(max(begin, first), min(end, behind)):
             t = (i - begin) * scale
             height[i - first] += r_0 + t * (slope_0 + t * (square + t * cube))
         begin, r_0, v_0 = end, corrections[k, 2], corrections[k, 3]
-    height[begin - first] += r_0
+    if first <= begin < behind:
+        height[begin - first] += r_0
 
 
 @compiled
@@ -136,14 +137,14 @@ def closed_loop(
     (from the sample ``before``) to number k, ``gathered[k]`` the sum of Psi' H' H Psi / S on the
     way: what the observations there add to the covariance of lambda.
     """
-    at, done = 0, 0
+    at, done, seen = 0, 0, np.empty(STATES)
     _identity(passed[0], gathered[0])
     for k in range(node_at.shape[0]):
         psi, sums = passed[at], gathered[at]
         span = (node_at[k, 0] - (node_at[k - 1, 0] if k > 0 else before)) * step
         _forth(nodes[k], span, psi)
         for m in range(done, node_at[k, 1]):
-            _reduce(updates[m], psi, sums)
+            _reduce(updates[m], psi, sums, seen)
         done = node_at[k, 1]
         if wanted[at] == k:
             at += 1
@@ -183,11 +184,12 @@ def _forth(node: FloatArray, span: float, psi: FloatArray) -> None:
 
 
 @compiled
-def _reduce(update: FloatArray, psi: FloatArray, sums: FloatArray) -> None:
+def _reduce(update: FloatArray, psi: FloatArray, sums: FloatArray, seen: FloatArray) -> None:
     """Add Psi' H' H Psi / S to ``sums``; Psi <- (I - K H) Psi."""
-    seen = np.zeros(STATES)
     for c in range(STATES):
-        for j in range(STATES):
+        seen[c] = 0.0
+    for j in range(STATES):
+        for c in range(STATES):
             seen[c] += update[j] * psi[j, c]
     for i in range(STATES):
         scaled, gain = seen[i] * update[INNOVATION + 1], update[STATES + i]
@@ -202,11 +204,15 @@ def ramp(at: IndexArray, values: FloatArray, first: int, line: FloatArray) -> No
 
     Before the first of them, and behind the last, it stays level.
     """
-    k = 0
-    for i in range(line.size):
-        while k + 1 < at.size and at[k + 1] <= first + i:
-            k += 1
-        line[i] = values[k]
-        if k + 1 < at.size and first + i > at[k]:
-            share = (first + i - at[k]) / (at[k + 1] - at[k])
-            line[i] += share * (values[k + 1] - values[k])
+    i, size = 0, line.size
+    for k in range(at.size - 1):
+        begin, end = at[k] - first, min(at[k + 1] - first, size)
+        while i < min(begin, end):
+            line[i] = values[k]
+            i += 1
+        slope = (values[k + 1] - values[k]) / (at[k + 1] - at[k])
+        for j in range(i, end):
+            line[j] = values[k] + (j - begin) * slope
+        i = max(i, end)
+    for j in range(i, size):
+        line[j] = values[at.size - 1]

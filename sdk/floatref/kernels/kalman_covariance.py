@@ -1,5 +1,7 @@
 """How covariances of the smoother follow from those of the filter, between a few of its nodes."""
 
+from math import cos, exp, sin, sqrt
+
 import numpy as np
 
 from floatref.kernels.compiling import compiled
@@ -33,21 +35,21 @@ def settle(column: FloatArray, passed: FloatArray, gathered: FloatArray, left: F
             for j in range(STATES):
                 total -= information[i, j] * column[k, j]
             left[k, i] = total
-        _times(information, passed[k], half, False)
-        _times(passed[k], half, information, True)
+        _turned(information, passed[k], half)
+        _turned(passed[k], half, information)
         for i in range(STATES):
             for j in range(STATES):
                 information[i, j] += gathered[k, i, j]
 
 
 @compiled
-def _times(a: FloatArray, b: FloatArray, product: FloatArray, turned: bool) -> None:
-    """Write a b, or a' b, into ``product``."""
+def _turned(a: FloatArray, b: FloatArray, product: FloatArray) -> None:
+    """Write a' b into ``product``."""
     for i in range(STATES):
         for j in range(STATES):
             total = 0.0
             for k in range(STATES):
-                total += (a[k, i] if turned else a[i, k]) * b[k, j]
+                total += a[k, i] * b[k, j]
             product[i, j] = total
 
 
@@ -98,6 +100,7 @@ def spread(
 def reach(column: FloatArray, passed: FloatArray, found: FloatArray) -> None:
     """Write Psi P e_r, from each mark to the last, into ``found``, shape (n, 10)."""
     size = column.shape[0]
+    # What is multiplied up is Psi'.
     psi, product = np.zeros((STATES, STATES)), np.zeros((STATES, STATES))
     for i in range(STATES):
         psi[i, i] = 1.0
@@ -105,9 +108,9 @@ def reach(column: FloatArray, passed: FloatArray, found: FloatArray) -> None:
         for i in range(STATES):
             total = 0.0
             for j in range(STATES):
-                total += psi[i, j] * column[k, j]
+                total += psi[j, i] * column[k, j]
             found[k, i] = total
-        _times(psi, passed[k], product, False)
+        _turned(passed[k], psi, product)
         for i in range(STATES):
             for j in range(STATES):
                 psi[i, j] = product[i, j]
@@ -122,3 +125,30 @@ def _apply(psi: FloatArray, vector: FloatArray, carried: FloatArray) -> None:
         carried[i] = total
     for i in range(STATES):
         vector[i] = carried[i]
+
+
+@compiled
+def high_pass(
+    distance_m: FloatArray, wanted: IndexArray, cutoff: float, reach_m: float, found: FloatArray
+) -> None:
+    """Write what HPF_B3x2 takes of all marks for those ``wanted``, in order.
+
+    ``found`` has shape (m, n) and is zero; ``cutoff`` is a wave number in rad/m, and marks further
+    than ``reach_m`` away count nothing.
+    """
+    size, root, low = distance_m.size, sqrt(0.75), 0
+    for k in range(wanted.size):
+        row, place, total = found[k], distance_m[wanted[k]], 0.0
+        while place - distance_m[low] > reach_m:
+            low += 1
+        end = low
+        while end < size and distance_m[end] - place <= reach_m:
+            width = distance_m[min(end + 1, size - 1)] - distance_m[max(end - 1, 0)]
+            a = cutoff * abs(distance_m[end] - place)
+            b = root * a
+            row[end] = width * (exp(-a) + exp(-0.5 * a) * (cos(b) + 2.0 * root * sin(b)))
+            total += row[end]
+            end += 1
+        for j in range(low, end):
+            row[j] = -row[j] / total if total > 0.0 else -1.0 / (end - low)
+        row[wanted[k]] += 1.0

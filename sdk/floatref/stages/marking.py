@@ -1,5 +1,7 @@
 """Flags of missing samples."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from floatref.values.arrays import Flag, FlagArray
@@ -7,11 +9,17 @@ from floatref.values.block import Block
 from floatref.values.channels import ChannelId
 
 
-def flags_of(block: Block, *channels: ChannelId) -> FlagArray | None:
-    """Return the flags of all ``channels`` together, NaN as `Flag.MISSING`, or None."""
+def flags_of(
+    block: Block, *channels: ChannelId, complete: Collection[ChannelId] = ()
+) -> FlagArray | None:
+    """Return the flags of all ``channels`` together, NaN as `Flag.MISSING`, or None.
+
+    Those that are known to be ``complete`` are not searched for NaN.
+    """
     flags: FlagArray | None = None
     for channel in channels:
-        for more in (block.flags.get(channel), _missing(block, channel)):
+        missing = None if channel in complete else _missing(block, channel)
+        for more in (block.flags.get(channel), missing):
             if more is not None:
                 flags = more if flags is None else flags | more
     return flags

@@ -1,6 +1,6 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
-from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,10 +26,24 @@ from floatref.stages.signals import (
     REFERENCE_HEIGHT,
     TRAVEL_SPEED,
 )
-from floatref.values.arrays import FlagArray, FloatArray
+from floatref.values.arrays import FlagArray, FloatArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.recording import ORIGIN
+
+
+class Filtered(NamedTuple):
+    """What the filter makes of a block of a wheel path.
+
+    Attributes:
+        height: in m.
+        nodes: what the backward pass needs.
+        flags: of all inputs, and of the height sensor, which counts at a stop.
+    """
+
+    height: FloatArray
+    nodes: Nodes
+    flags: FlagArray | None
 
 
 class KalmanStage(Stage):
@@ -47,6 +61,7 @@ class KalmanStage(Stage):
         self.plan, self.noise, self.wavelength_m = plan, noise, wavelength_m
         self._header: Header | None = None
         self._channels: tuple[InputChannels, ...] = ()
+        self._made: frozenset[ChannelId] = frozenset()
 
     def open(self, header: Header) -> Header:
         """Ask for the sensors of every track and the travel speed, in time."""
@@ -62,17 +77,22 @@ class KalmanStage(Stage):
         readings = Readings(header.origin, header.step)
         quiet = Quiet(round(1.0 / header.step))
         self.memory = {"readings": readings, "quiet": quiet, "filters": {}}
-        return header.replacing(ACCELERATION, REFERENCE_HEIGHT).without(*IMU)
+        out = header.replacing(ACCELERATION, REFERENCE_HEIGHT).without(*IMU)
+        self._made = out.channels
+        return out
 
-    def forward(self, block: Block) -> dict[str, tuple[FloatArray, Nodes]]:
-        """Filter every track; returns the filtered heights in m and the nodes."""
+    def forward(self, block: Block) -> dict[str, Filtered]:
+        """Filter every track."""
         readings = self.memory["readings"].take(block.events, block.first + len(block))
         quiet = self.memory["quiet"].take(block.first, block[ChannelId(DISTANCE)])
         found = {}
         for channels in self._channels:
-            track = channels.track
+            track, names = channels.track, channels.names
             stretch = stretch_of(block, track, self.plan, readings, quiet)
-            found[track] = self._filter(track, block).advance(channels.inputs(block), stretch)
+            passed = self._filter(track, block).advance(channels.inputs(block), stretch)
+            complete = () if passed.missing else names
+            flags = flags_of(block, *names, ChannelId(HEIGHT, track), complete=complete)
+            found[track] = Filtered(passed.height, passed.nodes, flags)
         return found
 
     def ending(self) -> dict[str, Nodes]:
@@ -92,17 +112,9 @@ class KalmanStage(Stage):
             )
         return filters[track]
 
-    def empty(self, block: Block, *names: str) -> Block:
-        """Return an output without samples at the place of ``block``."""
-        assert self._header is not None
-        made = (REFERENCE_HEIGHT, *names)
-        values = {ChannelId(n, track): np.empty(0) for n in made for track in self._header.tracks}
-        nothing = block.part(0, 0).without(ACCELERATION, *IMU)
-        return replace(nothing.setting(values), events=())
-
-    def flags(self, block: Block, channels: InputChannels) -> FlagArray | None:
-        """Return the flags of all inputs of a wheel path, and of the height at a stop."""
-        return flags_of(block, *channels.names, ChannelId(HEIGHT, channels.track))
+    def empty(self, first: int) -> Block:
+        """Return an output without samples at sample ``first``."""
+        return Block(first, dict.fromkeys(self._made, frozen(())))
 
 
 class KalmanFilter(KalmanStage):
@@ -110,14 +122,11 @@ class KalmanFilter(KalmanStage):
 
     def advance(self, block: Block) -> Block:
         """Filter every track."""
-        values, flags = {}, {}
         if len(block) == 0:
-            return self.empty(block)
-        found = self.forward(block)
-        for channels in self._channels:
-            target = ChannelId(REFERENCE_HEIGHT, channels.track)
-            values[target] = found[channels.track][0]
-            marks = self.flags(block, channels)
-            if marks is not None:
-                flags[target] = marks
+            return self.empty(block.first)
+        values, flags = {}, {}
+        for track, found in self.forward(block).items():
+            values[ChannelId(REFERENCE_HEIGHT, track)] = found.height
+            if found.flags is not None:
+                flags[ChannelId(REFERENCE_HEIGHT, track)] = found.flags
         return block.setting(values, flags).without(ACCELERATION, *IMU)

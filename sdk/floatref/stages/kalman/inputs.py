@@ -1,8 +1,7 @@
 """From blocks to what the Kalman filter takes: inputs, GNSS readings, standstill, heights."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import isnan
 from operator import itemgetter
 
 import numpy as np
@@ -22,8 +21,8 @@ IMU = (*FORCES, *RATES)
 GNSS = tuple(
     ChannelId(name) for name in ("gnss_height", "gnss_vertical_velocity", "gnss_pitch", "gnss_roll")
 )
-WHOLE = itemgetter(*GNSS)
 QUALITY = ChannelId("gnss_quality")
+WHOLE = itemgetter(*GNSS, QUALITY)
 FIXED = 4.0
 """Quality of a reading whose phase ambiguities are fixed (section 6.4.4)."""
 SECONDS, MOVING, STEADY = 4, 5.0, 0.4
@@ -53,14 +52,10 @@ class InputChannels:
         return cls(track, (longitudinal, lateral, ChannelId(ACCELERATION, track), *rates))
 
     def inputs(self, block: Block) -> Inputs:
-        """Return the six inputs; of Z the vertical acceleration; missing is zero."""
-        x, y, z, roll, pitch, yaw = (_known(block[name]) for name in self.names)
+        """Return the six inputs; of Z the vertical acceleration."""
+        # Read-only throughout: the kernel is compiled for one kind of array.
+        x, y, z, roll, pitch, yaw = (frozen(block[name]) for name in self.names)
         return x, y, z, roll, pitch, yaw
-
-
-def _known(values: FloatArray) -> FloatArray:
-    # Read-only throughout: the kernel is compiled for one kind of array.
-    return frozen(np.nan_to_num(values) if np.isnan(values.sum()) else values)
 
 
 @dataclass
@@ -73,31 +68,43 @@ class Readings:
 
     origin_s: float
     step: float
-    held: list[tuple[int, tuple[float, ...]]] = field(default_factory=list)
+    held_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
+    held: FloatArray = field(default_factory=lambda: np.empty((0, KINDS + 1)))
     before_s: float = -np.inf
 
-    def take(self, events: Iterable[Event], end: int) -> tuple[IndexArray, FloatArray]:
+    def take(self, events: Sequence[Event], end: int) -> tuple[IndexArray, FloatArray]:
         """Return those before sample ``end``, shapes (m,) and (m, 5)."""
-        for event in events:
-            self._hold(event)
-        ready = [reading for reading in self.held if reading[0] < end]
-        self.held = self.held[len(ready) :]
-        at = np.array([index for index, _ in ready], np.int64)
-        return at, np.array([row for _, row in ready]).reshape(at.size, KINDS + 1)
+        if events:
+            self._hold(events)
+        count = int(np.searchsorted(self.held_at, end))
+        ready = self.held_at[:count], self.held[:count]
+        self.held_at, self.held = self.held_at[count:], self.held[count:]
+        return ready
 
-    def _hold(self, event: Event) -> None:
-        try:
-            row, quality = WHOLE(event.values), event.values.get(QUALITY, FIXED)
-        except KeyError:
-            row = tuple(event.values.get(channel, np.nan) for channel in GNSS)
-            quality = event.values.get(QUALITY, FIXED)
-        if isnan(row[0]) or quality != FIXED:
+    def _hold(self, events: Sequence[Event]) -> None:
+        times, rows = np.array([event.time_s for event in events]), _rows(events)
+        usable = (rows[:, KINDS] == FIXED) & ~np.isnan(rows[:, 0])
+        times, rows = times[usable], rows[usable]
+        if times.size == 0:
             return
-        interval_s = event.time_s - self.before_s
-        self.before_s = event.time_s
-        index = max(0, round((event.time_s - self.origin_s) / self.step))
-        if not self.held or index > self.held[-1][0]:
-            self.held.append((index, (*row, min(interval_s, LONGEST_S))))
+        before = np.concatenate(((self.before_s,), times[:-1]))
+        rows[:, KINDS] = np.minimum(times - before, LONGEST_S)
+        self.before_s = float(times[-1])
+        at = np.maximum(np.rint((times - self.origin_s) / self.step), 0.0).astype(np.int64)
+        at, rows = np.concatenate((self.held_at, at)), np.concatenate((self.held, rows))
+        # Of two that are next to one sample, or out of order, the first counts.
+        latest = np.maximum.accumulate(at)
+        first = np.concatenate(((True,), latest[1:] > latest[:-1]))
+        self.held_at, self.held = at[first], rows[first]
+
+
+def _rows(events: Sequence[Event]) -> FloatArray:
+    """Return what the readings say, with their quality, shape (m, 5)."""
+    try:
+        return np.array([WHOLE(event.values) for event in events])
+    except KeyError:
+        usual = {**dict.fromkeys(GNSS, np.nan), QUALITY: FIXED}
+        return np.array([WHOLE({**usual, **event.values}) for event in events])
 
 
 @dataclass
@@ -135,8 +142,8 @@ def stretch_of(
     """Return what the references of ``track`` need to know of ``block``."""
     standing: BoolArray = block[ChannelId(TRAVEL_SPEED)] < plan.reflection_speed_mps
     height = ChannelId(HEIGHT, track)
-    there: BoolArray = ~np.isnan(block[height])
-    flags = block.flags.get(height)
-    if flags is not None:
-        there = there & (flags == 0)
+    there = standing
+    # Only there is it looked at.
+    if standing.any():
+        there = standing & ~np.isnan(block[height]) & (block.flags.get(height, 0) == 0)
     return Stretch(block.first, standing, block[height], there, *readings, quiet)

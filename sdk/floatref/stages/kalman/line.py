@@ -1,5 +1,6 @@
 """What the smoother keeps of one wheel path until its readings no longer matter."""
 
+from bisect import bisect_right
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,7 +10,7 @@ from floatref.stages.kalman.lag import closing
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.segment import Marks, Segment
 from floatref.stages.kalman.sigma import REACH, Settled, sigma
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 
 
 @dataclass(frozen=True)
@@ -31,44 +32,43 @@ class Closing:
 
 @dataclass(eq=False)
 class Line:
-    """A segment in the making, those not closed, and what has been smoothed and not come out.
+    """Heights that have not come out, nodes of the segment in the making, and segments not closed.
 
     Attributes:
         rule: when segments are closed.
-        heights, parts, distances: filtered heights, nodes, and distance at the nodes, of the
-            segment in the making.
+        heights: of blocks, filtered until smoothed, in m, with the number of their first sample.
+        parts, distances: nodes, and distance there, of what is behind the segments.
         segments: those that are complete.
         before, origin: sample and row of the last node of a complete segment.
         behind: marks of closed segments that the filter still reaches.
-        smoothed, sigmas: what has been closed, per sample, in m.
+        known_at, known: marks of closed segments that have not come out, and 1-σ in m there.
     """
 
     rule: Closing
-    heights: list[FloatArray] = field(default_factory=list)
+    heights: list[tuple[int, FloatArray]] = field(default_factory=list)
     parts: list[Nodes] = field(default_factory=list)
     distances: list[FloatArray] = field(default_factory=list)
     segments: list[Segment] = field(default_factory=list)
     before: int = -1
     origin: FloatArray = field(default_factory=lambda: np.zeros(NODE))
     behind: Settled | None = None
-    smoothed: list[FloatArray] = field(default_factory=list)
-    sigmas: list[FloatArray] = field(default_factory=list)
+    known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
+    known: FloatArray = field(default_factory=lambda: np.empty(0))
 
-    def add(self, height: FloatArray, nodes: Nodes, distance_m: FloatArray) -> None:
-        """Keep what the filter made of a block, and the distance at its nodes."""
-        self.heights.append(height)
+    def add(self, nodes: Nodes, distance_m: FloatArray) -> None:
+        """Keep nodes behind those before, and the distance there."""
         self.parts.append(nodes)
         self.distances.append(distance_m)
 
-    def end_segment(self) -> None:
-        """Make a segment of what was added; its last sample is a node."""
-        nodes = Nodes.joined(self.parts)
-        marks = Marks.of(self.before, nodes, np.concatenate(self.distances), self.rule.step)
-        height = np.concatenate(self.heights)
-        segment = Segment(self.before, self.origin, height, nodes, marks)
-        self.segments.append(segment)
-        self.before, self.origin = segment.last, nodes.nodes[-1].copy()
-        self.heights, self.parts, self.distances = [], [], []
+    def end_segment(self, sample: int) -> None:
+        """Make a segment of the nodes before ``sample``, one or more."""
+        head, tail = self.parts[-1].parted(sample)
+        nodes, count = Nodes.joined([*self.parts[:-1], head]), len(head.at)
+        distance = np.concatenate([*self.distances[:-1], self.distances[-1][:count]])
+        marks = Marks.of(self.before, nodes, distance, self.rule.step)
+        self.segments.append(Segment(self.before, self.origin, nodes, marks))
+        self.before, self.origin = self.segments[-1].last, nodes.nodes[-1].copy()
+        self.parts, self.distances = [tail], [self.distances[-1][count:]]
 
     def ready(self) -> int:
         """Return how many segments nothing to come changes by more than the tolerance."""
@@ -81,16 +81,16 @@ class Line:
         for segment in reversed(self.segments):
             corrections = segment.back(adjoint, self.rule.step)
             found.append((segment, corrections, adjoint.copy()))
+        firsts = [first for first, _ in self.heights]
         for segment, corrections, behind in found[: -count - 1 : -1]:
-            segment.smooth(corrections, behind, self.rule.step)
-            self.smoothed.append(segment.height)
+            low = bisect_right(firsts, segment.before + 1) - 1
+            pieces = self.heights[low : bisect_right(firsts, segment.last)]
+            segment.smooth(corrections, behind, self.rule.step, pieces)
         self._settle(count)
         del self.segments[:count]
 
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""
-        from floatref.kernels import kalman_backward
-
         marks = Settled.of([segment.marks for segment in self.segments])
         closed = sum(len(segment.marks.at) for segment in self.segments[:count])
         reach = REACH * self.rule.wavelength_m
@@ -99,26 +99,19 @@ class Line:
         first = 0 if self.behind is None else len(self.behind.at)
         marks = marks if self.behind is None else marks.behind(self.behind)
         last = first + closed
-        low = max(first - 1, 0)
-        found = sigma(marks, low, last, self.rule.wavelength_m, self.rule.noise_m)
-        line = np.empty(sum(segment.height.size for segment in self.segments[:count]))
-        kalman_backward.ramp(marks.at[low:last], found, self.segments[0].before + 1, line)
-        self.sigmas.append(line)
+        found = sigma(marks, first, last, self.rule.wavelength_m, self.rule.noise_m)
+        self.known_at = np.concatenate((self.known_at, marks.at[first:last]))
+        self.known = np.concatenate((self.known, found))
         keep = int(np.searchsorted(marks.distance_m, marks.distance_m[last - 1] - reach))
         self.behind = marks.part(slice(min(keep, last - 1), last))
 
-    def take(self, count: int) -> tuple[FloatArray, FloatArray]:
-        """Return smoothed height and 1-σ of the next ``count`` samples, which are there."""
-        return _front(self.smoothed, count), _front(self.sigmas, count)
+    def take(self) -> tuple[FloatArray, FloatArray]:
+        """Return smoothed height and 1-σ of the next block, all of whose samples are closed."""
+        from floatref.kernels import kalman_backward
 
-
-def _front(pieces: list[FloatArray], count: int) -> FloatArray:
-    """Take the first ``count`` samples off ``pieces``."""
-    taken = [np.empty(0)] if count == 0 else []
-    while count:
-        piece = pieces.pop(0)
-        if piece.size > count:
-            pieces.insert(0, piece[count:])
-        taken.append(piece[:count])
-        count -= taken[-1].size
-    return taken[0] if len(taken) == 1 else np.concatenate(taken)
+        first, height = self.heights.pop(0)
+        deviation = np.empty(height.size)
+        kalman_backward.ramp(self.known_at, self.known, first, deviation)
+        done = max(int(np.searchsorted(self.known_at, first + height.size, "right")) - 1, 0)
+        self.known_at, self.known = self.known_at[done:], self.known[done:]
+        return height, deviation

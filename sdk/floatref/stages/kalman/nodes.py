@@ -26,11 +26,20 @@ class Nodes:
     def filled(self, count: int) -> "Nodes":
         """Return the first ``count``, without the room behind them."""
         end = int(self.at[count - 1, 1]) if count else 0
-        return Nodes(self.at[:count].copy(), self.nodes[:count].copy(), self.updates[:end].copy())
+        return Nodes(self.at[:count], self.nodes[:count], self.updates[:end])
+
+    def parted(self, sample: int) -> tuple["Nodes", "Nodes"]:
+        """Return those before ``sample``, and those behind."""
+        count = int(np.searchsorted(self.at[:, 0], sample))
+        head = self.filled(count)
+        end = len(head.updates)
+        tail = Nodes(self.at[count:] - np.array([0, end]), self.nodes[count:], self.updates[end:])
+        return head, tail
 
     @classmethod
     def joined(cls, parts: list["Nodes"]) -> "Nodes":
         """Return ``parts``, each behind the one before, as one."""
+        parts = [part for part in parts if len(part.at)]
         if len(parts) == 1:
             return parts[0]
         ends = np.cumsum([0, *(len(p.updates) for p in parts)])

@@ -120,9 +120,9 @@ class References:
     def _moving(self, stretch: Stretch) -> Chunk:
         self.origin = np.nan
         observed = self._observed(stretch, heights=True)
-        if stretch.quiet.size == 0:
-            return observed
-        return _merged(observed, _chunk(stretch.quiet, FORGET, UNSEEN, UNSEEN, np.nan))
+        for sample in stretch.quiet.tolist():
+            observed = _marked(observed, sample, FORGET)
+        return observed
 
     def _standing(self, stretch: Stretch) -> Chunk:
         """Return the height sensor's readings in place of heights, the rest as ever."""
@@ -241,6 +241,18 @@ def _merged(one: Chunk, other: Chunk) -> Chunk:
         marks[place] |= mark
         rows[place] = np.where(np.isnan(row), rows[place], row)
     return at, marks, rows
+
+
+def _marked(chunk: Chunk, sample: int, mark: int) -> Chunk:
+    """Return ``chunk`` with ``mark`` at ``sample``, which need not have an observation."""
+    at, marks, rows = chunk
+    place = int(np.searchsorted(at, sample))
+    if place < at.size and at[place] == sample:
+        marks[place] |= mark
+        return chunk
+    alone = _chunk(np.array([sample]), mark, UNSEEN, UNSEEN)
+    head, tail = ((at[w], marks[w], rows[w]) for w in (slice(place), slice(place, None)))
+    return _joined([head, alone, tail])
 
 
 def _joined(chunks: Sequence[Chunk]) -> Chunk:

@@ -1,5 +1,6 @@
 """Segments of a run between two nodes, as the backward pass takes them."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,10 +51,12 @@ class Marks:
 
 def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
     """Return the nodes that are far enough from those before, in time or travel, and the last."""
-    travelled = np.floor((distance_m - distance_m[0]) / APART_M)
-    elapsed = np.floor((at - at[0]) * (step / APART_S))
-    moved = np.diff(travelled, prepend=travelled[0]) + np.diff(elapsed, prepend=elapsed[0])
-    return np.union1d(np.flatnonzero(moved > 0), [at.size - 1])
+    apart = np.zeros(at.size)
+    elapsed = (at[1:] - at[:-1]) * (step / APART_S)
+    np.maximum((distance_m[1:] - distance_m[:-1]) * (1.0 / APART_M), elapsed, out=apart[1:])
+    gone = apart.cumsum().astype(np.int64)
+    gone[-1] += 1
+    return np.flatnonzero(gone[1:] > gone[:-1]) + 1 if at.size > 1 else np.zeros(1, np.int64)
 
 
 @dataclass(eq=False)
@@ -61,23 +64,21 @@ class Segment:
     """One wheel path between two nodes.
 
     Attributes:
-        before: sample of the node before the first sample; -1 before the run.
+        before: sample of the node before the first one; -1 before the run.
         origin: row of that node.
-        height: of the samples from ``before`` + 1 to the last node, in m, filtered until smoothed.
         nodes: those after ``before``.
         marks: those of them that tell how covariances pass on.
     """
 
     before: int
     origin: FloatArray
-    height: FloatArray
     nodes: Nodes
     marks: Marks
 
     @property
     def last(self) -> int:
         """Sample of the last node."""
-        return self.before + self.height.size
+        return int(self.nodes.at[-1, 0])
 
     def back(self, adjoint: FloatArray, step: float) -> FloatArray:
         """Return the corrections at the nodes; ``adjoint`` goes from the last to ``before``."""
@@ -88,14 +89,25 @@ class Segment:
         kalman_backward.smooth(n.at, n.nodes, n.updates, max(self.before, 0), step, adjoint, found)
         return found
 
-    def smooth(self, corrections: FloatArray, adjoint: FloatArray, step: float) -> None:
-        """Make `height` the smoothed one; ``adjoint`` is lambda behind the node ``before``."""
+    def smooth(
+        self,
+        corrections: FloatArray,
+        adjoint: FloatArray,
+        step: float,
+        pieces: Iterable[tuple[int, FloatArray]],
+    ) -> None:
+        """Correct the filtered heights of ``pieces`` behind ``before``, up to the last node.
+
+        A piece has the number of its first sample; ``adjoint`` is lambda behind ``before``.
+        """
         from floatref.kernels import kalman_backward
 
         start = np.zeros(CORRECTIONS)
         if self.before >= 0:
             kalman_backward.correct(self.origin, adjoint, start)
         place = np.array([max(self.before, 0), start[2], start[3]])
-        kalman_backward.interpolate(
-            self.nodes.at, corrections, self.before + 1, place, step, self.height
-        )
+        end = self.last + 1
+        for first, height in pieces:
+            low = max(self.before + 1, first)
+            part = height[low - first : max(end, first) - first]
+            kalman_backward.interpolate(self.nodes.at, corrections, low, place, step, part)

@@ -93,20 +93,15 @@ def covariances(marks: Settled, width_m: float = np.inf) -> FloatArray:
 
 
 def high_pass(distance_m: FloatArray, wavelength_m: float, wanted: IndexArray) -> FloatArray:
-    """Return what HPF_B3x2 takes of all marks for those ``wanted``, shape (m, n).
+    """Return what HPF_B3x2 takes of all marks for those ``wanted``, in order, shape (m, n).
 
     1 for the mark itself less the low-pass, whose weights sum to 1. Its impulse response is
     k_c/6 (e^-a + e^(-a/2) (cos(b) + sqrt(3) sin(b))), a = k_c |x|, b = sqrt(3)/2 a,
     k_c = 2 pi / ``wavelength_m``.
     """
-    a = np.abs(distance_m[wanted, None] - distance_m) * (2 * np.pi / wavelength_m)
-    b = np.sqrt(0.75) * a
-    response = np.exp(-a) + np.exp(-a / 2) * (np.cos(b) + np.sqrt(3.0) * np.sin(b))
-    response[a > 2 * np.pi * REACH] = 0.0
-    steps = np.diff(distance_m)
-    weights: FloatArray = response * (np.append(steps, 0.0) + np.append(0.0, steps)) / 2.0
-    total = weights.sum(axis=1, keepdims=True)
-    even = np.full_like(weights, 1.0 / distance_m.size)
-    found: FloatArray = -np.divide(weights, total, out=even, where=total > 0)
-    found[np.arange(wanted.size), wanted] += 1.0
+    from floatref.kernels import kalman_covariance
+
+    found = np.zeros((wanted.size, distance_m.size))
+    cutoff, reach_m = 2 * np.pi / wavelength_m, REACH * wavelength_m
+    kalman_covariance.high_pass(distance_m, wanted, cutoff, reach_m, found)
     return found

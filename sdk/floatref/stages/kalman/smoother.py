@@ -1,26 +1,23 @@
 """The Kalman smoother in place of both integrations."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from math import ceil
+from math import ceil, log2
 from typing import ClassVar
 
-import numpy as np
-
-from floatref.stages.kalman.filter import KalmanStage
+from floatref.stages.kalman.filter import Filtered, KalmanStage
 from floatref.stages.kalman.inputs import IMU
 from floatref.stages.kalman.line import Closing, Line
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
-from floatref.stages.kalman.track import sub_block
 from floatref.stages.protocol import Declared
 from floatref.stages.signals import ACCELERATION, DISTANCE, REFERENCE_HEIGHT, SIGMA
 from floatref.values.arrays import FlagArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
 
-SUB_BLOCKS, SEGMENT_S = 400, 4.0
-"""Sub-blocks of a segment, and its duration."""
+SEGMENT_S = 4.0
+"""Duration of a segment, but for its power of two in samples."""
 WAITING_S = 60.0
 """A segment waits so long, whatever the bound says: what changes since at the place where one part
 has come out and the next has not would be a step there."""
@@ -60,56 +57,50 @@ class KalmanSmoother(KalmanStage):
     def open(self, header: Header) -> Header:
         """Begin with nothing kept."""
         out = super().open(header)
-        self._length = SUB_BLOCKS * sub_block(header.step)
+        self._length = 1 << max(0, round(log2(SEGMENT_S / header.step)))
         rule = Closing(header.step, self.tolerance_m, self.wavelength_m, self.noise.height_m)
         self.memory["lines"] = {track: Line(rule) for track in header.tracks}
         self.memory["blocks"] = []
         self.memory["closed"] = 0
-        return out.adding(*(ChannelId(SIGMA, track) for track in header.tracks))
+        out = out.adding(*(ChannelId(SIGMA, track) for track in header.tracks))
+        self._made = out.channels
+        return out
 
     def advance(self, block: Block) -> Block:
-        """Filter the block; return the blocks whose segments are closed."""
+        """Filter the block; return the block that is ready by now, if one is."""
         if len(block) == 0:
             return self._nothing(block)
-        for part, full in self._split(block):
-            distance = part[ChannelId(DISTANCE)]
-            for track, (height, nodes) in self.forward(part).items():
-                line: Line = self.memory["lines"][track]
-                line.add(height, nodes, distance[nodes.at[:, 0] - part.first])
-            if full:
-                self._end_segment()
-        self.memory["blocks"].append(self._without_inputs(block))
+        found, distance = self.forward(block), block[ChannelId(DISTANCE)]
+        for track, passed in found.items():
+            line: Line = self.memory["lines"][track]
+            line.heights.append((block.first, passed.height))
+            line.add(passed.nodes, distance[passed.nodes.at[:, 0] - block.first])
+        full = range(block.first // self._length, (block.first + len(block)) // self._length)
+        for number in full:
+            self._end_segment((number + 1) * self._length)
+        self.memory["blocks"].append(self._without_inputs(block, found))
         return next(self._closed_blocks(), None) or self._nothing(block)
 
     def close(self) -> tuple[Block, ...]:
         """Return all that is left."""
         ending = self.ending()
         for track, line in self.memory["lines"].items():
-            if track in ending and len(ending[track].at):
+            if track in ending:
                 last = self.memory["blocks"][-1][ChannelId(DISTANCE)][-1:]
-                line.add(np.empty(0), ending[track], last)
-            if line.heights:
-                line.end_segment()
+                line.add(ending[track], last[: len(ending[track].at)])
+            if any(len(nodes.at) for nodes in line.parts):
+                line.end_segment(ALL)
             if line.segments:
                 line.close(len(line.segments))
         self.memory["closed"] = ALL
         return tuple(self._closed_blocks())
 
-    def _split(self, block: Block) -> Iterator[tuple[Block, bool]]:
-        """Yield ``block`` in parts; the flag tells those that end a segment."""
-        begin, end = 0, len(block)
-        while begin < end:
-            sample = block.first + begin
-            last = max(-(-sample // self._length), 1) * self._length
-            stop = min(begin + last - sample + 1, end)
-            yield block.part(begin, stop), block.first + stop == last + 1
-            begin = stop
-
-    def _end_segment(self) -> None:
+    def _end_segment(self, sample: int) -> None:
+        """End the segments before ``sample``, and close those that are ready."""
         lines: list[Line] = list(self.memory["lines"].values())
         for line in lines:
-            line.end_segment()
-        waiting = ceil(self.waiting_s / SEGMENT_S)
+            line.end_segment(sample)
+        waiting = ceil(self.waiting_s / (self._length * lines[0].rule.step))
         # What is smoothed again later shall not be more than what is closed.
         least, open_ones = max(waiting, 1), len(lines[0].segments)
         if open_ones < 2 * least:
@@ -127,7 +118,7 @@ class KalmanSmoother(KalmanStage):
             block = blocks.pop(0)
             values = {}
             for track, line in self.memory["lines"].items():
-                height, deviation = line.take(len(block))
+                height, deviation = line.take()
                 values[ChannelId(REFERENCE_HEIGHT, track)] = height
                 values[ChannelId(SIGMA, track)] = deviation
             yield block.setting(values)
@@ -135,13 +126,12 @@ class KalmanSmoother(KalmanStage):
     def _nothing(self, block: Block) -> Block:
         """Return an empty block at the place of the next one, ``block`` if none is kept."""
         blocks: list[Block] = self.memory["blocks"]
-        return self.empty(blocks[0] if blocks else block, SIGMA)
+        return self.empty((blocks[0] if blocks else block).first)
 
-    def _without_inputs(self, block: Block) -> Block:
+    def _without_inputs(self, block: Block, found: Mapping[str, Filtered]) -> Block:
         flags: dict[ChannelId, FlagArray] = {}
-        for channels in self._channels:
-            marks = self.flags(block, channels)
-            if marks is not None:
+        for track, passed in found.items():
+            if passed.flags is not None:
                 names = REFERENCE_HEIGHT, SIGMA
-                flags |= {ChannelId(name, channels.track): marks for name in names}
+                flags |= {ChannelId(name, track): passed.flags for name in names}
         return block.setting({}, flags).without(ACCELERATION, *IMU)

@@ -1,14 +1,15 @@
 """The forward filter of one wheel path, fed stretch by stretch."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from floatref.kernels.kalman_layout import MEMORY, STATES
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
-from floatref.stages.kalman.references import DATUM_M, Plan, References, Stretch
-from floatref.values.arrays import FloatArray
+from floatref.stages.kalman.references import DATUM_M, Chunk, Plan, References, Stretch
+from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
 
@@ -25,6 +26,14 @@ Inputs = tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Float
 def sub_block(step: float) -> int:
     """Return how many samples of ``step`` in s a sub-block has."""
     return max(1, round(1.0 / (NODES_PER_S * step)))
+
+
+class Passed(NamedTuple):
+    """Filtered height in m, nodes, and whether samples of the inputs were missing."""
+
+    height: FloatArray
+    nodes: Nodes
+    missing: bool
 
 
 @dataclass(eq=False)
@@ -70,16 +79,28 @@ class TrackFilter:
             memory,
         )
 
-    def advance(self, u: Inputs, stretch: Stretch) -> tuple[FloatArray, Nodes]:
-        """Return the filtered height of ``stretch``, and its nodes."""
+    def advance(self, u: Inputs, stretch: Stretch) -> Passed:
+        """Filter ``stretch``; what is missing of the inputs, as NaN, is zero."""
+        schedule = self.references.schedule(stretch)
+        begun = self.x.copy(), self.p.copy(), self.memory.copy()
+        height, nodes = self._run(u, stretch.first, schedule)
+        # A NaN in any input stays in the state: to look for it there takes no time.
+        missing = bool(np.isnan(self.x.sum() + self.memory.sum()))
+        if missing:
+            self.x, self.p, self.memory = begun
+            x, y, z, roll, pitch, yaw = (frozen(np.nan_to_num(values)) for values in u)
+            height, nodes = self._run((x, y, z, roll, pitch, yaw), stretch.first, schedule)
+        return Passed(height, nodes, missing)
+
+    def _run(self, u: Inputs, first: int, schedule: Chunk) -> tuple[FloatArray, Nodes]:
         from floatref.kernels import kalman
 
-        at, marks, rows = self.references.schedule(stretch)
-        height = np.empty(stretch.height.size)
+        at, marks, rows = schedule
+        height = np.empty(u[0].size)
         nodes = Nodes.room(height.size, self.sub_block, at.size)
         count = kalman.run(
             u,
-            stretch.first,
+            first,
             self.sub_block,
             self.model,
             at,

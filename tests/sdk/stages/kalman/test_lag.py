@@ -10,7 +10,7 @@ from floatref.stages.kalman import KalmanSmoother, Noise, Plan
 from floatref.values.block import joined
 from floatref.values.channels import ChannelId
 
-RATE, SEGMENT = 50, 400
+RATE, SEGMENT = 50, 256
 HEIGHT = ChannelId("floating_reference_height", "left")
 SIGMA = ChannelId("elevation_sigma", "left")
 laws = settings(deadline=None, max_examples=2, phases=[Phase.generate])

@@ -116,7 +116,7 @@ def test_covariances_are_those_of_least_squares(drive, seed, stop, plan):
 
     They are differences from the filter's variances, whose rounding they keep.
     """
-    drawn = level(drive, seed, 100, stop, 401)
+    drawn = level(drive, seed, 100, stop, 512)
     stage = KalmanSmoother(plan, NOISE, tolerance_m=0.0)
     stage.start(drawn.header)
     for block in drawn.blocks():
