@@ -1,7 +1,7 @@
 """Time the Kalman smoother of chapter 6 as a stage, beside C and other packages.
 
 One wheel path at 16 kHz, whose blocks are ready before the clock starts. `kalman_c` is the same
-design in C, built here by ``cc -O3 -march=native``; filterpy and a scan in JAX filter a few seconds
+design in C, built here by ``cc -O3``; filterpy and a scan in JAX filter a few seconds
 at every sample, if ``pip install -r tests/benchmarks/requirements-kalman.txt`` has installed them.
 Times are of the processor, in turns, so that other work on the machine counts little. Prints
 medians and ratios, then how long whole processes take to start. Run as
@@ -27,10 +27,8 @@ from kalman_task import TRACK, Prepared, Task
 
 import floatref
 from floatref.files import write_recording
-from floatref.kernels import kalman, kalman_backward
-from floatref.kernels.kalman_layout import FORGET, KINDS, MEMORY, NODE, STATES, UPDATE
+from floatref.kernels.kalman_layout import FORGET
 from floatref.stages.kalman import Noise, Plan
-from floatref.values.arrays import frozen
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -40,6 +38,7 @@ SOURCES = Path(__file__).with_name("kalman_c")
 SEVEN_STATES = Noise(gnss_height_walk=0.0, lean_rad=0.0)
 """The drift of the GNSS height and the lean are nothing: the model of appendix C is left."""
 PEER_BLOCKS = 2
+CUTOFF_M = 105.91
 RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
 
 
@@ -61,45 +60,19 @@ class InC:
             subprocess.run([*command, *SOURCES.glob("*.c"), "-lm"], check=True)
         self.call = ctypes.CDLL(str(library)).kalman_smoother
         self.call.restype = ctypes.c_int64
-        self.task, self.height = task, np.empty(task.height.size)
-        self.model = np.concatenate((task.model, task.x, task.variance, [task.sub_block]))
-        self.u = (ctypes.c_void_p * 6)(*(a.ctypes.data for a in task.u))
+        self.task, (self.height, self.sigma) = task, np.empty((2, task.height.size))
+        rest = task.sub_block, CUTOFF_M, Noise().height_m
+        self.model = np.concatenate((task.model, task.x, task.variance, rest))
+        self.u = (ctypes.c_void_p * 7)(*(a.ctypes.data for a in (*task.u, task.distance)))
         arrays = (a.ctypes.data for a in (task.at, task.marks, task.rows))
         self.seen = Observations(task.at.size, *arrays)
 
     def __call__(self) -> None:
         """Smooth."""
         size, model = ctypes.c_int64(self.height.size), ctypes.c_void_p(self.model.ctypes.data)
-        out = ctypes.c_void_p(self.height.ctypes.data)
-        if self.call(model, size, self.u, ctypes.byref(self.seen), out) < 0:
+        out = (ctypes.c_void_p(values.ctypes.data) for values in (self.height, self.sigma))
+        if self.call(model, size, self.u, ctypes.byref(self.seen), *out) < 0:
             raise MemoryError
-
-
-class InKernels:
-    """Our kernels on a task, without the stage around them."""
-
-    def __init__(self, task: Task) -> None:
-        """Make room for the nodes."""
-        self.task, self.u = task, tuple(frozen(values) for values in task.u)
-        self.height = np.empty(task.height.size)
-        rooms = self.height.size // task.sub_block + task.at.size + 2
-        self.at, self.nodes = np.empty((rooms, 2), np.int64), np.empty((rooms, NODE))
-        self.updates = np.empty((KINDS * task.at.size, UPDATE))
-        self.corrections = np.empty((rooms, 4))
-
-    def __call__(self) -> None:
-        """Smooth."""
-        t, step = self.task, self.task.model[0]
-        x, p, memory = t.x.copy(), np.diag(t.variance), np.zeros(MEMORY)
-        seen = t.at, t.marks, t.rows
-        kept = self.at, self.nodes, self.updates
-        n = kalman.run(self.u, 0, t.sub_block, t.model, *seen, x, p, memory, self.height, *kept)
-        done = self.at[n - 1, 1]
-        n += kalman.end(t.model, x, p, memory, self.at[n:], self.nodes[n:])
-        self.at[n - 1, 1] = done
-        at, nodes, corrections = self.at[:n], self.nodes[:n], self.corrections[:n]
-        kalman_backward.smooth(at, nodes, self.updates, 0, step, np.zeros(STATES), corrections)
-        kalman_backward.interpolate(at, corrections, 0, np.zeros(4), step, self.height)
 
 
 def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
@@ -121,21 +94,19 @@ def ratio(times: list[float], peer: list[float]) -> float:
 
 
 def report_stage(folder: Path, name: str, prepared: Prepared) -> None:
-    """Print the stage, and its kernels alone, beside C, by every plan."""
+    """Print the stage beside C, by every plan."""
     count = prepared.samples
     print(f"{name}, {count / RATE_HZ:.1f} s at {RATE_HZ / 1000:g} kHz, one wheel path")
     for pipeline, plan in PLANS.items():
         task = Task(prepared, plan, Noise())
-        in_c, kernels = InC(folder, task), InKernels(task)
-        stage, alone, peer = in_turns(
-            lambda plan=plan: prepared.smoothed(plan, Noise()), kernels, in_c
-        )
+        in_c = InC(folder, task)
+        stage, peer = in_turns(lambda plan=plan: prepared.smoothed(plan, Noise()), in_c)
         apart = np.abs(in_c.height - task.height).max()
-        print(f"  {pipeline}, C {line(peer, count)}, {apart:.1e} m apart")
-        for what, taken in (("stage", stage), ("kernels alone", alone)):
-            print(
-                f"    {what:24} {line(taken, count)}    ratio {ratio(taken, peer):5.2f}", flush=True
-            )
+        sure = np.abs(in_c.sigma / task.sigma - 1.0).max()
+        print(f"  {pipeline}, C {line(peer, count)}, {apart:.1e} m apart, sigma {sure:.1e}")
+        print(
+            f"    {'stage':24} {line(stage, count)}    ratio {ratio(stage, peer):5.2f}", flush=True
+        )
 
 
 def line(times: list[float], count: int) -> str:

@@ -13,7 +13,13 @@ from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.kalman import KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import IMU
-from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT
+from floatref.stages.signals import (
+    ACCELERATION,
+    DISTANCE,
+    HEIGHT,
+    REFERENCE_HEIGHT,
+    SIGMA,
+)
 from floatref.stages.speed import TravelSpeed
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
@@ -53,10 +59,11 @@ class Prepared:
         pushed = [stage.push(block) for block in self.blocks]
         return [*pushed, *stage.finish()]
 
-    def height(self, plan: Plan, noise: Noise) -> np.ndarray:
-        """Run the stage with no segment closed before the end; return the smoothed height."""
+    def result(self, plan: Plan, noise: Noise) -> list[np.ndarray]:
+        """Run the stage with no segment closed before the end; return height and 1-σ."""
         blocks = self.smoothed(plan, noise, tolerance_m=0.0)
-        return np.concatenate([block[ChannelId(REFERENCE_HEIGHT, TRACK)] for block in blocks])
+        made = (ChannelId(name, TRACK) for name in (REFERENCE_HEIGHT, SIGMA))
+        return [np.concatenate([block[channel] for block in blocks]) for channel in made]
 
 
 class Task:
@@ -73,9 +80,10 @@ class Task:
             return run(u, first, size, model, *rest)
 
         with mock.patch.object(kalman, "run", listening):
-            self.height = prepared.height(plan, noise)
+            self.height, self.sigma = prepared.result(plan, noise)
         inputs, at, marks, rows = zip(*(call[:4] for call in heard), strict=True)
         self.sub_block, self.model, self.x, self.variance = heard[0][4:]
+        self.distance = np.concatenate([block[ChannelId(DISTANCE)] for block in prepared.blocks])
         self.u = [np.concatenate(pieces) for pieces in zip(*inputs, strict=True)]
         self.at = np.concatenate(at).astype(np.int64)
         self.marks = np.concatenate(marks).astype(np.int64)

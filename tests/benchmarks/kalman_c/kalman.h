@@ -16,10 +16,10 @@ enum { RELATIVE = 1, CAPTURE = 2, TRUSTED = 4, REFLECTED = 8, RENEW = 16, FORGET
 extern const int COLUMN[COLUMNS];
 
 /* What the caller says of sensors and sub-blocks; process holds squares of densities, datum
- * and lean the variances of new ones. */
+ * and lean the variances of new ones, wavelength the cut-off of the delivered elevation. */
 typedef struct {
     double step, gravity, arm[3], process[7], datum, floor[KINDS], lean;
-    double start[STATES], variance[STATES], sub_block;
+    double start[STATES], variance[STATES], sub_block, wavelength, noise;
 } Model;
 
 /* Samples, marks, and rows of values, variances, and variance that the drift gains. */
@@ -44,7 +44,7 @@ typedef struct {
 } Node;
 
 typedef struct {
-    double h[STATES], gain[STATES], innovation;
+    double h[STATES], gain[STATES], innovation, weight;
 } Update;
 
 /* Height and velocity on both sides of a node's updates. */
@@ -70,10 +70,13 @@ int observe_at_node(Filter *k, const Model *m, const double *const u[6], int64_t
                     const double *row, Node *node, Update *updates);
 void smooth_heights(const Node *nodes, int64_t count, const Update *updates, double step,
                     Correction *found, double *height);
+int tell_uncertainty(const Model *m, const Node *nodes, int64_t count, const Update *updates,
+                     const double *distance, int64_t size, double *sigma);
 
-/* Write the smoothed height of `size` samples; the six inputs are specific force and angular rate
- * along the body's axes. Returns the number of nodes, or -1 if there is no memory for them. */
-int64_t kalman_smoother(const Model *m, int64_t size, const double *const u[6],
-                        const Observations *seen, double *height);
+/* Write the smoothed height of `size` samples, and 1-sigma of the delivered elevation; the seven
+ * inputs are specific force and angular rate along the body's axes, and the distance travelled.
+ * Returns the number of nodes, or -1 if there is no memory for them. */
+int64_t kalman_smoother(const Model *m, int64_t size, const double *const u[7],
+                        const Observations *seen, double *height, double *sigma);
 
 #endif

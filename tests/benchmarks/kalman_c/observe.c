@@ -140,6 +140,7 @@ static void update_by(Filter *k, const double *h, double innovation, double vari
         k->x[j] += update->gain[j] * innovation;
     }
     update->innovation = innovation / total;
+    update->weight = 1.0 / total;
     joseph(k->p, update->gain, h, ph, variance);
 }
 

@@ -1,4 +1,4 @@
-/* Forward over all samples, then back over the nodes. */
+/* Forward over all samples, back over the nodes, and how sure that is. */
 #include "kalman.h"
 
 #include <stdlib.h>
@@ -46,8 +46,8 @@ static int64_t forward(const Model *m, int64_t size, const double *const u[6],
     return count;
 }
 
-int64_t kalman_smoother(const Model *m, int64_t size, const double *const u[6],
-                        const Observations *seen, double *height)
+int64_t kalman_smoother(const Model *m, int64_t size, const double *const u[7],
+                        const Observations *seen, double *height, double *sigma)
 {
     size_t room = (size_t)(size / (int64_t)m->sub_block + seen->count + 2);
     Node *nodes = malloc(room * sizeof *nodes);
@@ -57,6 +57,8 @@ int64_t kalman_smoother(const Model *m, int64_t size, const double *const u[6],
     if (nodes && updates && found) {
         count = forward(m, size, u, seen, height, nodes, updates);
         smooth_heights(nodes, count, updates, m->step, found, height);
+        if (tell_uncertainty(m, nodes, count, updates, u[6], size, sigma) < 0)
+            count = -1;
     }
     free(found);
     free(updates);
