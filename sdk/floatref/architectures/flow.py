@@ -35,6 +35,12 @@ def run(
     return header, stream
 
 
+def told(stages: Sequence[Stage]) -> tuple[str, ...]:
+    """Return what ``stages`` have to tell of a run, in their order, each line once."""
+    lines = (line for stage in stages for line in _guarded(stage, stage.told))
+    return tuple(dict.fromkeys(lines))
+
+
 def _kind(stage: Stage) -> str:
     if stage.direction is Direction.BACKWARD:
         return "backward"

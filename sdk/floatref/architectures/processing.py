@@ -18,6 +18,7 @@ from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
+from floatref.stages.protocol import Stage
 from floatref.stages.signals import SIGMA
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
@@ -87,7 +88,7 @@ def run(
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = _collect(header, blocks, chosen, resolved, room)
-    return Result(profile, (*cautions, *source.warnings, *loaded.reports))
+    return Result(profile, (*cautions, *source.warnings, *flow.told(stages), *loaded.reports))
 
 
 def _kinematic_cautions(recording: Recording, chosen: Pipeline) -> Iterator[str]:
@@ -111,7 +112,7 @@ def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Rec
 
 def _stages(
     loaded: Plugins, chosen: Pipeline, resolved: Mapping[str, float | None], source: Source
-) -> list[Any]:
+) -> list[Stage]:
     question = partial(
         Question,
         pipeline=chosen,

@@ -30,6 +30,7 @@ from floatref.kernels.kalman_layout import (
     ORIGIN,
     REFLECTED,
     REJECTED,
+    REJECTED_AT,
     RELATIVE,
     RENEW,
     RENEWED,
@@ -433,15 +434,16 @@ def _believed(
     if not far or abs(innovation) <= model[13 + kind]:
         memory[IN_A_ROW] = 0.0 if kind == 0 else memory[IN_A_ROW]
         return True
+    if kind == 0:
+        memory[IN_A_ROW] += 1.0
+        if memory[IN_A_ROW] >= BELIEVED_AT:
+            memory[IN_A_ROW] = 0.0
+            p[DRIFT, DRIFT] += model[12]
+            return True
+    if memory[REJECTED + kind] == 0.0:
+        memory[REJECTED_AT + kind] = memory[LATEST]
     memory[REJECTED + kind] += 1.0
-    if kind > 0:
-        return False
-    memory[IN_A_ROW] += 1.0
-    if memory[IN_A_ROW] < BELIEVED_AT:
-        return False
-    memory[IN_A_ROW] = 0.0
-    p[DRIFT, DRIFT] += model[12]
-    return True
+    return False
 
 
 @compiled

@@ -46,11 +46,13 @@ INPUTS, TURNED, STEPS, SENSITIVITY, CAPTURED, ORIGIN, IN_A_ROW, LATEST = (
 )
 LEVEL, RUNNING = LATEST + 1, LATEST + 2
 REJECTED = LATEST + 3
-MEMORY = REJECTED + KINDS
+REJECTED_AT = REJECTED + KINDS
+MEMORY = REJECTED_AT + KINDS
 """Length of the memory: transition, last inputs (6), sine and cosine of pitch and roll, steps
 since the node, sums of the sensitivity to pitch and roll, captured height, height where a stop
 began, heights left out in a row, sample advanced to last, longitudinal specific force from
-which the lean counts and its running mean, observations left out."""
+which the lean counts and its running mean, readings left out by kind, and the sample of the first
+of each."""
 GATE = 100.0
 """Square of the innovation over S beyond which a reading may be wrong."""
 RUNNING_S = 1.0

@@ -118,6 +118,10 @@ class Stage(ABC):
         self.memory = deepcopy(state["memory"])
         self._next, self._phase = state["next"], state["phase"]
 
+    def told(self) -> tuple[str, ...]:
+        """Return one line for each thing in the run so far that its user should know."""
+        return ()
+
     @abstractmethod
     def open(self, header: Header) -> Header:
         """Check ``header``, prepare the memory, and return the header of the output."""

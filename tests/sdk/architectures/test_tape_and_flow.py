@@ -124,6 +124,20 @@ def test_whatever_a_stage_raises_is_one_error_that_names_it(where):
         list(flow.run([Cracked()], HEADER, blocks_of(np.zeros(9), [4, 5]))[1])
 
 
+def test_what_stages_tell_is_told_in_their_order_and_once():
+    class Telling(RemoveMean):
+        def __init__(self, *lines):
+            super().__init__("elevation")
+            self.lines = lines
+
+        def told(self):
+            return tuple(line.upper() for line in self.lines)
+
+    assert flow.told([Telling("b", "a"), Telling(), Telling("a", "c")]) == ("B", "A", "C")
+    with pytest.raises(StageError, match="stage Telling: AttributeError"):
+        flow.told([Telling(1.0)])
+
+
 def test_a_full_disk_names_the_folder(monkeypatch):
     class Full:
         def seek(self, at):

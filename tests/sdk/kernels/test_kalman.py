@@ -203,7 +203,7 @@ def test_heights_that_insist_are_another_datum():
     row = np.array([ARM[2] + leap, *[np.nan] * 3, *[1e-4] * 4, 0.0])
     p = np.diag(np.square(1e-3 * SCALES))
     out = run(u, np.zeros(STATES), p, range(count), [0] * count, [row] * count, sub_block=1)
-    assert len(out.updates) == count - (layout.BELIEVED_AT - 1)
+    assert count - len(out.updates) == out.memory[layout.REJECTED] == layout.BELIEVED_AT - 1
     assert out.x[DRIFT] == pytest.approx(leap, abs=1e-3)
     assert np.abs(out.height).max() < 1e-3
 

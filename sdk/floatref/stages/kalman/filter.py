@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.kalman_layout import MEMORY
 from floatref.stages.kalman.inputs import (
     IMU,
     InputChannels,
@@ -13,6 +14,7 @@ from floatref.stages.kalman.inputs import (
     channel_of,
     stretch_of,
 )
+from floatref.stages.kalman.left_out import left_out
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
@@ -94,6 +96,13 @@ class KalmanStage(Stage):
             flags = flags_of(block, *names, ChannelId(HEIGHT, track), complete=complete)
             found[track] = Filtered(passed.height, passed.nodes, flags)
         return found
+
+    def told(self) -> tuple[str, ...]:
+        """Say which kinds of GNSS readings were left out, how often, and from when on."""
+        filters: dict[str, TrackFilter] = self.memory["filters"]
+        memories = np.array([each.memory for each in filters.values()]).reshape(-1, MEMORY)
+        assert self._header is not None
+        return tuple(left_out(memories, self._header.origin, self._header.step))
 
     def ending(self) -> dict[str, Nodes]:
         """Return the node at the last sample of every track that has had one."""
