@@ -220,11 +220,7 @@ def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
 
 
 def _chunk(
-    at: IndexArray,
-    mark: int,
-    y: FloatArray,
-    variance: FloatArray,
-    moved: FloatArray | float = 0.0,
+    at: IndexArray, mark: int, y: FloatArray, variance: FloatArray, moved: FloatArray | float = 0.0
 ) -> Chunk:
     rows = np.empty((at.size, OBSERVATION))
     rows[:, :KINDS], rows[:, KINDS:-1], rows[:, -1] = y, variance, moved
