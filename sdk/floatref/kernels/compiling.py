@@ -17,11 +17,16 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     other freedom is given, so infinities, NaN and the order of operations are as written. A
     division by zero gives infinity or NaN, as in numpy: a loop that could raise stays scalar.
 
+    What begins with an underscore is called by other kernels alone, and gets no entry from Python:
+    that saves a seventh of the time that compiling takes.
+
     numba refuses `cache=True` with RuntimeError when it finds no folder to write to (a
     read-only installation without a home); the kernel is then compiled in every process.
     """
+    inner = function.__name__.startswith("_")
+    options = {**OPTIONS, "no_cpython_wrapper": inner, "no_cfunc_wrapper": inner}
     try:
-        kernel: Callable[P, R] = njit(cache=True, **OPTIONS)(function)
+        kernel: Callable[P, R] = njit(cache=True, **options)(function)
     except RuntimeError:
-        kernel = njit(**OPTIONS)(function)
+        kernel = njit(**options)(function)
     return kernel

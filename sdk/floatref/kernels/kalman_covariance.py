@@ -5,20 +5,8 @@ from math import cos, exp, sin, sqrt
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.kernels.kalman_layout import SPREAD, STATES
+from floatref.kernels.kalman_layout import STATES
 from floatref.values.arrays import FloatArray, IndexArray
-
-
-@compiled
-def unpack(nodes: FloatArray, chosen: IndexArray, found: FloatArray) -> None:
-    """Write P of the nodes ``chosen`` into ``found``, shape (n, 10, 10)."""
-    for k in range(chosen.size):
-        at = SPREAD
-        for i in range(STATES):
-            for j in range(i, STATES):
-                found[k, i, j] = nodes[chosen[k], at]
-                found[k, j, i] = nodes[chosen[k], at]
-                at += 1
 
 
 @compiled

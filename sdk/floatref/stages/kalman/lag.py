@@ -52,6 +52,6 @@ def closing(
     if behind is not None:
         ends += len(behind.at)
         marks = marks.behind(behind)
-    latest = segments[-1].marks.covariance[-1]
+    latest = segments[-1].marks.latest
     open_ends = influence(marks, latest, ends[:-1], wavelength_m) > tolerance_m
     return int(np.argmax(open_ends)) if open_ends.any() else len(segments) - 1

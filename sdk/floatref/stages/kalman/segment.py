@@ -5,12 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import STATES
+from floatref.kernels.kalman_layout import SPREAD, STATES
 from floatref.stages.kalman.nodes import Nodes
 from floatref.values.arrays import FloatArray, IndexArray
 
 CORRECTIONS = 4
 """Numbers of a correction: height and velocity on both sides of a node."""
+UPPER = np.triu_indices(STATES)
+"""Where the upper half of P has its entries, in the order of a node."""
 APART_M = 8.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
@@ -23,30 +25,33 @@ class Marks:
     Attributes:
         at: samples, shape (n,).
         distance_m: encoder distance there, shape (n,).
-        covariance: P, shape (n, 10, 10).
+        column: P e_r, shape (n, 10).
+        latest: P at the last mark, shape (10, 10).
         passed: product of (I - K H) F from the mark before, or the node before the segment.
         gathered: what the observations since then add to the covariance of lambda.
     """
 
     at: IndexArray
     distance_m: FloatArray
-    covariance: FloatArray
+    column: FloatArray
+    latest: FloatArray
     passed: FloatArray
     gathered: FloatArray
 
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        from floatref.kernels import kalman_backward, kalman_covariance
+        from floatref.kernels import kalman_backward
 
         chosen = _chosen(nodes.at[:, 0], distance_m, step)
         passed, gathered = np.empty((2, chosen.size, STATES, STATES))
         kalman_backward.closed_loop(
             nodes.at, nodes.nodes, nodes.updates, max(before, 0), step, chosen, passed, gathered
         )
-        spread = np.empty_like(passed)
-        kalman_covariance.unpack(nodes.nodes, chosen, spread)
-        return cls(nodes.at[chosen, 0], distance_m[chosen], spread, passed, gathered)
+        latest = np.empty((STATES, STATES))
+        latest[UPPER] = latest.T[UPPER] = nodes.nodes[-1, SPREAD:]
+        column = nodes.nodes[chosen, SPREAD : SPREAD + STATES]
+        return cls(nodes.at[chosen, 0], distance_m[chosen], column, latest, passed, gathered)
 
 
 def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:

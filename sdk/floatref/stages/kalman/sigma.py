@@ -41,7 +41,7 @@ class Settled:
         """Settle ``marks`` of segments one after the other, nothing known behind them."""
         from floatref.kernels import kalman_covariance
 
-        column = np.concatenate([m.covariance[:, :, 0] for m in marks])
+        column = np.concatenate([m.column for m in marks])
         passed = np.concatenate([m.passed for m in marks])
         gathered = np.concatenate([m.gathered for m in marks])
         left = np.empty_like(column)

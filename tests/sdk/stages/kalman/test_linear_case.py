@@ -126,5 +126,5 @@ def test_covariances_are_those_of_least_squares(drive, seed, stop, plan):
     at = segment.marks.at
     expected = least_squares(drawn, plan).covariance[np.ix_(at, at)]
     assert at.size > 4
-    rounding = 1e-8 * segment.marks.covariance[:, 0, 0].max()
+    rounding = 1e-8 * segment.marks.column[:, 0].max()
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * expected.max() + rounding)

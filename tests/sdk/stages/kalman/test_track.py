@@ -16,9 +16,7 @@ laws = settings(deadline=None, max_examples=10)
 @given(
     seed=st.integers(0, 2**32 - 1),
     stage=st.sampled_from([KalmanFilter, KalmanSmoother]),
-    lost=st.lists(
-        st.tuples(st.integers(0, LENGTH - 1), st.integers(0, 5)), min_size=1, max_size=4
-    ),
+    lost=st.lists(st.tuples(st.integers(0, LENGTH - 1), st.integers(0, 5)), min_size=1, max_size=4),
     cut=st.integers(0, 2),
 )
 def test_missing_inputs_count_as_zero(drive, height_of, seed, stage, lost, cut):
