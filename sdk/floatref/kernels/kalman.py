@@ -126,6 +126,19 @@ def end(
 
 
 @compiled
+def expect(
+    model: FloatArray, x: FloatArray, memory: FloatArray, h: FloatArray, y: FloatArray
+) -> None:
+    """Write what (6.48) expects at the sample advanced to last into ``y``, (C.8) into ``h``.
+
+    Heights are told from the one captured, (6.65).
+    """
+    rates = memory[INPUTS + 3 : INPUTS + 6]
+    _linearize(x, rates[0], rates[1], rates[2], model, h, y)
+    y[0] -= memory[CAPTURED]
+
+
+@compiled
 def _close_node(
     at: int,
     done: int,

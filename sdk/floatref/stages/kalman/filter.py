@@ -104,9 +104,10 @@ class KalmanStage(Stage):
         assert self._header is not None
         return tuple(left_out(memories, self._header.origin, self._header.step))
 
-    def ending(self) -> dict[str, Nodes]:
-        """Return the node at the last sample of every track that has had one."""
-        return {track: f.end() for track, f in self.memory["filters"].items()}
+    def ending(self) -> dict[str, tuple[Nodes, FloatArray]]:
+        """Return of every track the node at the last sample, and lambda behind it."""
+        filters: dict[str, TrackFilter] = self.memory["filters"]
+        return {track: (f.end(), f.beyond()) for track, f in filters.items()}
 
     def _filter(self, track: str, block: Block) -> TrackFilter:
         filters: dict[str, TrackFilter] = self.memory["filters"]

@@ -75,9 +75,13 @@ class Line:
         rule = self.rule
         return closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
 
-    def close(self, count: int) -> None:
-        """Smooth the first ``count`` segments and let go of them."""
-        adjoint, found = np.zeros(STATES), []
+    def close(self, count: int, beyond: FloatArray | None = None) -> None:
+        """Smooth the first ``count`` segments and let go of them.
+
+        ``beyond``, shape (10,), is lambda behind the last segment, zero if not given.
+        """
+        adjoint = np.zeros(STATES) if beyond is None else beyond
+        found = []
         for segment in reversed(self.segments):
             corrections = segment.back(adjoint, self.rule.step)
             found.append((segment, corrections, adjoint.copy()))

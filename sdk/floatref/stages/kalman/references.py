@@ -1,6 +1,6 @@
 """What the Kalman filter observes when: GNSS, constants in its place, the height at a stop."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -10,13 +10,13 @@ from floatref.kernels.kalman_layout import (
     CAPTURE,
     FORGET,
     KINDS,
-    OBSERVATION,
     REFLECTED,
     RELATIVE,
     RENEW,
     TRUSTED,
 )
 from floatref.stages.kalman.noise import Noise
+from floatref.stages.kalman.observations import Chunk, chunk_of, joined, marked, merged
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 PATIENCE_S = 0.5
@@ -25,7 +25,6 @@ READING_S = 0.045
 """GNSS readings at shorter intervals count for less: their errors are those of the one before."""
 USUAL_S = 0.05
 """Interval behind the errors of a reading in Table 6.1."""
-UNSEEN = np.full(KINDS, np.nan)
 DATUM_M = 100.0
 """1-σ of a new datum of the GNSS height, after an outage."""
 
@@ -78,10 +77,6 @@ class Stretch:
         )
 
 
-Chunk = tuple[IndexArray, IndexArray, FloatArray]
-"""Samples (m,), marks (m,), and values with variances (m, 9) of observations in order."""
-
-
 @dataclass
 class References:
     """The observations of one wheel path, in the order of time: (6.48), (6.58) and (6.65).
@@ -96,6 +91,7 @@ class References:
         latest, heard: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
         origin: what the height sensor read where the stop began, in m; NaN while moving.
+        last: sample and mark of the latest observation.
     """
 
     plan: Plan
@@ -109,26 +105,47 @@ class References:
     heard: int = 0
     constant: bool = False
     origin: float = np.nan
+    last: tuple[int, int] = (0, 0)
 
     def schedule(self, stretch: Stretch) -> Chunk:
         """Return the observations of ``stretch``, which follows the one before."""
         chunks = []
         for part, standing in _runs(stretch, self.plan.reflects):
             chunks.append(self._standing(part) if standing else self._moving(part))
-        return chunks[0] if len(chunks) == 1 else _joined(chunks)
+        chunk = chunks[0] if len(chunks) == 1 else joined(chunks)
+        told = np.flatnonzero(chunk[1] != FORGET)[-1:]
+        if told.size:
+            self.last = int(chunk[0][told[0]]), int(chunk[1][told[0]])
+        return chunk
+
+    def ending(self, end: int) -> tuple[FloatArray, FloatArray]:
+        """Return what to observe at sample ``end``, the last: values and variances, shape (4,).
+
+        Constants count for half a sub-block before them and half a one behind. A variance below
+        zero takes back what the last ones have counted too much: the sum is that of all samples,
+        by trapezoids. NaN if there is nothing to observe.
+        """
+        y, variance = np.full((2, KINDS), np.nan)
+        at, mark = self.last
+        behind = end - at
+        weight = 0.5 * (2 * behind + 1 - self.sub_block)
+        if mark & RELATIVE and behind < self.sub_block and weight:
+            y, variance = np.zeros(KINDS), self.noise.constants(weight * self.step)
+            y[0] = np.nan if mark & REFLECTED else 0.0
+        return y, variance
 
     def _moving(self, stretch: Stretch) -> Chunk:
         self.origin = np.nan
         observed = self._observed(stretch, heights=True)
         for sample in stretch.quiet.tolist():
-            observed = _marked(observed, sample, FORGET)
+            observed = marked(observed, sample, FORGET)
         return observed
 
     def _standing(self, stretch: Stretch) -> Chunk:
         """Return the height sensor's readings in place of heights, the rest as ever."""
         beside = self._observed(stretch, heights=False)
         beside[2][:, [0, -1]] = np.nan, 0.0
-        return _merged(beside, self._reflections(stretch))
+        return merged(beside, self._reflections(stretch))
 
     def _observed(self, stretch: Stretch, heights: bool) -> Chunk:
         """Return GNSS readings, and constants where they are missing."""
@@ -148,7 +165,7 @@ class References:
         if heights and taken.size and taken.size not in lost:
             self.constant = False
         self.latest = int(edges[-2])
-        return _merged(readings, _joined(gaps)) if gaps else readings
+        return merged(readings, joined(gaps)) if gaps else readings
 
     def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Chunk:
         """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
@@ -158,7 +175,7 @@ class References:
         """
         at, interval_s = stretch.taken, stretch.readings[:, KINDS]
         if at.size == 0:
-            return _joined([])
+            return joined([])
         if np.isnan(self.datum):
             self.datum = float(stretch.readings[0, 0]) - self.arm_m - self.start_m
         y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
@@ -170,16 +187,16 @@ class References:
         moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
         moved[again] = DATUM_M**2
         self.heard = int(at[-1]) if heights else self.heard
-        return _chunk(at, 0, y, variance, moved)
+        return chunk_of(at, 0, y, variance, moved)
 
     def _constants(self, begin: int, end: int) -> Chunk:
         """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
         if at.size == 0:
-            return _joined([])
+            return joined([])
         weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
         variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
-        chunk = _chunk(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
+        chunk = chunk_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
         if not self.constant:
             chunk[1][0] |= CAPTURE
         self.constant = True
@@ -194,7 +211,7 @@ class References:
         at = self._ends(stretch.first, stretch.first + stretch.height.size)
         at = at[stretch.there[at - stretch.first]]
         if at.size == 0:
-            return _joined([])
+            return joined([])
         height = stretch.height[at - stretch.first]
         begins = np.isnan(self.origin)
         if begins:
@@ -203,7 +220,7 @@ class References:
         y[:, 0] = height - self.origin
         variance = np.full(KINDS, np.nan)
         variance[0] = self.noise.reflection**2 / (self.sub_block * self.step)
-        chunk = _chunk(at, TRUSTED | REFLECTED, y, variance)
+        chunk = chunk_of(at, TRUSTED | REFLECTED, y, variance)
         if begins:
             chunk[1][0] |= RENEW
         return chunk
@@ -217,42 +234,3 @@ def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
     edges = np.flatnonzero(np.diff(stretch.standing)) + 1
     for begin, end in pairwise([0, *edges.tolist(), stretch.standing.size]):
         yield stretch.part(begin, end), bool(stretch.standing[begin])
-
-
-def _chunk(
-    at: IndexArray, mark: int, y: FloatArray, variance: FloatArray, moved: FloatArray | float = 0.0
-) -> Chunk:
-    rows = np.empty((at.size, OBSERVATION))
-    rows[:, :KINDS], rows[:, KINDS:-1], rows[:, -1] = y, variance, moved
-    return at, np.full(at.size, mark), rows
-
-
-def _merged(one: Chunk, other: Chunk) -> Chunk:
-    """Return both in the order of time; what comes at one sample becomes one observation."""
-    at = np.union1d(one[0], other[0])
-    marks, rows = np.zeros(at.size, np.int64), np.full((at.size, OBSERVATION), np.nan)
-    rows[:, -1] = 0.0
-    for times, mark, row in (one, other):
-        place = np.searchsorted(at, times)
-        marks[place] |= mark
-        rows[place] = np.where(np.isnan(row), rows[place], row)
-    return at, marks, rows
-
-
-def _marked(chunk: Chunk, sample: int, mark: int) -> Chunk:
-    """Return ``chunk`` with ``mark`` at ``sample``, which need not have an observation."""
-    at, marks, rows = chunk
-    place = int(np.searchsorted(at, sample))
-    if place < at.size and at[place] == sample:
-        marks[place] |= mark
-        return chunk
-    alone = _chunk(np.array([sample]), mark, UNSEEN, UNSEEN)
-    head, tail = ((at[w], marks[w], rows[w]) for w in (slice(place), slice(place, None)))
-    return _joined([head, alone, tail])
-
-
-def _joined(chunks: Sequence[Chunk]) -> Chunk:
-    if not chunks:
-        return np.empty(0, np.int64), np.empty(0, np.int64), np.empty((0, OBSERVATION))
-    at, marks, rows = zip(*chunks, strict=True)
-    return np.concatenate(at), np.concatenate(marks), np.concatenate(rows)

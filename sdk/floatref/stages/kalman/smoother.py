@@ -83,15 +83,14 @@ class KalmanSmoother(KalmanStage):
 
     def close(self) -> tuple[Block, ...]:
         """Return all that is left."""
-        ending = self.ending()
-        for track, line in self.memory["lines"].items():
-            if track in ending:
-                last = self.memory["blocks"][-1][ChannelId(DISTANCE)][-1:]
-                line.add(ending[track], last[: len(ending[track].at)])
+        for track, (nodes, beyond) in self.ending().items():
+            line: Line = self.memory["lines"][track]
+            last = self.memory["blocks"][-1][ChannelId(DISTANCE)][-1:]
+            line.add(nodes, last[: len(nodes.at)])
             if any(len(nodes.at) for nodes in line.parts):
                 line.end_segment(ALL)
             if line.segments:
-                line.close(len(line.segments))
+                line.close(len(line.segments), beyond)
         self.memory["closed"] = ALL
         return tuple(self._closed_blocks())
 

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import MEMORY, STATES
+from floatref.kernels.kalman_layout import KINDS, LATEST, MEMORY, STATES
 from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
-from floatref.stages.kalman.references import DATUM_M, Chunk, Plan, References, Stretch
+from floatref.stages.kalman.observations import Chunk
+from floatref.stages.kalman.references import DATUM_M, Plan, References, Stretch
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
@@ -123,3 +124,15 @@ class TrackFilter:
         nodes = Nodes.room(0, self.sub_block, 0)
         count = kalman.end(self.model, self.x, self.p, self.memory, nodes.at, nodes.nodes)
         return nodes.filled(count)
+
+    def beyond(self) -> FloatArray:
+        """Return lambda behind the last node, which `end` has made: what constants tell there."""
+        from floatref.kernels import kalman
+
+        y, variance = self.references.ending(int(self.memory[LATEST]))
+        h, expected = np.empty((KINDS, STATES)), np.empty(KINDS)
+        kalman.expect(self.model, self.x, self.memory, h, expected)
+        told = ~np.isnan(y)
+        rows = h[told]
+        spread = rows @ self.p @ rows.T + np.diag(variance[told])
+        return -rows.T @ np.linalg.solve(spread, (y - expected)[told])

@@ -97,21 +97,48 @@ def test_a_reading_without_fixed_ambiguities_is_left_out(drive, height_of, seed,
     assert_same(drawn, height_of, GNSS, by_gnss(kept), within=1e-8)
 
 
-def constants(drive, every, weight):
-    """Observe the first height at steps that ``every`` divides, each for ``weight`` steps."""
+def constants(drive, weights):
+    """Observe the first height for as many steps at every sample, shape (n,), as ``weights``."""
     y = np.array([drive.height[0] + drive.lever[2], 0, 0, 0])
 
     def observe(k, x):
-        return None if k % every else (y, NOISE.constants(weight(k) * drive.dt))
+        return (y, NOISE.constants(weights[k] * drive.dt)) if weights[k] else None
 
     return literal(drive, observe)
+
+
+def per_sub_block(samples, length):
+    """Return how many steps the constants of each sample count for; they add up to all steps.
+
+    Those of the last sample count for what is left, less than nothing if the last sub-block is
+    not yet half over.
+    """
+    weights = np.zeros(samples)
+    weights[::length] = length
+    weights[0] = (length + 1) / 2
+    filtering = weights.copy()
+    weights[-1] += samples - weights.sum()
+    return filtering, weights
 
 
 @pytest.mark.cites("(6.65)", "(6.66)")
 @laws
 @given(seed=SEEDS, rate=RATES, seconds=st.floats(0.3, 3.0), stop=STOPS)
+@example(seed=5, rate=400, seconds=0.0075, stop=(1.0, 1.0))
+@example(seed=5, rate=400, seconds=4.0025, stop=(1.0, 1.0))
 def test_constants_are_observed_once_per_sub_block(drive, height_of, seed, rate, seconds, stop):
     drawn = drive(seed, seconds, rate, (stop[0], sum(stop)))
-    per_block = rate // 100
-    expected = constants(drawn, per_block, weight=lambda k: per_block if k else (per_block + 1) / 2)
+    filtering, smoothing = per_sub_block(len(drawn.u), rate // 100)
+    expected = constants(drawn, filtering)[0], constants(drawn, smoothing)[1]
     assert_same(drawn, height_of, CONSTANT, expected, within=1e-8)
+
+
+@pytest.mark.cites("(6.65)", "(6.66)")
+@settings(laws, max_examples=12)
+@given(seed=st.integers(0, 9), seconds=st.sampled_from([0.1, 0.5, 2.0]), more=st.integers(0, 3))
+def test_constants_are_as_if_observed_at_every_step(drive, height_of, seed, seconds, more):
+    """From the first sample to the last, wherever in a sub-block that is."""
+    drawn = drive(seed, seconds + more / 400, 400, (0.4, 0.9))
+    smoothed = constants(drawn, np.ones(len(drawn.u)))[1]
+    found = height_of(KalmanSmoother(CONSTANT, NOISE, tolerance_m=0.0), drawn)
+    np.testing.assert_allclose(found, smoothed, rtol=0, atol=1e-5)

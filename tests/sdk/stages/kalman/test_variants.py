@@ -45,9 +45,12 @@ def readings(drive, attitude):
 def constants(drive):
     y = np.array([drive.height[0] + drive.lever[2], 0, 0, 0])
 
+    weights = np.where(np.arange(len(drive.u)) % SUB_BLOCK, 0.0, SUB_BLOCK)
+    weights[0] = (SUB_BLOCK + 1) / 2
+    weights[-1] += len(drive.u) - weights.sum()
+
     def observe(k, x):
-        weight = SUB_BLOCK if k else (SUB_BLOCK + 1) / 2
-        return None if k % SUB_BLOCK else (y, NOISE.constants(weight * drive.dt))
+        return (y, NOISE.constants(weights[k] * drive.dt)) if weights[k] else None
 
     return observe
 

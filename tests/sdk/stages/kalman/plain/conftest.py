@@ -49,7 +49,7 @@ class Ten:
         self.datum = d.y[fixed][:1, 0] - d.lever[2] - d.height[0]
         self.heard = self.latest = self.node = 0
         self.level = self.running = 0.0
-        self.origin = self.captured = None
+        self.origin = self.captured = self.held = None
 
     def step(self, k):
         """Go from sample k - 1 to k; return the transition."""
@@ -112,7 +112,7 @@ class Ten:
                 H = EYE[0] + EYE[OFFSET]
                 rows.append((0, H, self.drive.height[k] - self.origin, H @ self.x, variance))
         if k in self.readings:
-            self.latest = k
+            self.latest, self.held = k, None
         return rows
 
     def gnss(self, k):
@@ -133,12 +133,24 @@ class Ten:
         heard = self.plan.gnss and k - self.latest < round(PATIENCE_S / self.drive.dt)
         if heard or k in self.readings or k % self.sub_block:
             return
+        self.captured = self.model(k)[1][0] if self.captured is None else self.captured
+        self.held = k
+        yield from self.weighed(k, self.sub_block if k else (self.sub_block + 1) / 2)
+
+    def weighed(self, k, steps):
         H, expected = self.model(k)
-        self.captured = expected[0] if self.captured is None else self.captured
-        weight = self.sub_block if k else (self.sub_block + 1) / 2
-        variance = self.noise.constants(weight * self.drive.dt)
+        variance = self.noise.constants(steps * self.drive.dt)
         for kind, y in enumerate([self.captured, 0.0, 0.0, 0.0]):
             yield kind, H[kind], y, expected[kind], variance[kind]
+
+    def finish(self):
+        """Let the constants held last count up to the last sample, and no further."""
+        k = len(self.drive.u) - 1
+        if self.held is None or k - self.held >= self.sub_block:
+            return
+        steps = k - self.held + (1 - self.sub_block) / 2
+        rows = list(self.weighed(k, steps or 1e-9))[int(self.standing[self.held]) :]
+        self.update(*(np.array(part) for part in zip(*rows, strict=True)))
 
     def model(self, k):
         d = self.drive
@@ -165,7 +177,8 @@ class Ten:
 
     def smooth(self):
         """Return the smoothed heights, by (6.17)."""
-        x_s = self.stored[-1][3]
+        self.finish()
+        x_s = self.x
         found = [x_s[0]]
         for k in range(len(self.stored) - 2, -1, -1):
             A, x_next, P_next, _, _ = self.stored[k + 1]
