@@ -68,5 +68,9 @@ KALMAN = (
         "kalman-smoother-constant-height-attitude",
         "IMU without GNSS (section 6.6.5)",
         Plan(gnss=False, attitude=False),
+        acceleration_walk=3e-4,
+        pitch_rate_walk=_USUAL["roll_rate_walk"],
+        constant_pitch_density=0.1,
+        constant_roll_density=0.04,
     ),
 )

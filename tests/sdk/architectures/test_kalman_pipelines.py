@@ -116,12 +116,20 @@ def test_every_field_of_the_noise_is_a_setting_and_has_its_value(name: str) -> N
         assert getattr(noise, field) == 0.5 + k
 
 
-def test_defaults_are_those_of_the_noise_but_for_the_filter_alone() -> None:
+OWN = {
+    "kalman-filter": {"acceleration_walk", "lean_sigma_rad", "gnss_height_walk"},
+    "kalman-smoother-constant-height-attitude": {
+        *("acceleration_walk", "pitch_rate_walk"),
+        *("constant_pitch_density", "constant_roll_density"),
+    },
+}
+
+
+def test_defaults_are_those_of_the_noise_but_for_the_filter_alone_and_without_gnss() -> None:
     defaults = inspect.signature(Noise).parameters
     for name, pipeline in PIPELINES.items():
         differing = {s for s, f in NOISE.items() if pipeline.settings[s] != defaults[f].default}
-        expected = {"acceleration_walk", "lean_sigma_rad", "gnss_height_walk"}
-        assert differing == (expected if name == "kalman-filter" else set())
+        assert differing == OWN.get(name, set())
 
 
 NEEDS = [
