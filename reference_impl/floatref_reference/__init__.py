@@ -10,12 +10,14 @@ contents:
 - `chapter_5`: the profile pipelines that use no inertial platform (5.1 to 5.9).
 - `chapter_6`: the extended Kalman filter and its smoother (6.1 to 6.66).
 - `beyond`: what the dissertation does not have, built from its equations.
+- `road_prior`: nor this, a smoother that knows the road as a process in distance.
 
 Correct and readable come before fast. Loops are plain, symbols carry the names of the paper,
-filters and sums run in `numpy.longdouble`, the matrices of chapter 6 in float64, and numpy is the
-only import. Where the print holds a slip, the docstring says what is printed and what is computed.
+filters and sums run in `numpy.longdouble`, the matrices of chapter 6 and of the road prior in
+float64, and numpy is the only import. Where the print holds a slip, the docstring says what is
+printed and what is computed.
 
-Units are SI. In chapters 2 and 5 the accelerometer has 1 g removed, so it reads 0 at rest and
-level; in chapter 6 it reads +g. Indices start at 0 in the code and at 1 in the paper. Pitch is
-positive nose down, roll positive left side up.
+Units are SI. In chapters 2 and 5 and in the road prior the accelerometer has 1 g removed, so it
+reads 0 at rest and level; in chapter 6 it reads +g. Indices start at 0 in the code and at 1 in the
+paper. Pitch is positive nose down, roll positive left side up.
 """
