@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import kalman_covariance as covariance
-from floatref.kernels import kalman_layout as layout
 from floatref.kernels.kalman_layout import STATES
 
 laws = settings(deadline=None, max_examples=20)
@@ -29,18 +28,6 @@ def settled(p, passed, gathered):
         found.append(np.eye(STATES)[0] - information @ spread[:, 0])
         information = psi.T @ information @ psi + sums
     return np.array(found[::-1])
-
-
-@given(seed=SEEDS, count=COUNTS)
-@laws
-def test_the_upper_half_unpacks_to_a_symmetric_matrix(seed, count):
-    rng = np.random.default_rng(seed)
-    nodes, chosen = rng.normal(size=(9, layout.NODE)), rng.integers(0, 9, count)
-    found = np.empty((count, STATES, STATES))
-    covariance.unpack(nodes, chosen, found)
-    rows, columns = np.triu_indices(STATES)
-    np.testing.assert_array_equal(found[:, rows, columns], nodes[chosen, layout.SPREAD :])
-    np.testing.assert_array_equal(found, found.transpose(0, 2, 1))
 
 
 @pytest.mark.cites("(6.22)")

@@ -48,6 +48,16 @@ def stretches(draw):
 
 PLANS = st.builds(Plan, gnss=st.booleans(), attitude=st.booleans(), reflects=st.booleans())
 RUNS = stretches()
+MOVING, THERE = np.zeros(LENGTH, bool), np.ones(LENGTH, bool)
+SELDOM = Stretch(
+    0,
+    MOVING,
+    np.zeros(LENGTH),
+    THERE,
+    np.array([0, 150, 300]),
+    np.full((3, 5), 0.05),
+    np.empty(0, np.int64),
+)
 
 
 def scheduled(plan, stretch, cuts=()):
@@ -60,6 +70,7 @@ def scheduled(plan, stretch, cuts=()):
 
 @laws
 @given(plan=PLANS, stretch=RUNS, cuts=st.sets(st.integers(1, LENGTH - 1), max_size=6))
+@example(plan=Plan(reflects=False), stretch=SELDOM, cuts={90, 240})
 def test_it_does_not_matter_how_the_run_is_split(plan, stretch, cuts):
     """Among the cuts are those one sample behind the beginning of a stop, or of motion."""
     edges = np.flatnonzero(np.diff(stretch.standing)) + 2
@@ -139,17 +150,7 @@ def test_constants_stand_in_half_a_second_after_the_last_reading(stretch, reflec
 
 @laws
 @given(stretch=RUNS)
-@example(
-    stretch=Stretch(
-        0,
-        np.zeros(LENGTH, bool),
-        np.zeros(LENGTH),
-        np.ones(LENGTH, bool),
-        np.array([0, 150, 300]),
-        np.full((3, 5), 0.05),
-        np.empty(0, np.int64),
-    )
-)
+@example(stretch=SELDOM)
 def test_every_outage_captures_a_height_once_and_ends_with_another_datum(stretch):
     at, marks, rows = scheduled(Plan(reflects=False), stretch)
     outage = -1
