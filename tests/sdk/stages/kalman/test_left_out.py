@@ -56,6 +56,17 @@ def test_of_a_leap_the_readings_are_told_before_it_is_taken_for_another_datum(
 
 
 @both
+def test_heights_that_do_not_insist_are_left_out_however_many_they_are(drive, through, stage):
+    """Every third reading is wild, more of them than are believed in a row."""
+    drawn, made = drive(6, 10.0, RATE), stage(Plan(), Noise())
+    wild = range(30, 120, 3)
+    assert len(wild) > BELIEVED_AT
+    drawn.y[wild, 0] += WILD[0]
+    through(made, drawn)
+    assert made.told() == (line(drawn, 0, 30, len(wild)),)
+
+
+@both
 def test_before_the_first_sample_there_is_nothing_to_tell(drive, stage):
     made = stage(Plan(), Noise())
     made.start(drive(1, 0.1, RATE).header)
