@@ -7,7 +7,7 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from floatref_reference.road_prior.least_squares import least_squares
+from floatref_reference.road_prior.least_squares import all_states, least_squares
 from floatref_reference.road_prior.smoother import Smoothed, measurement_update, smooth
 from floatref_reference.road_prior.symbols import Constants, Recorded, recorded
 
@@ -92,6 +92,21 @@ def test_a_height_of_one_track_is_used_without_the_other() -> None:
     x, after = measurement_update(np.zeros(3), P, np.array([np.nan, 1.0]), H, R)
     assert x == pytest.approx([0, 0.8, 0])
     assert after == pytest.approx(np.diag([1, 0.4, 3]))
+
+
+@settings(deadline=None, max_examples=10)
+@given(seed=st.integers(0, 9999), sigma_h=st.sampled_from([1e-3, 1e-2, 0.1]))
+def test_deviation_of_the_profile_is_that_of_its_error(drawn, seed: int, sigma_h: float) -> None:
+    """The error of r - h written out in unknowns and noise, all of them independent."""
+    run, c = drawn(seed), C._replace(sigma_h=sigma_h)
+    rows = all_states(run, c)[:, :, :-1]
+    there = ~np.isnan(run.h[0])
+    H = (rows[there, 0] - rows[there, 3]) / sigma_h
+    after = np.linalg.inv(np.eye(H.shape[1]) + H.T @ H)
+    by_unknowns, by_noise = -rows[there, 0] @ after, rows[there, 0] @ after @ H.T
+    by_noise -= sigma_h * np.eye(len(H))
+    expected = np.sqrt(np.sum(by_unknowns**2, axis=1) + np.sum(by_noise**2, axis=1))
+    assert smooth(run, c).sigma_e[0, there] == pytest.approx(expected, rel=1e-4)
 
 
 def test_without_laser_the_accelerometer_alone_carries_the_height() -> None:
