@@ -131,7 +131,7 @@ def compare(folder: Path) -> None:
     """Print how far the drive in ``folder`` is from the result of the fixed interval."""
     recording = read_recording(folder)
     ours = floatref.process(recording, PIPELINE)
-    with mock.patch("floatref.stages.kalman.line.closing", return_value=0):
+    with mock.patch("floatref.stages.smoothing.line.closing", return_value=0):
         whole = floatref.process(recording, PIPELINE)
     for a, b in zip(ours.tracks, whole.tracks, strict=True):
         apart = np.abs(a.elevation - b.elevation).max()

@@ -1,7 +1,5 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
-from typing import NamedTuple
-
 import numpy as np
 
 from floatref.errors import InputError
@@ -15,7 +13,6 @@ from floatref.stages.kalman.inputs import (
     stretch_of,
 )
 from floatref.stages.kalman.left_out import left_out
-from floatref.stages.kalman.nodes import Nodes
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
 from floatref.stages.kalman.track import TrackFilter
@@ -28,24 +25,11 @@ from floatref.stages.signals import (
     REFERENCE_HEIGHT,
     TRAVEL_SPEED,
 )
-from floatref.values.arrays import FlagArray, FloatArray, frozen
+from floatref.stages.smoothing.nodes import Filtered, Nodes
+from floatref.values.arrays import FloatArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.recording import ORIGIN
-
-
-class Filtered(NamedTuple):
-    """What the filter makes of a block of a wheel path.
-
-    Attributes:
-        height: in m.
-        nodes: what the backward pass needs.
-        flags: of all inputs, and of the height sensor, which counts at a stop.
-    """
-
-    height: FloatArray
-    nodes: Nodes
-    flags: FlagArray | None
 
 
 class KalmanStage(Stage):
@@ -104,7 +88,7 @@ class KalmanStage(Stage):
         assert self._header is not None
         return tuple(left_out(memories, self._header.origin, self._header.step))
 
-    def ending(self) -> dict[str, tuple[Nodes, FloatArray]]:
+    def ending(self) -> dict[str, tuple[Nodes, FloatArray | None]]:
         """Return of every track the node at the last sample, and lambda behind it."""
         filters: dict[str, TrackFilter] = self.memory["filters"]
         return {track: (f.end(), f.beyond()) for track, f in filters.items()}

@@ -1,48 +1,64 @@
-"""What the filter leaves behind for the backward pass."""
+"""Nodes of the Kalman filter of chapter 6."""
 
-from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import KINDS, NODE, UPDATE
+from floatref.kernels.kalman_layout import DRIFT, NODE, OFFSET, SPREAD, STATES, UPDATE
+from floatref.stages.smoothing.nodes import Nodes, upper
 from floatref.values.arrays import FloatArray, IndexArray
 
+SEEN = np.delete(np.eye(STATES), (DRIFT, OFFSET), axis=0)
+"""What readings to come can tell of the state at last: never the height but with GNSS's drift."""
+SEEN[0, DRIFT] = 1.0
+STANDING = np.eye(STATES)[0] + np.eye(STATES)[OFFSET]
+"""At a stop also how far the height is from where the stop began."""
+UPPER = upper(STATES)
 
-@dataclass(eq=False)
-class Nodes:
-    """The nodes of a stretch: samples and ends of updates (k, 2), nodes, updates."""
 
-    at: IndexArray
-    nodes: FloatArray
-    updates: FloatArray
+class KalmanNodes(Nodes):
+    """A node closes a sub-block, or is a sample with observations."""
+
+    states: ClassVar[int] = STATES
+    width: ClassVar[int] = NODE
+    update_width: ClassVar[int] = UPDATE
+
+    def back(self, before: int, step: float, adjoint: FloatArray) -> FloatArray:
+        """Go back by (I - K H)' and A', in place of (6.17)."""
+        from floatref.kernels import kalman_backward
+
+        found = np.empty((len(self.at), 4))
+        kalman_backward.smooth(self.at, self.rows, self.updates, before, step, adjoint, found)
+        return found
+
+    def correction(self, adjoint: FloatArray) -> FloatArray:
+        """Return -P lambda of height and velocity behind the last node."""
+        from floatref.kernels import kalman_backward
+
+        found = np.zeros(4)
+        kalman_backward.correct(self.rows[-1], adjoint, found)
+        return found
+
+    def passes(self, before: int, step: float, chosen: IndexArray) -> tuple[FloatArray, FloatArray]:
+        """Multiply (I - K H) A."""
+        from floatref.kernels import kalman_backward
+
+        passed, gathered = np.empty((2, chosen.size, STATES, STATES))
+        nodes = self.at, self.rows, self.updates
+        kalman_backward.closed_loop(*nodes, before, step, chosen, passed, gathered)
+        return passed, gathered
+
+    def column(self, chosen: IndexArray) -> FloatArray:
+        """Return P e_r."""
+        return self.rows[chosen, SPREAD : SPREAD + STATES]
+
+    def latest(self) -> FloatArray:
+        """Return P at the last node."""
+        found = np.empty((STATES, STATES))
+        found[UPPER] = found.T[UPPER] = self.rows[-1, SPREAD:]
+        return found
 
     @classmethod
-    def room(cls, samples: int, sub_block: int, observations: int) -> "Nodes":
-        """Return room for the nodes of so many ``samples``."""
-        count = samples // sub_block + observations + 2
-        updates = np.empty((KINDS * observations, UPDATE))
-        return cls(np.empty((count, 2), np.int64), np.empty((count, NODE)), updates)
-
-    def filled(self, count: int) -> "Nodes":
-        """Return the first ``count``, without the room behind them."""
-        end = int(self.at[count - 1, 1]) if count else 0
-        return Nodes(self.at[:count], self.nodes[:count], self.updates[:end])
-
-    def parted(self, sample: int) -> tuple["Nodes", "Nodes"]:
-        """Return those before ``sample``, and those behind."""
-        count = int(np.searchsorted(self.at[:, 0], sample))
-        head = self.filled(count)
-        end = len(head.updates)
-        tail = Nodes(self.at[count:] - np.array([0, end]), self.nodes[count:], self.updates[end:])
-        return head, tail
-
-    @classmethod
-    def joined(cls, parts: list["Nodes"]) -> "Nodes":
-        """Return ``parts``, each behind the one before, as one."""
-        parts = [part for part in parts if len(part.at)]
-        if len(parts) == 1:
-            return parts[0]
-        ends = np.cumsum([0, *(len(p.updates) for p in parts)])
-        at = [p.at + np.array([0, end]) for p, end in zip(parts, ends, strict=False)]
-        nodes, updates = [p.nodes for p in parts], [p.updates for p in parts]
-        return cls(np.concatenate(at), np.concatenate(nodes), np.concatenate(updates))
+    def seen(cls, standing: bool) -> FloatArray:
+        """Return all but the height, which GNSS tells with its drift alone."""
+        return np.vstack([SEEN, STANDING]) if standing else SEEN

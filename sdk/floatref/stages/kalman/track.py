@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.kernels.kalman_layout import KINDS, LATEST, MEMORY, STATES
-from floatref.stages.kalman.nodes import Nodes
+from floatref.stages.kalman.nodes import KalmanNodes
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.observations import Chunk
 from floatref.stages.kalman.references import DATUM_M, Plan, References, Stretch
@@ -33,7 +33,7 @@ class Passed(NamedTuple):
     """Filtered height in m, nodes, and whether samples of the inputs were missing."""
 
     height: FloatArray
-    nodes: Nodes
+    nodes: KalmanNodes
     missing: bool
 
 
@@ -93,12 +93,13 @@ class TrackFilter:
             height, nodes = self._run((x, y, z, roll, pitch, yaw), stretch.first, schedule)
         return Passed(height, nodes, missing)
 
-    def _run(self, u: Inputs, first: int, schedule: Chunk) -> tuple[FloatArray, Nodes]:
+    def _run(self, u: Inputs, first: int, schedule: Chunk) -> tuple[FloatArray, KalmanNodes]:
         from floatref.kernels import kalman
 
         at, marks, rows = schedule
         height = np.empty(u[0].size)
-        nodes = Nodes.room(height.size, self.sub_block, at.size)
+        room = height.size // self.sub_block + at.size + 2
+        nodes = KalmanNodes.room(room, KINDS * at.size)
         count = kalman.run(
             u,
             first,
@@ -112,17 +113,17 @@ class TrackFilter:
             self.memory,
             height,
             nodes.at,
-            nodes.nodes,
+            nodes.rows,
             nodes.updates,
         )
         return height, nodes.filled(count)
 
-    def end(self) -> Nodes:
+    def end(self) -> KalmanNodes:
         """Return a node at the sample advanced to last, or none if it is one already."""
         from floatref.kernels import kalman
 
-        nodes = Nodes.room(0, self.sub_block, 0)
-        count = kalman.end(self.model, self.x, self.p, self.memory, nodes.at, nodes.nodes)
+        nodes = KalmanNodes.room(1, 0)
+        count = kalman.end(self.model, self.x, self.p, self.memory, nodes.at, nodes.rows)
         return nodes.filled(count)
 
     def beyond(self) -> FloatArray:

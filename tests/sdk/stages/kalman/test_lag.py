@@ -22,7 +22,7 @@ def run(drive, stage):
     out, kept = [], []
     for block in drive.blocks(range(SEGMENT, len(drive.u), SEGMENT)):
         out.append(stage.push(block))
-        kept.append(len(stage.memory["lines"]["left"].segments))
+        kept.append(len(stage.memory["backlog"].lines["left"].segments))
     out += stage.finish()
     return joined([block for block in out if len(block)]), kept
 
@@ -52,6 +52,18 @@ def test_waiting_for_the_end_would_change_less_than_ten_micrometres(
     change = high_pass(over_distance(drawn, early[HEIGHT] - late[HEIGHT]), 0.5)
     assert np.abs(change).max() < 1e-5
     np.testing.assert_allclose(early[SIGMA], late[SIGMA], rtol=0.02)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("tolerance_m", [3e-6, 1e-5])
+def test_the_bound_alone_holds_what_comes_later_to_it(drive, seed, tolerance_m):
+    """Without a time that is waited in any case, and with a stop that is longer than the lag."""
+    drawn = drive(seed, 200.0, RATE, [(60.0, 110.0), (400.0, 410.0)])
+    early, kept = run(drawn, KalmanSmoother(Plan(), Noise(), 105.91, tolerance_m, 0.0))
+    late, all_kept = run(drawn, KalmanSmoother(Plan(), Noise(), tolerance_m=0.0))
+    assert max(kept) < max(all_kept)
+    change = high_pass(over_distance(drawn, early[HEIGHT] - late[HEIGHT]), 0.5)
+    assert np.abs(change).max() < 5.0 * tolerance_m
 
 
 @pytest.mark.parametrize("plan", [Plan(), Plan(gnss=False, attitude=False)])

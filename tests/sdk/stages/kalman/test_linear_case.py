@@ -13,7 +13,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from floatref.stages.kalman import KalmanSmoother, Noise, Plan
-from floatref.stages.kalman.sigma import Settled, covariances
+from floatref.stages.smoothing.sigma import Settled, covariances
 
 NOISE = Noise(acceleration=2e-3, acceleration_walk=5e-3, gnss_height_walk=4e-3, reflection=1e-4)
 G, LIFT = 9.80665, 1.6
@@ -121,7 +121,7 @@ def test_covariances_are_those_of_least_squares(drive, seed, stop, plan):
     stage.start(drawn.header)
     for block in drawn.blocks():
         stage.push(block)
-    (segment,) = stage.memory["lines"]["left"].segments
+    (segment,) = stage.memory["backlog"].lines["left"].segments
     found = covariances(Settled.of([segment.marks]))
     at = segment.marks.at
     expected = least_squares(drawn, plan).covariance[np.ix_(at, at)]

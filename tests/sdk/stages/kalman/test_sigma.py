@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from floatref.measures import high_pass as filtered
 from floatref.stages.kalman import KalmanSmoother, Noise, Plan
-from floatref.stages.kalman.sigma import Settled, high_pass, sigma
+from floatref.stages.smoothing.sigma import Settled, high_pass, sigma
 from floatref.values.channels import ChannelId
 
 G, WAVELENGTH_M = 9.80665, 105.91

@@ -5,11 +5,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import NODE, STATES
-from floatref.stages.kalman.lag import closing
-from floatref.stages.kalman.nodes import Nodes
-from floatref.stages.kalman.segment import Marks, Segment
-from floatref.stages.kalman.sigma import REACH, Settled, sigma
+from floatref.stages.smoothing.lag import closing
+from floatref.stages.smoothing.nodes import Nodes
+from floatref.stages.smoothing.segment import Marks, Segment
+from floatref.stages.smoothing.sigma import REACH, Settled, sigma
 from floatref.values.arrays import FloatArray, IndexArray
 
 
@@ -39,7 +38,7 @@ class Line:
         heights: of blocks, filtered until smoothed, in m, with the number of their first sample.
         parts, distances: nodes, and distance there, of what is behind the segments.
         segments: those that are complete.
-        before, origin: sample and row of the last node of a complete segment.
+        before, origin: last node of a complete segment, its sample and itself.
         behind: marks of closed segments that the filter still reaches.
         known_at, known: marks of closed segments that have not come out, and 1-σ in m there.
     """
@@ -50,7 +49,7 @@ class Line:
     distances: list[FloatArray] = field(default_factory=list)
     segments: list[Segment] = field(default_factory=list)
     before: int = -1
-    origin: FloatArray = field(default_factory=lambda: np.zeros(NODE))
+    origin: Nodes | None = None
     behind: Settled | None = None
     known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
     known: FloatArray = field(default_factory=lambda: np.empty(0))
@@ -63,11 +62,11 @@ class Line:
     def end_segment(self, sample: int) -> None:
         """Make a segment of the nodes before ``sample``, one or more."""
         head, tail = self.parts[-1].parted(sample)
-        nodes, count = Nodes.joined([*self.parts[:-1], head]), len(head.at)
+        nodes, count = head.joined([*self.parts[:-1], head]), len(head.at)
         distance = np.concatenate([*self.distances[:-1], self.distances[-1][:count]])
         marks = Marks.of(self.before, nodes, distance, self.rule.step)
         self.segments.append(Segment(self.before, self.origin, nodes, marks))
-        self.before, self.origin = self.segments[-1].last, nodes.nodes[-1].copy()
+        self.before, self.origin = self.segments[-1].last, nodes.last()
         self.parts, self.distances = [tail], [self.distances[-1][count:]]
 
     def ready(self) -> int:
@@ -78,9 +77,10 @@ class Line:
     def close(self, count: int, beyond: FloatArray | None = None) -> None:
         """Smooth the first ``count`` segments and let go of them.
 
-        ``beyond``, shape (10,), is lambda behind the last segment, zero if not given.
+        ``beyond``, shape (states,), is lambda behind the last segment, zero if not given.
         """
-        adjoint = np.zeros(STATES) if beyond is None else beyond
+        states = self.segments[0].nodes.states
+        adjoint = np.zeros(states) if beyond is None else beyond
         found = []
         for segment in reversed(self.segments):
             corrections = segment.back(adjoint, self.rule.step)
@@ -111,11 +111,11 @@ class Line:
 
     def take(self) -> tuple[FloatArray, FloatArray]:
         """Return smoothed height and 1-σ of the next block, all of whose samples are closed."""
-        from floatref.kernels import kalman_backward
+        from floatref.kernels import between_nodes
 
         first, height = self.heights.pop(0)
         deviation = np.empty(height.size)
-        kalman_backward.ramp(self.known_at, self.known, first, deviation)
+        between_nodes.ramp(self.known_at, self.known, first, deviation)
         done = max(int(np.searchsorted(self.known_at, first + height.size, "right")) - 1, 0)
         self.known_at, self.known = self.known_at[done:], self.known[done:]
         return height, deviation

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.kernels import kalman_covariance as covariance
+from floatref.kernels import covariance
 from floatref.kernels.kalman_layout import STATES
 
 laws = settings(deadline=None, max_examples=20)

@@ -4,37 +4,29 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import DRIFT, OFFSET, STATES
-from floatref.stages.kalman.segment import Segment
-from floatref.stages.kalman.sigma import Settled, high_pass
+from floatref.stages.smoothing.segment import Segment
+from floatref.stages.smoothing.sigma import Settled, high_pass
 from floatref.values.arrays import FloatArray, IndexArray
 
-SEEN = np.delete(np.eye(STATES), (DRIFT, OFFSET), axis=0)
-"""What readings to come can tell of the state at last: never the height but with GNSS's drift."""
-SEEN[0, DRIFT] = 1.0
-STANDING = np.eye(STATES)[0] + np.eye(STATES)[OFFSET]
-"""At a stop also how far the height is from where the stop began."""
 SMALLEST = 1e-10
 """Directions of so small a variance, relative, are known as they are."""
 
 
 def influence(
-    marks: Settled, latest: FloatArray, wanted: IndexArray, wavelength_m: float
+    marks: Settled, latest: FloatArray, seen: FloatArray, wanted: IndexArray, wavelength_m: float
 ) -> FloatArray:
     """Return by how much, 1-σ in m, readings to come can change the result at marks ``wanted``.
 
-    They act through z_T, what can be seen of the state at the last mark, alone; ``latest`` is that
-    state's covariance. Were z_T known, a height before it would change by E[e_j | z_T], of
+    They act through z_T, what can be ``seen`` of the state at the last mark, alone; ``latest`` is
+    that state's covariance. Were z_T known, a height before it would change by E[e_j | z_T], of
     covariance w_j' Z^-1 w_k with w the part of Psi P e_r that can be seen, Psi the product of
     (I - K H) F from there to T, and Z the covariance of z_T; no reading can tell more. What counts
     is what HPF_B3x2 leaves of that: an error of the whole run's height is none.
     """
-    from floatref.kernels import kalman_covariance
+    from floatref.kernels import covariance
 
     reach = np.empty_like(marks.column)
-    kalman_covariance.reach(marks.column, marks.passed, reach)
-    standing = marks.distance_m[-2:-1] == marks.distance_m[-1]
-    seen = np.vstack([SEEN, STANDING]) if standing.any() else SEEN
+    covariance.reach(marks.column, marks.passed, reach)
     spread = seen @ latest @ seen.T
     scale = np.sqrt(np.maximum(np.diag(spread), np.finfo(np.float64).tiny))
     inverse = np.linalg.pinv(spread / np.outer(scale, scale), SMALLEST, hermitian=True)
@@ -53,5 +45,7 @@ def closing(
         ends += len(behind.at)
         marks = marks.behind(behind)
     latest = segments[-1].marks.latest
-    open_ends = influence(marks, latest, ends[:-1], wavelength_m) > tolerance_m
+    standing = marks.distance_m[-2:-1] == marks.distance_m[-1]
+    seen = segments[-1].nodes.seen(bool(standing.any()))
+    open_ends = influence(marks, latest, seen, ends[:-1], wavelength_m) > tolerance_m
     return int(np.argmax(open_ends)) if open_ends.any() else len(segments) - 1

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.stages.kalman.segment import Marks
+from floatref.stages.smoothing.segment import Marks
 from floatref.values.arrays import FloatArray, IndexArray
 
 REACH = 1.5
@@ -25,9 +25,9 @@ class Settled:
     Attributes:
         at: samples, shape (n,).
         distance_m: encoder distance, shape (n,).
-        column: P e_r, shape (n, 10).
-        left: (I - Lambda P) e_r, shape (n, 10).
-        passed: product of (I - K H) F from the mark before, shape (n, 10, 10).
+        column: P e_r, shape (n, states).
+        left: (I - Lambda P) e_r, shape (n, states).
+        passed: product of (I - K H) F from the mark before, shape (n, states, states).
     """
 
     at: IndexArray
@@ -39,13 +39,13 @@ class Settled:
     @classmethod
     def of(cls, marks: Sequence[Marks]) -> "Settled":
         """Settle ``marks`` of segments one after the other, nothing known behind them."""
-        from floatref.kernels import kalman_covariance
+        from floatref.kernels import covariance
 
         column = np.concatenate([m.column for m in marks])
         passed = np.concatenate([m.passed for m in marks])
         gathered = np.concatenate([m.gathered for m in marks])
         left = np.empty_like(column)
-        kalman_covariance.settle(column, passed, gathered, left)
+        covariance.settle(column, passed, gathered, left)
         at = np.concatenate([m.at for m in marks])
         distance = np.concatenate([m.distance_m for m in marks])
         return cls(at, np.maximum.accumulate(distance), column, left, passed)
@@ -66,14 +66,14 @@ def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: fl
     ``wavelength_m`` is the cut-off of either pass of the filter, ``noise_m`` the 1-σ of a reading
     of the height sensor, which passes the filter as it is.
     """
-    from floatref.kernels import kalman_covariance
+    from floatref.kernels import covariance
 
     place, reach = marks.distance_m, REACH * wavelength_m
     weights = high_pass(place, wavelength_m, np.arange(first, end))
     low = np.searchsorted(place, place[first:end] - reach)
     high = np.searchsorted(place, place[first:end] + reach, "right")
     variance = np.empty(end - first)
-    kalman_covariance.spread(covariances(marks, 2 * reach), weights, low, high, variance)
+    covariance.spread(covariances(marks, 2 * reach), weights, low, high, variance)
     deviation: FloatArray = np.sqrt(np.maximum(variance, 0.0) + noise_m**2)
     return deviation
 
@@ -83,12 +83,10 @@ def covariances(marks: Settled, width_m: float = np.inf) -> FloatArray:
 
     It is left 0 for marks further than ``width_m`` apart.
     """
-    from floatref.kernels import kalman_covariance
+    from floatref.kernels import covariance
 
     found = np.zeros((len(marks.at), len(marks.at)))
-    kalman_covariance.relate(
-        marks.column, marks.left, marks.passed, marks.distance_m, width_m, found
-    )
+    covariance.relate(marks.column, marks.left, marks.passed, marks.distance_m, width_m, found)
     return found
 
 
@@ -99,9 +97,9 @@ def high_pass(distance_m: FloatArray, wavelength_m: float, wanted: IndexArray) -
     k_c/6 (e^-a + e^(-a/2) (cos(b) + sqrt(3) sin(b))), a = k_c |x|, b = sqrt(3)/2 a,
     k_c = 2 pi / ``wavelength_m``.
     """
-    from floatref.kernels import kalman_covariance
+    from floatref.kernels import covariance
 
     found = np.zeros((wanted.size, distance_m.size))
     cutoff, reach_m = 2 * np.pi / wavelength_m, REACH * wavelength_m
-    kalman_covariance.high_pass(distance_m, wanted, cutoff, reach_m, found)
+    covariance.high_pass(distance_m, wanted, cutoff, reach_m, found)
     return found

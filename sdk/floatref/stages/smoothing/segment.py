@@ -5,14 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.kalman_layout import SPREAD, STATES
-from floatref.stages.kalman.nodes import Nodes
+from floatref.stages.smoothing.nodes import Nodes
 from floatref.values.arrays import FloatArray, IndexArray
 
-CORRECTIONS = 4
-"""Numbers of a correction: height and velocity on both sides of a node."""
-UPPER = np.triu_indices(STATES)
-"""Where the upper half of P has its entries, in the order of a node."""
 APART_M = 8.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
@@ -25,8 +20,8 @@ class Marks:
     Attributes:
         at: samples, shape (n,).
         distance_m: encoder distance there, shape (n,).
-        column: P e_r, shape (n, 10).
-        latest: P at the last mark, shape (10, 10).
+        column: P e_r, shape (n, states).
+        latest: P at the last mark, shape (states, states).
         passed: product of (I - K H) F from the mark before, or the node before the segment.
         gathered: what the observations since then add to the covariance of lambda.
     """
@@ -41,17 +36,10 @@ class Marks:
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        from floatref.kernels import kalman_backward
-
         chosen = _chosen(nodes.at[:, 0], distance_m, step)
-        passed, gathered = np.empty((2, chosen.size, STATES, STATES))
-        kalman_backward.closed_loop(
-            nodes.at, nodes.nodes, nodes.updates, max(before, 0), step, chosen, passed, gathered
-        )
-        latest = np.empty((STATES, STATES))
-        latest[UPPER] = latest.T[UPPER] = nodes.nodes[-1, SPREAD:]
-        column = nodes.nodes[chosen, SPREAD : SPREAD + STATES]
-        return cls(nodes.at[chosen, 0], distance_m[chosen], column, latest, passed, gathered)
+        passed, gathered = nodes.passes(max(before, 0), step, chosen)
+        place = nodes.at[chosen, 0], distance_m[chosen]
+        return cls(*place, nodes.column(chosen), nodes.latest(), passed, gathered)
 
 
 def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
@@ -59,7 +47,7 @@ def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
     apart = np.zeros(at.size)
     elapsed = (at[1:] - at[:-1]) * (step / APART_S)
     np.maximum((distance_m[1:] - distance_m[:-1]) * (1.0 / APART_M), elapsed, out=apart[1:])
-    gone = apart.cumsum().astype(np.int64)
+    gone = np.nan_to_num(apart).cumsum().astype(np.int64)
     gone[-1] += 1
     return np.flatnonzero(gone[1:] > gone[:-1]) + 1 if at.size > 1 else np.zeros(1, np.int64)
 
@@ -70,13 +58,13 @@ class Segment:
 
     Attributes:
         before: sample of the node before the first one; -1 before the run.
-        origin: row of that node.
+        origin: that node alone, none before the run.
         nodes: those after ``before``.
         marks: those of them that tell how covariances pass on.
     """
 
     before: int
-    origin: FloatArray
+    origin: Nodes | None
     nodes: Nodes
     marks: Marks
 
@@ -87,12 +75,7 @@ class Segment:
 
     def back(self, adjoint: FloatArray, step: float) -> FloatArray:
         """Return the corrections at the nodes; ``adjoint`` goes from the last to ``before``."""
-        from floatref.kernels import kalman_backward
-
-        found = np.empty((len(self.nodes.at), CORRECTIONS))
-        n = self.nodes
-        kalman_backward.smooth(n.at, n.nodes, n.updates, max(self.before, 0), step, adjoint, found)
-        return found
+        return self.nodes.back(max(self.before, 0), step, adjoint)
 
     def smooth(
         self,
@@ -105,14 +88,12 @@ class Segment:
 
         A piece has the number of its first sample; ``adjoint`` is lambda behind ``before``.
         """
-        from floatref.kernels import kalman_backward
+        from floatref.kernels import between_nodes
 
-        start = np.zeros(CORRECTIONS)
-        if self.before >= 0:
-            kalman_backward.correct(self.origin, adjoint, start)
+        start = np.zeros(4) if self.origin is None else self.origin.correction(adjoint)
         place = np.array([max(self.before, 0), start[2], start[3]])
         end = self.last + 1
         for first, height in pieces:
             low = max(self.before + 1, first)
             part = height[low - first : max(end, first) - first]
-            kalman_backward.interpolate(self.nodes.at, corrections, low, place, step, part)
+            between_nodes.interpolate(self.nodes.at, corrections, low, place, step, part)

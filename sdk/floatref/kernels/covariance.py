@@ -5,7 +5,6 @@ from math import cos, exp, sin, sqrt
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.kernels.kalman_layout import STATES
 from floatref.values.arrays import FloatArray, IndexArray
 
 
@@ -15,28 +14,29 @@ def settle(column: FloatArray, passed: FloatArray, gathered: FloatArray, left: F
 
     Lambda, the covariance of lambda, goes back as Psi' Lambda Psi + G.
     """
-    information = np.zeros((STATES, STATES))
-    half = np.zeros((STATES, STATES))
+    states = column.shape[1]
+    information, half = np.zeros((states, states)), np.zeros((states, states))
     for k in range(column.shape[0] - 1, -1, -1):
-        for i in range(STATES):
+        for i in range(states):
             total = 1.0 if i == 0 else 0.0
-            for j in range(STATES):
+            for j in range(states):
                 total -= information[i, j] * column[k, j]
             left[k, i] = total
         _turned(information, passed[k], half)
         _turned(passed[k], half, information)
-        for i in range(STATES):
-            for j in range(STATES):
+        for i in range(states):
+            for j in range(states):
                 information[i, j] += gathered[k, i, j]
 
 
 @compiled
 def _turned(a: FloatArray, b: FloatArray, product: FloatArray) -> None:
     """Write a' b into ``product``."""
-    for i in range(STATES):
-        for j in range(STATES):
+    states = a.shape[0]
+    for i in range(states):
+        for j in range(states):
             total = 0.0
-            for k in range(STATES):
+            for k in range(states):
                 total += a[k, i] * b[k, j]
             product[i, j] = total
 
@@ -51,9 +51,10 @@ def relate(
     found: FloatArray,
 ) -> None:
     """Write E[e_i e_j] of the smoothed heights at all marks up to ``width_m`` apart, (n, n)."""
-    moved, carried = np.zeros(STATES), np.zeros(STATES)
+    states = column.shape[1]
+    moved, carried = np.zeros(states), np.zeros(states)
     for i in range(column.shape[0]):
-        for s in range(STATES):
+        for s in range(states):
             moved[s] = column[i, s]
         for j in range(i, column.shape[0]):
             if distance_m[j] - distance_m[i] > width_m:
@@ -61,7 +62,7 @@ def relate(
             if j > i:
                 _apply(passed[j], moved, carried)
             total = 0.0
-            for s in range(STATES):
+            for s in range(states):
                 total += left[j, s] * moved[s]
             found[i, j], found[j, i] = total, total
 
@@ -86,32 +87,33 @@ def spread(
 
 @compiled
 def reach(column: FloatArray, passed: FloatArray, found: FloatArray) -> None:
-    """Write Psi P e_r, from each mark to the last, into ``found``, shape (n, 10)."""
-    size = column.shape[0]
+    """Write Psi P e_r, from each mark to the last, into ``found``, shape (n, states)."""
+    size, states = column.shape
     # What is multiplied up is Psi'.
-    psi, product = np.zeros((STATES, STATES)), np.zeros((STATES, STATES))
-    for i in range(STATES):
+    psi, product = np.zeros((states, states)), np.zeros((states, states))
+    for i in range(states):
         psi[i, i] = 1.0
     for k in range(size - 1, -1, -1):
-        for i in range(STATES):
+        for i in range(states):
             total = 0.0
-            for j in range(STATES):
+            for j in range(states):
                 total += psi[j, i] * column[k, j]
             found[k, i] = total
         _turned(passed[k], psi, product)
-        for i in range(STATES):
-            for j in range(STATES):
+        for i in range(states):
+            for j in range(states):
                 psi[i, j] = product[i, j]
 
 
 @compiled
 def _apply(psi: FloatArray, vector: FloatArray, carried: FloatArray) -> None:
-    for i in range(STATES):
+    states = vector.size
+    for i in range(states):
         total = 0.0
-        for j in range(STATES):
+        for j in range(states):
             total += psi[i, j] * vector[j]
         carried[i] = total
-    for i in range(STATES):
+    for i in range(states):
         vector[i] = carried[i]
 
 

@@ -1,0 +1,1 @@
+"""What all smoothers share: nodes, segments that are closed in time, and the 1-σ of the result."""
