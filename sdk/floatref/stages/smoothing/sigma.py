@@ -48,7 +48,8 @@ class Settled:
         covariance.settle(column, passed, gathered, left)
         at = np.concatenate([m.at for m in marks])
         distance = np.concatenate([m.distance_m for m in marks])
-        return cls(at, np.maximum.accumulate(distance), column, left, passed)
+        # Distances may be missing, and tremble at a stop.
+        return cls(at, np.fmax.accumulate(distance), column, left, passed)
 
     def part(self, where: slice) -> "Settled":
         """Return the marks ``where``."""

@@ -1,0 +1,52 @@
+"""The pipeline of the road-prior smoother, with its settings."""
+
+from collections.abc import Sequence
+
+from floatref.architectures.kalman_steps import condition
+from floatref.architectures.question import Pipeline, Question
+from floatref.stages.dropping import Drop
+from floatref.stages.protocol import Stage
+from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.signals import TRAVEL_SPEED
+
+CONSTANTS = {
+    "acceleration_density": "acceleration",
+    "acceleration_walk": "acceleration_walk",
+    "acceleration_walk_along": "walk_along",
+    "road_reading_sigma_m": "reading_m",
+    "road_intensity_m": "road",
+    "road_reach_m": "road_reach_m",
+    "lean_sigma_rad": "lean_rad",
+    "tilt_sigma": "tilt",
+    "pitch_hz": "pitch_hz",
+    "pitch_damping": "pitch_damping",
+    "height_noise_m": "height_m",
+}
+"""From settings to what they are in `RoadPrior`."""
+_USUAL = vars(RoadPrior())
+
+
+def _estimate(question: Question) -> Sequence[Stage]:
+    constants = RoadPrior(**{field: question.setting(name) for name, field in CONSTANTS.items()})
+    smoother = RoadPriorSmoother(constants, question.setting("cutoff_wavelength_m"))
+    return smoother, Drop(TRAVEL_SPEED)
+
+
+ROAD_PRIOR = (
+    Pipeline(
+        "road-prior-smoother",
+        "temporal",
+        "nominal sensors; the road is a process in distance, which stands still when we do",
+        {
+            "interval_m": None,
+            "anti_alias_hz": 1000.0,
+            "cutoff_wavelength_m": 105.91,
+            "drift_reach_m": 26.4775,
+            "before_slow_m": 15.0,
+            "after_slow_m": 30.0,
+            "distance_scale_sigma": 2e-4,
+            **{name: _USUAL[field] for name, field in CONSTANTS.items()},
+        },
+        {"temporal_condition": condition, "temporal_estimate": _estimate},
+    ),
+)

@@ -1,0 +1,55 @@
+"""What the road-prior smoother takes sensors, vehicle and road for."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class RoadPrior:
+    """Constants with a physical meaning; densities are two-sided, per √Hz or √s.
+
+    Attributes:
+        acceleration: white noise of the accelerometer, in m/s²/√Hz.
+        acceleration_bias: 1-σ of its bias at the start, in m/s².
+        acceleration_walk: random walk of the bias, in m/s²/√s.
+        walk_along: what longitudinal acceleration adds to that in quadrature, in 1/√s.
+        missing_acceleration: takes the place of `acceleration` where samples are missing.
+        reading_m: 1-σ of a reading of the height sensor as one of the road, texture included.
+        road: q, half of G_s of the spectrum G_s/(2πν)² of (2.2), in m.
+        road_reach_m: distance after which the road's elevation is forgotten, in m.
+        lean_rad: 1-σ of the lean of the accelerometer's axis forward.
+        tilt: 1-σ of the pitch angle per longitudinal acceleration, in rad per m/s².
+        pitch_hz, pitch_damping: natural frequency and damping ratio of the pitch response.
+        height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
+    """
+
+    acceleration: float = 1.5e-4
+    acceleration_bias: float = 0.03
+    acceleration_walk: float = 1e-4
+    walk_along: float = 1.5e-3
+    missing_acceleration: float = 0.1
+    reading_m: float = 1e-4
+    road: float = 6e-6
+    road_reach_m: float = 150.0
+    lean_rad: float = 0.01
+    tilt: float = 0.01
+    pitch_hz: float = 1.6
+    pitch_damping: float = 0.3
+    height_m: float = 4e-5
+
+    def model(self, step: float) -> FloatArray:
+        """Return what the kernels take of them, for samples ``step`` in s apart."""
+        densities = self.acceleration, self.acceleration_walk, self.walk_along, self.reading_m
+        squares = np.square([*densities, self.lean_rad, self.tilt, self.missing_acceleration])
+        road = self.road, self.road_reach_m
+        return np.array([step, *squares[:4], *road, *squares[4:]])
+
+    def start(self) -> FloatArray:
+        """Return the covariance before the first reading; the height is that of a flat road."""
+        road_m2 = self.road * self.road_reach_m / 2.0
+        deviations = self.acceleration_bias, self.lean_rad, self.tilt
+        bias, lean, tilt = np.square(deviations)
+        return np.diag([1.0, 1.0, bias, road_m2, lean, tilt])
