@@ -11,8 +11,10 @@ from floatref.stages.signals import TRAVEL_SPEED
 
 CONSTANTS = {
     "acceleration_density": "acceleration",
+    "acceleration_bias_sigma": "acceleration_bias",
     "acceleration_walk": "acceleration_walk",
     "acceleration_walk_along": "walk_along",
+    "missing_acceleration_density": "missing_acceleration",
     "road_reading_sigma_m": "reading_m",
     "road_intensity_m": "road",
     "road_reach_m": "road_reach_m",

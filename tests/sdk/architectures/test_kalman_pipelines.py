@@ -36,7 +36,10 @@ every_pipeline = pytest.mark.parametrize("name", PIPELINES)
 
 @cache
 def driven() -> Recording:
-    """A brake to a stop of 2 s, without GNSS for a second, without force for a twentieth."""
+    """A brake to a stop of 2 s, without GNSS for a second, without force for a twentieth.
+
+    Behind it the encoder loses a tenth of a second.
+    """
     scenario = Scenario(
         manoeuvre="stop",
         event_at_m=130.0,
@@ -49,11 +52,18 @@ def driven() -> Recording:
     )
     recording = simulate(scenario).recording
     lost = changed(recording, "vertical_specific_force", lambda x: nothing(x, 8000, 8200))
+    lost = changed(lost, "distance", lambda x: losing(x, int(np.searchsorted(x, 200.0)), 500))
     return changed(lost, "gnss_quality", lambda x: np.where(np.arange(x.size) // 20 == 3, 1.0, x))
 
 
 def nothing(values: np.ndarray, begin: int, end: int) -> np.ndarray:
     values[begin:end] = np.nan
+    return values
+
+
+def losing(values: np.ndarray, begin: int, count: int) -> np.ndarray:
+    values[begin + count :] -= values[begin + count] - values[begin]
+    values[begin : begin + count] = values[begin]
     return values
 
 

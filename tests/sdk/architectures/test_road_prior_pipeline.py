@@ -1,0 +1,83 @@
+"""The road-prior pipeline: its settings act, it takes nominal sensors, and it forgets nothing."""
+
+import warnings
+from dataclasses import fields, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.architectures.road_prior_pipeline import CONSTANTS, ROAD_PRIOR
+from floatref.stages.road_prior import RoadPrior
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+from floatref_conformance.proving_ground import Scenario, simulate
+
+(PIPELINE,) = ROAD_PRIOR
+
+
+@cache
+def driven() -> Recording:
+    """A stop of 2 s, behind it lost counts, before it a twentieth of a second without force."""
+    scenario = Scenario(
+        manoeuvre="stop",
+        event_at_m=130.0,
+        dwell_s=2.0,
+        length_m=290.0,
+        tracks=("left",),
+        rate_hz=5000.0,
+        profile_interval_m=0.05,
+        imu=False,
+        gnss=False,
+    )
+    channels = []
+    for channel in simulate(scenario).recording.channels:
+        values = channel.values.copy()
+        if channel.id.name == "vertical_specific_force":
+            values[8000:8250] = np.nan
+        if channel.id.name == "distance":
+            begin = int(np.searchsorted(values, 200.0))
+            values[begin + 500 :] -= values[begin + 500] - values[begin]
+            values[begin : begin + 500] = values[begin]
+        channels.append(replace(channel, values=values))
+    return replace(simulate(scenario).recording, channels=tuple(channels))
+
+
+def profile(**settings: float) -> Profile:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", floatref.FloatrefWarning)
+        return floatref.process(driven(), PIPELINE.name, settings)
+
+
+@cache
+def usual() -> Profile:
+    return profile()
+
+
+@pytest.mark.parametrize("setting", PIPELINE.settings)
+def test_every_setting_changes_the_profile(setting: str) -> None:
+    other = profile(**{setting: 2.0 * (PIPELINE.settings[setting] or 0.05)})
+    (a,), (b,) = other.tracks, usual().tracks
+    assert a.sigma is not None
+    assert b.sigma is not None
+    pairs = ((a.elevation, b.elevation), (a.sigma, b.sigma), (a.valid, b.valid))
+    assert not all(np.array_equal(x, y) for x, y in pairs)
+
+
+def test_every_constant_is_a_setting_and_has_its_value() -> None:
+    assert sorted(CONSTANTS.values()) == sorted(field.name for field in fields(RoadPrior))
+    for setting, field in CONSTANTS.items():
+        assert PIPELINE.settings[setting] == getattr(RoadPrior(), field)
+
+
+def test_it_takes_nominal_sensors_alone() -> None:
+    assert (PIPELINE.channels, PIPELINE.readings, PIPELINE.capabilities) == ((), (), ())
+
+
+def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
+    (track,) = usual().tracks
+    assert track.sigma is not None
+    assert np.isfinite(track.elevation).all()
+    assert (track.sigma > 0.0).all()
+    assert not track.valid.all()

@@ -1,0 +1,93 @@
+"""The stage is the literal smoother of the road prior: heights, and how sure they are."""
+
+import numpy as np
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.road_prior.excitation import Excitation
+from floatref.stages.smoothing.sigma import Settled, covariances
+from floatref.values.channels import ChannelId
+from floatref_reference.road_prior.smoother import smooth as smoother
+from floatref_reference.road_prior.symbols import Constants, recorded
+
+HEIGHT = ChannelId("floating_reference_height", "left")
+C = RoadPrior(acceleration=2e-3, walk_along=5e-3, reading_m=1e-3, road=1e-5, lean_rad=0.02)
+laws = settings(deadline=None, max_examples=5, phases=[Phase.explicit, Phase.generate])
+SEEDS = st.integers(0, 2**32 - 1)
+STOPS = st.tuples(st.floats(0.4, 1.2), st.floats(0.1, 1.0))
+
+
+def excited(drive):
+    """Return acceleration and response at all samples."""
+    excitation = Excitation.of(1 / drive.rate, C.pitch_hz, C.pitch_damping)
+    excitation.add(drive.distance)
+    excitation.end()
+    return excitation.take()
+
+
+def literal(drive, inputs, a_x, priors):
+    """Return the literal smoother's result; heights are told from the first."""
+    constants = Constants(
+        C.acceleration,
+        C.acceleration_walk,
+        C.walk_along,
+        C.reading_m,
+        C.road,
+        C.road_reach_m,
+        sigma_b=C.acceleration_bias,
+        sigma_kappa=priors,
+    )
+    times = np.arange(drive.a.size) / drive.rate
+    signals = drive.a, drive.h - drive.h[0], np.stack(inputs, axis=-1), a_x
+    return smoother(recorded(times, drive.distance, *signals), constants)
+
+
+@laws
+@given(seed=SEEDS, rate=st.sampled_from([150, 300, 500]), stop=STOPS, share=st.floats(0.3, 1.0))
+def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
+    drawn = drive(seed, 2.4, rate, (stop[0], sum(stop)), share=share)
+    a_x, response = excited(drawn)
+    expected = literal(drawn, (a_x, a_x * response), a_x, (C.lean_rad, C.tilt))
+    ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
+    np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=1e-8)
+    stage = RoadPriorSmoother(C, tolerance_m=0.0)
+    stage.start(drawn.header)
+    stage.push(drawn.blocks()[0])
+    line = stage.memory["backlog"].lines["left"]
+    stage.memory["excitation"].end()
+    stage._filter_known()
+    line.end_segment(drawn.a.size)
+    (segment,) = line.segments
+    found = np.diag(covariances(Settled.of([segment.marks])))
+    sure = expected.sigma_r[0][segment.marks.at]
+    np.testing.assert_allclose(np.sqrt(found), sure, rtol=1e-5)
+
+
+@laws
+@given(seed=SEEDS, begin=st.floats(9.5, 11.0))
+def test_lean_and_tilt_of_a_brake_are_others_after_a_constant_speed(drive, through, seed, begin):
+    """A brake before and one behind: the literal smoother is given coefficients for each."""
+    one, rate = drive(seed, 6.0, 60, (-0.8, -0.4)), 60
+    other = drive(seed + 1, 20.0, rate, (begin, begin + 0.5))
+    a = np.concatenate((one.a, other.a))
+    place = one.distance[-1] + (one.distance[-1] - one.distance[-2]) + other.distance
+    drawn = type(one)(rate, a, np.concatenate((one.h, other.h)), np.append(one.distance, place))
+    a_x, response = excited(drawn)
+    anew = [k * 4 * rate for k in range(1, 7) if _steady(drawn, k * 4 * rate)]
+    assert anew
+    part = np.searchsorted(anew, np.arange(a.size), "right")
+    inputs = [
+        np.where(part == k, u, 0.0) for k in range(len(anew) + 1) for u in (a_x, a_x * response)
+    ]
+    expected = literal(drawn, inputs, a_x, (C.lean_rad, C.tilt) * (len(anew) + 1))
+    ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
+    np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=2e-6)
+
+
+def _steady(drive, sample):
+    at = sample - drive.rate * np.arange(5)
+    if at[-1] < 0:
+        return False
+    speeds = -np.diff(drive.distance[at])
+    return speeds.min() > 5.0 and np.ptp(speeds) < 0.4
