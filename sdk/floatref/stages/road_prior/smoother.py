@@ -107,7 +107,11 @@ class RoadPriorSmoother(Stage):
         at, distance = last.first + len(last) - 1, float(last[ChannelId(DISTANCE)][-1])
         travel = max(0.0, np.nan_to_num(distance - self.memory["travelled"]))
         filters: dict[str, RoadTrack] = self.memory["filters"]
-        backlog.finish({name: (each.end(at, travel), None) for name, each in filters.items()})
+        ending = {name: (each.end(at, travel), None) for name, each in filters.items()}
+        for name, each in filters.items():
+            # A node now, with the bias and the tilt since the one before.
+            backlog.lines[name].heights[-1][1][-1] = each.x[0]
+        backlog.finish(ending)
         return tuple(backlog.come_out())
 
     def _nodes(self, block: Block) -> IndexArray:

@@ -1,5 +1,7 @@
 """The stage is the literal smoother of the road prior: heights, and how sure they are."""
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
@@ -26,12 +28,12 @@ def excited(drive):
     return excitation.take()
 
 
-def literal(drive, inputs, a_x, priors):
+def literal(drive, inputs, a_x, priors, walk_along=C.walk_along):
     """Return the literal smoother's result; heights are told from the first."""
     constants = Constants(
         C.acceleration,
         C.acceleration_walk,
-        C.walk_along,
+        walk_along,
         C.reading_m,
         C.road,
         C.road_reach_m,
@@ -65,7 +67,27 @@ def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
 
 
 @laws
-@given(seed=SEEDS, begin=st.floats(9.5, 11.0))
+@given(seed=SEEDS, rate=st.sampled_from([1000, 1500, 2000]), stop=STOPS)
+def test_between_nodes_they_agree_as_well(drive, through, seed, rate, stop):
+    """The literal smoother goes from sample to sample, with heights at the nodes alone."""
+    constants, every = replace(C, walk_along=0.0), rate // 500
+    drawn = drive(seed, 1.2, rate, (0.5 * stop[0], 0.5 * sum(stop)))
+    nodes = np.arange(0, drawn.a.size, every)
+    excitation = Excitation.of(every / rate, C.pitch_hz, C.pitch_damping)
+    excitation.add(drawn.distance[nodes])
+    excitation.end()
+    a_x, response = excitation.take()
+    inputs = [np.interp(np.arange(drawn.a.size), nodes, u) for u in (a_x, a_x * response)]
+    h = np.full(drawn.h.size, np.nan)
+    h[nodes] = drawn.h[nodes]
+    literally = replace(drawn, h=h)
+    expected = literal(literally, inputs, np.zeros(h.size), (C.lean_rad, C.tilt), walk_along=0.0)
+    ours = through(RoadPriorSmoother(constants, tolerance_m=0.0), drawn)[HEIGHT]
+    np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=1e-8)
+
+
+@laws
+@given(seed=SEEDS, begin=st.floats(9.5, 10.4))
 def test_lean_and_tilt_of_a_brake_are_others_after_a_constant_speed(drive, through, seed, begin):
     """A brake before and one behind: the literal smoother is given coefficients for each."""
     one, rate = drive(seed, 6.0, 60, (-0.8, -0.4)), 60
