@@ -13,6 +13,8 @@ RUNS = (
     *("sg_1.1s_0.20g", "sg_2.1s_0.33g", "sg_5.8s_0.17g", "sg_10.7s_0.20g"),
     *("ns_72-11_0.20g", "brk_71-30_0.19g", "brk_49-20_0.25g", "brk_49-34_0.84g"),
 )
+THROUGH_STOPS = ("road-prior-smoother",)
+"""Pipelines that measure in brakes and at stops."""
 UNSUPPRESSED = ("temporal-basic", "temporal-mean-removal", "spatial-basic", "spatial-hpf")
 LONG = {
     "long mild brake": ("braking", 100.0, 20.0, 0.17),
@@ -62,7 +64,7 @@ def test_the_iri_of_valid_points_is_that_of_the_road(driven: Simulation, pipelin
         ours = iri_trace(track.elevation, interval)
         count = min(true.size, ours.size)
         trusted = track.valid[:count]
-        assert 0.15 < trusted.mean() < 0.8
+        assert 0.15 < trusted.mean() < (0.95 if pipeline in THROUGH_STOPS else 0.8)
         right, found = (np.abs(z[:count][trusted]).mean() for z in (true, ours))
         assert abs(found - right) < max(0.05 * right, 0.1), (track.name, found, right)
         if pipeline not in UNSUPPRESSED:

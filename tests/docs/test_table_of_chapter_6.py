@@ -62,10 +62,11 @@ def test_reflection_is_good_at_every_stop_and_brake() -> None:
 
 
 @pytest.mark.parametrize("pipeline", CONSTANT)
-def test_constants_in_place_of_readings_are_good_but_at_the_near_stop(pipeline: str) -> None:
+def test_constants_in_place_of_readings_are_good_on_every_run(pipeline: str) -> None:
     found = {run: CELLS[pipeline, run]["cross_correlation"] for p, run in CELLS if p == pipeline}
-    assert min(found.values()) >= 0.92
-    assert {run for run, value in found.items() if value < 0.979} <= set(GROUPS["near stop"])
+    assert min(found.values()) >= 0.94
+    hardest = {*GROUPS["near stop"], "brk_49-34_0.84g"}
+    assert {run for run, value in found.items() if value < 0.980} <= hardest
 
 
 @pytest.mark.parametrize("adaptive", ADAPTIVE)
@@ -89,7 +90,8 @@ def test_the_figures_of_the_text_are_the_tables() -> None:
     assert f"{low:.2f} to {high:.2f} with peaks of {least:.1f} to {most:.1f} m/km" in text
     near = CELLS[CONSTANT[1], "ns_72-11_0.20g"]
     ours, printed = near["cross_correlation"], near["published_cross_correlation"]
-    assert f"{ours:.3f} for {printed:.3f}, with an IRI {near['iri_error_percent']:.1f} %" in text
+    error = abs(near["iri_error_percent"])
+    assert f"has {ours:.3f} for {printed:.3f} there, with an IRI {error:.1f} %" in text
     creep = CELLS["kalman-filter", "const_5"]
     ours, printed = creep["iri_error_percent"], creep["published_iri_error_percent"]
     assert f"IRI {ours:.1f} % too high (print {printed:.1f} %)" in text

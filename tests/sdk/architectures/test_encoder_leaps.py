@@ -80,8 +80,10 @@ def test_counts_beyond_what_a_vehicle_speeds_up_are_void(at, length, faster, spe
     values = travel(speed)
     extra = faster * speed * np.clip(np.arange(COUNT) - at, 0, length) / RATE
     found = damage(values + extra)
-    assert len(found.void) == 1
-    assert found.void[0] == pytest.approx([at, at + length], abs=51)
+    assert found.void[0, 0] == pytest.approx(at, abs=51)
+    # Behind a burst of a whole number of knots, some more may be doubted.
+    assert found.void[0, 1] == pytest.approx(at + length, abs=51)
+    assert found.void[-1, 1] <= at + length + 101
     assert "counts too much" in found.warnings[0]
 
 

@@ -51,6 +51,8 @@ def response_weights(hz: float, damping: float, interval_s: float) -> FloatArray
 class Excitation:
     """Acceleration and pitch response at nodes, as soon as the nodes behind are known.
 
+    Their product, times the pitch angle per acceleration, is the leading error of (1.5).
+
     Attributes:
         weights: `curvature_weights`.
         by: `response_weights`.

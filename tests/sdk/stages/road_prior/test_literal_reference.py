@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
@@ -45,6 +46,7 @@ def literal(drive, inputs, a_x, priors, walk_along=C.walk_along):
     return smoother(recorded(times, drive.distance, *signals), constants)
 
 
+@pytest.mark.cites("(1.5)", "(2.2)")
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([150, 300, 500]), stop=STOPS, share=st.floats(0.3, 1.0))
 def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
