@@ -13,6 +13,7 @@ from floatref.values.recording import Channel, Recording
 
 PREFIX = "gnss_"
 HEIGHT = "gnss_height"
+QUALITY = "gnss_quality"
 
 
 class GnssEvents:
@@ -48,7 +49,9 @@ def _samples(
     if mask is not None:
         values = np.where(mask, np.nan, values)
     pairs = zip(times, values.tolist(), strict=True)
-    return [(time, value) for time, value in pairs if value == value]
+    # A quality that is not known is not that of a fixed ambiguity.
+    kept = channel.id.name == QUALITY
+    return [(time, value) for time, value in pairs if kept or value == value]
 
 
 def _range(channel: Channel, begin_s: float, end_s: float) -> tuple[int, int]:

@@ -11,8 +11,8 @@ SETTINGS: dict[str, float | None] = {
     "anti_alias_hz": 1000.0,
     "cutoff_wavelength_m": 105.91,
     "drift_reach_m": 26.4775,
-    "before_slow_m": 15.0,
-    "after_slow_m": 30.0,
+    "before_slow_m": 2.0,
+    "after_slow_m": 7.0,
     "distance_scale_sigma": 2e-4,
     **{name: _USUAL[field] for name, field in NOISE.items()},
 }

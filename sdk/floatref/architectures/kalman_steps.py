@@ -9,6 +9,7 @@ from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.dropping import Drop
 from floatref.stages.kalman import Noise, Plan
 from floatref.stages.protocol import Stage
+from floatref.stages.seams import Seams
 from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
 from floatref.stages.speed import TravelSpeed
 
@@ -16,6 +17,7 @@ Estimator = Callable[[Plan, Noise, float], Stage]
 NOISE = {
     "acceleration_density": "acceleration",
     "acceleration_walk": "acceleration_walk",
+    "missing_acceleration_density": "missing_acceleration",
     "roll_rate_density": "roll_rate",
     "pitch_rate_density": "pitch_rate",
     "yaw_rate_density": "yaw_rate",
@@ -57,6 +59,6 @@ def answers(plan: Plan, estimator: Estimator) -> dict[str, Answer]:
 
     def estimate(question: Question) -> Sequence[Stage]:
         wavelength_m = question.setting("cutoff_wavelength_m")
-        return estimator(plan, noise_of(question), wavelength_m), Drop(TRAVEL_SPEED)
+        return estimator(plan, noise_of(question), wavelength_m), Seams(), Drop(TRAVEL_SPEED)
 
     return {"temporal_condition": condition, "temporal_estimate": estimate}

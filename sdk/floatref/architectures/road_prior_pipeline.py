@@ -7,6 +7,7 @@ from floatref.architectures.question import Pipeline, Question
 from floatref.stages.dropping import Drop
 from floatref.stages.protocol import Stage
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.seams import Seams
 from floatref.stages.signals import TRAVEL_SPEED
 
 CONSTANTS = {
@@ -31,7 +32,7 @@ _USUAL = vars(RoadPrior())
 def _estimate(question: Question) -> Sequence[Stage]:
     constants = RoadPrior(**{field: question.setting(name) for name, field in CONSTANTS.items()})
     smoother = RoadPriorSmoother(constants, question.setting("cutoff_wavelength_m"))
-    return smoother, Drop(TRAVEL_SPEED)
+    return smoother, Seams(), Drop(TRAVEL_SPEED)
 
 
 ROAD_PRIOR = (
@@ -44,8 +45,8 @@ ROAD_PRIOR = (
             "anti_alias_hz": 1000.0,
             "cutoff_wavelength_m": 105.91,
             "drift_reach_m": 26.4775,
-            "before_slow_m": 15.0,
-            "after_slow_m": 30.0,
+            "before_slow_m": 2.0,
+            "after_slow_m": 7.0,
             "distance_scale_sigma": 2e-4,
             **{name: _USUAL[field] for name, field in CONSTANTS.items()},
         },

@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from floatref.values.arrays import Flag, FlagArray
+from floatref.values.arrays import BoolArray, Flag, FlagArray
 from floatref.values.block import Block
 from floatref.values.channels import ChannelId
 
@@ -23,6 +23,13 @@ def flags_of(
             if more is not None:
                 flags = more if flags is None else flags | more
     return flags
+
+
+def long_gaps(block: Block, channel: ChannelId) -> BoolArray | None:
+    """Return which samples of ``channel`` lie in a gap too long to be bridged, or None."""
+    flags = block.flags.get(channel)
+    lost = None if flags is None else (flags & np.uint8(Flag.DRIFT)) != 0
+    return lost if lost is not None and lost.any() else None
 
 
 def _missing(block: Block, channel: ChannelId) -> FlagArray | None:

@@ -31,15 +31,15 @@ LASTING = Flag.DRIFT | Flag.SLOW | Flag.BRAKING
 
 
 def frozen(values: ArrayLike) -> FloatArray:
-    """Return ``values`` as a read-only, one-dimensional float64 array.
+    """Return ``values`` as a read-only, one-dimensional float64 array without gaps in memory.
 
-    A float64 array is not copied: the caller gives it up. Raises ValueError for more
-    than one dimension.
+    Such an array is not copied: the caller gives it up. Raises ValueError for more than one
+    dimension.
     """
     array = np.asarray(values, dtype=np.float64)
     if array.ndim != 1:
         raise ValueError(f"expected one dimension, got shape {array.shape}")
-    view = array.view()
+    view = (array if array.flags.c_contiguous else array.copy()).view()
     view.flags.writeable = False
     return view
 

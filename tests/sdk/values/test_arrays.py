@@ -46,3 +46,11 @@ def test_a_system_that_cannot_be_told_is_no_failure(
     values = np.memmap(path, np.float64, "r")
     release(values)
     np.testing.assert_array_equal(values, SAMPLES)
+
+
+def test_a_column_of_a_table_becomes_an_array_of_its_own():
+    table = np.arange(12.0).reshape(4, 3)
+    column = frozen(table[:, 1])
+    assert column.flags.c_contiguous
+    assert column.tolist() == [1.0, 4.0, 7.0, 10.0]
+    assert np.shares_memory(frozen(table[2]), table)

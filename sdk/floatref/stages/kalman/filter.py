@@ -16,7 +16,7 @@ from floatref.stages.kalman.left_out import left_out
 from floatref.stages.kalman.noise import Noise
 from floatref.stages.kalman.references import Plan
 from floatref.stages.kalman.track import TrackFilter
-from floatref.stages.marking import flags_of
+from floatref.stages.marking import flags_of, long_gaps
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import (
     ACCELERATION,
@@ -75,7 +75,8 @@ class KalmanStage(Stage):
         for channels in self._channels:
             track, names = channels.track, channels.names
             stretch = stretch_of(block, track, self.plan, readings, quiet)
-            passed = self._filter(track, block).advance(channels.inputs(block), stretch)
+            own, lost = self._filter(track, block), long_gaps(block, ChannelId(ACCELERATION, track))
+            passed = own.advance(channels.inputs(block), stretch, lost)
             complete = () if passed.missing else names
             flags = flags_of(block, *names, ChannelId(HEIGHT, track), complete=complete)
             found[track] = Filtered(passed.height, passed.nodes, flags)

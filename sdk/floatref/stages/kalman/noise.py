@@ -22,6 +22,7 @@ class Noise:
         acceleration_walk: its bias, in m/s²/√s.
         roll_rate, pitch_rate, yaw_rate: in rad/s/√Hz.
         roll_rate_walk, pitch_rate_walk: of their biases, in rad/s/√s.
+        missing_acceleration: in place of `acceleration` where that is missing for more than 10 ms.
         lean_rad: 1-σ of how far forward the axis of the vertical accelerometer leans.
         gnss_height_m, gnss_velocity_mps, gnss_pitch_rad, gnss_roll_rad: 1-σ of a reading at 20 Hz
             or less; of readings that come faster, each counts for less.
@@ -40,6 +41,7 @@ class Noise:
     yaw_rate: float = 1.34e-5
     roll_rate_walk: float = 9.27e-6
     pitch_rate_walk: float = 4.86e-4
+    missing_acceleration: float = 0.3
     lean_rad: float = 0.01
     gnss_height_m: float = 0.012
     gnss_velocity_mps: float = 0.03

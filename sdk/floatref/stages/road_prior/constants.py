@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 
 
@@ -30,7 +31,7 @@ class RoadPrior:
     acceleration_bias: float = 0.03
     acceleration_walk: float = 1e-4
     walk_along: float = 1.5e-3
-    missing_acceleration: float = 0.1
+    missing_acceleration: float = 0.3
     reading_m: float = 1e-4
     road: float = 6e-6
     road_reach_m: float = 150.0
@@ -39,6 +40,11 @@ class RoadPrior:
     pitch_hz: float = 1.6
     pitch_damping: float = 0.3
     height_m: float = 4e-5
+
+    def __post_init__(self) -> None:
+        """Refuse a pitch response that does not swing; InputError tells which setting it is."""
+        if not 0.0 <= self.pitch_damping < 1.0:
+            raise InputError(f"setting pitch_damping: {self.pitch_damping:g} is not below 1")
 
     def model(self, step: float) -> FloatArray:
         """Return what the kernels take of them, for samples ``step`` in s apart."""

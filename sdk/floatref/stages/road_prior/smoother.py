@@ -16,7 +16,7 @@ from floatref.kernels.road_prior_layout import (
     TRAVEL,
 )
 from floatref.stages.kalman.inputs import Quiet
-from floatref.stages.marking import flags_of
+from floatref.stages.marking import flags_of, long_gaps
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.stages.road_prior.excitation import Excitation
@@ -25,7 +25,7 @@ from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HE
 from floatref.stages.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.stages.smoothing.line import Closing
 from floatref.stages.smoothing.nodes import Filtered
-from floatref.values.arrays import FlagArray, FloatArray, IndexArray, frozen
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -136,7 +136,7 @@ class RoadPriorSmoother(Stage):
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
             ends, a = shared.copy(), block[vertical]
             ends[:, SEEN] = _trusted(block, range_, nodes)
-            ends[:, MISSING] = self._missing(track, flags_of(block, vertical), len(block), nodes)
+            ends[:, MISSING] = self._missing(track, _lost(block, vertical), len(block), nodes)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
             flags = flags_of(block, vertical, range_)
@@ -175,11 +175,11 @@ class RoadPriorSmoother(Stage):
         return known[1:]
 
     def _missing(
-        self, track: str, flags: FlagArray | None, size: int, nodes: IndexArray
+        self, track: str, lost: BoolArray | None, size: int, nodes: IndexArray
     ) -> FloatArray:
-        """Return the share of samples that are flagged up to each node."""
+        """Return the share of samples that are lost up to each node."""
         assert self._header is not None
-        total = np.cumsum(np.zeros(size, np.uint8) if flags is None else flags != 0)
+        total = np.cumsum(np.zeros(size, np.bool_) if lost is None else lost)
         at = total[nodes]
         counted = np.diff(at, prepend=-self.memory["missing"][track])
         left = int(total[-1]) - int(at[-1]) if nodes.size else int(total[-1])
@@ -192,3 +192,11 @@ def _trusted(block: Block, channel: ChannelId, nodes: IndexArray) -> FloatArray:
     """Return the samples of ``channel`` at the nodes, NaN where they are flagged."""
     flags, values = block.flags.get(channel), block[channel][nodes]
     return values if flags is None else np.where(flags[nodes] == 0, values, np.nan)
+
+
+def _lost(block: Block, channel: ChannelId) -> BoolArray | None:
+    """Return which samples of ``channel`` are NaN or lie in a gap too long to be bridged."""
+    gaps, values = long_gaps(block, channel), block[channel]
+    if not np.isnan(values.sum()):
+        return gaps
+    return np.isnan(values) if gaps is None else gaps | np.isnan(values)

@@ -43,11 +43,15 @@ class Marks:
 
 
 def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
-    """Return the nodes that are far enough from those before, in time or travel, and the last."""
+    """Return the nodes that are far enough from those before, in time or travel, and the last.
+
+    Time that passes at a standstill is none: it could be an hour.
+    """
     apart = np.zeros(at.size)
-    elapsed = (at[1:] - at[:-1]) * (step / APART_S)
+    travel = distance_m[1:] - distance_m[:-1]
+    elapsed = (at[1:] - at[:-1]) * (travel != 0.0) * (step / APART_S)
     # Where distances are missing, time alone tells.
-    np.fmax((distance_m[1:] - distance_m[:-1]) * (1.0 / APART_M), elapsed, out=apart[1:])
+    np.fmax(travel * (1.0 / APART_M), elapsed, out=apart[1:])
     gone = apart.cumsum().astype(np.int64)
     gone[-1] += 1
     return np.flatnonzero(gone[1:] > gone[:-1]) + 1 if at.size > 1 else np.zeros(1, np.int64)

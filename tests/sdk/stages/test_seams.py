@@ -1,0 +1,78 @@
+"""Where the encoder lost travel the elevation goes on; where it fell silent it stays."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.stages.seams import Seams
+from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.channels import ChannelId
+
+RATE, COUNT = 100, 600
+REFERENCE, HEIGHT = (ChannelId(n, "left") for n in ("floating_reference_height", "height"))
+DISTANCE = ChannelId("distance")
+laws = settings(deadline=None, max_examples=25)
+SEEDS = st.integers(0, 2**32 - 1)
+BEGIN, LENGTH = st.integers(30, 300), st.integers(1, 200)
+CUTS = st.lists(st.integers(1, COUNT - 1), max_size=6, unique=True)
+
+
+def drawn(seed, speed=12.0):
+    rng = np.random.default_rng(seed)
+    values = {REFERENCE: np.cumsum(rng.normal(size=COUNT)), HEIGHT: rng.normal(size=COUNT)}
+    return {**values, DISTANCE: speed / RATE * np.arange(COUNT)}
+
+
+def through(values, cuts=()):
+    header = Header(Axis.TIME, 1 / RATE, 0.0, Fraction(RATE), frozenset(values), ("left",))
+    stage, out = Seams(), []
+    stage.start(header)
+    for begin, end in pairwise([0, *sorted(cuts), COUNT]):
+        out.append(stage.push(Block(begin, {c: v[begin:end].copy() for c, v in values.items()})))
+    assert stage.finish() == ()
+    return joined(out)[REFERENCE]
+
+
+def lost(values, begin, length, told_m):
+    """Return ``values`` with no distance for a while, of which ``told_m`` is told afterwards."""
+    distance = values[DISTANCE].copy()
+    distance[begin + length :] += told_m - (distance[begin + length] - distance[begin - 1])
+    distance[begin : begin + length] = np.nan
+    return {**values, DISTANCE: distance}
+
+
+@laws
+@given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS)
+def test_behind_lost_travel_the_elevation_is_that_before_it(seed, begin, length, cuts):
+    values = lost(drawn(seed), begin, length, told_m=0.0)
+    found, end = through(values, cuts), begin + length
+    elevation = found - values[HEIGHT]
+    assert abs(elevation[end] - elevation[begin - 1]) < 1e-12
+    np.testing.assert_array_equal(found[:begin], values[REFERENCE][:begin])
+    shift = found[end:] - values[REFERENCE][end:]
+    np.testing.assert_allclose(shift, shift[0], atol=1e-12)
+
+
+@laws
+@given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS, leap_m=st.floats(0.0, 5.0))
+def test_what_is_told_again_and_standstills_and_leaps_shift_nothing(
+    seed, begin, length, cuts, leap_m
+):
+    moving = drawn(seed)
+    true_m = 12.0 / RATE * (length + 1)
+    for values in (
+        lost(moving, begin, length, true_m + leap_m),
+        lost(drawn(seed, speed=0.0), begin, length, 0.0),
+    ):
+        np.testing.assert_array_equal(through(values, cuts), moving[REFERENCE])
+
+
+@laws
+@given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS)
+def test_any_split_gives_the_same_bits(seed, begin, length, cuts):
+    values = lost(drawn(seed), begin, length, 0.0)
+    values[HEIGHT][begin - 1] = np.nan if seed % 2 else 0.0
+    np.testing.assert_array_equal(through(values, cuts), through(values))
