@@ -183,26 +183,10 @@ def _advance(
     step, gravity = model[0], model[1]
     half = 0.5 * step * step
     r, v, theta, phi, bias, bias_1, bias_2 = x[0], x[1], x[2], x[3], x[4], x[5], x[6]
-    r3, r4, r6, r7, v3, v4, v6, v7 = (
-        memory[0],
-        memory[1],
-        memory[2],
-        memory[3],
-        memory[4],
-        memory[5],
-        memory[6],
-        memory[7],
-    )
-    a3, a4, a6, a7, b3, b4, b6, b7 = (
-        memory[8],
-        memory[9],
-        memory[10],
-        memory[11],
-        memory[12],
-        memory[13],
-        memory[14],
-        memory[15],
-    )
+    r3, r4, r6, r7 = memory[0], memory[1], memory[2], memory[3]
+    v3, v4, v6, v7 = memory[4], memory[5], memory[6], memory[7]
+    a3, a4, a6, a7 = memory[8], memory[9], memory[10], memory[11]
+    b3, b4, b6, b7 = memory[12], memory[13], memory[14], memory[15]
     ux, uy, uz, w1, w2, w3 = memory[18], memory[19], memory[20], memory[21], memory[22], memory[23]
     st, ct, sp, cp = memory[24], memory[25], memory[26], memory[27]
     sum_3, sum_4, lean, level = memory[29], memory[30], x[LEAN], memory[LEVEL]
@@ -436,8 +420,7 @@ def _believed(
     update: FloatArray,
 ) -> bool:
     """Tell whether a reading may be what it says; heights that insist are another datum."""
-    square = innovation * innovation
-    far = square > GATE * (_project(p, h[kind], update) + variance)
+    far = innovation * innovation > GATE * (_project(p, h[kind], update) + variance)
     if not far or abs(innovation) <= model[13 + kind]:
         memory[IN_A_ROW] = 0.0 if kind == 0 else memory[IN_A_ROW]
         return True

@@ -80,9 +80,14 @@ def test_counts_beyond_what_a_vehicle_speeds_up_are_void(at, length, faster, spe
     values = travel(speed)
     extra = faster * speed * np.clip(np.arange(COUNT) - at, 0, length) / RATE
     found = damage(values + extra)
-    assert found.void[0, 0] == pytest.approx(at, abs=51)
-    # A burst that does not end with a knot leaves one that is not doubted, or one more that is.
-    assert at + length - 51 <= found.void[-1, 1] <= at + length + 301
+    void = np.zeros(COUNT, np.bool_)
+    for begin, end in found.void:
+        void[begin:end] = True
+    # Knots are 25 samples apart, a burst lasts 100 or more.
+    assert void[at : at + length].mean() >= 0.75
+    assert not void[: at - 51].any()
+    # A way that holds the burst's end may pass, and make the next ones look slow.
+    assert not void[at + length + 201 :].any()
     # One of a tenth of a second may as well be a leap.
     assert any("counts too much" in line or "leaps" in line for line in found.warnings)
 
