@@ -89,7 +89,7 @@ def check_picture(path: Path) -> None:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder or name"
         ) from error
-    _new_figure(1.0, 1.0)
+    new_figure(1.0, 1.0)
 
 
 def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
@@ -100,7 +100,7 @@ def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
     InputError where matplotlib is missing or ``path`` cannot be written.
     """
     columns, rows = len(table.settings.pipelines), len(table.settings.runs)
-    figure = _new_figure(6.0 + 0.9 * columns, 4.0 + 0.5 * rows)
+    figure = new_figure(6.0 + 0.9 * columns, 4.0 + 0.5 * rows)
     axes = figure.subplots(len(QUANTITIES), len(SIDES), squeeze=False, sharex=True, sharey=True)
     for pair, quantity in zip(axes, QUANTITIES, strict=True):
         norm = quantity.norm()
@@ -116,7 +116,7 @@ def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
         figure.savefig(beside, dpi=DOTS_PER_INCH, format="png")
 
 
-def _new_figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     """Return a figure of ``width`` by ``height`` inches; InputError if matplotlib is missing."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -1,6 +1,6 @@
 """Making the table: road by road, noise by noise, run by run, so that memory stays small."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile
@@ -66,7 +66,7 @@ def _driven(
     place: tuple[int, int],
     run: str,
     pipelines: tuple[str, ...],
-) -> dict[str, Profile]:
+) -> Mapping[str, Profile]:
     """Return the profile of every pipeline after one pass."""
     processing = Processing(pipelines)
     scenario = pass_scenario(run, settings.seed, place, settings.vehicle, processing.capabilities)

@@ -1,8 +1,9 @@
 """The passes behind the table: a run driven on a road, and what every pipeline makes of it."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,6 +11,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from floatref.files import read_profile, write_recording
+from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.devices import builtin
 from floatref_conformance.devices.interface import visible
@@ -18,7 +20,7 @@ from floatref_conformance.exercise import describe
 from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.runs import RECORDING_LENGTH_M
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
-from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
 
@@ -28,7 +30,7 @@ ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 
 def road_drawn(seed: int, index: int) -> Road:
     """Return road number ``index`` of ``seed``, long enough for every run."""
-    drawn = _drawn(seed, "road", index)
+    drawn = drawn_seed(seed, "road", index)
     kind = ROADS[index % len(ROADS)]
     scenario = Scenario(seed=drawn, road=kind, iri_m_per_km=REFERENCE_IRI_M_PER_KM)
     return road_of(scenario, RECORDING_LENGTH_M)
@@ -42,10 +44,25 @@ def pass_scenario(
     They follow from ``seed``, ``run`` and ``place``, the number of the road and of the noise,
     so that a table of fewer runs or pipelines holds the same figures.
     """
-    drawn = _drawn(seed, run, *place)
+    drawn = drawn_seed(seed, run, *place)
     return scenario_of_run(
         run, drawn, vehicle=vehicle, imu="imu" in capabilities, gnss="gnss" in capabilities
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Driven:
+    """What a drive came to.
+
+    Attributes:
+        truth: unfiltered elevation along the laser's path against true distance.
+        told_m: distance in m that the encoder tells at the points of the truth.
+        profiles: what every pipeline makes of the recording.
+    """
+
+    truth: Profile
+    told_m: FloatArray
+    profiles: Mapping[str, Profile]
 
 
 class Processing:
@@ -61,41 +78,67 @@ class Processing:
         """What any of the pipelines needs beside the nominal channels."""
         return frozenset(c for said in self._said.values() for c in said.capabilities)
 
-    def profiles(self, scenario: Scenario, road: Road) -> dict[str, Profile]:
+    def profiles(self, scenario: Scenario, road: Road) -> Mapping[str, Profile]:
         """Return the profile that every pipeline makes of ``scenario`` driven on ``road``.
 
         Raises SuiteError, naming pipeline and run, for a pipeline that fails.
         """
-        recording = simulate(scenario, road=road).recording
+        return self.driven(scenario, f"run {scenario.manoeuvre}", road).profiles
+
+    def driven(self, scenario: Scenario, name: str, road: Road | None = None) -> Driven:
+        """Return what ``scenario``, called ``name``, comes to on ``road`` or else its own.
+
+        Raises SuiteError, naming pipeline and ``name``, for a pipeline that fails.
+        """
+        simulation = simulate(scenario, road=road)
+        truth, recording = simulation.truth, simulation.recording
+        told_m = _told_m(simulation)
+        # The motion takes more memory than all that follows.
+        del simulation
         kinds = list({said.channels for said in self._said.values()})
-        with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-            folder = Path(name)
+        with TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
+            folder = Path(temporary)
             for number, channels in enumerate(kinds):
                 write_recording(visible(recording, channels), folder / str(number))
             del recording
             given = [folder / str(kinds.index(said.channels)) for said in self._said.values()]
             with ThreadPoolExecutor(os.cpu_count()) as workers:
-                made = workers.map(partial(self._processed, scenario.manoeuvre), self._said, given)
-                return dict(zip(self._said, made, strict=True))
+                made = workers.map(partial(self._processed, name), self._said, given)
+                return Driven(truth, told_m, dict(zip(self._said, made, strict=True)))
 
-    def _processed(self, run: str, pipeline: str, given: Path) -> Profile:
+    def _processed(self, name: str, pipeline: str, given: Path) -> Profile:
         target = given.with_name(f"profile-{pipeline}")
         try:
             self._devices[pipeline].run(given / "recording.json", target)
             return _in_memory(read_profile(target))
         except Exception as error:
             text = " ".join(str(error).split())
-            raise SuiteError(f"pipeline {pipeline}, run {run}: {text}") from error
+            raise SuiteError(f"pipeline {pipeline}, {name}: {text}") from error
 
 
-def _drawn(seed: int, name: str, *numbers: int) -> int:
+def drawn_seed(seed: int, name: str, *numbers: int) -> int:
     """Return the seed of whatever ``name`` and ``numbers`` stand for."""
     return int(np.random.SeedSequence([seed, *name.encode(), *numbers]).generate_state(1)[0])
+
+
+def _told_m(simulation: Simulation) -> FloatArray:
+    """Return the distance in m that the encoder tells at the points of the truth."""
+    truth, motion = simulation.truth, simulation.motion
+    encoder = simulation.recording.channel("distance")
+    told = np.interp(motion.times_s, encoder.times_s, encoder.values)
+    points = truth.interval_m * np.arange(truth.tracks[0].elevation.size)
+    return np.asarray(np.interp(points, motion.distance, told))
 
 
 def _in_memory(profile: Profile) -> Profile:
     """Return ``profile`` without its files, which go away."""
     tracks = tuple(
-        ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid)) for t in profile.tracks
+        ProfileTrack.of(
+            t.name,
+            np.array(t.elevation),
+            np.array(t.valid),
+            None if t.sigma is None else np.array(t.sigma),
+        )
+        for t in profile.tracks
     )
     return Profile(profile.interval_m, tracks, profile.start_m)

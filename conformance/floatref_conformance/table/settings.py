@@ -49,8 +49,8 @@ class TableSettings:
             if getattr(self, name) < 1:
                 raise InputError(f"{name} is {getattr(self, name)}; give 1 or more")
         vehicle_called(self.vehicle)
-        object.__setattr__(self, "runs", _chosen("run", self.runs, RUN_NAMES))
-        pipelines = _chosen("pipeline", self.pipelines, offered_pipelines())
+        object.__setattr__(self, "runs", chosen("run", self.runs, RUN_NAMES))
+        pipelines = chosen("pipeline", self.pipelines, offered_pipelines())
         object.__setattr__(self, "pipelines", pipelines)
 
     @property
@@ -59,8 +59,11 @@ class TableSettings:
         return self.roads * self.seeds * (1 + len(self.runs))
 
 
-def _chosen(kind: str, names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
-    """Return those of ``known`` that are in ``names``, all if that is empty."""
+def chosen(kind: str, names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+    """Return those of ``known`` that are in ``names``, all if that is empty.
+
+    Raises InputError for a name that is not known, calling it a ``kind``.
+    """
     for name in names:
         if name not in known:
             near = get_close_matches(name, known, n=1)
