@@ -15,7 +15,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -24,22 +23,19 @@ os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
 import kalman_peers as peers
 import numpy as np
 from kalman_task import TRACK, Prepared, Task
+from timing import RATE_HZ, in_turns, line, ratio, report_start
 
-import floatref
-from floatref.files import write_recording
 from floatref.kernels.kalman_layout import FORGET
 from floatref.stages.kalman import Noise, Plan
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
-RATE_HZ, ROUNDS = 16_000, 9
 PLANS = {"kalman-smoother": Plan(reflects=False), "kalman-smoother-reflection": Plan()}
 SOURCES = Path(__file__).with_name("kalman_c")
 SEVEN_STATES = Noise(gnss_height_walk=0.0, lean_rad=0.0)
 """The drift of the GNSS height and the lean are nothing: the model of appendix C is left."""
 PEER_BLOCKS = 2
 CUTOFF_M = 105.91
-RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
 
 
 class Observations(ctypes.Structure):
@@ -75,24 +71,6 @@ class InC:
             raise MemoryError
 
 
-def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
-    """Processor seconds of every call, taken in turns after one warm-up."""
-    for call in calls:
-        call()
-    times: list[list[float]] = [[] for _ in calls]
-    for _ in range(rounds):
-        for call, taken in zip(calls, times, strict=True):
-            begin = time.process_time()
-            call()
-            taken.append(time.process_time() - begin)
-    return times
-
-
-def ratio(times: list[float], peer: list[float]) -> float:
-    """Median of the ratios of neighbours."""
-    return statistics.median(a / b for a, b in zip(times, peer, strict=True))
-
-
 def report_stage(folder: Path, name: str, prepared: Prepared) -> None:
     """Print the stage beside C, by every plan."""
     count = prepared.samples
@@ -107,12 +85,6 @@ def report_stage(folder: Path, name: str, prepared: Prepared) -> None:
         print(
             f"    {'stage':24} {line(stage, count)}    ratio {ratio(stage, peer):5.2f}", flush=True
         )
-
-
-def line(times: list[float], count: int) -> str:
-    """Median as time per sample, and as a multiple of real time."""
-    each = statistics.median(times) / count
-    return f"{each * 1e9:6.1f} ns/sample {1 / RATE_HZ / each:6.0f} x real time"
 
 
 def report_peers(prepared: Prepared) -> None:
@@ -153,30 +125,6 @@ def report_peer(
     )
 
 
-def report_start(recording: floatref.Recording) -> None:
-    """Print how long the command takes with nothing compiled, and with all of it."""
-    with tempfile.TemporaryDirectory(prefix="floatref-kalman-") as name:
-        write_recording(recording, Path(name) / "run")
-        command = ["process", f"{name}/run", "--out", f"{name}/profile", "--overwrite", "--json"]
-        command += ["--pipeline", "kalman-smoother-reflection"]
-        environment = {**os.environ, "NUMBA_CACHE_DIR": f"{name}/cache"}
-        taken = [seconds_of([sys.executable, "-c", RUN, *command], environment) for _ in range(6)]
-    print(f"floatref {' '.join(command[-2:])}, {recording.channels[0].span_s[1]:.1f} s of driving")
-    for state, runs in (("nothing compiled", taken[:1]), ("compiled", taken[1:])):
-        wall, processor = (statistics.median(column) for column in zip(*runs, strict=True))
-        print(f"  {state:26} {wall:6.2f} s, {processor:6.2f} s of the processor")
-
-
-def seconds_of(command: list[str], environment: dict[str, str]) -> tuple[float, float]:
-    """Run a process; return its wall time and its processor time in s."""
-    begin = time.perf_counter()
-    child = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
-    _, status, used = os.wait4(child.pid, 0)
-    if status:
-        sys.exit(1)
-    return time.perf_counter() - begin, used.ru_utime + used.ru_stime
-
-
 def main(length_m: float) -> None:
     """Report on a drive at constant speed, and on one with a stop."""
     constant = Scenario(speed_kmh=72.0, length_m=length_m, tracks=(TRACK,))
@@ -186,7 +134,8 @@ def main(length_m: float) -> None:
         for name, recording in drives.items():
             report_stage(Path(folder), name, Prepared.of(recording))
     report_peers(Prepared.of(drives["72 km/h"]))
-    report_start(simulate(Scenario(length_m=100.0, tracks=(TRACK,))).recording)
+    short = simulate(Scenario(length_m=100.0, tracks=(TRACK,))).recording
+    report_start(short, "kalman-smoother-reflection")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""What `bench_kalman.py` gives the stage and its peers to do."""
+"""What `bench_kalman.py` and `bench_road_prior.py` give the stages and their peers to do."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 from unittest import mock
@@ -13,6 +14,7 @@ from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.kalman import KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import IMU
+from floatref.stages.protocol import Stage
 from floatref.stages.signals import (
     ACCELERATION,
     DISTANCE,
@@ -35,9 +37,9 @@ class Prepared:
     blocks: list[Block]
 
     @classmethod
-    def of(cls, recording: floatref.Recording) -> "Prepared":
+    def of(cls, recording: floatref.Recording, more: Sequence[str] = IMU) -> "Prepared":
         """Pass ``recording`` through what comes before the stage in its pipelines."""
-        source = Source(recording, IMU)
+        source = Source(recording, more)
         header, blocks = source.header, list(source.blocks(BLOCK))
         filters = low_pass_b3(ACCELERATION, 1000.0), low_pass_b3(HEIGHT, 1000.0)
         for stage in (RemoveGravity(), *filters[0], *filters[1], TravelSpeed()):
@@ -54,7 +56,10 @@ class Prepared:
 
     def smoothed(self, plan: Plan, noise: Noise, **options: float) -> list[Block]:
         """Run the stage."""
-        stage = KalmanSmoother(plan, noise, **options)
+        return self.through(KalmanSmoother(plan, noise, **options))
+
+    def through(self, stage: Stage) -> list[Block]:
+        """Return what ``stage`` makes of the blocks."""
         stage.start(self.header)
         pushed = [stage.push(block) for block in self.blocks]
         return [*pushed, *stage.finish()]

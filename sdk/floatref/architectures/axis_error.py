@@ -16,18 +16,20 @@ AROUND_M = 50.0
 """The slope is the root mean square within half of this to either side."""
 
 
-def with_axis_error(
+def add_axis_error(
     sigma: FloatArray, elevation: FloatArray, interval_m: float, scale: float
-) -> FloatArray:
-    """Return ``sigma`` in m, shape (N,), with what a relative error ``scale`` of distance adds."""
-    found, beside = np.empty(sigma.size), round((AROUND_M / 2 + LAG_M) / interval_m) + 1
+) -> None:
+    """Add to ``sigma`` in m, shape (N,), what a relative error ``scale`` of distance makes.
+
+    It is changed in place: of a long run another array would count.
+    """
+    beside = round((AROUND_M / 2 + LAG_M) / interval_m) + 1
     for begin in range(0, sigma.size, PIECE):
         end = min(begin + PIECE, sigma.size)
         low = max(begin - beside, 0)
         slopes = slope(elevation[low : end + beside], interval_m)[begin - low : end - low]
         off = scale * interval_m * np.arange(begin, end)
-        found[begin:end] = np.hypot(sigma[begin:end], off * slopes)
-    return found
+        np.hypot(sigma[begin:end], off * slopes, out=sigma[begin:end])
 
 
 def slope(elevation: FloatArray, interval_m: float) -> FloatArray:

@@ -9,7 +9,7 @@ from typing import Any
 
 from floatref import __version__
 from floatref.architectures import flow
-from floatref.architectures.axis_error import with_axis_error
+from floatref.architectures.axis_error import add_axis_error
 from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
@@ -165,5 +165,5 @@ def _track(
 ) -> ProfileTrack:
     valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
     if sigma is not None:
-        sigma = with_axis_error(sigma, found.elevation, interval_m, scale)
+        add_axis_error(sigma, found.elevation, interval_m, scale)
     return ProfileTrack.of(name, found.elevation, valid, sigma)

@@ -1,0 +1,137 @@
+"""Time the road-prior smoother as a stage and as a pipeline, beside two peers.
+
+One wheel path at 16 kHz, whose blocks are ready before the clock of the stage starts. The peers
+filter four seconds of a stop at every sample: the literal smoother of `floatref_reference`, and
+filterpy if ``pip install -r tests/benchmarks/requirements-kalman.txt`` has installed it. Times
+are of the processor, in turns, so that other work on the machine counts little. Prints medians and
+ratios, where the time of the stage goes, and how long whole processes take to start. Run as
+``python tests/benchmarks/bench_road_prior.py [metres of constant speed]``; memory is measured by
+``python tests/benchmarks/bench_kalman_memory.py --pipeline road-prior-smoother``.
+"""
+
+import cProfile
+import importlib.util
+import statistics
+import sys
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import road_prior_peers as peers
+from kalman_task import TRACK, Prepared
+from timing import RATE_HZ, in_turns, line, ratio, report_start
+
+import floatref
+from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.signals import REFERENCE_HEIGHT
+from floatref.values.channels import ChannelId
+from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
+from floatref_conformance.proving_ground.simulate import simulate
+
+PIPELINE = "road-prior-smoother"
+LEAST_REAL_TIME = 300
+SHORT = Scenario(
+    manoeuvre="stop",
+    speed_kmh=12.0,
+    final_speed_kmh=12.0,
+    event_at_m=4.0,
+    dwell_s=1.0,
+    length_m=10.0,
+    tracks=(TRACK,),
+    imu=False,
+    gnss=False,
+)
+"""Its first four seconds are what the peers filter."""
+PARTS = {
+    "road_prior.py": "filter forward",
+    "road_prior_backward.py:smooth": "smoother backward",
+    "between_nodes.py": "smoother backward",
+    "road_prior_backward.py:correct": "smoother backward",
+    "road_prior_backward.py:closed_loop": "1-sigma, lag",
+    "covariance.py": "1-sigma, lag",
+    "excitation.py": "longitudinal acceleration",
+}
+"""Files of kernels, and kernels, by what they are for."""
+
+
+def report_stage(name: str, recording: floatref.Recording) -> None:
+    """Print the stage beside the whole pipeline, and what part of it takes how long."""
+    prepared = Prepared.of(recording, more=())
+    stage, whole = in_turns(
+        lambda: prepared.through(RoadPriorSmoother()),
+        lambda: floatref.process(recording, PIPELINE),
+    )
+    count = prepared.samples
+    print(f"{name}, {count / RATE_HZ:.1f} s at {RATE_HZ / 1000:g} kHz, one wheel path")
+    print(f"  {'stage':26} {line(stage, count)}")
+    print(f"  {PIPELINE:26} {line(whole, count)}   (at least {LEAST_REAL_TIME})")
+    print(f"  {'stage, share of that':26} {ratio(stage, whole):6.2f}")
+    for part, share in parts(prepared).most_common():
+        print(f"    {part:28} {100.0 * share:4.0f} % of the stage")
+    sys.stdout.flush()
+
+
+def parts(prepared: Prepared) -> Counter[str]:
+    """Return what share of the stage's time each of `PARTS` takes, and the rest."""
+    profile = cProfile.Profile()
+    profile.enable()
+    prepared.through(RoadPriorSmoother())
+    profile.disable()
+    found: Counter[str] = Counter()
+    for entry in profile.getstats():
+        file, function = getattr(entry.code, "co_filename", ""), getattr(entry.code, "co_name", "")
+        kernel = Path(file).name if "kernels" in file else ""
+        part = PARTS.get(f"{kernel}:{function}", PARTS.get(kernel, "Python and numpy"))
+        found[part] += entry.inlinetime
+    whole = sum(found.values())
+    return Counter({part: own / whole for part, own in found.items()})
+
+
+def report_peers() -> None:
+    """Print the stage beside its peers on four seconds of a stop."""
+    full = Prepared.of(simulate(SHORT).recording, more=())
+    short = Prepared(full.header, full.blocks[:1])
+    prior = RoadPrior()
+    run, c = peers.signals(short.header, short.blocks[0], prior), peers.constants(prior)
+    blocks = short.through(RoadPriorSmoother(prior, tolerance_m=0.0))
+    ours = np.concatenate([block[ChannelId(REFERENCE_HEIGHT, TRACK)] for block in blocks])
+    ours -= short.blocks[0][ChannelId("height", TRACK)][0]
+    print(f"at every sample, {short.samples / RATE_HZ:.1f} s of a stop, six states")
+    report_peer("literal reference", short, ours, lambda: peers.by_reference(run, c))
+    if importlib.util.find_spec("filterpy"):
+        steps = peers.Steps.of(run, c)
+        report_peer("filterpy", short, ours, lambda: peers.by_filterpy(steps))
+
+
+def report_peer(
+    name: str, short: Prepared, ours: np.ndarray, peer: Callable[[], np.ndarray]
+) -> None:
+    """Print the time of ``peer``, how many times ours that is, and how far apart both are."""
+    found: list[np.ndarray] = []
+    mine, theirs = in_turns(
+        lambda: [short.through(RoadPriorSmoother()) for _ in range(3)],
+        lambda: found.append(peer()),
+        rounds=3,
+    )
+    apart = np.abs(found[-1] - ours).max()
+    print(
+        f"  {name:26} {statistics.median(theirs) / short.samples * 1e9:9.0f} ns/sample    "
+        f"{3 * ratio(theirs, mine):6.0f} of ours, {apart:.1e} m apart",
+        flush=True,
+    )
+
+
+def main(length_m: float) -> None:
+    """Report on a drive at constant speed, and on one with a stop."""
+    nominal = {"tracks": (TRACK,), "imu": False, "gnss": False}
+    constant = Scenario(speed_kmh=72.0, length_m=length_m, **nominal)
+    stop = scenario_of_run("sg_10.7s_0.20g", **nominal)
+    for name, scenario in (("72 km/h", constant), ("stop", stop)):
+        report_stage(name, simulate(scenario).recording)
+    report_peers()
+    report_start(simulate(Scenario(length_m=100.0, **nominal)).recording, PIPELINE)
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else 3000.0)

@@ -1,0 +1,64 @@
+"""Clocks that the benchmarks of the smoothers share."""
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import floatref
+from floatref.files import write_recording
+
+RATE_HZ, ROUNDS = 16_000, 9
+RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
+
+
+def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
+    """Processor seconds of every call, taken in turns after one warm-up."""
+    for call in calls:
+        call()
+    times: list[list[float]] = [[] for _ in calls]
+    for _ in range(rounds):
+        for call, taken in zip(calls, times, strict=True):
+            begin = time.process_time()
+            call()
+            taken.append(time.process_time() - begin)
+    return times
+
+
+def ratio(times: list[float], peer: list[float]) -> float:
+    """Median of the ratios of neighbours."""
+    return statistics.median(a / b for a, b in zip(times, peer, strict=True))
+
+
+def line(times: list[float], count: int) -> str:
+    """Median as time per sample, and as a multiple of real time."""
+    each = statistics.median(times) / count
+    return f"{each * 1e9:6.1f} ns/sample {1 / RATE_HZ / each:6.0f} x real time"
+
+
+def report_start(recording: floatref.Recording, pipeline: str) -> None:
+    """Print how long the command takes with nothing compiled, and with all of it."""
+    with tempfile.TemporaryDirectory(prefix="floatref-start-") as name:
+        write_recording(recording, Path(name) / "run")
+        command = ["process", f"{name}/run", "--out", f"{name}/profile", "--overwrite", "--json"]
+        command += ["--pipeline", pipeline]
+        environment = {**os.environ, "NUMBA_CACHE_DIR": f"{name}/cache"}
+        taken = [seconds_of([sys.executable, "-c", RUN, *command], environment) for _ in range(6)]
+    print(f"floatref {' '.join(command[-2:])}, {recording.channels[0].span_s[1]:.1f} s of driving")
+    for state, runs in (("nothing compiled", taken[:1]), ("compiled", taken[1:])):
+        wall, processor = (statistics.median(column) for column in zip(*runs, strict=True))
+        print(f"  {state:26} {wall:6.2f} s, {processor:6.2f} s of the processor")
+
+
+def seconds_of(command: list[str], environment: dict[str, str]) -> tuple[float, float]:
+    """Run a process; return its wall time and its processor time in s."""
+    begin = time.perf_counter()
+    child = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
+    _, status, used = os.wait4(child.pid, 0)
+    if status:
+        sys.exit(1)
+    return time.perf_counter() - begin, used.ru_utime + used.ru_stime
