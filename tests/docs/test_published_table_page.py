@@ -6,13 +6,24 @@ from pathlib import Path
 import pytest
 
 from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.vehicles import VEHICLES
 from floatref_conformance.table import Cell, TableSettings, published_figures, rank_correlation
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
 from floatref_conformance.table.scores import AVERAGE_M, MAX_OFFSET_M, PEAK_M
+from floatref_conformance.table.stops import StopSettings
+from floatref_conformance.table.stops.scores import STRETCH_M
+from floatref_conformance.table.stops.settings import (
+    DECELERATION_G,
+    DWELL_S,
+    FINAL_SPEED_KMH,
+    SPEED_KMH,
+    STOP_ROADS,
+    stop_drawn,
+)
 
 PAGE = (Path(__file__).parents[2] / "docs" / "published-table.md").read_text(encoding="utf-8")
 TEXT = " ".join(PAGE.split())
-WORDS = {2: "Two", 3: "Three", 7: "seven", 12: "twelve"}
+WORDS = {2: "Two", 3: "Three", 5: "five", 7: "seven", 12: "twelve"}
 
 
 def test_the_numbers_of_the_method_are_the_codes() -> None:
@@ -31,6 +42,25 @@ def test_the_numbers_of_the_method_are_the_codes() -> None:
         f"within ±{MAX_OFFSET_M:g} m",
     ):
         assert said in TEXT, said
+
+
+def test_the_numbers_of_drawn_stops_are_the_codes() -> None:
+    (section,) = re.findall(r"^## Drawn stops .*?(?=^## )", PAGE, re.M | re.S)
+    text = " ".join(section.split())
+    drawn = stop_drawn(0, next(iter(VEHICLES)), STOP_ROADS[0], 0, frozenset())
+    smooth, fair, rough = (road.iri_m_per_km for road in STOP_ROADS)
+    for said in (
+        f"Each of the {WORDS[len(VEHICLES)]} vehicles",
+        f"a brake of {DECELERATION_G[0]} to {DECELERATION_G[1]} g",
+        f"from {SPEED_KMH[0]:g} to {SPEED_KMH[1]:g} km/h",
+        f"a stop of {DWELL_S[0]:g} to {DWELL_S[1]:g} s",
+        f"on to {FINAL_SPEED_KMH[0]:g} to {FINAL_SPEED_KMH[1]:g} km/h",
+        f"lies {drawn.event_at_m:g} m into {drawn.length_m:g} m",
+        f"IRI of {smooth} m/km, fair with {fair} and rough with {rough:g}:",
+        f"from {STRETCH_M[0]:g} to {STRETCH_M[1]:g} m",
+        f"--stops {StopSettings.stops}",
+    ):
+        assert said in text, said
 
 
 def test_the_score_of_the_rule_follows_from_print() -> None:
