@@ -23,7 +23,8 @@ LASTING_S = 1.0
 ALIVE = 0.1
 """Meanwhile the accelerometer's readings spread over so many m/s²."""
 TRAVEL_M = 0.5
-"""Meanwhile the vehicle gets so far: where it stands, a laser may well repeat itself."""
+"""Meanwhile the vehicle gets so far: where it stands, a laser may well repeat itself, but not while
+the body heaves before it."""
 HEAVE_M = 0.003
 COARSE = 4.0
 """No coarse laser repeats itself for long while the body heaves by so much, and so many of its
@@ -43,8 +44,9 @@ def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damag
     """Return where a height sensor is stuck, or out of its range.
 
     It is stuck where it repeats itself while ``force`` beside it does not and ``distance`` goes
-    on, out of range where it does so at the least or the greatest of all after a leap. A warning
-    alone is given where most of the run may be either stuck or a flat floor.
+    on, or for long while ``force`` tells that the body heaves. It is out of range where it does so
+    at the least or the greatest of all after a leap. A warning alone is given where most of the run
+    may be either stuck or a flat floor.
     """
     rate = channel.mean_rate_hz
     runs = Runs.of(channel.values, max(SHORTEST, int(PINNED_S * rate)))
@@ -92,8 +94,9 @@ class _Repeated:
             moves = (
                 _travel(distance, begin, end) >= TRAVEL_M and _spread(force, begin, end) >= ALIVE
             )
-            sure = unusual[k] or _heave(force, begin, end) >= heave_m
-            stuck[k], doubt[k] = moves and sure, moves
+            heaves = _heave(force, begin, end) >= heave_m
+            stands = bool(heaves) and length[k] >= LASTING_S * rate
+            stuck[k], doubt[k] = (moves and (unusual[k] or heaves)) or stands, moves
         return stuck, doubt
 
     def _beside(self) -> FloatArray:

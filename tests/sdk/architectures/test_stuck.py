@@ -135,7 +135,7 @@ def test_a_constant_laser_is_either_refused_or_told():
     assert over_a_floor.gone.size == 0
     (line,) = over_a_floor.warnings
     assert "channel height: repeats itself for most of the run" in line
-    assert of_height(constant, swung(), np.minimum(SPEED * TIMES, 1e-9)).warnings == ()
+    assert of_height(constant, None, np.minimum(SPEED * TIMES, 1e-9)).warnings == ()
 
 
 def test_a_laser_is_not_stuck_while_nothing_moves():
@@ -146,6 +146,23 @@ def test_a_laser_is_not_stuck_while_nothing_moves():
     assert of_height(values).gone.size == 2
     assert of_height(values, still).gone.size == 0
     assert of_height(values, None, stop).gone.size == 0
+
+
+@laws
+@given(
+    at=st.integers(1, 8000),
+    length=st.integers(4000, 7000),
+    quantum=st.sampled_from([4e-6, 1e-4, 5e-4]),
+    hold=st.sampled_from([1, 5]),
+)
+def test_a_laser_is_stuck_while_a_standing_body_heaves(at, length, quantum, hold):
+    """As where it comes to rest after a brake; a hold of less than a second may be its own."""
+    values, stop = heights(quantum=quantum, hold=hold), np.zeros(COUNT)
+    values[at : at + length] = 0.2987654
+    np.testing.assert_array_equal(of_height(values, swung(), stop).gone, [[at, at + length]])
+    values = heights(quantum=quantum, hold=hold)
+    values[at : at + 3500] = 0.2987654
+    assert of_height(values, swung(), stop).gone.size == 0
 
 
 @pytest.mark.parametrize("quantum", [1e-4, 2.5e-4])
