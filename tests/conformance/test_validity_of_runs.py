@@ -13,7 +13,7 @@ RUNS = (
     *("sg_1.1s_0.20g", "sg_2.1s_0.33g", "sg_5.8s_0.17g", "sg_10.7s_0.20g"),
     *("ns_72-11_0.20g", "brk_71-30_0.19g", "brk_49-20_0.25g", "brk_49-34_0.84g"),
 )
-THROUGH_STOPS = ("road-prior-smoother",)
+THROUGH_STOPS = ("road-prior-smoother", "road-prior-smoother-spatial")
 """Pipelines that measure in brakes and at stops."""
 UNSUPPRESSED = ("temporal-basic", "temporal-mean-removal", "spatial-basic", "spatial-hpf")
 LONG = {

@@ -36,12 +36,12 @@ class BuiltinDevice:
         return CLAIMS.get(self.pipeline, DeviceClass.NOMINAL)
 
     def describe(self) -> Mapping[str, Any]:
-        """Return what the pipeline is; its name begins with its architecture."""
-        architecture = self.pipeline.split("-")[0]
+        """Return what the pipeline is; its name tells the architecture, unless it is temporal."""
+        named = [part for part in self.pipeline.split("-") if part in ARCHITECTURES]
         return {
             "name": self.pipeline,
             "version": floatref.__version__,
-            "architecture": architecture if architecture in ARCHITECTURES else "temporal",
+            "architecture": named[0] if named else "temporal",
             "capabilities": list(floatref.pipeline_capabilities(self.pipeline)),
         }
 

@@ -95,6 +95,11 @@ def spatial_second_integration(context: Question) -> Answer:
 
 
 @spec
+def spatial_estimate(context: Question) -> Answer:
+    """In place of `time_step` and both integrations: as in time, from and to the triggers."""
+
+
+@spec
 def spatial_combine(context: Question) -> Answer:
     """From `floating_reference_height` and `height` to `elevation`."""
 

@@ -1,8 +1,8 @@
 """The spatial architecture: the encoder triggers one sample per profile interval.
 
-Trigger → time step → first integration → second integration → combine → finish. Before the
-trigger the signals exist in analog form only, which `spatial_condition` stands for. The
-defaults are those of section 5.8.
+Trigger → time step → first integration → second integration (or one estimator in place of these
+three) → combine → finish. Before the trigger the signals exist in analog form only, which
+`spatial_condition` stands for. The defaults are those of section 5.8.
 """
 
 from floatref.architectures import steps
@@ -15,11 +15,20 @@ DEFAULTS: Defaults = {
     "spatial_time_step": steps.time_step,
     "spatial_first_integration": steps.first_integration,
     "spatial_second_integration": steps.second_integration,
+    "spatial_estimate": steps.nothing,
     "spatial_combine": steps.combine,
     "spatial_finish": steps.finish,
 }
+INTEGRATIONS = "spatial_time_step", "spatial_first_integration", "spatial_second_integration"
 
 
 def signal_flow(ask: Ask) -> list[Stage]:
     """Return all stages in order, from what ``ask`` answers at each point."""
-    return [stage for point in DEFAULTS for stage in ask(point)]
+    flow = [*ask("spatial_condition"), *ask("spatial_trigger")]
+    estimator = ask("spatial_estimate")
+    if estimator:
+        flow += estimator
+    else:
+        for point in INTEGRATIONS:
+            flow += ask(point)
+    return [*flow, *ask("spatial_combine"), *ask("spatial_finish")]

@@ -9,7 +9,7 @@ from floatref.values.recording import Channel
 
 RATE = UniformClock.of(1000.0)
 NOMINAL = [name for name in floatref.pipelines() if not floatref.pipeline_capabilities(name)]
-SUPPRESSING = [name for name in NOMINAL if name != "road-prior-smoother"]
+SUPPRESSING = [name for name in NOMINAL if not name.startswith("road-prior-")]
 """Pipelines that do not measure in hard brakes and at stops."""
 REACH = {
     "temporal-basic": (47.0, 76.0),

@@ -21,7 +21,14 @@ from floatref.stages.protocol import Declared, Stage
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.stages.road_prior.excitation import Excitation
 from floatref.stages.road_prior.track import RoadTrack, sub_block
-from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA
+from floatref.stages.signals import (
+    ACCELERATION,
+    DISTANCE,
+    HEIGHT,
+    MISSING_SHARE,
+    REFERENCE_HEIGHT,
+    SIGMA,
+)
 from floatref.stages.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.stages.smoothing.line import Closing
 from floatref.stages.smoothing.nodes import Filtered
@@ -29,12 +36,15 @@ from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
+UNKNOWN = ChannelId(MISSING_SHARE)
+
 
 class RoadPriorSmoother(Stage):
     """Smoother whose road is a process in distance, for nominal sensors.
 
     Adds `floating_reference_height` and `elevation_sigma` of every track; the vertical
-    acceleration is dropped. Blocks wait for the encoder some 0.1 s behind them, and then for the
+    acceleration is dropped. Where there is a channel `missing_share`, so much of the acceleration
+    counts as missing. Blocks wait for the encoder some 0.1 s behind them, and then for the
     readings that still matter to them.
     """
 
@@ -136,7 +146,8 @@ class RoadPriorSmoother(Stage):
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
             ends, a = shared.copy(), block[vertical]
             ends[:, SEEN] = _trusted(block, range_, nodes)
-            ends[:, MISSING] = self._missing(track, _lost(block, vertical), len(block), nodes)
+            share = self._missing(track, _lost(block, vertical), len(block), nodes)
+            ends[:, MISSING] = np.maximum(shared[:, MISSING], share)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
             flags = flags_of(block, vertical, range_)
@@ -162,6 +173,8 @@ class RoadPriorSmoother(Stage):
         a, response = known
         ends[:, LEANING], ends[:, TILTING], ends[:, ALONG] = a, a * response, a
         ends[:, TRAVEL] = self._travel(distance[nodes])
+        if UNKNOWN in block.values:
+            ends[:, MISSING] = block[UNKNOWN][nodes]
         ends[np.searchsorted(nodes, quiet), ANEW] = 1.0
         return ends
 

@@ -1,0 +1,47 @@
+"""The road-prior smoother from samples that the encoder triggers."""
+
+from collections.abc import Sequence
+
+from floatref.architectures import steps
+from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.road_prior_pipeline import CONSTANTS, ROAD_PRIOR
+from floatref.stages.butterworth import low_pass_b3
+from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.dropping import Drop
+from floatref.stages.protocol import Stage
+from floatref.stages.resampling import ToDistance
+from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.signals import ACCELERATION, HEIGHT, MISSING_SHARE
+from floatref.stages.triggers import ToTime
+
+
+def _condition(question: Question) -> Sequence[Stage]:
+    """Remove 1 g; LPF_B3 on both sensors, which stands for what is analog before the trigger."""
+    stages: list[Stage] = [RemoveGravity()]
+    if question.header.rate > steps.LEAST_RATE_HZ:
+        cutoff = steps.cutoff_setting(question, "anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        stages += low_pass_b3(HEIGHT, cutoff)
+    return stages
+
+
+def _estimate(question: Question) -> Sequence[Stage]:
+    """Go back to time, estimate there, and take what the triggers get."""
+    constants = RoadPrior(**{field: question.setting(name) for name, field in CONSTANTS.items()})
+    return (
+        ToTime(question.setting("unknown_after_s")),
+        RoadPriorSmoother(constants, question.setting("cutoff_wavelength_m")),
+        Drop(MISSING_SHARE),
+        ToDistance(question.setting("interval_m"), question.origin_m),
+    )
+
+
+ROAD_PRIOR_SPATIAL = (
+    Pipeline(
+        "road-prior-smoother-spatial",
+        "spatial",
+        "the same from one sample per profile interval, triggered by the encoder",
+        {**ROAD_PRIOR[0].settings, "unknown_after_s": 1.0},
+        {"spatial_condition": _condition, "spatial_estimate": _estimate},
+    ),
+)
