@@ -29,7 +29,14 @@ STOP = Scenario(
 DRIVES = {
     **{
         f"stop of {dwell_s:g} s, {g:g} g": replace(STOP, dwell_s=dwell_s, deceleration_g=g)
-        for dwell_s, g in ((0.0, 0.2), (0.0, 0.35), (0.2, 0.2), (0.5, 0.35), (3.0, 0.35), (120.0, 0.2))
+        for dwell_s, g in (
+            (0.0, 0.2),
+            (0.0, 0.35),
+            (0.2, 0.2),
+            (0.5, 0.35),
+            (3.0, 0.35),
+            (120.0, 0.2),
+        )
     },
     **{
         f"creeping, {low:g} to {high:g} km/h": replace(
@@ -60,9 +67,7 @@ def main() -> None:
             row = ""
             for interval_m in INTERVALS_M:
                 runs = [
-                    simulate(
-                        replace(drive, seed=s, vehicle=vehicle, profile_interval_m=interval_m)
-                    )
+                    simulate(replace(drive, seed=s, vehicle=vehicle, profile_interval_m=interval_m))
                     for s in SEEDS
                 ]
                 each = [
