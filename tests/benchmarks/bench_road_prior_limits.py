@@ -19,9 +19,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 from road_prior_adversities import Adversity, adversities
-from road_prior_measuring import OURS, Row, measured, simulated, stretch, truth
+from road_prior_measuring import OURS, Row, measured, quietly, simulated, stretch, truth
 
-import floatref
 from floatref.measures import high_pass
 
 LEAST = 0.96
@@ -30,7 +29,7 @@ COLUMNS = (
     *("kind", "severity", "road prior", "lowest", "IRI, %", "within 2 sigma, %", "valid, %"),
     *("adaptive, temporal", "reflection, spatial"),
 )
-DRAWN = ("none", "laser dropout", "locked wheel", "coarse texture", "creeping")
+DRAWN = ("none", "crack", "coarse texture", "creeping", "locked wheel", "laser dropout")
 """Kinds that are drawn where none are asked for."""
 
 
@@ -71,7 +70,7 @@ def draw(cases: Sequence[Adversity], settings: dict[str, float], path: Path) -> 
     figure, axes = pyplot.subplots(len(cases), 1, sharex=True, figsize=size, squeeze=False)
     for case, axis in zip(cases, axes[:, 0], strict=True):
         made = simulated(case, 0)
-        track = floatref.process(made.recording, OURS, settings).tracks[0]
+        track = quietly(made.recording, OURS, settings).tracks[0]
         interval_m = made.truth.interval_m
         points = interval_m * np.arange(track.elevation.size)
         road = high_pass(truth(made, track.name, points), interval_m)

@@ -12,6 +12,7 @@ from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.shaping import cosine_rise, scaled_to
 from floatref_conformance.proving_ground.simulate import Simulation
+from floatref_conformance.proving_ground.vehicles import vehicle_called
 
 STOP_M = 316.0
 FORCE, HEIGHT = "vertical_specific_force", "height"
@@ -24,20 +25,22 @@ Change = Callable[[Simulation], floatref.Recording]
 
 
 def crack(depth_mm: float, width_mm: float = 40.0) -> RoadChange:
-    """Return a groove one edge of which lies where the lasers stand."""
+    """Return a groove one edge of which lies where the lasers stand, but for the body's pitch."""
 
     def cut(road: Road, scenario: Scenario) -> Road:
-        inside = np.abs(road.distance_m - STOP_M - width_mm / 2000.0) < width_mm / 2000.0
+        edge = STOP_M + vehicle_called(scenario.vehicle).sensor_x_m
+        inside = np.abs(road.distance_m - edge - width_mm / 2000.0) < width_mm / 2000.0
         return added(road, -1e-3 * depth_mm * inside)
 
     return cut
 
 
 def step(before: float, behind: float) -> RoadChange:
-    """Return a road whose IRI in m/km is another behind the stop."""
+    """Return a road whose IRI in m/km is another behind the place where the lasers stand."""
 
     def scaled(road: Road, scenario: Scenario) -> Road:
-        weight = cosine_rise((road.distance_m - STOP_M) / STEP_M + 0.5)
+        place = STOP_M + vehicle_called(scenario.vehicle).sensor_x_m
+        weight = cosine_rise((road.distance_m - place) / STEP_M + 0.5)
         low, high = scaled_to(road, before).elevation, scaled_to(road, behind).elevation
         slopes = {
             n: np.diff(low[n]) * (1 - weight[1:]) + np.diff(high[n]) * weight[1:] for n in low

@@ -2,6 +2,7 @@
 
 import sys
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import atan, cos, sin
 from typing import Any
@@ -128,6 +129,15 @@ def compared(made: Simulation, profile: floatref.Profile, where_m: float) -> lis
     return found
 
 
+def quietly(
+    recording: floatref.Recording, pipeline: str, settings: Mapping[str, float]
+) -> floatref.Profile:
+    """Process without warnings: most faults are told, as they should be."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", floatref.FloatrefWarning)
+        return floatref.process(recording, pipeline, settings)
+
+
 def measured(case: Adversity, seeds: int, settings: dict[str, float]) -> list[Row]:
     """Return a row for each pipeline."""
     found: dict[str, list[Found]] = {name: [] for name in (OURS, *OTHERS)}
@@ -136,10 +146,7 @@ def measured(case: Adversity, seeds: int, settings: dict[str, float]) -> list[Ro
         for name, each in found.items():
             given = settings if name == OURS else {}
             try:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", floatref.FloatrefWarning)
-                    profile = floatref.process(made.recording, name, given)
-                each += compared(made, profile, case.where_m)
+                each += compared(made, quietly(made.recording, name, given), case.where_m)
             except floatref.InputError as error:
                 print(f"{case.kind}, {case.severity}, {name}: {error}", file=sys.stderr)
     return [Row(case.kind, case.severity, name, tuple(each)) for name, each in found.items()]

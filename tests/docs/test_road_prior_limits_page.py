@@ -1,0 +1,59 @@
+"""What the page on the limits of the road prior says, held to the figures that were measured."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+DATA = Path(__file__).parent / "data" / "road-prior-limits.json"
+CELLS = {
+    (cell["kind"], cell["severity"], cell["pipeline"]): cell
+    for cell in json.loads(DATA.read_text(encoding="utf-8"))
+}
+PAGE = (DOCS / "road-prior-limits.md").read_text(encoding="utf-8")
+OURS = "road-prior-smoother"
+OTHERS = ("temporal-adaptive-hpf-spatial-backward", "spatial-hpf-timer-distortion-reflection")
+ROWS = [
+    tuple(cell.strip() for cell in line.strip("|").split("|"))
+    for line in re.findall(r"^\|.+\|$", PAGE, re.M)[2:]
+]
+BORNE = ("none", "long stop", "boarding", "hill", "engine", "mount", "encoder scale", "slip")
+LEAST = 0.96
+
+
+def test_every_case_has_its_row():
+    cases = [(kind, severity) for kind, severity, pipeline in CELLS if pipeline == OURS]
+    assert [row[:2] for row in ROWS] == cases
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: ", ".join(row[:2]))
+def test_figures_are_those_measured(row):
+    kind, severity, mean, lowest, iri, within, valid, *others = row
+    ours = CELLS[kind, severity, OURS]
+    found = [float(mean), float(lowest.strip(" !")), float(iri), float(within), float(valid)]
+    names = ("cross_correlation", "lowest", "iri_error_percent", "within_percent", "valid_percent")
+    for told, name, last in zip(found, names, (1e-3, 1e-3, 0.1, 0.1, 0.1), strict=True):
+        assert told == pytest.approx(ours[name], abs=0.51 * last + 1e-4)
+    for told, name in zip(others, OTHERS, strict=True):
+        cell = CELLS[kind, severity, name]
+        assert float(told) == pytest.approx(cell["cross_correlation"], abs=6.1e-4)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: ", ".join(row[:2]))
+def test_the_mark_stands_where_the_lowest_is_too_low(row):
+    assert ("!" in row[3]) == (CELLS[(*row[:2], OURS)]["lowest"] < LEAST)
+
+
+def test_what_it_bears_it_bears():
+    borne = [c for (kind, _, p), c in CELLS.items() if p == OURS and kind.startswith(BORNE)]
+    assert len(borne) >= 2 * len(BORNE)
+    assert min(cell["lowest"] for cell in borne) >= 0.98
+
+
+def test_it_is_better_than_the_others_wherever_it_is_adequate():
+    for (kind, severity, pipeline), cell in CELLS.items():
+        if pipeline == OURS and cell["lowest"] >= LEAST:
+            others = [CELLS[kind, severity, name]["cross_correlation"] for name in OTHERS]
+            assert cell["cross_correlation"] > max(others)
