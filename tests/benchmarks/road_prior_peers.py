@@ -57,6 +57,7 @@ def constants(prior: RoadPrior) -> Constants:
         prior.walk_along,
         prior.reading_m,
         prior.road,
+        prior.long_waves,
         prior.road_reach_m,
         sigma_b=prior.acceleration_bias,
         sigma_kappa=(prior.lean_rad, prior.tilt),

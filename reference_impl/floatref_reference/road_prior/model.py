@@ -1,15 +1,17 @@
 """The linear model of the road-prior smoother, from one sample to the next.
 
-The state is (r, v, b, z) of each track, one track after the other, and then the κ_j: all J of them
-once if the tracks share them, else those of the first track, of the second and so on.
+The state is (r, v, b, z, s) of each track, one track after the other, and then the κ_j: all J of
+them once if the tracks share them, else those of the first track, of the second and so on.
 
 Between two samples Δt apart, a_m and u_j are linear in time, and the density of w_b is what its
 square averages at both ends. With that the discretization is exact: no noise is held, and steps
-can be split. Only the distance ΔX between the samples moves the road, whatever the speed was.
+can be split. Only the distance ΔX between the samples moves the road, whatever the speed was,
+and `road` says how.
 """
 
 import numpy as np
 
+from floatref_reference.road_prior.road import road_noise, road_prior, road_transition
 from floatref_reference.road_prior.symbols import Constants, Matrix, Recorded, Vector
 
 
@@ -17,7 +19,7 @@ def states(run: Recorded) -> int:
     """Count the states.
 
     Equation:
-        ns = 4n + J with shared, 4n + nJ with separate κ_j
+        ns = 5n + J with shared, 5n + nJ with separate κ_j
 
     Args:
         run: the recording.
@@ -26,7 +28,7 @@ def states(run: Recorded) -> int:
         ns.
     """
     n, J = len(run.u), int(run.u.shape[2])
-    return 4 * n + (J if run.shared else n * J)
+    return 5 * n + (J if run.shared else n * J)
 
 
 def kappa(run: Recorded, i: int) -> slice:
@@ -42,7 +44,7 @@ def kappa(run: Recorded, i: int) -> slice:
     Returns:
         Their J places.
     """
-    J, start = run.u.shape[2], 4 * len(run.u)
+    J, start = run.u.shape[2], 5 * len(run.u)
     if not run.shared:
         start += i * J
     return slice(start, start + J)
@@ -65,28 +67,12 @@ def integrals(f_0: Vector, f_1: Vector, dt: float) -> tuple[Vector, Vector]:
     return dt * (f_0 + f_1) / 2, dt**2 * (f_0 / 3 + f_1 / 6)
 
 
-def forgetting(dx: float, c: Constants) -> tuple[float, float]:
-    """Compute how much of the road stays and what is new after a distance.
-
-    Equation:
-        α = e^{-ΔX/λ_p}, variance (q λ_p/2)(1 - e^{-2ΔX/λ_p}): 1 and 0 exactly at ΔX = 0
-
-    Args:
-        dx: ΔX = ∫V dt, m.
-        c: constants.
-
-    Returns:
-        α and the variance, m².
-    """
-    new = -np.expm1(-2 * dx / c.lambda_p)
-    return float(np.exp(-dx / c.lambda_p)), float(c.q * c.lambda_p / 2 * new)
-
-
 def transition(run: Recorded, k: int, c: Constants) -> Matrix:
     """Compute how the state at k enters that at k + 1.
 
     Equation:
-        r ← r + Δt v - (Δt²/2) b - Σ κ_j ∬u_j, v ← v - Δt b - Σ κ_j ∫u_j, b ← b, z ← α z, κ ← κ
+        r ← r + Δt v - (Δt²/2) b - Σ κ_j ∬u_j, v ← v - Δt b - Σ κ_j ∫u_j, b ← b, κ ← κ, and
+        z and s by `road_transition`
 
     Args:
         run: the recording.
@@ -97,15 +83,15 @@ def transition(run: Recorded, k: int, c: Constants) -> Matrix:
         F_k, shape (ns, ns).
     """
     dt = float(run.t[k + 1] - run.t[k])
-    alpha, _ = forgetting(float(run.distance[k + 1] - run.distance[k]), c)
+    road = road_transition(float(run.distance[k + 1] - run.distance[k]), c)
     F = np.eye(states(run))
     for i in range(len(run.u)):
-        r, v, b, z = range(4 * i, 4 * i + 4)
+        r, v, b, z, s = range(5 * i, 5 * i + 5)
         once, twice = integrals(run.u[i, k], run.u[i, k + 1], dt)
         F[r, v] = dt
         F[r, b] = -(dt**2) / 2
         F[v, b] = -dt
-        F[z, z] = alpha
+        F[z : s + 1, z : s + 1] = road
         F[r, kappa(run, i)] = -twice
         F[v, kappa(run, i)] = -once
     return F
@@ -127,7 +113,7 @@ def known_input(run: Recorded, k: int) -> Vector:
     g = np.zeros(states(run))
     for i in range(len(run.u)):
         once, twice = integrals(run.a_m[i, k], run.a_m[i, k + 1], float(run.t[k + 1] - run.t[k]))
-        g[4 * i], g[4 * i + 1] = twice, once
+        g[5 * i], g[5 * i + 1] = twice, once
     return g
 
 
@@ -137,7 +123,7 @@ def process_noise(run: Recorded, k: int, c: Constants) -> Matrix:
     Equation:
         On (r, v, b), w_a gives σ_a² of [Δt³/3, Δt²/2; Δt²/2, Δt], w_b gives σ_b² of
         [Δt⁵/20, Δt⁴/8, -Δt³/6; Δt⁴/8, Δt³/3, -Δt²/2; -Δt³/6, -Δt²/2, Δt], where
-        σ_b² = σ_b0² + σ_b1² (a_x,k² + a_x,k+1²)/2; on z the variance of `forgetting`.
+        σ_b² = σ_b0² + σ_b1² (a_x,k² + a_x,k+1²)/2; on (z, s) `road_noise`.
 
     Args:
         run: the recording.
@@ -148,7 +134,7 @@ def process_noise(run: Recorded, k: int, c: Constants) -> Matrix:
         Q_k, shape (ns, ns).
     """
     t = float(run.t[k + 1] - run.t[k])
-    _, road = forgetting(float(run.distance[k + 1] - run.distance[k]), c)
+    road = road_noise(float(run.distance[k + 1] - run.distance[k]), c)
     sigma_b2 = c.sigma_b0**2 + c.sigma_b1**2 * (run.a_x[k] ** 2 + run.a_x[k + 1] ** 2) / 2
     white = np.array([[t**3 / 3, t**2 / 2, 0], [t**2 / 2, t, 0], [0, 0, 0]])
     walk = np.array(
@@ -160,8 +146,8 @@ def process_noise(run: Recorded, k: int, c: Constants) -> Matrix:
     )
     Q = np.zeros((states(run), states(run)))
     for i in range(len(run.u)):
-        Q[4 * i : 4 * i + 3, 4 * i : 4 * i + 3] = c.sigma_a**2 * white + sigma_b2 * walk
-        Q[4 * i + 3, 4 * i + 3] = road
+        Q[5 * i : 5 * i + 3, 5 * i : 5 * i + 3] = c.sigma_a**2 * white + sigma_b2 * walk
+        Q[5 * i + 3 : 5 * i + 5, 5 * i + 3 : 5 * i + 5] = road
     return Q
 
 
@@ -179,7 +165,7 @@ def observation(run: Recorded) -> Matrix:
     """
     H = np.zeros((len(run.u), states(run)))
     for i in range(len(run.u)):
-        H[i, 4 * i], H[i, 4 * i + 3] = 1, -1
+        H[i, 5 * i], H[i, 5 * i + 3] = 1, -1
     return H
 
 
@@ -187,7 +173,7 @@ def prior(run: Recorded, c: Constants) -> Matrix:
     """Compute the covariance of the state at the first sample, where its mean is 0.
 
     Equation:
-        diag(σ_r², σ_v², σ_b², q λ_p/2) of each track, the last as far as the road strays, and σ_κ²
+        diag(σ_r², σ_v², σ_b²) and `road_prior` of each track, and σ_κ² of every κ_j
 
     Args:
         run: the recording.
@@ -197,9 +183,10 @@ def prior(run: Recorded, c: Constants) -> Matrix:
         P_0, shape (ns, ns).
     """
     P = np.zeros((states(run), states(run)))
-    variances = [c.sigma_r**2, c.sigma_v**2, c.sigma_b**2, c.q * c.lambda_p / 2]
+    variances = [c.sigma_r**2, c.sigma_v**2, c.sigma_b**2]
     for i in range(len(run.u)):
-        P[4 * i : 4 * i + 4, 4 * i : 4 * i + 4] = np.diag(variances)
+        P[5 * i : 5 * i + 3, 5 * i : 5 * i + 3] = np.diag(variances)
+        P[5 * i + 3 : 5 * i + 5, 5 * i + 3 : 5 * i + 5] = road_prior(c)
         J = kappa(run, i)
         P[J, J] = np.diag(np.broadcast_to(np.asarray(c.sigma_kappa) ** 2, J.stop - J.start))
     return P

@@ -156,7 +156,7 @@ def profile(run: Recorded, x: Matrix, P: Stack, sigma_h: float) -> Smoothed:
     Returns:
         The smoothed run.
     """
-    r, z = np.arange(len(run.u)) * 4, np.arange(len(run.u)) * 4 + 3
+    r, z = np.arange(len(run.u)) * 5, np.arange(len(run.u)) * 5 + 3
     rr, zz, rz = P[:, r, r].T, P[:, z, z].T, P[:, r, z].T
     e, there = x[:, r].T - run.h, ~np.isnan(run.h)
     sigma_e = np.sqrt(np.where(there, sigma_h**2 - rr + 2 * rz, np.nan))
@@ -177,6 +177,6 @@ def smooth(run: Recorded, c: Constants) -> Smoothed:
         States, heights, roads and profiles with their deviations.
 
     Raises:
-        numpy.linalg.LinAlgError: if a P_{k+1|k} is singular, as with a deviation of 0.
+        numpy.linalg.LinAlgError: if a P_{k+1|k} is singular, as with a deviation of 0 or a g of 0.
     """
     return profile(run, *backward(forward(run, c)), c.sigma_h)

@@ -14,16 +14,19 @@ class Constants(NamedTuple):
     """Constants of the model; noise as densities, so that they hold at any sampling rate.
 
     Equation:
-        (2.2) the spectrum G_s/(2πν)² over ν > 0 is that of a random walk over distance with the
-        variance G_s/2 per metre, so q = G_s/2; q = 1e-5 m is the normal road of Table 2.2.
+        (2.4) and (2.2): the spectrum G_s/(2πν)² over ν > 0 is that of a random walk over distance
+        with the variance G_s/2 per metre, so q = G_s/2; q = 1e-5 m is the normal road of Table 2.2.
+        G_a/(2πν)⁴ is that of a road whose slope is such a walk, so g = G_a/2.
 
     Attributes:
         sigma_a: density of w_a, m/s²/√Hz, both sides: integrated over τ s it deviates by σ_a √τ.
         sigma_b0: density of w_b at a_x = 0, m/s²/√s: b deviates by σ_b0 √τ after τ s.
         sigma_b1: what |a_x| adds to it in quadrature, 1/√s per m/s² of bias and of a_x.
         sigma_h: deviation of n, m, of every laser sample.
-        q: intensity of the road, m²/m.
-        lambda_p: distance after which the road is forgotten, m.
+        q: intensity of the road's elevation, m²/m.
+        g: intensity of the slope of its long waves, 1/m. It has to be positive: without it s is
+            known to be 0, and no covariance with s can be inverted.
+        lambda_p: distance after which elevation and slope are forgotten, m.
         sigma_r: deviation of r at the start, m, about 0.
         sigma_v: deviation of v at the start, m/s, about 0.
         sigma_b: deviation of b at the start, m/s², about 0.
@@ -35,6 +38,7 @@ class Constants(NamedTuple):
     sigma_b1: float = 3e-3
     sigma_h: float = 1e-4
     q: float = 4e-6
+    g: float = 1e-7
     lambda_p: float = 60.0
     sigma_r: float = 1.0
     sigma_v: float = 1.0

@@ -15,6 +15,7 @@ C = Constants(
     sigma_b1=0.05,
     sigma_h=0.004,
     q=2e-4,
+    g=1e-4,
     lambda_p=5.0,
     sigma_r=0.1,
     sigma_v=0.1,
@@ -26,7 +27,7 @@ MISSING = [3, 4, 5, 14]
 
 
 class Drawn(NamedTuple):
-    """True r, v, b and z, shape (DRAWS, N, 4), κ of each draw, and what the sensors read."""
+    """True r, v, b, z and s, shape (DRAWS, N, 5), κ of each draw, and what the sensors read."""
 
     truth: np.ndarray
     kappa: np.ndarray
@@ -45,24 +46,37 @@ def a_m(t: np.ndarray) -> np.ndarray:
     return 0.3 * np.cos(3 * t)
 
 
+def along(z: np.ndarray, s: np.ndarray, dx: float, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    z_next = z + dx * (s - z / C.lambda_p) + np.sqrt(C.q) * w[0]
+    return z_next, s - dx * s / C.lambda_p + np.sqrt(C.g) * w[1]
+
+
+def road_of_the_past(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Return z and s that a flat road has come to after ten times λ_p."""
+    z, s, dx = np.zeros(DRAWS), np.zeros(DRAWS), C.lambda_p / 200
+    for _ in range(2000):
+        z, s = along(z, s, dx, np.sqrt(dx) * rng.normal(size=(2, DRAWS)))
+    return z, s
+
+
 @pytest.fixture(scope="module")
 def draws() -> Drawn:
     """Return runs whose noise and constants are those of the model, in steps of DT / FINER."""
     rng, h = np.random.default_rng(11), DT / FINER
-    sigma_z = np.sqrt(C.q * C.lambda_p / 2)
-    start = [C.sigma_r, C.sigma_v, C.sigma_b, sigma_z]
-    r, v, b, z = (sigma * rng.normal(size=DRAWS) for sigma in start)
+    start = [C.sigma_r, C.sigma_v, C.sigma_b]
+    r, v, b = (sigma * rng.normal(size=DRAWS) for sigma in start)
+    z, s = road_of_the_past(rng)
     kappa = C.sigma_kappa * rng.normal(size=DRAWS)
-    states, x = [(r, v, b, z)], [0.0]
+    states, x = [(r, v, b, z, s)], [0.0]
     for step in range((N - 1) * FINER):
         t = (step + 0.5) * h
-        w_a, w_b, w_z = np.sqrt(h) * rng.normal(size=(3, DRAWS))
+        w_a, w_b, *w_road = np.sqrt(h) * rng.normal(size=(4, DRAWS))
         V, sigma_b = speed(t), np.hypot(C.sigma_b0, C.sigma_b1)
         r, v = r + h * v, v + h * (a_m(t) - b - kappa * u(t)) + C.sigma_a * w_a
-        b, z = b + sigma_b * w_b, z - h * V / C.lambda_p * z + np.sqrt(C.q * V) * w_z
+        b, (z, s) = b + sigma_b * w_b, along(z, s, h * V, np.sqrt(V) * np.array(w_road))
         x.append(x[-1] + h * V)
         if step % FINER == FINER - 1:
-            states.append((r, v, b, z))
+            states.append((r, v, b, z, s))
     truth, t = np.transpose(states, (2, 0, 1)), np.arange(N) * DT
     heights = truth[:, :, 0] - truth[:, :, 3] + C.sigma_h * rng.normal(size=(DRAWS, N))
     heights[:, MISSING] = np.nan
@@ -78,10 +92,10 @@ def smoothed(draws: Drawn) -> list[Smoothed]:
 def test_every_state_errs_as_its_covariance_says(draws: Drawn, smoothed: list[Smoothed]) -> None:
     sigma = np.sqrt(np.diagonal(smoothed[0].P, axis1=1, axis2=2))
     error = np.array([run.x for run in smoothed])
-    error[:, :, :4] -= draws.truth
-    error[:, :, 4] -= draws.kappa[:, None]
+    error[:, :, :5] -= draws.truth
+    error[:, :, 5] -= draws.kappa[:, None]
     squares = np.mean((error / sigma) ** 2, axis=(0, 1))
-    assert squares == pytest.approx(np.ones(5), abs=0.3)
+    assert squares == pytest.approx(np.ones(6), abs=0.3)
     assert np.abs(np.mean(error / sigma, axis=0)).max() < 4 / np.sqrt(DRAWS)
 
 
@@ -90,11 +104,11 @@ def test_states_err_together_as_their_covariance_says(
 ) -> None:
     """The squares of errors, weighed by the inverse covariance, are one for each state."""
     squares = [
-        np.mean([(e := run.x[k, :4] - truth[k]) @ np.linalg.inv(run.P[k, :4, :4]) @ e])
+        np.mean([(e := run.x[k, :5] - truth[k]) @ np.linalg.inv(run.P[k, :5, :5]) @ e])
         for run, truth in zip(smoothed, draws.truth, strict=True)
         for k in range(0, N, 4)
     ]
-    assert np.mean(squares) == pytest.approx(4, abs=0.4)
+    assert np.mean(squares) == pytest.approx(5, abs=0.4)
 
 
 def test_the_profile_errs_as_its_deviation_says(draws: Drawn, smoothed: list[Smoothed]) -> None:
@@ -110,7 +124,7 @@ def test_differences_over_the_run_err_as_the_joint_covariance_says(
     draws: Drawn, smoothed: list[Smoothed]
 ) -> None:
     """The rise of r over the stop, and how far r is from a line through its ends."""
-    weights = np.zeros((2, N, 5))
+    weights = np.zeros((2, N, 6))
     weights[0, [6, 18], 0] = -1, 1
     weights[1, [0, N // 2, N - 1], 0] = -0.5, 1, -0.5
     sigma = deviation(least_squares(draws.runs[0], C), weights)

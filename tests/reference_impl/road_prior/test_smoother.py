@@ -51,13 +51,13 @@ def test_smoother_is_least_squares(
     # A track that is hardly measured keeps priors, whose P the literal gain inverts badly.
     assume(np.isfinite(run.h).sum(axis=1).min() >= 8)
     smoothed, posterior = smooth(run, C), least_squares(run, C)
-    assert smoothed.x == pytest.approx(posterior.x, abs=1e-9)
+    assert smoothed.x == pytest.approx(posterior.x, abs=1e-8)
     P = posterior.root @ posterior.root.transpose(0, 2, 1)
     sigma = np.sqrt(np.diagonal(P, axis1=1, axis2=2))
     scale = sigma[:, :, None] * sigma[:, None, :]
     assert smoothed.P / scale == pytest.approx(P / scale, abs=1e-5)
-    assert smoothed.sigma_r == pytest.approx(sigma[:, 0 : 4 * n : 4].T, abs=1e-9)
-    assert smoothed.sigma_z == pytest.approx(sigma[:, 3 : 4 * n : 4].T, abs=1e-9)
+    assert smoothed.sigma_r == pytest.approx(sigma[:, 0 : 5 * n : 5].T, abs=1e-9)
+    assert smoothed.sigma_z == pytest.approx(sigma[:, 3 : 5 * n : 5].T, abs=1e-9)
 
 
 @settings(deadline=None, max_examples=10)
@@ -130,7 +130,9 @@ def test_without_laser_the_accelerometer_alone_carries_the_height() -> None:
 def test_at_a_stop_of_any_length_the_road_is_one_and_nothing_drifts() -> None:
     short, long = smooth(standing(4.0), C), smooth(standing(60.0), C)
     for run, stop in [(short, slice(20, 61)), (long, slice(20, 621))]:
-        assert run.z[0, stop] == pytest.approx(np.full(stop.stop - 20, run.z[0, 20]), abs=1e-12)
+        z, s = run.x[stop, 3:5].T
+        assert z == pytest.approx(np.full(z.size, z[0]), abs=1e-9)
+        assert s == pytest.approx(np.full(s.size, s[0]), abs=1e-9)
         assert run.sigma_z[0, stop] == pytest.approx(run.sigma_z[0, 20], rel=1e-6)
     assert long.sigma_r[0, 20:621].max() < 1.01 * short.sigma_r[0, 20:61].max()
     assert np.ptp(long.e[0, 20:621]) < 1e-3
@@ -144,11 +146,11 @@ def test_tracks_with_constants_of_their_own_are_runs_of_their_own(drawn, seed: i
     for i in range(2):
         own = (part[i : i + 1] for part in (both.a_m, both.h, both.u))
         alone = smooth(recorded(both.t, both.distance, *own, both.a_x), C)
-        places = [*range(4 * i, 4 * i + 4), 8 + i]
+        places = [*range(5 * i, 5 * i + 5), 10 + i]
         assert smoothed.x[:, places] == pytest.approx(alone.x, abs=1e-9)
         assert smoothed.sigma_r[i] == pytest.approx(alone.sigma_r[0], abs=1e-9)
     shared = smooth(both._replace(shared=True), C)
-    assert shared.P[0, 8, 8] < min(smoothed.P[0, 8, 8], smoothed.P[0, 9, 9])
+    assert shared.P[0, 10, 10] < min(smoothed.P[0, 10, 10], smoothed.P[0, 11, 11])
 
 
 def test_finer_sampling_with_the_same_densities_converges() -> None:
