@@ -1,7 +1,7 @@
 """The forward pass of the road-prior smoother: a linear Kalman filter over sub-blocks.
 
-States are height r, velocity v, bias b, road z and the coefficients k of two inputs u, with
-r'' = a - b - k u and z a first-order process of the distance travelled; a reading of the height
+States are height r, velocity v, bias b, road z, its slope s and the coefficients k of two inputs u,
+with r'' = a - b - k u, and z and s processes of the distance travelled; a reading of the height
 sensor is r - z. Accelerations and inputs are linear between samples and between nodes, so that all
 integrals are exact.
 """
@@ -16,6 +16,8 @@ from floatref.kernels.road_prior_layout import (
     ANEW,
     BEFORE,
     BIAS,
+    CLIMBS,
+    EDGE,
     GAP,
     INNOVATION,
     JUMP,
@@ -30,11 +32,14 @@ from floatref.kernels.road_prior_layout import (
     ROAD_REACH,
     ROAD_STEP,
     SEEN,
+    SLOPE,
+    SLOPE_STEP,
     SPREAD,
     STATES,
     STAYS,
     STEP,
     STEPS,
+    STILL,
     TILT,
     TILT_PRIOR,
     TRAVEL,
@@ -44,6 +49,9 @@ from floatref.kernels.road_prior_layout import (
     WHITE,
 )
 from floatref.values.arrays import FloatArray, IndexArray
+
+STANDING_S = 0.05
+"""Where the vehicle has stood for so long, the laser may sway over an edge of the road."""
 
 
 @compiled
@@ -147,13 +155,17 @@ def _node(
         row[ONCE + j] = 0.5 * span * (memory[BEFORE + j] + known[j])
         row[TWICE + j] = span * span * (memory[BEFORE + j] / 3.0 + known[j] / 6.0)
     row[STAYS] = exp(-known[TRAVEL] / model[ROAD_REACH])
+    row[CLIMBS] = row[STAYS] * known[TRAVEL]
     if span > 0.0:
         _predict(model, known, span, row, x, p, memory)
+    memory[STILL] = memory[STILL] + span if known[TRAVEL] <= 0.0 else 0.0
     row[RENEWED] = known[ANEW]
     if known[ANEW] > 0.0:
         _renew(LEAN, model[LEAN_PRIOR], x, p)
         _renew(TILT, model[TILT_PRIOR], x, p)
     if known[SEEN] == known[SEEN]:
+        if memory[STILL] >= STANDING_S:
+            _let_go(known[SEEN] - x[0] + x[ROAD], model, p)
         _update(known[SEEN] - x[0] + x[ROAD], model[READING], x, p, updates[done])
         done += 1
     row[JUMP], row[JUMP + 1] = x[0] - near_r, x[1] - near_v
@@ -169,6 +181,14 @@ def _node(
 
 
 @compiled
+def _let_go(innovation: float, model: FloatArray, p: FloatArray) -> None:
+    """Take the road for another one where a reading is too far off for the same."""
+    expected = p[0, 0] - 2.0 * p[0, ROAD] + p[ROAD, ROAD] + model[READING]
+    if innovation * innovation > model[EDGE] * expected:
+        p[ROAD, ROAD] += innovation * innovation
+
+
+@compiled
 def _predict(
     model: FloatArray,
     known: FloatArray,
@@ -181,7 +201,8 @@ def _predict(
     """Move x and P from the node before, whose height and velocity are integrated already."""
     x[0] = memory[0] - 0.5 * span * span * x[BIAS] - row[TWICE] * x[LEAN] - row[TWICE + 1] * x[TILT]
     x[1] = memory[1] - span * x[BIAS] - row[ONCE] * x[LEAN] - row[ONCE + 1] * x[TILT]
-    x[ROAD] *= row[STAYS]
+    x[ROAD] = row[STAYS] * x[ROAD] + row[CLIMBS] * x[SLOPE]
+    x[SLOPE] *= row[STAYS]
     # Rows of P F', and once turned, of F P F'.
     for i in range(STATES):
         _carry(row, span, p[i])
@@ -200,8 +221,20 @@ def _predict(
     _spread(p, 0, BIAS, -walk * t3 / 6.0)
     _spread(p, 1, BIAS, -walk * t2 / 2.0)
     _spread(p, BIAS, BIAS, walk * span)
-    fresh = -expm1(-2.0 * known[TRAVEL] / model[ROAD_REACH])
-    p[ROAD, ROAD] += 0.5 * model[ROAD_STEP] * model[ROAD_REACH] * fresh
+    _roughen(model, known[TRAVEL], p)
+
+
+@compiled
+def _roughen(model: FloatArray, travel: float, p: FloatArray) -> None:
+    """Add what ``travel`` in m brings of new road, without differences of exponentials."""
+    gone = 2.0 * travel / model[ROAD_REACH]
+    fresh = -0.5 * model[ROAD_REACH] * expm1(-gone)
+    # The integrals of x exp(-2x / reach) and of its x-fold, within 1e-3 gone^2.
+    once = fresh * travel / (2.0 + gone / 3.0)
+    twice = fresh * travel * travel / (3.0 + 0.75 * gone)
+    _spread(p, ROAD, ROAD, model[ROAD_STEP] * fresh + model[SLOPE_STEP] * twice)
+    _spread(p, ROAD, SLOPE, model[SLOPE_STEP] * once)
+    _spread(p, SLOPE, SLOPE, model[SLOPE_STEP] * fresh)
 
 
 @compiled
@@ -210,7 +243,8 @@ def _carry(row: FloatArray, span: float, c: FloatArray) -> None:
     c[0] += span * (c[1] - 0.5 * span * c[BIAS])
     c[0] -= row[TWICE] * c[LEAN] + row[TWICE + 1] * c[TILT]
     c[1] -= span * c[BIAS] + row[ONCE] * c[LEAN] + row[ONCE + 1] * c[TILT]
-    c[ROAD] *= row[STAYS]
+    c[ROAD] = row[STAYS] * c[ROAD] + row[CLIMBS] * c[SLOPE]
+    c[SLOPE] *= row[STAYS]
 
 
 @compiled

@@ -5,12 +5,14 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.kernels.road_prior_layout import (
     BIAS,
+    CLIMBS,
     INNOVATION,
     JUMP,
     LEAN,
     ONCE,
     RENEWED,
     ROAD,
+    SLOPE,
     SPREAD,
     STATES,
     STAYS,
@@ -73,6 +75,7 @@ def _back(row: FloatArray, span: float, adjoint: FloatArray) -> None:
     adjoint[BIAS] -= span * (by_v + 0.5 * span * by_r)
     adjoint[LEAN] -= row[TWICE] * by_r + row[ONCE] * by_v
     adjoint[TILT] -= row[TWICE + 1] * by_r + row[ONCE + 1] * by_v
+    adjoint[SLOPE] = row[STAYS] * adjoint[SLOPE] + row[CLIMBS] * adjoint[ROAD]
     adjoint[ROAD] *= row[STAYS]
 
 
@@ -120,7 +123,8 @@ def _forth(row: FloatArray, span: float, psi: FloatArray) -> None:
         psi[0, c] += span * (psi[1, c] - 0.5 * span * bias)
         psi[0, c] -= row[TWICE] * lean + row[TWICE + 1] * tilt
         psi[1, c] -= span * bias + row[ONCE] * lean + row[ONCE + 1] * tilt
-        psi[ROAD, c] *= row[STAYS]
+        psi[ROAD, c] = row[STAYS] * psi[ROAD, c] + row[CLIMBS] * psi[SLOPE, c]
+        psi[SLOPE, c] *= row[STAYS]
         if row[RENEWED] > 0.0:
             psi[LEAN, c], psi[TILT, c] = 0.0, 0.0
 

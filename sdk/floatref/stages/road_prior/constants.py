@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.road_prior_layout import ROAD, SLOPE
 from floatref.values.arrays import FloatArray
 
 
@@ -20,7 +21,10 @@ class RoadPrior:
         missing_acceleration: takes the place of `acceleration` where samples are missing.
         reading_m: 1-σ of a reading of the height sensor as one of the road, texture included.
         road: q, half of G_s of the spectrum G_s/(2πν)² of (2.2), in m.
-        road_reach_m: distance after which the road's elevation is forgotten, in m.
+        long_waves: half of G_a of the spectrum G_a/(2πν)⁴ that (2.4) adds to that, in 1/m.
+        road_reach_m: distance after which elevation and slope of the road are forgotten, in m.
+        road_memory_m: over so much travel the run's own road takes the place of both.
+        edge_sigmas: a reading at a standstill that is off by so many tells of an edge of the road.
         lean_rad: 1-σ of the lean of the accelerometer's axis forward.
         tilt: 1-σ of the pitch angle per longitudinal acceleration, in rad per m/s².
         pitch_hz, pitch_damping: natural frequency and damping ratio of the pitch response.
@@ -29,13 +33,16 @@ class RoadPrior:
 
     acceleration: float = 1.5e-4
     acceleration_bias: float = 0.03
-    acceleration_walk: float = 1e-4
-    walk_along: float = 1.5e-3
+    acceleration_walk: float = 2e-4
+    walk_along: float = 7e-4
     missing_acceleration: float = 0.3
     reading_m: float = 1e-4
-    road: float = 6e-6
+    road: float = 4e-6
+    long_waves: float = 2e-7
     road_reach_m: float = 150.0
-    lean_rad: float = 0.01
+    road_memory_m: float = 300.0
+    edge_sigmas: float = 6.0
+    lean_rad: float = 0.03
     tilt: float = 0.01
     pitch_hz: float = 1.6
     pitch_damping: float = 0.3
@@ -51,11 +58,15 @@ class RoadPrior:
         densities = self.acceleration, self.acceleration_walk, self.walk_along, self.reading_m
         squares = np.square([*densities, self.lean_rad, self.tilt, self.missing_acceleration])
         road = self.road, self.road_reach_m
-        return np.array([step, *squares[:4], *road, *squares[4:]])
+        others = self.long_waves, self.edge_sigmas**2
+        return np.array([step, *squares[:4], *road, *squares[4:], *others])
 
     def start(self) -> FloatArray:
         """Return the covariance before the first reading; the height is that of a flat road."""
-        road_m2 = self.road * self.road_reach_m / 2.0
+        reach, half = self.road_reach_m, self.road_reach_m / 2.0
+        road_m2 = self.road * half + self.long_waves * reach**3 / 4.0
         deviations = self.acceleration_bias, self.lean_rad, self.tilt
         bias, lean, tilt = np.square(deviations)
-        return np.diag([1.0, 1.0, bias, road_m2, lean, tilt])
+        found = np.diag([1.0, 1.0, bias, road_m2, self.long_waves * half, lean, tilt])
+        found[ROAD, SLOPE] = found[SLOPE, ROAD] = self.long_waves * half**2
+        return found

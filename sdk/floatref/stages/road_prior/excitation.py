@@ -12,6 +12,9 @@ SPREAD_S = 0.03
 REACH = 4.0
 """Standard deviations to either side beyond which the Gaussian is nothing."""
 
+FADE_S = 1.0
+"""A brake is forgotten after so long without the encoder."""
+
 
 def curvature_weights(interval_s: float) -> FloatArray:
     """Return weights whose sum over distances at ``interval_s`` is their second derivative.
@@ -58,11 +61,13 @@ class Excitation:
         by: `response_weights`.
         distances: at the nodes from the first that the next acceleration needs, in m.
         begun: whether the distances have been continued before the first.
+        fade: where the encoder tells no travel, a brake goes on, less by this from node to node.
         memory: response, its rate and the latest acceleration.
     """
 
     weights: FloatArray
     by: FloatArray
+    fade: float
     distances: FloatArray = field(default_factory=lambda: np.empty(0))
     begun: bool = False
     memory: FloatArray = field(default_factory=lambda: np.zeros(3))
@@ -70,7 +75,8 @@ class Excitation:
     @classmethod
     def of(cls, interval_s: float, hz: float, damping: float) -> "Excitation":
         """Return the one of nodes ``interval_s`` apart."""
-        return cls(curvature_weights(interval_s), response_weights(hz, damping, interval_s))
+        weights = curvature_weights(interval_s), response_weights(hz, damping, interval_s)
+        return cls(*weights, exp(-interval_s / FADE_S))
 
     @property
     def reach(self) -> int:
@@ -98,9 +104,7 @@ class Excitation:
         count = max(0, self.distances.size - 2 * self.reach) if self.begun else 0
         a, response = np.empty((2, count))
         excitation.curvature(self.distances, self.weights, a)
-        # Where the encoder tells no travel, nothing is known to excite the body.
-        np.nan_to_num(a, copy=False)
-        excitation.respond(a, self.by, self.memory, response)
+        excitation.respond(a, self.by, self.fade, self.memory, response)
         self.distances = self.distances[count:]
         return a, response
 

@@ -4,13 +4,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.road_prior_layout import BEFORE, ENDS, MEMORY, MODEL, STATES
+from floatref.kernels.road_prior_layout import (
+    BEFORE,
+    ENDS,
+    MEMORY,
+    MODEL,
+    ROAD_STEP,
+    SEEN,
+    SLOPE_STEP,
+    STATES,
+    STILL,
+    TRAVEL,
+)
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.stages.road_prior.nodes import RoadNodes
+from floatref.stages.road_prior.spectrum import RoadSpectrum
 from floatref.values.arrays import FloatArray
 
 NODES_PER_S = 500.0
 """A node every 32 samples at 16 kHz."""
+
+
+RENEWAL = 500
+"""After so many nodes the road is taken for what it has been."""
 
 
 def sub_block(step: float) -> int:
@@ -27,6 +43,7 @@ class RoadTrack:
     x: FloatArray
     p: FloatArray
     memory: FloatArray
+    spectrum: RoadSpectrum
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -35,27 +52,45 @@ class RoadTrack:
         assert model.size == MODEL
         x, memory = np.zeros(STATES), np.zeros(MEMORY)
         x[0] = memory[0] = start_m
-        return cls(model, sub_block(step), x, constants.start(), memory)
+        spectrum = RoadSpectrum.of(constants, step * sub_block(step))
+        return cls(model, sub_block(step), x, constants.start(), memory, spectrum)
 
     def advance(self, a: FloatArray, first: int, ends: FloatArray) -> tuple[FloatArray, RoadNodes]:
         """Return the heights integrated from the accelerations ``a``, in m, and the nodes.
 
         ``ends`` has a row for each node, see `road_prior_layout`.
         """
+        height, parts = np.empty(a.size), [RoadNodes.room(0, 0)]
+        every, low = self.sub_block * RENEWAL, 0
+        while low < a.size:
+            if (first + low) % every == 0:
+                self.model[[ROAD_STEP, SLOPE_STEP]] = self.spectrum.road()
+            high = min(low + every - (first + low) % every, a.size)
+            count = -(-(first + high) // self.sub_block) - -(-(first + low) // self.sub_block)
+            nodes = self._advance(a[low:high], first + low, ends[:count], height[low:high])
+            parts.append(nodes)
+            ends, low = ends[count:], high
+        return height, RoadNodes.joined(parts)
+
+    def _advance(
+        self, a: FloatArray, first: int, ends: FloatArray, height: FloatArray
+    ) -> RoadNodes:
         from floatref.kernels import road_prior
 
-        height, nodes = np.empty(a.size), RoadNodes.room(len(ends), len(ends))
+        nodes = RoadNodes.room(len(ends), len(ends))
         kept = nodes.at, nodes.rows, nodes.updates
         state = self.x, self.p, self.memory
         count = road_prior.run(a, first, self.sub_block, self.model, ends, *state, height, *kept)
-        return height, nodes.filled(count)
+        found = nodes.filled(count)
+        self.spectrum.add(height[found.at[:, 0] - first] - ends[:, SEEN], ends[:, TRAVEL])
+        return found
 
     def end(self, at: int, travel_m: float) -> RoadNodes:
         """Return a node at sample ``at``, the last, or none if it is one already."""
         from floatref.kernels import road_prior
 
         known = np.full(ENDS, np.nan)
-        known[:3], known[3:] = self.memory[BEFORE:], (travel_m, np.nan, 0.0, 0.0)
+        known[:3], known[3:] = self.memory[BEFORE:STILL], (travel_m, np.nan, 0.0, 0.0)
         nodes = RoadNodes.room(1, 0)
         state = self.x, self.p, self.memory
         count = road_prior.end(at, self.model, known, *state, nodes.at, nodes.rows)

@@ -1,6 +1,7 @@
 """What the smoother keeps of one wheel path until its readings no longer matter."""
 
 from bisect import bisect_right
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -40,6 +41,7 @@ class Line:
         segments: those that are complete.
         before, origin: last node of a complete segment, its sample and itself.
         behind: marks of closed segments that the filter still reaches.
+        told: correction in m at the last closed node, as it came out.
         known_at, known: marks of closed segments that have not come out, and 1-σ in m there.
     """
 
@@ -51,6 +53,7 @@ class Line:
     before: int = -1
     origin: Nodes | None = None
     behind: Settled | None = None
+    told: float = 0.0
     known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
     known: FloatArray = field(default_factory=lambda: np.empty(0))
 
@@ -85,13 +88,27 @@ class Line:
         for segment in reversed(self.segments):
             corrections = segment.back(adjoint, self.rule.step)
             found.append((segment, corrections, adjoint.copy()))
-        firsts = [first for first, _ in self.heights]
-        for segment, corrections, behind in found[: -count - 1 : -1]:
-            low = bisect_right(firsts, segment.before + 1) - 1
-            pieces = self.heights[low : bisect_right(firsts, segment.last)]
-            segment.smooth(corrections, behind, self.rule.step, pieces)
+        self._smooth(found[: -count - 1 : -1])
         self._settle(count)
         del self.segments[:count]
+
+    def _smooth(self, found: Sequence[tuple[Segment, FloatArray, FloatArray]]) -> None:
+        """Correct the heights of segments by the corrections at their nodes, with lambda before.
+
+        What has come out stays, and what follows begins there.
+        """
+        firsts, shift = [first for first, _ in self.heights], 0.0
+        place = np.nan if self.behind is None else float(self.behind.distance_m[-1])
+        for segment, corrections, behind in found:
+            start = segment.start(behind)
+            if segment is self.segments[0] and self.behind is not None:
+                shift = self.told - float(start[2])
+            shift = segment.shift(start, corrections, shift, place)
+            place = float(np.fmax(place, segment.marks.distance_m[-1]))
+            low = bisect_right(firsts, segment.before + 1) - 1
+            pieces = self.heights[low : bisect_right(firsts, segment.last)]
+            segment.smooth(corrections, start, self.rule.step, pieces)
+            self.told = float(corrections[-1, 2])
 
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""

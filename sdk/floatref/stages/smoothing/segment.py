@@ -11,6 +11,9 @@ from floatref.values.arrays import FloatArray, IndexArray
 APART_M = 8.0
 APART_S = 0.5
 """Marks are so far apart, in travel and in time."""
+FADE_M = 500.0
+"""Over so much travel the level goes to what later readings have made of it: far longer than any
+wave that the high-pass lets through."""
 
 
 @dataclass(eq=False)
@@ -82,20 +85,39 @@ class Segment:
         """Return the corrections at the nodes; ``adjoint`` goes from the last to ``before``."""
         return self.nodes.back(max(self.before, 0), step, adjoint)
 
+    def start(self, adjoint: FloatArray) -> FloatArray:
+        """Return the corrections at ``before``, shape (4,); ``adjoint`` is lambda behind it."""
+        return np.zeros(4) if self.origin is None else self.origin.correction(adjoint)
+
+    def shift(
+        self, start: FloatArray, corrections: FloatArray, step_m: float, place_m: float
+    ) -> float:
+        """Shift all corrections by ``step_m``, less with the travel from ``place_m`` on.
+
+        Returns what is left of it at the last node.
+        """
+        if step_m == 0.0:
+            return 0.0
+        marks = np.append(max(self.before, 0), self.marks.at)
+        travel = np.fmax.accumulate(np.append(place_m, self.marks.distance_m)) - place_m
+        left = step_m * np.exp(-travel / FADE_M)
+        start[2] += step_m
+        corrections[:, ::2] += np.interp(self.nodes.at[:, 0], marks, left)[:, np.newaxis]
+        return float(left[-1])
+
     def smooth(
         self,
         corrections: FloatArray,
-        adjoint: FloatArray,
+        start: FloatArray,
         step: float,
         pieces: Iterable[tuple[int, FloatArray]],
     ) -> None:
         """Correct the filtered heights of ``pieces`` behind ``before``, up to the last node.
 
-        A piece has the number of its first sample; ``adjoint`` is lambda behind ``before``.
+        A piece has the number of its first sample; ``start`` are the corrections at ``before``.
         """
         from floatref.kernels import between_nodes
 
-        start = np.zeros(4) if self.origin is None else self.origin.correction(adjoint)
         place = np.array([max(self.before, 0), start[2], start[3]])
         end = self.last + 1
         for first, height in pieces:
