@@ -164,9 +164,9 @@ def _node(
         _renew(LEAN, model[LEAN_PRIOR], x, p)
         _renew(TILT, model[TILT_PRIOR], x, p)
     if known[SEEN] == known[SEEN]:
-        if memory[STILL] >= STANDING_S:
-            _let_go(known[SEEN] - x[0] + x[ROAD], model, p)
-        _update(known[SEEN] - x[0] + x[ROAD], model[READING], x, p, updates[done])
+        innovation = known[SEEN] - x[0] + x[ROAD]
+        _let_go(innovation, model, memory[STILL], p)
+        _update(innovation, model[READING], x, p, updates[done])
         done += 1
     row[JUMP], row[JUMP + 1] = x[0] - near_r, x[1] - near_v
     at = SPREAD
@@ -181,8 +181,10 @@ def _node(
 
 
 @compiled
-def _let_go(innovation: float, model: FloatArray, p: FloatArray) -> None:
-    """Take the road for another one where a reading is too far off for the same."""
+def _let_go(innovation: float, model: FloatArray, still: float, p: FloatArray) -> None:
+    """At a standstill, take the road for another one where a reading is too far off for this."""
+    if still < STANDING_S:
+        return
     expected = p[0, 0] - 2.0 * p[0, ROAD] + p[ROAD, ROAD] + model[READING]
     if innovation * innovation > model[EDGE] * expected:
         p[ROAD, ROAD] += innovation * innovation
