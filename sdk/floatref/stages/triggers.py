@@ -8,7 +8,15 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, MISSING_SHARE, TIME
-from floatref.values.arrays import LASTING, Flag, FlagArray, FloatArray, IndexArray, frozen
+from floatref.values.arrays import (
+    LASTING,
+    BoolArray,
+    Flag,
+    FlagArray,
+    FloatArray,
+    IndexArray,
+    frozen,
+)
 from floatref.values.block import Axis, Block, Header, joined
 from floatref.values.channels import ChannelId
 
@@ -17,7 +25,7 @@ NEAR_S = 1e-3
 TIE = 1e-6
 """A trigger that is off a sample by this share of a step is at that sample."""
 LONGEST_S = 10.0
-"""Of a longer interval so much is kept: nothing that is known before it lasts longer."""
+"""Of a longer interval so much is kept: by then the motion before it is forgotten."""
 JOLT_M_S = 4e-3
 """Change of speed from one interval to the next, times the square of its duration, at which the
 line tells nothing: the body answers a brake that lets go within such an interval."""
@@ -125,18 +133,12 @@ class ToTime(Stage):
         points = np.arange(wide.first, wide.first + len(wide), dtype=np.float64)
         places_m = header.origin + points * header.step
         values = {ChannelId(DISTANCE): between.line(places_m), ChannelId(MISSING_SHARE): share}
-        flags = {}
+        known = np.where(between.part < 1.0, 1.0 - share, 1.0)
         for channel, x in wide.without(TIME).values.items():
             values[channel] = between.line(x)
-            marks = between.marks(wide.flags.get(channel))
             if channel.name == ACCELERATION:
-                values[channel] *= np.where(between.part < 1.0, 1.0 - share, 1.0)
-            if channel.name == HEIGHT:
-                far = np.where(between.apart * step > NEAR_S, np.uint8(Flag.MISSING), np.uint8(0))
-                marks = far if marks is None else marks | far
-            if marks is not None and marks.any():
-                flags[channel] = marks
-        return Block(first, values, flags=flags)
+                values[channel] *= known
+        return Block(first, values, flags=_marked(wide, between, between.apart * step > NEAR_S))
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +169,8 @@ class Between:
 
     def line(self, x: FloatArray) -> FloatArray:
         """Return ``x`` of the triggers on the line between them."""
-        start, end = x[self.before], x[self.behind]
-        found: FloatArray = np.where(self.part < 1.0, start + self.part * (end - start), end)
+        start = x[self.before]
+        found: FloatArray = start + self.part * (x[self.behind] - start)
         return found
 
     def marks(self, flags: FlagArray | None) -> FlagArray | None:
@@ -181,3 +183,15 @@ class Between:
         since = np.bitwise_or.reduceat(flags[: self.behind[-1] + 1] & lasting, first)
         found: FlagArray = since | flags[self.behind] | (flags[self.before] & ~lasting)
         return found
+
+
+def _marked(wide: Block, between: Between, far: BoolArray) -> dict[ChannelId, FlagArray]:
+    """Return the flags of all channels that have some; heights are missing where it is ``far``."""
+    found, missing = {}, np.where(far, np.uint8(Flag.MISSING), np.uint8(0))
+    for channel in wide.without(TIME).values:
+        marks = between.marks(wide.flags.get(channel))
+        if channel.name == HEIGHT:
+            marks = missing if marks is None else marks | missing
+        if marks is not None and marks.any():
+            found[channel] = marks
+    return found
