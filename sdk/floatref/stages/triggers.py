@@ -26,9 +26,9 @@ TIE = 1e-6
 """A trigger that is off a sample by this share of a step is at that sample."""
 LONGEST_S = 10.0
 """Of a longer interval so much is kept: by then the motion before it is forgotten."""
-JOLT_M_S = 4e-3
-"""Change of speed from one interval to the next, times the square of its duration, at which the
-line tells nothing: the body answers a brake that lets go within such an interval."""
+JOLT_M_S = 2e-3
+"""Speed lost or won from one interval to the next, times the share of the speed that it is and the
+square of the duration, at which the line tells nothing: the body answers a brake that lets go."""
 
 
 class ToTime(Stage):
@@ -47,7 +47,7 @@ class ToTime(Stage):
 
     declared: ClassVar[Declared] = Declared(shift_invariant=False)
 
-    def __init__(self, unknown_s: float = 1.0) -> None:
+    def __init__(self, unknown_s: float = 0.8) -> None:
         """Take the acceleration for unknown in intervals of ``unknown_s``."""
         super().__init__()
         self.unknown_s = unknown_s
@@ -116,11 +116,11 @@ class ToTime(Stage):
         step = float(1 / self._header.rate)
         lasts = np.diff(places) * step
         before = np.append(self.memory["lasted"] * step, lasts[:-1])
-        # Several triggers at one moment, or none before, change no speed.
-        known = (lasts > 0.0) & (before > 0.0)
-        slower = np.divide(1.0, lasts, where=known, out=np.zeros(lasts.size))
-        slower -= np.divide(1.0, before, where=known, out=np.zeros(lasts.size))
-        jolt = np.abs(slower) * self._header.step * lasts**2 / JOLT_M_S
+        short, long = np.fmin(lasts, before), np.fmax(lasts, before)
+        # Several triggers at one moment change no speed.
+        speed = np.divide(self._header.step, short, where=short > 0.0, out=np.zeros(lasts.size))
+        lost = np.divide(long - short, long, where=long > 0.0, out=np.zeros(lasts.size))
+        jolt = speed * (lost * lasts) ** 2 / JOLT_M_S
         return np.append(0.0, np.minimum(((lasts / self.unknown_s) ** 2 + jolt) ** 2, 1.0))
 
     def _sampled(self, wide: Block, places: FloatArray, shares: FloatArray, end: int) -> Block:

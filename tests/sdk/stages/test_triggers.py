@@ -87,7 +87,8 @@ def test_the_missing_share_is_that_of_the_interval(interval_s, unknown_s):
 def test_a_jolt_makes_more_of_it_missing(before_s, factor):
     interval_s = before_s * factor
     _, samples = through(ToTime(1.0), header(), triggers([before_s, interval_s]))
-    jolt = (INTERVAL / before_s - INTERVAL / interval_s) * interval_s**2 / JOLT_M_S
+    lost = INTERVAL / before_s - INTERVAL / interval_s
+    jolt = lost * (lost * before_s / INTERVAL) * interval_s**2 / JOLT_M_S
     expected = min((interval_s**2 + jolt) ** 2, 1.0)
     np.testing.assert_allclose(samples[SHARE][-2], expected, rtol=1e-6)
 
