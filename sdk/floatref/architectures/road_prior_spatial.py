@@ -21,6 +21,9 @@ FILTERED_HZ = 400.0
 DELAY = 1.0 / pi
 """Delay of LPF_B3 times its cut-off: 2 over the angular frequency, at low frequencies."""
 
+SETTINGS = {name: value for name, value in ROAD_PRIOR[0].settings.items() if name != "edge_sigmas"}
+"""At a standstill there is no reading, so none that could tell of an edge."""
+
 
 def _condition(question: Question) -> Sequence[Stage]:
     """Remove 1 g; LPF_B3 on both sensors, which stands for what is analog before the trigger.
@@ -42,10 +45,10 @@ def _condition(question: Question) -> Sequence[Stage]:
 
 def _estimate(question: Question) -> Sequence[Stage]:
     """Go back to time, estimate there, and take what the triggers get."""
-    constants = RoadPrior(**{field: question.setting(name) for name, field in CONSTANTS.items()})
+    known = {CONSTANTS[name]: question.setting(name) for name in SETTINGS if name in CONSTANTS}
     return (
         ToTime(question.setting("unknown_after_s")),
-        RoadPriorSmoother(constants, question.setting("cutoff_wavelength_m")),
+        RoadPriorSmoother(RoadPrior(**known), question.setting("cutoff_wavelength_m")),
         Drop(MISSING_SHARE),
         ToDistance(question.setting("interval_m"), question.origin_m),
     )
@@ -56,7 +59,7 @@ ROAD_PRIOR_SPATIAL = (
         "road-prior-smoother-spatial",
         "spatial",
         "the same from one sample per profile interval, triggered by the encoder",
-        {**ROAD_PRIOR[0].settings, "acceleration_anti_alias_hz": 100.0, "unknown_after_s": 0.8},
+        {**SETTINGS, "acceleration_anti_alias_hz": 100.0, "unknown_after_s": 0.8},
         {"spatial_condition": _condition, "spatial_estimate": _estimate},
     ),
 )

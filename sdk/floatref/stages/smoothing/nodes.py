@@ -51,8 +51,8 @@ class Nodes(ABC):
 
     @classmethod
     def joined(cls, parts: Sequence[Self]) -> Self:
-        """Return ``parts``, each behind the one before, as one."""
-        parts = [part for part in parts if len(part.at)]
+        """Return ``parts``, one or more and each behind the one before, as one."""
+        parts = [part for part in parts if len(part.at)] or parts[:1]
         if len(parts) == 1:
             return parts[0]
         ends = np.cumsum([0, *(len(p.updates) for p in parts)])

@@ -48,6 +48,15 @@ def test_any_split_gives_the_same_bits(drive, through, seed, cuts, every):
     assert np.isfinite(whole[SIGMA]).all()
 
 
+def test_blocks_between_two_nodes_give_the_same_bits(drive, through):
+    """Some of them have no node at all."""
+    drawn = drive(5, 0.5, 3200)
+    whole = through(smoother(), drawn)
+    found = through(smoother(), drawn, range(2, drawn.a.size, 2))
+    for channel, samples in whole.values.items():
+        np.testing.assert_array_equal(found[channel], samples, err_msg=str(channel))
+
+
 @laws
 @given(seed=SEEDS)
 def test_segments_come_out_before_the_run_ends(drive, seed):
