@@ -33,7 +33,7 @@ class RoadPrior:
 
     acceleration: float = 1.5e-4
     acceleration_bias: float = 0.03
-    acceleration_walk: float = 2e-4
+    acceleration_walk: float = 1e-4
     walk_along: float = 7e-4
     missing_acceleration: float = 0.3
     reading_m: float = 1e-4
