@@ -47,15 +47,17 @@ def cells(rows: Sequence[Row]) -> list[str]:
     return line + [f"{o.mean('cross_correlation'):.3f}" if o.found else "refused" for o in others]
 
 
-def write_page(page: Path, lines: Sequence[Sequence[str]]) -> None:
+def write_page(
+    page: Path, lines: Sequence[Sequence[str]], columns: Sequence[str] = COLUMNS
+) -> None:
     """Put ``lines`` in place of the table of a Markdown page that has these columns."""
-    begin = f"| {' | '.join(COLUMNS)} |\n"
-    table = begin + "|---|---" + "|---:" * (len(COLUMNS) - 2) + "|\n"
+    begin = f"| {' | '.join(columns)} |\n"
+    table = begin + "|---|---" + "|---:" * (len(columns) - 2) + "|\n"
     table += "".join(f"| {' | '.join(line)} |\n" for line in lines)
     text = page.read_text(encoding="utf-8")
     found = re.compile(re.escape(begin) + r"(\|.*\n)+")
     if not found.search(text):
-        raise SystemExit(f"{page}: no table with the columns {', '.join(COLUMNS)}")
+        raise SystemExit(f"{page}: no table with the columns {', '.join(columns)}")
     page.write_text(found.sub(lambda _: table, text), encoding="utf-8")
 
 

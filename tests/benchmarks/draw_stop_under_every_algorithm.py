@@ -80,7 +80,8 @@ def draw(run: str, driven: Driven, path: Path) -> None:
     stop_m = RUNS[run].event_location_m
     for axis, (name, profile) in zip(axes.flat, driven.profiles.items(), strict=False):
         draw_panel(axis, name, profile, driven)
-        axis.axvline(stop_m, color="grey", linewidth=0.7, linestyle=":")
+        if stop_m is not None:
+            axis.axvline(stop_m, color="grey", linewidth=0.7, linestyle=":")
         axis.grid(alpha=0.25)
     for axis in axes.flat[len(driven.profiles) :]:
         axis.set_axis_off()
