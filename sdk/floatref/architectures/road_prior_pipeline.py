@@ -27,6 +27,7 @@ CONSTANTS = {
     "pitch_hz": "pitch_hz",
     "pitch_damping": "pitch_damping",
     "height_noise_m": "height_m",
+    "most_sigma_share": "most_sigma_share",
 }
 """From settings to what they are in `RoadPrior`."""
 _USUAL = vars(RoadPrior())

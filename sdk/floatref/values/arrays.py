@@ -24,6 +24,8 @@ class Flag(IntFlag):
     """Travel so slow that stages remove content there, or drift is squeezed into one spot."""
     BRAKING = 8
     """Braking so hard for the speed that the tilt of the accelerometer matters."""
+    UNCERTAIN = 16
+    """The 1-σ of the elevation is larger than what is vouched for."""
 
 
 LASTING = Flag.DRIFT | Flag.SLOW | Flag.BRAKING

@@ -29,6 +29,8 @@ class RoadPrior:
         tilt: 1-σ of the pitch angle per longitudinal acceleration, in rad per m/s².
         pitch_hz, pitch_damping: natural frequency and damping ratio of the pitch response.
         height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
+        most_sigma_share: where the 1-σ of the result is a larger share of how far the road bends,
+            it is flagged; that is the RMS second difference over 16 m.
     """
 
     acceleration: float = 1.5e-4
@@ -47,6 +49,7 @@ class RoadPrior:
     pitch_hz: float = 1.6
     pitch_damping: float = 0.3
     height_m: float = 4e-5
+    most_sigma_share: float = 0.15
 
     def __post_init__(self) -> None:
         """Refuse a pitch response that does not swing; InputError tells which setting it is."""

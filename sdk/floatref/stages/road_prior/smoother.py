@@ -32,7 +32,7 @@ from floatref.stages.signals import (
 from floatref.stages.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.stages.smoothing.line import Closing
 from floatref.stages.smoothing.nodes import Filtered
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
+from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -101,7 +101,7 @@ class RoadPriorSmoother(Stage):
             self._filter_known()
             done = next(backlog.come_out(), None)
             if done is not None:
-                return done
+                return self._doubted(done)
         waiting: list[Block] = self.memory["waiting"]
         first = backlog.blocks or waiting or [block]
         return Block(first[0].first, dict.fromkeys(self._made, frozen(())))
@@ -122,7 +122,20 @@ class RoadPriorSmoother(Stage):
             # A node now, with the bias and the tilt since the one before.
             backlog.lines[name].heights[-1][1][-1] = each.x[0]
         backlog.finish(ending)
-        return tuple(backlog.come_out())
+        return tuple(map(self._doubted, backlog.come_out()))
+
+    def _doubted(self, block: Block) -> Block:
+        """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
+        flags: dict[ChannelId, FlagArray] = {}
+        assert self._header is not None
+        for track in self._header.tracks:
+            height, sigma = ChannelId(REFERENCE_HEIGHT, track), ChannelId(SIGMA, track)
+            bend_m = self.memory["filters"][track].bends_of(block.first, len(block))
+            doubtful = block[sigma] > self.constants.most_sigma_share * bend_m
+            if doubtful.any():
+                own = doubtful * np.uint8(Flag.UNCERTAIN)
+                flags[height] = flags[sigma] = own | block.flags.get(height, np.uint8(0))
+        return block.setting({}, flags)
 
     def _nodes(self, block: Block) -> IndexArray:
         """Return the places in ``block`` that are nodes."""

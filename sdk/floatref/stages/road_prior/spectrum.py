@@ -51,6 +51,11 @@ class RoadSpectrum:
         limits = self.interval_s, SPACING_M, LAGS, LONGEST_S, self.share
         road_spectrum.gather(elevation_m, travel_m, *limits, self.memory)
 
+    @property
+    def bend_m(self) -> float:
+        """RMS of the second difference over the longer distance."""
+        return float(np.sqrt(self.memory[LONG]))
+
     def road(self) -> FloatArray:
         """Return q in m and g in 1/m, shape (2,)."""
         found = np.linalg.solve(_squares(), self.memory[[SHORT, LONG]])

@@ -1,6 +1,6 @@
 """The road-prior filter of one wheel path, fed block by block."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -44,6 +44,7 @@ class RoadTrack:
     p: FloatArray
     memory: FloatArray
     spectrum: RoadSpectrum
+    bends: list[tuple[int, float]] = field(default_factory=list)
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -65,6 +66,7 @@ class RoadTrack:
         while low < a.size:
             if (first + low) % every == 0:
                 self.model[[ROAD_STEP, SLOPE_STEP]] = self.spectrum.road()
+                self.bends.append((first + low, self.spectrum.bend_m))
             high = min(low + every - (first + low) % every, a.size)
             count = -(-(first + high) // self.sub_block) - -(-(first + low) // self.sub_block)
             nodes = self._advance(a[low:high], first + low, ends[:count], height[low:high])
@@ -83,6 +85,16 @@ class RoadTrack:
         count = road_prior.run(a, first, self.sub_block, self.model, ends, *state, height, *kept)
         found = nodes.filled(count)
         self.spectrum.add(height[found.at[:, 0] - first] - ends[:, SEEN], ends[:, TRAVEL])
+        return found
+
+    def bends_of(self, first: int, size: int) -> FloatArray:
+        """Return how far the road bends at samples from ``first`` on, in m; earlier ones go."""
+        while len(self.bends) > 1 and self.bends[1][0] <= first:
+            self.bends.pop(0)
+        begins, values = zip(*self.bends, strict=True)
+        found: FloatArray = np.array(values)[
+            np.searchsorted(begins, np.arange(first, first + size), "right") - 1
+        ]
         return found
 
     def end(self, at: int, travel_m: float) -> RoadNodes:

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.values.arrays import Flag
 from floatref.values.channels import ChannelId
 
 RATE = 100
@@ -34,9 +35,21 @@ def test_without_acceleration_less_is_known(drive, through, seed, begin, count):
     whole = drive(seed, 6.0, RATE)
     a = whole.a.copy()
     a[begin : begin + count] = np.nan
-    out = through(RoadPriorSmoother(), replace(whole, a=a))
-    usual = through(RoadPriorSmoother(), whole)
+    vouched = RoadPrior(most_sigma_share=1e6)
+    out = through(RoadPriorSmoother(vouched), replace(whole, a=a))
+    usual = through(RoadPriorSmoother(vouched), whole)
     gap = slice(begin, begin + count)
     assert (out[SIGMA][gap] > 1.05 * usual[SIGMA][gap]).all()
     assert out.flags[HEIGHT][gap].all()
     assert not out.flags[HEIGHT][:begin].any()
+
+
+@laws
+@given(seed=SEEDS, share=st.floats(0.03, 3.0))
+def test_what_is_less_sure_than_asked_for_is_flagged(drive, through, seed, share):
+    """The memory is so long that the road bends as at the start: over 16 m, by (2.4)."""
+    drawn, road = drive(seed, 20.0, RATE, (8.0, 12.0)), RoadPrior(road_memory_m=1e15)
+    bend_m = np.sqrt(2 * 16 * road.road + 2 / 3 * 16**3 * road.long_waves)
+    out = through(RoadPriorSmoother(replace(road, most_sigma_share=share)), drawn)
+    flags = out.flags.get(HEIGHT, np.zeros(len(out), np.uint8))
+    np.testing.assert_array_equal(flags == Flag.UNCERTAIN, out[SIGMA] > share * bend_m)
