@@ -8,6 +8,7 @@ from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.kalman_pipelines import KALMAN
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
+from floatref.architectures.road_prior_imu import ROAD_PRIOR_IMU
 from floatref.architectures.road_prior_pipeline import ROAD_PRIOR
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
 from floatref.errors import FloatrefError, PluginError
@@ -91,7 +92,7 @@ class Defaults:
     @hookimpl
     def floatref_register_pipelines(self, register: Callable[[Pipeline], None]) -> None:
         """Register the pipelines."""
-        for pipeline in (*PIPELINES, *KALMAN, *ROAD_PRIOR, *ROAD_PRIOR_SPATIAL):
+        for pipeline in (*PIPELINES, *KALMAN, *ROAD_PRIOR, *ROAD_PRIOR_IMU, *ROAD_PRIOR_SPATIAL):
             register(pipeline)
 
 
