@@ -6,6 +6,7 @@
 - `model`: the linear state-space model and its discretization.
 - `smoother`: Kalman filter forward, smoother of Rauch, Tung and Striebel backward.
 - `least_squares`: the same posterior from one least-squares problem, with matrices of its own.
+- `levelling`, `lines`: the vertical acceleration by the attitude that an inertial unit measures.
 
 It is not in the dissertation. A high-pass filter in time goes on forgetting the road while the
 vehicle stands on it; here the road under the laser, its elevation z and the slope s of its long
