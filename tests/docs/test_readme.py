@@ -62,7 +62,7 @@ def test_the_example_writes_a_profile(tmp_path: Path, monkeypatch: pytest.Monkey
     exec(EXAMPLE[0], {})
     profile = floatref.read_profile(tmp_path / "profile")
     assert profile.length_m == pytest.approx(20.0, abs=0.01)
-    assert profile.pipeline == "temporal-basic"
+    assert profile.pipeline == "road-prior-smoother"
 
 
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md"], ids=["readme", "contributing"])

@@ -30,12 +30,12 @@ def test_figures_are_the_tables(row: tuple[str, str]) -> None:
 
 def test_it_is_adequate_on_every_run() -> None:
     ours = [cell for (name, _), cell in CELLS.items() if name == OURS]
-    assert min(cell["cross_correlation"] for cell in ours) >= 0.96
-    assert max(abs(cell["iri_error_percent"]) for cell in ours) <= 3.0
+    assert min(cell["cross_correlation"] for cell in ours) >= 0.98
+    assert max(abs(cell["iri_error_percent"]) for cell in ours) <= 2.0
 
 
-def test_the_lowest_is_the_hardest_brake() -> None:
+def test_the_lowest_is_the_slowest() -> None:
     lowest = min(
         (cell["cross_correlation"], run) for (name, run), cell in CELLS.items() if name == OURS
     )
-    assert lowest[1] == "brk_49-34_0.84g"
+    assert lowest[1] == "const_5"

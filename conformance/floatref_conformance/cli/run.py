@@ -13,7 +13,7 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.runner import Plan
 from floatref_conformance.waivers import check_used, read_waivers
 
-RECOMMENDED = "builtin:temporal-adaptive-hpf-spatial-backward"
+RECOMMENDED = "builtin:road-prior-smoother"
 
 
 @click.command()

@@ -14,10 +14,11 @@ from floatref.values.recording import Recording
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
 
-RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
+RECOMMENDED = "road-prior-smoother"
 """What is judged unless another device is named: suppression for a temporal profiler."""
 CLAIMS: Mapping[str, DeviceClass] = {
     RECOMMENDED: DeviceClass.NOMINAL,
+    "temporal-adaptive-hpf-spatial-backward": DeviceClass.NOMINAL,
     "spatial-hpf-timer-distortion-reflection": DeviceClass.NOMINAL,
     "kalman-smoother-reflection": DeviceClass.ADEQUATE,
 }

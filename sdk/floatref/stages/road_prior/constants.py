@@ -30,7 +30,7 @@ class RoadPrior:
         pitch_hz, pitch_damping: natural frequency and damping ratio of the pitch response.
         height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
         most_sigma_share: where the 1-σ of the result is a larger share of how far the road bends,
-            it is flagged; that is the RMS second difference over 16 m.
+            it is flagged; that is the RMS second difference over 16 m, at least at the start.
     """
 
     acceleration: float = 1.5e-4

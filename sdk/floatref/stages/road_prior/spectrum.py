@@ -53,8 +53,8 @@ class RoadSpectrum:
 
     @property
     def bend_m(self) -> float:
-        """RMS of the second difference over the longer distance."""
-        return float(np.sqrt(self.memory[LONG]))
+        """RMS of the second difference over the longer distance, at least that of the start."""
+        return float(np.sqrt(max(self.memory[LONG], _squares()[1] @ self.least / LEAST)))
 
     def road(self) -> FloatArray:
         """Return q in m and g in 1/m, shape (2,)."""
