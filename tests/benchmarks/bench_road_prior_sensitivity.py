@@ -125,7 +125,8 @@ def label(case: Adversity) -> str:
 def values(only: tuple[str, ...]) -> Iterator[tuple[str, float, float]]:
     """Yield name, value and factor of what is changed."""
     (pipeline,) = (each for each in ROAD_PRIOR if each.name == OURS)
-    for name in CONSTANTS:
+    # What is vouched for changes no elevation.
+    for name in [each for each in CONSTANTS if each != "most_sigma_share"]:
         for factor in FACTORS.get(name, USUAL_FACTORS):
             if name.startswith(only or ("",)):
                 yield name, factor * pipeline.settings[name], factor

@@ -23,7 +23,8 @@ PITCH = {"pitch_hz", "pitch_damping"}
 
 def test_every_constant_has_two_rows_of_values_about_its_default() -> None:
     defaults = ROAD_PRIOR[0].settings
-    for name in CONSTANTS:
+    # What is vouched for changes no elevation.
+    for name in CONSTANTS.keys() - {"most_sigma_share"}:
         smaller, larger = (each for each in CHANGED if each["constant"] == name)
         assert smaller["factor"] < 1.0 < larger["factor"]
         for each in (smaller, larger):

@@ -1,6 +1,6 @@
 """The road-prior filter of one wheel path, fed block by block."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -44,7 +44,7 @@ class RoadTrack:
     p: FloatArray
     memory: FloatArray
     spectrum: RoadSpectrum
-    bends: list[tuple[int, float]] = field(default_factory=list)
+    bends: list[tuple[int, float]]
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -54,7 +54,8 @@ class RoadTrack:
         x, memory = np.zeros(STATES), np.zeros(MEMORY)
         x[0] = memory[0] = start_m
         spectrum = RoadSpectrum.of(constants, step * sub_block(step))
-        return cls(model, sub_block(step), x, constants.start(), memory, spectrum)
+        begun = model, sub_block(step), x, constants.start(), memory
+        return cls(*begun, spectrum, [(0, spectrum.bend_m)])
 
     def advance(self, a: FloatArray, first: int, ends: FloatArray) -> tuple[FloatArray, RoadNodes]:
         """Return the heights integrated from the accelerations ``a``, in m, and the nodes.
