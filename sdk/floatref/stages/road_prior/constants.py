@@ -49,7 +49,7 @@ class RoadPrior:
     pitch_hz: float = 1.6
     pitch_damping: float = 0.3
     height_m: float = 4e-5
-    most_sigma_share: float = 0.15
+    most_sigma_share: float = 0.3
 
     def __post_init__(self) -> None:
         """Refuse a pitch response that does not swing; InputError tells which setting it is."""
