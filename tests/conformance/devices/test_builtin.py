@@ -16,9 +16,10 @@ SMOOTHER = "kalman-smoother-reflection"
 def test_a_pipeline_declares_the_sensors_that_it_needs(entry):
     said = Description.of(make(entry.name).describe())
     assert said.capabilities == floatref.pipeline_capabilities(entry.name)
-    augmented = entry.name.startswith("kalman")
+    kalman = entry.name.startswith("kalman")
+    augmented = kalman or entry.name.endswith("-imu")
     assert ("imu" in said.capabilities) == augmented
-    assert ("gnss" in said.capabilities) == (augmented and "constant-height" not in entry.name)
+    assert ("gnss" in said.capabilities) == (kalman and "constant-height" not in entry.name)
     assert ("roll_rate" in said.channels) == augmented
 
 
