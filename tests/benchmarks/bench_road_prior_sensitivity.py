@@ -22,7 +22,7 @@ from road_prior_adversities import STOP, Adversity, stop
 from road_prior_changes import crack, injured
 from road_prior_measuring import OURS, Found, compared, quietly, simulated
 
-from floatref.architectures.road_prior_pipeline import CONSTANTS, ROAD_PRIOR
+from floatref.architectures.road_prior_pipeline import CONSTANTS, EXPECTED, ROAD_PRIOR
 from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation
@@ -125,8 +125,8 @@ def label(case: Adversity) -> str:
 def values(only: tuple[str, ...]) -> Iterator[tuple[str, float, float]]:
     """Yield name, value and factor of what is changed."""
     (pipeline,) = (each for each in ROAD_PRIOR if each.name == OURS)
-    # What is vouched for changes no elevation.
-    for name in [each for each in CONSTANTS if each != "most_sigma_share"]:
+    # What is vouched for changes no elevation, and nothing is expected of the vehicle.
+    for name in [each for each in CONSTANTS if each not in ("most_sigma_share", *EXPECTED)]:
         for factor in FACTORS.get(name, USUAL_FACTORS):
             if name.startswith(only or ("",)):
                 yield name, factor * pipeline.settings[name], factor

@@ -60,7 +60,7 @@ def constants(prior: RoadPrior) -> Constants:
         prior.long_waves,
         prior.road_reach_m,
         sigma_b=prior.acceleration_bias,
-        sigma_kappa=(prior.lean_rad, prior.tilt),
+        sigma_kappa=(prior.lean_sigma_rad, prior.tilt_sigma),
     )
 
 

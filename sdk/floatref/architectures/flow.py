@@ -41,6 +41,11 @@ def told(stages: Sequence[Stage]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(lines))
 
 
+def learned(stages: Sequence[Stage]) -> dict[str, float]:
+    """Return the settings that a run through ``stages`` has told."""
+    return {k: v for stage in stages for k, v in _guarded(stage, stage.learned).items()}
+
+
 def _kind(stage: Stage) -> str:
     if stage.direction is Direction.BACKWARD:
         return "backward"

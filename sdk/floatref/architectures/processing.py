@@ -88,6 +88,8 @@ def run(
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = _collect(header, blocks, chosen, resolved, room)
+    if learned := flow.learned(stages):
+        profile = replace(profile, provenance={**profile.provenance, "learned": learned})
     return Result(profile, (*cautions, *source.warnings, *flow.told(stages), *loaded.reports))
 
 

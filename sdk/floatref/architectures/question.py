@@ -20,10 +20,10 @@ class Pipeline:
     """A named way through an architecture.
 
     ``answers`` replaces the architecture's own stages at the points it names; ``settings`` are
-    the pipeline's numbers with their defaults, all above zero. None is a number that the
-    recording decides. ``channels`` are those of the recording that it takes beside the nominal
-    ones, for every track or shared, and ``readings`` those of GNSS; ``capabilities`` are the
-    sensors that deliver them.
+    the pipeline's numbers with their defaults, all above zero but those ``signed``. None is a
+    number that the recording decides. ``channels`` are those of the recording that it takes
+    beside the nominal ones, for every track or shared, and ``readings`` those of GNSS;
+    ``capabilities`` are the sensors that deliver them.
     """
 
     name: str
@@ -34,6 +34,7 @@ class Pipeline:
     channels: tuple[str, ...] = ()
     readings: tuple[str, ...] = ()
     capabilities: tuple[str, ...] = ()
+    signed: tuple[str, ...] = ()
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
         """Return the settings with those ``given`` in place; InputError if one cannot be.
@@ -46,7 +47,11 @@ class Pipeline:
                 raise InputError(
                     f"setting {name}: pipeline {self.name} has none such; it has {known}"
                 )
-        chosen = {name: _number(name, value) for name, value in given.items() if value is not None}
+        chosen = {
+            name: _number(name, value, name in self.signed)
+            for name, value in given.items()
+            if value is not None
+        }
         return {**self.settings, **chosen}
 
 
@@ -72,13 +77,14 @@ class Question:
         return value
 
 
-def _number(name: str, value: Any) -> float:
+def _number(name: str, value: Any, signed: bool) -> float:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(f"setting {name}: {value!r} is not a number")
     try:
         number = float(value)
     except OverflowError:
         number = float("inf")
-    if not (isfinite(number) and number > 0):
-        raise InputError(f"setting {name}: {number} must be finite and above zero")
+    if not (isfinite(number) and (signed or number > 0)):
+        allowed = "finite" if signed else "finite and above zero"
+        raise InputError(f"setting {name}: {number} must be {allowed}")
     return number

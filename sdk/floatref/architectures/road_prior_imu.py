@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from floatref.architectures import steps
 from floatref.architectures.question import Pipeline, Question
-from floatref.architectures.road_prior_pipeline import ROAD_PRIOR
+from floatref.architectures.road_prior_pipeline import EXPECTED, ROAD_PRIOR
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.kalman.inputs import IMU
 from floatref.stages.levelling import Level
@@ -41,5 +41,6 @@ ROAD_PRIOR_IMU = (
         {**ROAD_PRIOR[0].answers, "temporal_condition": _condition},
         channels=IMU,
         capabilities=("imu",),
+        signed=EXPECTED,
     ),
 )

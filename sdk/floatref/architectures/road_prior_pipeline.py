@@ -22,14 +22,17 @@ CONSTANTS = {
     "road_reach_m": "road_reach_m",
     "road_memory_m": "road_memory_m",
     "edge_sigmas": "edge_sigmas",
-    "lean_sigma_rad": "lean_rad",
-    "tilt_sigma": "tilt",
+    "lean_expected_rad": "lean_expected_rad",
+    "lean_sigma_rad": "lean_sigma_rad",
+    "tilt_expected": "tilt_expected",
+    "tilt_sigma": "tilt_sigma",
     "pitch_hz": "pitch_hz",
     "pitch_damping": "pitch_damping",
     "height_noise_m": "height_m",
     "most_sigma_share": "most_sigma_share",
 }
 """From settings to what they are in `RoadPrior`."""
+EXPECTED = "lean_expected_rad", "tilt_expected"
 _USUAL = vars(RoadPrior())
 
 
@@ -55,5 +58,6 @@ ROAD_PRIOR = (
             **{name: _USUAL[field] for name, field in CONSTANTS.items()},
         },
         {"temporal_condition": condition, "temporal_estimate": _estimate},
+        signed=EXPECTED,
     ),
 )

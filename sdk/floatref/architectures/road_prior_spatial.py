@@ -5,7 +5,7 @@ from math import pi
 
 from floatref.architectures import steps
 from floatref.architectures.question import Pipeline, Question
-from floatref.architectures.road_prior_pipeline import CONSTANTS, ROAD_PRIOR
+from floatref.architectures.road_prior_pipeline import CONSTANTS, EXPECTED, ROAD_PRIOR
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.dropping import Drop
@@ -61,5 +61,6 @@ ROAD_PRIOR_SPATIAL = (
         "the same from one sample per profile interval, triggered by the encoder",
         {**SETTINGS, "acceleration_anti_alias_hz": 100.0, "unknown_after_s": 0.8},
         {"spatial_condition": _condition, "spatial_estimate": _estimate},
+        signed=EXPECTED,
     ),
 )

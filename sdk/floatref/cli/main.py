@@ -13,6 +13,7 @@ COMMANDS = {
     "adapters": ("floatref.cli.listings:adapters", "list the adapters"),
     "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
     "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
+    "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),
 }
 
 

@@ -23,6 +23,7 @@ from floatref.kernels.road_prior_layout import (
     JUMP,
     LATEST,
     LEAN,
+    LEAN_EXPECTED,
     LEAN_PRIOR,
     MISSING,
     ONCE,
@@ -41,6 +42,7 @@ from floatref.kernels.road_prior_layout import (
     STEPS,
     STILL,
     TILT,
+    TILT_EXPECTED,
     TILT_PRIOR,
     TRAVEL,
     TWICE,
@@ -161,8 +163,8 @@ def _node(
     memory[STILL] = memory[STILL] + span if known[TRAVEL] <= 0.0 else 0.0
     row[RENEWED] = known[ANEW]
     if known[ANEW] > 0.0:
-        _renew(LEAN, model[LEAN_PRIOR], x, p)
-        _renew(TILT, model[TILT_PRIOR], x, p)
+        _renew(LEAN, model[LEAN_EXPECTED], model[LEAN_PRIOR], x, p)
+        _renew(TILT, model[TILT_EXPECTED], model[TILT_PRIOR], x, p)
     if known[SEEN] == known[SEEN]:
         innovation = known[SEEN] - x[0] + x[ROAD]
         _let_go(innovation, model, memory[STILL], p)
@@ -257,8 +259,8 @@ def _spread(p: FloatArray, i: int, j: int, value: float) -> None:
 
 
 @compiled
-def _renew(state: int, variance: float, x: FloatArray, p: FloatArray) -> None:
-    x[state] = 0.0
+def _renew(state: int, expected: float, variance: float, x: FloatArray, p: FloatArray) -> None:
+    x[state] = expected
     for j in range(STATES):
         p[state, j], p[j, state] = 0.0, 0.0
     p[state, state] = variance

@@ -28,9 +28,10 @@ MEMORY = STILL + 1
 inputs and longitudinal acceleration there, and for how many seconds the vehicle has not moved."""
 STEP, WHITE, WALK, WALK_ALONG, READING, ROAD_STEP, ROAD_REACH = range(7)
 LEAN_PRIOR, TILT_PRIOR, GAP, SLOPE_STEP, EDGE = range(ROAD_REACH + 1, ROAD_REACH + 6)
-MODEL = EDGE + 1
+LEAN_EXPECTED, TILT_EXPECTED = EDGE + 1, EDGE + 2
+MODEL = TILT_EXPECTED + 1
 """Of the model: step in s; squares of the densities of acceleration, of its bias' walk, and of what
 longitudinal acceleration adds to it; variance of a reading; q in m; distance in m after which the
 road is forgotten; variances of lean and tilt begun anew; square of the acceleration's density
 where samples are missing; g in 1/m; square of how many deviations off a reading at a
-standstill tells of an edge."""
+standstill tells of an edge; lean and tilt where they begin anew."""

@@ -122,6 +122,10 @@ class Stage(ABC):
         """Return one line for each thing in the run so far that its user should know."""
         return ()
 
+    def learned(self) -> Mapping[str, float]:
+        """Return settings that the run has told, for the next one of the same vehicle."""
+        return {}
+
     @abstractmethod
     def open(self, header: Header) -> Header:
         """Check ``header``, prepare the memory, and return the header of the output."""

@@ -25,8 +25,9 @@ class RoadPrior:
         road_reach_m: distance after which elevation and slope of the road are forgotten, in m.
         road_memory_m: over so much travel the run's own road takes the place of both.
         edge_sigmas: a reading at a standstill that is off by so many tells of an edge of the road.
-        lean_rad: 1-σ of the lean of the accelerometer's axis forward.
-        tilt: 1-σ of the pitch angle per longitudinal acceleration, in rad per m/s².
+        lean_expected_rad, lean_sigma_rad: lean of the accelerometer's axis forward, and 1-σ.
+        tilt_expected, tilt_sigma: pitch angle per longitudinal acceleration, in rad per m/s²,
+            and 1-σ.
         pitch_hz, pitch_damping: natural frequency and damping ratio of the pitch response.
         height_m: 1-σ of a reading of the height sensor, for the 1-σ of the result alone.
         most_sigma_share: where the 1-σ of the result is a larger share of how far the road bends,
@@ -44,8 +45,10 @@ class RoadPrior:
     road_reach_m: float = 150.0
     road_memory_m: float = 300.0
     edge_sigmas: float = 6.0
-    lean_rad: float = 0.03
-    tilt: float = 0.01
+    lean_expected_rad: float = 0.0
+    lean_sigma_rad: float = 0.03
+    tilt_expected: float = 0.0
+    tilt_sigma: float = 0.01
     pitch_hz: float = 1.6
     pitch_damping: float = 0.3
     height_m: float = 4e-5
@@ -59,16 +62,18 @@ class RoadPrior:
     def model(self, step: float) -> FloatArray:
         """Return what the kernels take of them, for samples ``step`` in s apart."""
         densities = self.acceleration, self.acceleration_walk, self.walk_along, self.reading_m
-        squares = np.square([*densities, self.lean_rad, self.tilt, self.missing_acceleration])
+        deviations = self.lean_sigma_rad, self.tilt_sigma, self.missing_acceleration
+        squares = np.square([*densities, *deviations])
         road = self.road, self.road_reach_m
-        others = self.long_waves, self.edge_sigmas**2
+        expected = self.lean_expected_rad, self.tilt_expected
+        others = self.long_waves, self.edge_sigmas**2, *expected
         return np.array([step, *squares[:4], *road, *squares[4:], *others])
 
     def start(self) -> FloatArray:
         """Return the covariance before the first reading; the height is that of a flat road."""
         reach, half = self.road_reach_m, self.road_reach_m / 2.0
         road_m2 = self.road * half + self.long_waves * reach**3 / 4.0
-        deviations = self.acceleration_bias, self.lean_rad, self.tilt
+        deviations = self.acceleration_bias, self.lean_sigma_rad, self.tilt_sigma
         bias, lean, tilt = np.square(deviations)
         found = np.diag([1.0, 1.0, bias, road_m2, self.long_waves * half, lean, tilt])
         found[ROAD, SLOPE] = found[SLOPE, ROAD] = self.long_waves * half**2

@@ -1,5 +1,6 @@
 """The road-prior smoother in place of both integrations: the road stands still when we do."""
 
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +21,7 @@ from floatref.stages.marking import flags_of, long_gaps
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.stages.road_prior.excitation import Excitation
+from floatref.stages.road_prior.learned import pooled
 from floatref.stages.road_prior.track import RoadTrack, sub_block
 from floatref.stages.signals import (
     ACCELERATION,
@@ -123,6 +125,11 @@ class RoadPriorSmoother(Stage):
             backlog.lines[name].heights[-1][1][-1] = each.x[0]
         backlog.finish(ending)
         return tuple(map(self._doubted, backlog.come_out()))
+
+    def learned(self) -> Mapping[str, float]:
+        """Return what all wheel paths have told of lean and tilt, see `pooled`."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        return pooled([b for each in filters.values() for b in each.told()], self.constants)
 
     def _doubted(self, block: Block) -> Block:
         """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""

@@ -1,12 +1,15 @@
 """The road-prior filter of one wheel path, fed block by block."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
 from floatref.kernels.road_prior_layout import (
+    ANEW,
     BEFORE,
     ENDS,
+    LEAN_PRIOR,
     MEMORY,
     MODEL,
     ROAD_STEP,
@@ -14,9 +17,11 @@ from floatref.kernels.road_prior_layout import (
     SLOPE_STEP,
     STATES,
     STILL,
+    TILT_PRIOR,
     TRAVEL,
 )
 from floatref.stages.road_prior.constants import RoadPrior
+from floatref.stages.road_prior.learned import BOTH, Brake
 from floatref.stages.road_prior.nodes import RoadNodes
 from floatref.stages.road_prior.spectrum import RoadSpectrum
 from floatref.values.arrays import FloatArray
@@ -36,7 +41,15 @@ def sub_block(step: float) -> int:
 
 @dataclass(eq=False)
 class RoadTrack:
-    """State and covariance of the filter of one wheel path."""
+    """State and covariance of the filter of one wheel path.
+
+    Attributes:
+        model, x, p, memory: see `road_prior_layout`.
+        sub_block: samples between two nodes.
+        spectrum: of the road that it has gone.
+        bends: how far the road bends, in m, from which sample on.
+        brakes: what has been told of lean and tilt.
+    """
 
     model: FloatArray
     sub_block: int
@@ -45,6 +58,7 @@ class RoadTrack:
     memory: FloatArray
     spectrum: RoadSpectrum
     bends: list[tuple[int, float]]
+    brakes: list[Brake] = field(default_factory=list)
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -53,6 +67,7 @@ class RoadTrack:
         assert model.size == MODEL
         x, memory = np.zeros(STATES), np.zeros(MEMORY)
         x[0] = memory[0] = start_m
+        x[BOTH] = constants.lean_expected_rad, constants.tilt_expected
         spectrum = RoadSpectrum.of(constants, step * sub_block(step))
         begun = model, sub_block(step), x, constants.start(), memory
         return cls(*begun, spectrum, [(0, spectrum.bend_m)])
@@ -63,17 +78,35 @@ class RoadTrack:
         ``ends`` has a row for each node, see `road_prior_layout`.
         """
         height, parts = np.empty(a.size), [RoadNodes.room(0, 0)]
-        every, low = self.sub_block * RENEWAL, 0
-        while low < a.size:
-            if (first + low) % every == 0:
+        roads, brakes = self._changes(first, a.size, ends)
+        cuts = sorted({first, *roads, *brakes, first + a.size})
+        for low, high in pairwise(cuts):
+            if low in roads:
                 self.model[[ROAD_STEP, SLOPE_STEP]] = self.spectrum.road()
-                self.bends.append((first + low, self.spectrum.bend_m))
-            high = min(low + every - (first + low) % every, a.size)
-            count = -(-(first + high) // self.sub_block) - -(-(first + low) // self.sub_block)
-            nodes = self._advance(a[low:high], first + low, ends[:count], height[low:high])
-            parts.append(nodes)
-            ends, low = ends[count:], high
+                self.bends.append((low, self.spectrum.bend_m))
+            if low in brakes:
+                self.brakes = self.told()
+            count = -(-high // self.sub_block) - -(-low // self.sub_block)
+            inside = slice(low - first, high - first)
+            parts.append(self._advance(a[inside], low, ends[:count], height[inside]))
+            ends = ends[count:]
         return height, RoadNodes.joined(parts)
+
+    def told(self) -> list[Brake]:
+        """Return the brakes that have told of lean and tilt, with the one that has not ended."""
+        latest = Brake.of(self.x, self.p)
+        news = latest.tells(self.model[[LEAN_PRIOR, TILT_PRIOR]])
+        return [*self.brakes, latest] if news else self.brakes
+
+    def _changes(self, first: int, size: int, ends: FloatArray) -> tuple[set[int], set[int]]:
+        """Return samples at which the road is renewed, and before which a brake has ended.
+
+        The latter follow the node before the one where lean and tilt begin anew.
+        """
+        every = self.sub_block * RENEWAL
+        nodes = -(-first // self.sub_block) + np.flatnonzero(ends[:, ANEW] > 0.0)
+        behind = np.maximum((nodes - 1) * self.sub_block + 1, first)
+        return {*range(first + -first % every, first + size, every)}, {*behind.tolist()}
 
     def _advance(
         self, a: FloatArray, first: int, ends: FloatArray, height: FloatArray

@@ -24,7 +24,7 @@ C = RoadPrior(
     long_waves=3e-6,
     road_memory_m=1e15,
     edge_sigmas=1e6,
-    lean_rad=0.02,
+    lean_sigma_rad=0.02,
 )
 """The reference's road is the same all the way: the run's own takes its place nowhere, nor has it
 edges, which readings drawn without a road would tell of."""
@@ -68,7 +68,7 @@ def literal(drive, inputs, a_x, priors, walk_along=C.walk_along):
 def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
     drawn = drive(seed, 2.4, rate, (stop[0], sum(stop)), share=share)
     a_x, response = excited(drawn)
-    expected = literal(drawn, (a_x, a_x * response), a_x, (C.lean_rad, C.tilt))
+    expected = literal(drawn, (a_x, a_x * response), a_x, (C.lean_sigma_rad, C.tilt_sigma))
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
     np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=LITERAL_M)
     stage = RoadPriorSmoother(C, tolerance_m=0.0)
@@ -99,7 +99,9 @@ def test_between_nodes_they_agree_as_well(drive, through, seed, rate, stop):
     h = np.full(drawn.h.size, np.nan)
     h[nodes] = drawn.h[nodes]
     literally = replace(drawn, h=h)
-    expected = literal(literally, inputs, np.zeros(h.size), (C.lean_rad, C.tilt), walk_along=0.0)
+    expected = literal(
+        literally, inputs, np.zeros(h.size), (C.lean_sigma_rad, C.tilt_sigma), walk_along=0.0
+    )
     ours = through(RoadPriorSmoother(constants, tolerance_m=0.0), drawn)[HEIGHT]
     np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=LITERAL_M)
 
@@ -120,7 +122,7 @@ def test_lean_and_tilt_of_a_brake_are_others_after_a_constant_speed(drive, throu
     inputs = [
         np.where(part == k, u, 0.0) for k in range(len(anew) + 1) for u in (a_x, a_x * response)
     ]
-    expected = literal(drawn, inputs, a_x, (C.lean_rad, C.tilt) * (len(anew) + 1))
+    expected = literal(drawn, inputs, a_x, (C.lean_sigma_rad, C.tilt_sigma) * (len(anew) + 1))
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
     np.testing.assert_allclose(ours - drawn.h[0], expected.r[0], rtol=0, atol=2e-6)
 

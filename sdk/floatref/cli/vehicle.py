@@ -1,0 +1,104 @@
+"""`floatref vehicle`: what runs have told of their vehicle, kept as settings for the next ones."""
+
+from collections.abc import Mapping, Sequence
+from math import hypot, isfinite, sqrt
+from pathlib import Path
+from typing import Any
+
+import click
+
+from floatref.cli.printing import print_json, print_table
+from floatref.errors import InputError
+from floatref.files import read_profile
+from floatref.files.atomic import check_target, replacing_file
+from floatref.files.document import write_document
+
+PAIRS = (("lean_expected_rad", "lean_sigma_rad"), ("tilt_expected", "tilt_sigma"))
+"""What a run tells, each with its 1-σ."""
+NAMES = frozenset(name for pair in PAIRS for name in pair)
+
+
+@click.command("vehicle")
+@click.argument(
+    "profiles", metavar="PROFILE...", nargs=-1, required=True, type=click.Path(path_type=Path)
+)
+@click.option(
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    metavar="FILE.json",
+    help="Where to write the settings.",
+)
+@click.option("--overwrite", is_flag=True, help="Replace what is there.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def vehicle(profiles: tuple[Path, ...], out: Path, overwrite: bool, as_json: bool) -> None:
+    """Keep what the runs of PROFILEs, of one vehicle, have told of its lean and tilt.
+
+    A road-prior pipeline learns both from brakes. `floatref process --settings` reads the
+    result, so that the next run begins with them.
+    """
+    check_target(out, overwrite)
+    if len({place.resolve() for place in profiles}) < len(profiles):
+        raise InputError("a profile is given twice; give every run once")
+    pipeline, learned = _learned(profiles)
+    settings = kept(learned)
+    with replacing_file(out, overwrite) as beside:
+        write_document(settings, beside)
+    report = {"file": str(out), "pipeline": pipeline, "runs": len(learned), "settings": settings}
+    print_json(report) if as_json else _print_table(out, profiles, learned, settings)
+
+
+def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the settings of a vehicle whose runs have ``learned`` theirs.
+
+    Means are weighted by 1/σ²; their 1-σ is that of one more run, in quadrature 1/√Σ(1/σ²) and
+    how the runs spread about the mean.
+    """
+    found = {}
+    for mean, sigma in PAIRS:
+        weights = [1.0 / run[sigma] ** 2 for run in learned]
+        total = sum(weights)
+        value = sum(w * run[mean] for w, run in zip(weights, learned, strict=True)) / total
+        off = (w * (run[mean] - value) ** 2 for w, run in zip(weights, learned, strict=True))
+        found[mean] = value
+        found[sigma] = hypot(1.0 / sqrt(total), sqrt(sum(off) / total))
+    return found
+
+
+def _learned(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
+    """Return the pipeline of all ``profiles`` and what each run has told."""
+    read = {place: read_profile(place) for place in profiles}
+    pipeline = next(iter(read.values())).pipeline
+    for place, profile in read.items():
+        if profile.pipeline != pipeline:
+            other = profile.pipeline or "none"
+            raise InputError(f"{place}: pipeline is {other}, that of the first is {pipeline}")
+    return pipeline, [_told(place, profile.provenance) for place, profile in read.items()]
+
+
+def _told(place: Path, provenance: Mapping[str, Any]) -> Mapping[str, float]:
+    learned = provenance.get("learned")
+    if learned is None:
+        raise InputError(
+            f"{place}: tells nothing of a vehicle; give a profile by a road-prior pipeline, of a "
+            "run with a brake"
+        )
+    if not isinstance(learned, dict) or learned.keys() != NAMES:
+        raise InputError(f"{place}: provenance learned has to hold {', '.join(sorted(NAMES))}")
+    for name, value in learned.items():
+        good = isinstance(value, int | float) and isfinite(value)
+        if not good or (name.endswith(("sigma", "sigma_rad")) and value <= 0):
+            raise InputError(f"{place}: learned {name} is {value}; process the run again")
+    return learned
+
+
+def _print_table(
+    out: Path,
+    profiles: Sequence[Path],
+    learned: Sequence[Mapping[str, float]],
+    settings: Mapping[str, float],
+) -> None:
+    names = [name for pair in PAIRS for name in pair]
+    lines = [*zip(map(str, profiles), learned, strict=True), ("kept", settings)]
+    rows = [[title, *(f"{values[name]:.5f}" for name in names)] for title, values in lines]
+    print_table(str(out), ("run", *names), rows)

@@ -1,0 +1,152 @@
+"""`floatref vehicle`: what runs have told of their vehicle goes to the next one."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from math import sqrt
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.cli.main import main
+from floatref.cli.vehicle import kept
+from floatref.files import read_profile, write_profile, write_recording
+from floatref_conformance.proving_ground import Scenario, simulate
+
+STOP: dict[str, Any] = {
+    "rate_hz": 1000.0,
+    "length_m": 160.0,
+    "profile_interval_m": 0.05,
+    "tracks": ["left"],
+    "manoeuvre": "stop",
+    "speed_kmh": 50.0,
+    "deceleration_g": 0.3,
+    "dwell_s": 1.2,
+    "event_at_m": 90.0,
+    "final_speed_kmh": 25.0,
+    "vehicle": "soft-van",
+    "iri_m_per_km": 1.0,
+}
+OURS = ("--pipeline", "road-prior-smoother")
+
+
+def invoke(*arguments: object) -> Result:
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder of two runs of one vehicle, and their profiles `first` and `second`."""
+    folder = tmp_path_factory.mktemp("vehicle")
+    (folder / "runs").mkdir()
+    for seed, name in enumerate(("first", "second")):
+        scenario = Scenario.from_dict({**STOP, "seed": seed, "road_seed": seed})
+        write_recording(simulate(scenario).recording, folder / "runs" / name)
+        done = invoke("process", folder / "runs" / name, "--out", folder / name, *OURS)
+        assert done.exit_code == 0, done.output
+    return folder
+
+
+def test_runs_of_one_vehicle_tell_the_same_tilt(runs: Path) -> None:
+    told = [read_profile(runs / name).provenance["learned"] for name in ("first", "second")]
+    apart = abs(told[0]["tilt_expected"] - told[1]["tilt_expected"])
+    assert apart < 3.0 * (told[0]["tilt_sigma"] + told[1]["tilt_sigma"])
+    # The soft van pitches by some 5 degrees at 1 g, nose down in a brake.
+    assert all(-0.013 < one["tilt_expected"] < -0.006 for one in told)
+
+
+def test_what_is_kept_goes_into_the_next_run(runs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "van.json"
+    done = invoke("vehicle", runs / "first", runs / "second", "--out", out, "--json")
+    assert done.exit_code == 0, done.output
+    report, written = json.loads(done.stdout), json.loads(out.read_text(encoding="utf-8"))
+    assert report["settings"] == written
+    assert (report["pipeline"], report["runs"]) == (OURS[1], 2)
+    again = invoke(
+        "process", runs / "runs" / "first", "--out", tmp_path / "p", *OURS, "--settings", out
+    )
+    assert again.exit_code == 0, again.output
+    profile = read_profile(tmp_path / "p")
+    assert {name: profile.settings[name] for name in written} == written
+
+
+def test_the_table_has_a_line_for_every_run(runs: Path, tmp_path: Path) -> None:
+    done = invoke("vehicle", runs / "first", runs / "second", "--out", tmp_path / "v.json")
+    lines = [line for line in done.stdout.splitlines() if line]
+    assert [line.split()[0] for line in lines[2:]] == [
+        str(runs / "first"),
+        str(runs / "second"),
+        "kept",
+    ]
+
+
+@settings(max_examples=50)
+@given(
+    means=st.lists(st.floats(-0.02, 0.02), min_size=1, max_size=6),
+    sigma=st.floats(1e-4, 0.01),
+)
+def test_as_sure_runs_are_averaged_and_the_sigma_is_that_of_one_more(
+    means: list[float], sigma: float
+) -> None:
+    one = {"tilt_expected": 0.0, "tilt_sigma": 1.0}
+    learned = [{**one, "lean_expected_rad": mean, "lean_sigma_rad": sigma} for mean in means]
+    found, count = kept(learned), len(means)
+    average = sum(means) / count
+    assert found["lean_expected_rad"] == pytest.approx(average, abs=1e-12)
+    variance = sum((mean - average) ** 2 for mean in means) / count
+    assert found["lean_sigma_rad"] == pytest.approx(sqrt(sigma**2 / count + variance))
+    assert found["tilt_sigma"] == pytest.approx(1.0 / sqrt(count))
+
+
+def bare(profile: Path, at: Path) -> Path:
+    """Write ``profile`` without what it has learned."""
+    whole = read_profile(profile)
+    write_profile(replace(whole, provenance={}), at)
+    return at
+
+
+def of_another_pipeline(profile: Path, at: Path) -> Path:
+    write_profile(replace(read_profile(profile), pipeline="road-prior-smoother-imu"), at)
+    return at
+
+
+def spoilt(profile: Path, at: Path) -> Path:
+    whole = read_profile(profile)
+    learned = {**whole.provenance["learned"], "tilt_sigma": 0.0}
+    write_profile(replace(whole, provenance={"learned": learned}), at)
+    return at
+
+
+def short(profile: Path, at: Path) -> Path:
+    write_profile(replace(read_profile(profile), provenance={"learned": {"tilt": 1}}), at)
+    return at
+
+
+@pytest.mark.parametrize(
+    ("make", "told"),
+    [
+        (bare, "tells nothing of a vehicle"),
+        (of_another_pipeline, "pipeline is road-prior-smoother-imu"),
+        (spoilt, "learned tilt_sigma is 0.0"),
+        (short, "has to hold"),
+    ],
+)
+def test_a_profile_that_cannot_be_taken_is_refused_in_a_line(
+    runs: Path, tmp_path: Path, make: Callable[[Path, Path], Path], told: str
+) -> None:
+    other, out = make(runs / "second", tmp_path / "other"), tmp_path / "v.json"
+    done = invoke("vehicle", runs / "first", other, "--out", out)
+    assert done.exit_code == 2
+    (line,) = done.stderr.splitlines()
+    assert told in line
+    assert str(other) in line
+    assert not out.exists()
+
+
+def test_a_run_counts_once(runs: Path, tmp_path: Path) -> None:
+    done = invoke("vehicle", runs / "first", runs / "first", "--out", tmp_path / "v.json")
+    assert (done.exit_code, "twice" in done.stderr) == (2, True)
