@@ -8,6 +8,10 @@ SHORT, LONG, GONE, AGO, COUNT, RING = range(6)
 many points there are behind one another, and the points: elevation in m and seconds since the one
 before, from the latest."""
 
+RUN, LATELY, LAST = 2, 3, 5
+"""Of the memory of `texture`: both mean squares in m², how many nodes in a row count, and the
+elevation in m at the latest ones."""
+
 
 @compiled
 def gather(
@@ -42,6 +46,36 @@ def gather(
         memory[AGO] = 0.0
         for which in range(2):
             _square(which, lags[which], kept, most_s, share, memory)
+
+
+@compiled
+def texture(
+    elevation: FloatArray,
+    travel: FloatArray,
+    least_m: float,
+    most_m: float,
+    per_m: float,
+    memory: FloatArray,
+) -> None:
+    """Take second differences over one and over two nodes, where these are some way apart.
+
+    Both mean squares go to each new one by ``per_m`` of the travel; nodes count that are
+    ``least_m`` to ``most_m`` apart, in m, five in a row.
+    """
+    for k in range(elevation.size):
+        for j in range(LAST - 1, 0, -1):
+            memory[LATELY + j] = memory[LATELY + j - 1]
+        memory[LATELY] = elevation[k]
+        good = elevation[k] == elevation[k] and least_m <= travel[k] <= most_m
+        memory[RUN] = memory[RUN] + 1.0 if good else 0.0
+        if memory[RUN] < LAST:
+            continue
+        share = min(per_m * travel[k], 1.0)
+        for which in range(2):
+            lag = which + 1
+            bend = memory[LATELY] - 2.0 * memory[LATELY + lag] + memory[LATELY + 2 * lag]
+            mean = memory[which]
+            memory[which] += share * (min(bend * bend, 9.0 * mean) - mean)
 
 
 @compiled

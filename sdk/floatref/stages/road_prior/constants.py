@@ -19,7 +19,7 @@ class RoadPrior:
         acceleration_walk: random walk of the bias, in m/s²/√s.
         walk_along: what longitudinal acceleration adds to that in quadrature, in 1/√s.
         missing_acceleration: takes the place of `acceleration` where samples are missing.
-        reading_m: 1-σ of a reading of the height sensor as one of the road, texture included.
+        reading_m: least 1-σ of a reading of the height sensor as one of the road, texture included.
         road: q, half of G_s of the spectrum G_s/(2πν)² of (2.2), in m.
         long_waves: half of G_a of the spectrum G_a/(2πν)⁴ that (2.4) adds to that, in 1/m.
         road_reach_m: distance after which elevation and slope of the road are forgotten, in m.

@@ -12,6 +12,7 @@ from floatref.kernels.road_prior_layout import (
     LEAN_PRIOR,
     MEMORY,
     MODEL,
+    READING,
     ROAD_STEP,
     SEEN,
     SLOPE_STEP,
@@ -48,6 +49,7 @@ class RoadTrack:
         sub_block: samples between two nodes.
         spectrum: of the road that it has gone.
         bends: how far the road bends, in m, from which sample on.
+        reading_m2: least variance of a reading of the height sensor, in m².
         brakes: what has been told of lean and tilt.
     """
 
@@ -58,6 +60,7 @@ class RoadTrack:
     memory: FloatArray
     spectrum: RoadSpectrum
     bends: list[tuple[int, float]]
+    reading_m2: float
     brakes: list[Brake] = field(default_factory=list)
 
     @classmethod
@@ -70,7 +73,7 @@ class RoadTrack:
         x[BOTH] = constants.lean_expected_rad, constants.tilt_expected
         spectrum = RoadSpectrum.of(constants, step * sub_block(step))
         begun = model, sub_block(step), x, constants.start(), memory
-        return cls(*begun, spectrum, [(0, spectrum.bend_m)])
+        return cls(*begun, spectrum, [(0, spectrum.bend_m)], float(model[READING]))
 
     def advance(self, a: FloatArray, first: int, ends: FloatArray) -> tuple[FloatArray, RoadNodes]:
         """Return the heights integrated from the accelerations ``a``, in m, and the nodes.
@@ -83,6 +86,7 @@ class RoadTrack:
         for low, high in pairwise(cuts):
             if low in roads:
                 self.model[[ROAD_STEP, SLOPE_STEP]] = self.spectrum.road()
+                self.model[READING] = max(self.reading_m2, self.spectrum.reading_m2())
                 self.bends.append((low, self.spectrum.bend_m))
             if low in brakes:
                 self.brakes = self.told()

@@ -89,3 +89,54 @@ def test_a_bump_is_no_road_and_no_road_is_much_smoother_than_at_the_start():
     # Twice sixteen points see it, each as three deviations.
     most = (1 + 8 / 300) ** 32
     assert (usual.road() < most * np.array([constants.road, 2 * constants.long_waves])).all()
+
+
+def textured(seed, q, texture_m, travel, count):
+    """Return elevation at nodes ``travel`` apart, each with its own texture, and the travel."""
+    rng = np.random.default_rng(seed)
+    rises = np.sqrt(q * travel) * rng.normal(size=count)
+    return np.cumsum(rises) + texture_m * rng.normal(size=count), np.full(count, travel)
+
+
+@pytest.mark.cites("(2.4)")
+@pytest.mark.parametrize("travel", [0.006, 0.02])
+@pytest.mark.parametrize(("q", "texture_m"), [(4e-6, 1e-3), (4e-6, 3e-4), (1e-4, 2e-3)])
+def test_texture_is_what_no_distance_takes_away(q, texture_m, travel):
+    spectrum = RoadSpectrum.of(RoadPrior(road_memory_m=6000.0), INTERVAL_S)
+    spectrum.add(*textured(5, q, texture_m, travel, round(2000.0 / travel)))
+    assert np.sqrt(spectrum.reading_m2()) == pytest.approx(texture_m, rel=0.1)
+
+
+@pytest.mark.parametrize("q", [1e-6, 4e-6, 1e-4])
+def test_a_rough_road_is_no_texture(q):
+    spectrum = RoadSpectrum.of(RoadPrior(road_memory_m=6000.0), INTERVAL_S)
+    spectrum.add(*textured(6, q, 0.0, 0.02, 100_000))
+    # A tenth of what the road itself rises from node to node.
+    assert np.sqrt(spectrum.reading_m2()) < 0.1 * np.sqrt(2 * q * 0.02)
+
+
+@laws
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    cuts=st.lists(st.integers(1, 1999), max_size=5),
+    lost=st.integers(5, 1990),
+)
+def test_texture_is_the_plain_mean_of_five_nodes_in_a_row(seed, cuts, lost):
+    rng = np.random.default_rng(seed)
+    elevation, _ = textured(seed, 4e-6, 5e-4, 0.01, 2000)
+    travel = rng.choice([0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.004, 0.04], 2000)
+    elevation[lost] = np.nan
+    spectrum = RoadSpectrum.of(RoadPrior(), INTERVAL_S)
+    means = np.full(2, 6.0 * RoadPrior().reading_m ** 2)
+    for piece in np.split(np.arange(2000), sorted(cuts)):
+        spectrum.add(elevation[piece], travel[piece])
+    for k in range(4, 2000):
+        five = slice(k - 4, k + 1)
+        if np.isnan(elevation[five]).any() or (travel[five] != 0.01).any():
+            continue
+        for lag in (1, 2):
+            bend = elevation[k] - 2 * elevation[k - lag] + elevation[k - 2 * lag]
+            # Some 20 m are remembered, a fifteenth of the 300 m of the spectrum.
+            means[lag - 1] += 0.01 / 20 * (min(bend**2, 9 * means[lag - 1]) - means[lag - 1])
+    expected = max(2 * means[0] - means[1], 0.0) / 6.0
+    assert spectrum.reading_m2() == pytest.approx(expected, rel=1e-9, abs=1e-18)
