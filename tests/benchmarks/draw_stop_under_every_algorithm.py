@@ -2,7 +2,8 @@
 
 The run is simulated once, with all sensors; every pipeline has the channels that it declares. Long
 waves of the road are filtered as those of the profiles are. Cross correlations are those of
-`conformance table`, but with the road itself and not with another pass. Run as
+`conformance table`, but with the road itself and not with another pass. What every profile is off
+by behind the stop is printed, all of it and without its long waves. Run as
 
     python tests/benchmarks/draw_stop_under_every_algorithm.py docs/images/FILE.png [--run NAME]
 """
@@ -16,7 +17,7 @@ import numpy as np
 
 import floatref
 from floatref.measures import high_pass
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import scenario_of_run
@@ -27,6 +28,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 
 TRACK, COLUMNS, LIMIT_MM = "left", 3, 30.0
+LEVEL_M = 30.0
+"""Waves longer than this are the level of the few metres behind a stop."""
 LEGEND = (
     "distance from the start of the section, m\n"
     "black: the road; dotted: where the vehicle stands; bold: cross correlation with the road; "
@@ -52,7 +55,16 @@ def beyond(elevation_mm: FloatArray) -> str:
     return f"{scale * lowest:+.{digits}f} to {scale * highest:+.{digits}f} {unit}".replace("-", "−")
 
 
-def draw_panel(axis: Any, name: str, profile: floatref.Profile, driven: Driven) -> None:
+def print_behind(name: str, place: IndexArray, off: FloatArray, interval_m: float) -> None:
+    """Print the RMS of ``off`` in m at the points ``place``, as it is and without its level."""
+    short = high_pass(off, interval_m, LEVEL_M)[place]
+    whole, left = (1e3 * np.sqrt(np.mean(part**2)) for part in (off[place], short))
+    print(f"{name:42s}{whole:10.2f} mm; high-pass filtered at {LEVEL_M:g} m{left:10.2f} mm")
+
+
+def draw_panel(
+    axis: Any, name: str, profile: floatref.Profile, driven: Driven, stop_m: float | None
+) -> None:
     """Draw one profile over the road; places count from the start of the section."""
     elevation = profile.track(TRACK).elevation
     points = profile.start_m + profile.interval_m * np.arange(elevation.size)
@@ -61,6 +73,9 @@ def draw_panel(axis: Any, name: str, profile: floatref.Profile, driven: Driven) 
     agreement = score(truth, profile)[TRACK].cross_correlation
     place = points - SECTION_START_M
     inside = (place >= PEAK_M[0]) & (place <= PEAK_M[1])
+    if stop_m is not None:
+        behind = np.flatnonzero(inside & (place > stop_m))
+        print_behind(name, behind, elevation - road, profile.interval_m)
     found = 1e3 * elevation[inside]
     axis.plot(place[inside], found, color=COLOURS[name.split("-")[0]], linewidth=1.6)
     axis.plot(place[inside], 1e3 * road[inside], color="black", linewidth=0.7)
@@ -79,12 +94,14 @@ def draw(run: str, driven: Driven, path: Path) -> None:
     )
     stop_m = RUNS[run].event_location_m
     for axis, (name, profile) in zip(axes.flat, driven.profiles.items(), strict=False):
-        draw_panel(axis, name, profile, driven)
+        draw_panel(axis, name, profile, driven, stop_m)
         if stop_m is not None:
             axis.axvline(stop_m, color="grey", linewidth=0.7, linestyle=":")
         axis.grid(alpha=0.25)
     for axis in axes.flat[len(driven.profiles) :]:
         axis.set_axis_off()
+    for axis in axes.flat[max(0, len(driven.profiles) - COLUMNS) : len(driven.profiles)]:
+        axis.tick_params(labelbottom=True)
     axes[0, 0].set_ylim(-LIMIT_MM, LIMIT_MM)
     axes[0, 0].set_xlim(*PEAK_M)
     figure.supylabel("elevation, mm", fontsize=9)
