@@ -13,6 +13,7 @@ from floatref.stages.lateness import Advance
 from floatref.stages.protocol import Stage
 from floatref.stages.resampling import ToDistance
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.stages.seams import Seams
 from floatref.stages.signals import ACCELERATION, HEIGHT, MISSING_SHARE
 from floatref.stages.triggers import ToTime
 
@@ -49,6 +50,7 @@ def _estimate(question: Question) -> Sequence[Stage]:
     return (
         ToTime(question.setting("unknown_after_s")),
         RoadPriorSmoother(RoadPrior(**known), question.setting("cutoff_wavelength_m")),
+        Seams(),
         Drop(MISSING_SHARE),
         ToDistance(question.setting("interval_m"), question.origin_m),
     )

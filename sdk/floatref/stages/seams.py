@@ -14,6 +14,7 @@ PACE_S = 0.1
 """The pace is that of so long before."""
 LOST = 0.5
 """Less than this share of the travel that the pace tells means that counts were lost."""
+EMPTY: IndexArray = np.empty(0, np.int64)
 
 
 class Seams(Stage):
@@ -40,7 +41,7 @@ class Seams(Stage):
         self._tracks = header.tracks
         self._pace = max(1, round(PACE_S / header.step))
         zeros = dict.fromkeys(header.tracks, 0.0)
-        self.memory = {"shift": zeros, "elevation": dict(zeros), "places": np.empty(0), "gap": 0}
+        self.memory = {"shift": zeros, "elevation": dict(zeros), "places": np.empty(0), "at": EMPTY}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -49,30 +50,28 @@ class Seams(Stage):
             return block
         distance, values = block[ChannelId(DISTANCE)], {}
         known = np.flatnonzero(~np.isnan(distance))
-        seams = self._seams(distance[known], known)
+        seams = self._seams(distance[known], known + block.first)
         for track in self._tracks:
             name, range_ = ChannelId(REFERENCE_HEIGHT, track), ChannelId(HEIGHT, track)
             shifts = self._shifts(track, block[name] - block[range_], known, seams)
             if shifts is not None:
                 values[name] = block[name] + shifts
-        size, gap = distance.size, self.memory["gap"]
-        self.memory["gap"] = size - 1 - int(known[-1]) if known.size else gap + size
         return block.setting(values) if values else block
 
-    def _seams(self, places: FloatArray, known: IndexArray) -> list[int]:
-        """Return which of the ``known`` samples are behind a stretch whose travel was lost."""
-        before: FloatArray = self.memory["places"]
-        whole, count = np.concatenate((before, places)), before.size
-        missing = np.diff(known, prepend=-1 - self.memory["gap"]) - 1
+    def _seams(self, places: FloatArray, at: IndexArray) -> list[int]:
+        """Return which known samples, ``at`` these, are behind a stretch whose travel was lost."""
+        count = self.memory["at"].size
+        whole = np.concatenate((self.memory["places"], places))
+        where = np.concatenate((self.memory["at"], at))
         found = []
-        for k in np.flatnonzero(missing > 0).tolist():
-            last = count + k - 1
-            back = min(self._pace, last)
-            if back > 0:
-                pace = (whole[last] - whole[last - back]) / back
-                if whole[last + 1] - whole[last] < LOST * pace * (missing[k] + 1):
-                    found.append(k)
+        for k in np.flatnonzero(np.diff(where) > 1).tolist():
+            back = min(int(np.searchsorted(where, where[k] - self._pace)), k - 1)
+            if k + 1 >= count and back >= 0:
+                pace = (whole[k] - whole[back]) / (where[k] - where[back])
+                if whole[k + 1] - whole[k] < LOST * pace * (where[k + 1] - where[k]):
+                    found.append(k + 1 - count)
         self.memory["places"] = whole[-self._pace - 1 :].copy()
+        self.memory["at"] = where[-self._pace - 1 :].copy()
         return found
 
     def _shifts(

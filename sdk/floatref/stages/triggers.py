@@ -34,7 +34,8 @@ square of the duration, at which the line tells nothing: the body answers a brak
 class ToTime(Stage):
     """Turns samples at the triggers, with their `time`, into a stream at the recording's rate.
 
-    All channels are linear between triggers, `distance` too, which a trigger tells exactly. The
+    All channels are linear between triggers, `distance` too, which a trigger tells exactly; where
+    the encoder lost travel before it, that is NaN. The
     shared channel `missing_share` tells how far that does not stand for the acceleration: what a
     line misses grows with the square of the interval, its square is the share, and that is 1 where
     an interval lasts ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is lessened
@@ -131,14 +132,28 @@ class ToTime(Stage):
         between = Between.of(places, np.arange(first, end))
         share, step = shares[between.behind], float(1 / header.rate)
         points = np.arange(wide.first, wide.first + len(wide), dtype=np.float64)
-        places_m = header.origin + points * header.step
-        values = {ChannelId(DISTANCE): between.line(places_m), ChannelId(MISSING_SHARE): share}
+        distance = between.line(header.origin + points * header.step)
+        distance[self._untold(wide, between)] = np.nan
+        values = {ChannelId(DISTANCE): distance, ChannelId(MISSING_SHARE): share}
         known = np.where(between.part < 1.0, 1.0 - share, 1.0)
         for channel, x in wide.without(TIME).values.items():
             values[channel] = between.line(x)
             if channel.name == ACCELERATION:
                 values[channel] *= known
         return Block(first, values, flags=_marked(wide, between, between.apart * step > NEAR_S))
+
+    def _untold(self, wide: Block, between: "Between") -> BoolArray:
+        """Return the samples whose place no trigger tells, as the encoder has lost travel there.
+
+        But for the one next to the trigger before, without which that could not be found again.
+        """
+        assert self._header is not None
+        flags = wide.flags.get(ChannelId(HEIGHT, self._header.tracks[0]))
+        if flags is None:
+            return np.zeros(between.part.size, np.bool_)
+        lost = (flags & np.uint8(Flag.SLOW)) != 0
+        found: BoolArray = lost[between.behind] & (between.gone >= 1.0)
+        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,12 +163,14 @@ class Between:
     Attributes:
         before, behind: numbers of these; one and the same at a trigger.
         part: of the way from one to the other.
+        gone: since the one before, in samples.
         apart: from the nearer one, in samples.
     """
 
     before: IndexArray
     behind: IndexArray
     part: FloatArray
+    gone: FloatArray
     apart: FloatArray
 
     @classmethod
@@ -165,7 +182,7 @@ class Between:
         before = np.where(left > 0.0, before, behind)
         gone = samples - places[before]
         part = np.divide(gone, gone + left, where=left > 0.0, out=np.ones(samples.size))
-        return cls(before, behind, part, np.minimum(gone, left))
+        return cls(before, behind, part, gone, np.minimum(gone, left))
 
     def line(self, x: FloatArray) -> FloatArray:
         """Return ``x`` of the triggers on the line between them."""

@@ -46,18 +46,30 @@ def driven(manoeuvre: str = "stop", dwell_s: float = 2.0, **numbers: float) -> S
     return simulate(replace(scenario, **numbers))
 
 
+def without_counts(recording: Recording, begin: int, size: int) -> tuple[Recording, float]:
+    """Return ``recording`` without the encoder's counts of some samples, and the way lost in m."""
+    channels = []
+    lost_m = 0.0
+    for channel in recording.channels:
+        values = channel.values.copy()
+        if channel.id.name == "distance":
+            lost_m = values[begin + size] - values[begin]
+            values[begin + size :] -= lost_m
+            values[begin : begin + size] = values[begin]
+        channels.append(replace(channel, values=values))
+    return replace(recording, channels=tuple(channels)), lost_m
+
+
 @cache
 def damaged() -> Recording:
     """A stop, lost counts behind it, and before it a twentieth of a second without force."""
-    recording, channels = driven().recording, []
+    whole = driven().recording
+    distance, channels = whole.channel("distance", "left").values, []
+    recording, _ = without_counts(whole, int(np.searchsorted(distance, 220.0)), 500)
     for channel in recording.channels:
         values = channel.values.copy()
         if channel.id.name == "vertical_specific_force":
             values[8000:8250] = np.nan
-        if channel.id.name == "distance":
-            begin = int(np.searchsorted(values, 220.0))
-            values[begin + 500 :] -= values[begin + 500] - values[begin]
-            values[begin : begin + 500] = values[begin]
         channels.append(replace(channel, values=values))
     return replace(recording, channels=tuple(channels))
 
@@ -178,3 +190,44 @@ def test_a_point_for_each_trigger() -> None:
     assert (ours.start_m, ours.interval_m) == (beside.start_m, beside.interval_m)
     assert ours.tracks[0].elevation.size == beside.tracks[0].elevation.size
     assert ours.provenance["architecture"] == "spatial"
+
+
+def errors(simulation: Simulation, recording: Recording, lost_at: int, lost_m: float) -> np.ndarray:
+    """Return the errors at valid points, but for the ends of the run.
+
+    Points from ``lost_at`` on lie ``lost_m`` further on the road.
+    """
+    (track,) = profile(recording).tracks
+    true = high_pass(simulation.truth.track("left").elevation, 0.02)
+    at = np.arange(track.elevation.size)
+    place = np.round(at + (at >= lost_at) * lost_m / 0.02).astype(int)
+    inside = (at > 1500) & (place < true.size - 1500)
+    assert track.valid is not None
+    checked = inside & track.valid
+    assert checked.sum() > 0.6 * inside.sum()
+    return track.elevation[checked] - true[place[checked]]
+
+
+@pytest.mark.parametrize("lost_s", [0.02, 0.1])
+def test_lost_counts_seconds_before_a_brake_do_not_spoil_the_stop(lost_s: float) -> None:
+    """A brake that is none, of some 100 m/s², would be learned as lean and tilt."""
+    simulation = driven()
+    whole = simulation.recording
+    distance = whole.channel("distance", "left").values
+    begin = int(np.searchsorted(distance, 60.0))
+    damaged, lost_m = without_counts(whole, begin, round(lost_s * 5000.0))
+    usual = np.abs(errors(simulation, whole, 0, 0.0)).max()
+    found = np.abs(errors(simulation, damaged, round(60.0 / 0.02), lost_m)).max()
+    assert found < 2.0 * usual
+
+
+def test_the_elevation_goes_on_where_counts_were_lost() -> None:
+    """Both sides of the place are next to each other: no step that the road has not elsewhere."""
+    whole = driven().recording
+    distance = whole.channel("distance", "left").values
+    damaged, _ = without_counts(whole, int(np.searchsorted(distance, 220.0)), 500)
+    (usual,), (found,) = (profile(recording).tracks for recording in (whole, damaged))
+    near = slice(round(219.5 / 0.02), round(220.5 / 0.02))
+    around = slice(round(210.0 / 0.02), round(230.0 / 0.02))
+    steps = np.abs(np.diff(usual.elevation[around])).max()
+    assert np.abs(np.diff(found.elevation[near])).max() < 1.5 * steps

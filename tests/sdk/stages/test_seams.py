@@ -71,6 +71,14 @@ def test_what_is_told_again_and_standstills_and_leaps_shift_nothing(
 
 
 @laws
+@given(seed=SEEDS, cuts=CUTS, every=st.integers(2, 7))
+def test_where_most_samples_are_silent_the_pace_is_still_that_of_the_road(seed, cuts, every):
+    values = drawn(seed)
+    told = np.where(np.arange(COUNT) % every == 0, values[DISTANCE], np.nan)
+    np.testing.assert_array_equal(through({**values, DISTANCE: told}, cuts), values[REFERENCE])
+
+
+@laws
 @given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS)
 def test_any_split_gives_the_same_bits(seed, begin, length, cuts):
     values = lost(drawn(seed), begin, length, 0.0)

@@ -123,6 +123,55 @@ def test_what_lasts_concerns_the_whole_interval_before_a_trigger():
     np.testing.assert_array_equal(np.flatnonzero(marks & Flag.MISSING), np.arange(5, 12))
 
 
+def lost(block, where):
+    """Return ``block`` with the triggers ``where`` flagged as behind travel that was lost."""
+    marks = np.isin(np.arange(len(block)), where) * np.uint8(Flag.SLOW | Flag.MISSING)
+    return replace(block, flags={c: marks for c in (UP, RANGE)})
+
+
+@laws
+@given(interval_s=st.floats(0.002, 5.0), lasts_s=st.floats(0.001, 0.1))
+def test_no_place_is_told_where_the_encoder_lost_travel(interval_s, lasts_s):
+    block = triggers([lasts_s, lasts_s, interval_s, lasts_s, lasts_s])
+    _, samples = through(ToTime(), header(), lost(block, [3]))
+    places = (block[TIME] - block[TIME][0]) * RATE
+    at = np.arange(len(samples))
+    inside = (at > places[2] + 1.0 + 1e-6) & (at < places[3] - 1e-6)
+    np.testing.assert_array_equal(np.isnan(samples[DISTANCE][inside]), True)
+    told = (at < places[2] + 1.0 - 1e-6) | (at > places[3] + 1e-6)
+    line = np.interp(at, places, ORIGIN + INTERVAL * np.arange(6))
+    inner = told & (at <= places[-1])
+    np.testing.assert_allclose(samples[DISTANCE][inner], line[inner], rtol=1e-9)
+
+
+@laws
+@given(intervals_s=INTERVALS_S, where=st.lists(st.integers(1, 12)), rounded=st.booleans())
+def test_every_trigger_is_reached_whatever_the_encoder_lost(intervals_s, where, rounded):
+    """Those that are not flagged are read as if nothing had been lost before or behind them."""
+    whole = triggers(np.round(intervals_s, 3) if rounded else intervals_s)
+    block = lost(whole, where)
+    again, usual = (
+        through(ToDistance(INTERVAL, ORIGIN), *through(ToTime(), header(), each))[1]
+        for each in (block, whole)
+    )
+    assert len(again) == len(block)
+    sound = block.flags[UP] == 0
+    for channel in (UP, RANGE):
+        np.testing.assert_array_equal(again[channel][sound], usual[channel][sound])
+        np.testing.assert_array_equal(again.flags.get(channel, 0 * sound)[~sound] != 0, True)
+
+
+@laws
+@given(intervals_s=INTERVALS_S, where=st.lists(st.integers(1, 12)), cut=st.integers(0, 12))
+def test_lost_travel_is_the_same_wherever_blocks_are_cut(intervals_s, where, cut):
+    block, stage = lost(triggers(intervals_s), where), ToTime()
+    _, whole = through(ToTime(), header(), block)
+    stage.start(header())
+    parts = [block.part(0, min(cut, len(block))), block.part(min(cut, len(block)), len(block))]
+    cuts = joined([b for b in [*map(stage.push, parts), *stage.finish()] if len(b)])
+    np.testing.assert_array_equal(cuts[DISTANCE], whole[DISTANCE])
+
+
 def test_a_stream_in_time_is_refused():
     with pytest.raises(InputError, match="the stream is not on the distance axis"):
         ToTime().start(replace(header(), axis=Axis.TIME))
