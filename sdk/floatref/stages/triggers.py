@@ -34,13 +34,13 @@ square of the duration, at which the line tells nothing: the body answers a brak
 class ToTime(Stage):
     """Turns samples at the triggers, with their `time`, into a stream at the recording's rate.
 
-    All channels are linear between triggers, `distance` too, which a trigger tells exactly; where
-    the encoder lost travel before it, that is NaN. The
-    shared channel `missing_share` tells how far that does not stand for the acceleration: what a
-    line misses grows with the square of the interval, its square is the share, and that is 1 where
-    an interval lasts ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is lessened
-    by as much. A height away from any trigger is flagged. A sample has the flags of the trigger
-    behind it, and those that do not last of the one before it.
+    All channels are linear between triggers, `distance` too, which a trigger tells exactly; it is
+    NaN where the encoder has lost travel, which the `SLOW` of a height tells. The shared channel
+    `missing_share` tells how far a line does not stand for the acceleration: what it misses grows
+    with the square of the interval, its square is the share, and that is 1 where an interval lasts
+    ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is lessened by as much.
+    A height away from any trigger is flagged. A sample has the flags of the trigger behind it, and
+    those that do not last of the one before it.
 
     Of an interval of more than `LONGEST_S` the rest is left out, so that a stop of an hour is no
     hour of samples. Sample 0 lies at the first trigger.
