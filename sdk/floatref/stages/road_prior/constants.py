@@ -8,6 +8,9 @@ from floatref.errors import InputError
 from floatref.kernels.road_prior_layout import ROAD, SLOPE
 from floatref.values.arrays import FloatArray
 
+LEAST_MEMORY_M = 32.0
+"""One second difference over the longer distance; a mean of less is none."""
+
 
 @dataclass(frozen=True)
 class RoadPrior:
@@ -37,7 +40,7 @@ class RoadPrior:
     acceleration: float = 1.5e-4
     acceleration_bias: float = 0.03
     acceleration_walk: float = 1e-4
-    walk_along: float = 7e-4
+    walk_along: float = 2.5e-3
     missing_acceleration: float = 0.3
     reading_m: float = 1e-4
     road: float = 4e-6
@@ -55,9 +58,12 @@ class RoadPrior:
     most_sigma_share: float = 0.3
 
     def __post_init__(self) -> None:
-        """Refuse a pitch response that does not swing; InputError tells which setting it is."""
+        """Refuse a pitch that does not swing, or no memory; InputError tells which setting it is."""
         if not 0.0 <= self.pitch_damping < 1.0:
             raise InputError(f"setting pitch_damping: {self.pitch_damping:g} is not below 1")
+        if self.road_memory_m < LEAST_MEMORY_M:
+            least = f"give {LEAST_MEMORY_M:g} m or more"
+            raise InputError(f"setting road_memory_m: {self.road_memory_m:g} m; {least}")
 
     def model(self, step: float) -> FloatArray:
         """Return what the kernels take of them, for samples ``step`` in s apart."""

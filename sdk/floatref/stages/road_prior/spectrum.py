@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.kernels.road_spectrum import LAST, LATELY, LONG, RING, SHORT
+from floatref.kernels.road_spectrum import LAST, LATELY, LONG, RING, SERIES, SHORT
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.values.arrays import FloatArray
 
@@ -46,18 +46,22 @@ class RoadSpectrum:
     def of(cls, constants: RoadPrior, interval_s: float) -> "RoadSpectrum":
         """Return one that takes the road for that of ``constants`` until it is driven on."""
         usual = np.array([constants.road, constants.long_waves])
-        memory = np.zeros(RING + 2 * (2 * LAGS[1] + 1))
+        memory = np.zeros(RING + SERIES * (2 * LAGS[1] + 1))
         memory[[SHORT, LONG]] = _squares() @ usual
         texture = np.zeros(LATELY + LAST)
         texture[:2] = 6.0 * constants.reading_m**2
         return cls(interval_s, LEAST * usual, SPACING_M / constants.road_memory_m, memory, texture)
 
-    def add(self, elevation_m: FloatArray, travel_m: FloatArray) -> None:
-        """Take filtered elevation at the next nodes, NaN where there is none, and the travel."""
+    def add(self, elevation_m: FloatArray, travel_m: FloatArray, changed: FloatArray) -> None:
+        """Take filtered elevation at the next nodes, NaN where there is none, and the travel.
+
+        Both have shape (nodes,); ``changed``, shape (2, nodes), is by how much the reading of a
+        node has moved the height in m and turned the velocity in m/s.
+        """
         from floatref.kernels import road_spectrum
 
         limits = self.interval_s, SPACING_M, LAGS, LONGEST_S, self.share
-        road_spectrum.gather(elevation_m, travel_m, *limits, self.memory)
+        road_spectrum.gather(elevation_m, travel_m, *changed, *limits, self.memory)
         per_m = SOONER * self.share / SPACING_M
         road_spectrum.texture(elevation_m, travel_m, *APART_M, per_m, self.texture)
 

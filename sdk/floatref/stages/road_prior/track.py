@@ -9,6 +9,7 @@ from floatref.kernels.road_prior_layout import (
     ANEW,
     BEFORE,
     ENDS,
+    INNOVATION,
     LEAN_PRIOR,
     MEMORY,
     MODEL,
@@ -122,7 +123,8 @@ class RoadTrack:
         state = self.x, self.p, self.memory
         count = road_prior.run(a, first, self.sub_block, self.model, ends, *state, height, *kept)
         found = nodes.filled(count)
-        self.spectrum.add(height[found.at[:, 0] - first] - ends[:, SEEN], ends[:, TRAVEL])
+        elevation = height[found.at[:, 0] - first] - ends[:, SEEN]
+        self.spectrum.add(elevation, ends[:, TRAVEL], _changed(found, ends))
         return found
 
     def bends_of(self, first: int, size: int) -> FloatArray:
@@ -145,3 +147,11 @@ class RoadTrack:
         state = self.x, self.p, self.memory
         count = road_prior.end(at, self.model, known, *state, nodes.at, nodes.rows)
         return nodes.filled(count)
+
+
+def _changed(nodes: RoadNodes, ends: FloatArray) -> FloatArray:
+    """Return what the readings have changed in height and velocity at all nodes, shape (2, n)."""
+    changed, updates = np.zeros((2, len(ends))), nodes.updates
+    innovation = updates[:, INNOVATION] / updates[:, INNOVATION + 1]
+    changed[:, ~np.isnan(ends[:, SEEN])] = updates[:, :2].T * innovation
+    return changed

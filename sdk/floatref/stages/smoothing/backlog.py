@@ -1,6 +1,6 @@
 """Blocks that wait for the readings that still matter to them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import ceil, log2
 
@@ -16,6 +16,9 @@ SEGMENT_S = 4.0
 WAITING_S = 60.0
 """A segment waits so long, whatever the bound says: what changes since at the place where one part
 has come out and the next has not would be a step there."""
+LONGEST_S, STANDING_S = 180.0, 900.0
+"""No segment that the 1-σ needs no longer waits longer than the first, and none at all longer than
+the second: what is known of a bias grows for kilometres, and a vehicle may stand for hours."""
 TOLERANCE_M = 2e-6
 """1-σ of what later readings may still change when a segment is closed."""
 ALL = 1 << 62
@@ -95,11 +98,19 @@ class Backlog:
         least, open_ones = max(waiting, 1), len(lines[0].segments)
         if open_ones < 2 * least:
             return
-        count = min(min(line.ready() for line in lines), open_ones - waiting)
+        count = min(self._ready(lines), open_ones - waiting)
         if 2 * count >= open_ones:
             self.closed = lines[0].segments[count - 1].last + 1
             for line in lines:
                 line.close(count)
+
+    def _ready(self, lines: Sequence[Line]) -> int:
+        """Return how many segments need not wait, of all ``lines``, or may no longer."""
+        waited_s = len(lines[0].segments) * self.length * lines[0].rule.step
+        if waited_s >= STANDING_S:
+            return len(lines[0].segments)
+        ready = min(line.ready() for line in lines)
+        return ready if waited_s < LONGEST_S else max(ready, min(line.passed() for line in lines))
 
 
 def _flagged(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:

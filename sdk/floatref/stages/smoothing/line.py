@@ -77,6 +77,12 @@ class Line:
         rule = self.rule
         return closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
 
+    def passed(self) -> int:
+        """Return how many segments lie so far behind that their 1-σ needs nothing to come."""
+        places = np.fmax.accumulate([s.marks.distance_m[-1] for s in self.segments])
+        reach = REACH * self.rule.wavelength_m
+        return int(np.searchsorted(places, places[-1] - reach, "right"))
+
     def close(self, count: int, beyond: FloatArray | None = None) -> None:
         """Smooth the first ``count`` segments and let go of them.
 
