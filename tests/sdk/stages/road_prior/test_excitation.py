@@ -76,3 +76,17 @@ def test_pieces_make_no_difference_and_all_is_told(seed, count, cuts, lost):
     assert found.shape == (2, count)
     assert np.isfinite(found).all()
     np.testing.assert_array_equal(found, excited(distances, 0.004))
+
+
+@laws
+@given(a=st.floats(0.5, 9.0), interval_s=st.sampled_from([0.002, 0.01, 0.02]))
+def test_a_brake_fades_within_seconds_where_the_encoder_is_silent(a, interval_s):
+    """It goes on at first, and e times less of it is left after every second; so of pitch."""
+    times = np.arange(round(10.0 / interval_s)) * interval_s
+    distances = np.where(times < 3.0, 40.0 * times - a * times**2 / 2, np.nan)
+    found, response = excited(distances, interval_s)
+    latest = np.flatnonzero(np.abs(found + a) < 1e-6)[-1]
+    silent = times[latest:] - times[latest]
+    assert 2.8 < times[latest] < 3.0
+    np.testing.assert_allclose(found[latest:], -a * np.exp(-silent), rtol=1e-4)
+    assert np.abs(response[-round(1.0 / interval_s) :]).max() < 0.01 * a

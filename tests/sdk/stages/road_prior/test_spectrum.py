@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.kernels.road_spectrum import LONG, SHORT
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
-from floatref.stages.road_prior.spectrum import LAGS, LEAST, LONGEST_S, RoadSpectrum
+from floatref.stages.road_prior.spectrum import LAGS, LEAST, RoadSpectrum
 
 INTERVAL_S = 0.002
 laws = settings(deadline=None, max_examples=20)
@@ -70,14 +70,44 @@ def test_it_is_the_plain_mean_and_pieces_make_no_difference(seed, cuts):
 
 @laws
 @given(seed=st.integers(0, 2**32 - 1), begin=st.integers(0, 4000))
-def test_what_is_slow_or_missing_tells_nothing(seed, begin):
+def test_what_is_missing_tells_nothing(seed, begin):
     spectrum, constants = RoadSpectrum.of(RoadPrior(), INTERVAL_S), RoadPrior()
-    slow = 2 * LAGS[0] / LONGEST_S / 1.2
-    spectrum.add(*drawn(seed, 1e-4, 1e-5, 60.0, slow))
     elevation, travel, nothing = drawn(seed, 1e-4, 1e-5, 400.0, 20.0)
     elevation[:] = np.nan
     spectrum.add(elevation[begin:], travel[begin:], nothing[:, begin:])
     np.testing.assert_allclose(spectrum.road(), (constants.road, constants.long_waves), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("speed", "tell"), [(0.9, ()), (1.1, (SHORT,)), (7.5, (SHORT,)), (8.5, (SHORT, LONG))]
+)
+def test_what_takes_longer_than_four_seconds_tells_nothing(speed, tell):
+    """Second differences over 2 and over 16 m take 4 and 32 m: the accelerometer drifts."""
+    spectrum = RoadSpectrum.of(RoadPrior(), INTERVAL_S)
+    start = spectrum.memory.copy()
+    spectrum.add(*drawn(4, 1e-4, 1e-5, 60.0, speed))
+    for place in (SHORT, LONG):
+        assert (spectrum.memory[place] != start[place]) == (place in tell)
+
+
+@laws
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    begin=st.integers(500, 3000),
+    gone_m=st.floats(3.1, 60.0),
+    jump=st.floats(-1.0, 1.0),
+)
+def test_nothing_is_compared_across_a_hole(seed, begin, gone_m, jump):
+    """Behind one of some metres the road may be a step higher: that is no road."""
+    elevation, travel, nothing = drawn(seed, 4e-6, 2e-7, 300.0, 20.0)
+    end = begin + round(gone_m / travel[0])
+    elevation[begin:end] = np.nan
+    roads = []
+    for step in (0.0, jump):
+        spectrum = RoadSpectrum.of(RoadPrior(), INTERVAL_S)
+        spectrum.add(elevation + step * (np.arange(elevation.size) >= end), travel, nothing)
+        roads.append(spectrum.memory[[SHORT, LONG]])
+    np.testing.assert_allclose(*roads, rtol=1e-6)
 
 
 def test_a_bump_is_no_road_and_no_road_is_much_smoother_than_at_the_start():
