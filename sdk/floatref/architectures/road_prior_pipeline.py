@@ -51,7 +51,7 @@ ROAD_PRIOR = (
             "interval_m": None,
             "anti_alias_hz": 1000.0,
             "cutoff_wavelength_m": 105.91,
-            "drift_reach_m": 26.4775,
+            "drift_reach_m": 2.0,
             "before_slow_m": 2.0,
             "after_slow_m": 7.0,
             "distance_scale_sigma": 2e-4,

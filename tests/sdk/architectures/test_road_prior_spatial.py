@@ -69,7 +69,7 @@ def damaged() -> Recording:
     for channel in recording.channels:
         values = channel.values.copy()
         if channel.id.name == "vertical_specific_force":
-            values[8000:8250] = np.nan
+            values[20000:20250] = np.nan
         channels.append(replace(channel, values=values))
     return replace(recording, channels=tuple(channels))
 

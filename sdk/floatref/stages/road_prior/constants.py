@@ -58,7 +58,7 @@ class RoadPrior:
     most_sigma_share: float = 0.3
 
     def __post_init__(self) -> None:
-        """Refuse a pitch that does not swing, or no memory; InputError tells which setting it is."""
+        """Refuse a pitch that does not swing, and no memory; InputError names the setting."""
         if not 0.0 <= self.pitch_damping < 1.0:
             raise InputError(f"setting pitch_damping: {self.pitch_damping:g} is not below 1")
         if self.road_memory_m < LEAST_MEMORY_M:

@@ -13,6 +13,8 @@ BOTH = np.array([LEAN, TILT])
 TOLD = 0.5
 """A brake that leaves more than this of both variances tells too little to be kept."""
 
+SMALLEST = np.finfo(np.float64).tiny
+
 
 @dataclass(frozen=True, eq=False)
 class Brake:
@@ -54,7 +56,7 @@ def pooled(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]
     told = np.array([1.0 - np.diag(brake.covariance) / variances for brake in brakes])
     # What a brake has not told is where it began: it is as far off as that, less what it told.
     off = estimates - start - told * (mean - start)
-    spread = (off**2).sum(axis=0) / np.square(told).sum(axis=0)
+    spread = (off**2).sum(axis=0) / np.maximum(np.square(told).sum(axis=0), SMALLEST)
     sigma = np.sqrt(np.minimum(np.diag(covariance) + spread, variances))
     return {
         "lean_expected_rad": float(mean[0]),

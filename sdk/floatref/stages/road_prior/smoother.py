@@ -21,6 +21,7 @@ from floatref.stages.marking import flags_of, long_gaps
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.road_prior.constants import RoadPrior
 from floatref.stages.road_prior.excitation import Excitation
+from floatref.stages.road_prior.leaps import lines, marked
 from floatref.stages.road_prior.learned import pooled
 from floatref.stages.road_prior.track import RoadTrack, sub_block
 from floatref.stages.signals import (
@@ -131,6 +132,13 @@ class RoadPriorSmoother(Stage):
         filters: dict[str, RoadTrack] = self.memory["filters"]
         return pooled([b for each in filters.values() for b in each.told()], self.constants)
 
+    def told(self) -> tuple[str, ...]:
+        """Say where the height sensor has leapt at a standstill."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        assert self._header is not None
+        found = {track: each.leaps for track, each in filters.items()}
+        return tuple(lines(found, self._header.origin, self._header.step))
+
     def _doubted(self, block: Block) -> Block:
         """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
         flags: dict[ChannelId, FlagArray] = {}
@@ -170,8 +178,10 @@ class RoadPriorSmoother(Stage):
             ends[:, MISSING] = np.maximum(shared[:, MISSING], share)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
+            passed = own.advance(values, block.first, ends)
             flags = flags_of(block, vertical, range_)
-            found[track] = Filtered(*own.advance(values, block.first, ends), flags)
+            flags = marked(flags, own.leaps, block.first, len(block))
+            found[track] = Filtered(*passed, flags)
         self.memory["backlog"].add(block.without(ACCELERATION), found)
 
     def _track(self, track: str, height: FloatArray) -> RoadTrack:

@@ -61,7 +61,8 @@ class RoadSpectrum:
         from floatref.kernels import road_spectrum
 
         limits = self.interval_s, SPACING_M, LAGS, LONGEST_S, self.share
-        road_spectrum.gather(elevation_m, travel_m, *changed, *limits, self.memory)
+        moved, turned = changed
+        road_spectrum.gather(elevation_m, travel_m, moved, turned, *limits, self.memory)
         per_m = SOONER * self.share / SPACING_M
         road_spectrum.texture(elevation_m, travel_m, *APART_M, per_m, self.texture)
 

@@ -8,8 +8,8 @@ import numpy as np
 from floatref.kernels.road_prior_layout import (
     ANEW,
     BEFORE,
+    EDGE,
     ENDS,
-    INNOVATION,
     LEAN_PRIOR,
     MEMORY,
     MODEL,
@@ -23,6 +23,7 @@ from floatref.kernels.road_prior_layout import (
     TRAVEL,
 )
 from floatref.stages.road_prior.constants import RoadPrior
+from floatref.stages.road_prior.leaps import Leap, changes, leaps
 from floatref.stages.road_prior.learned import BOTH, Brake
 from floatref.stages.road_prior.nodes import RoadNodes
 from floatref.stages.road_prior.spectrum import RoadSpectrum
@@ -52,6 +53,7 @@ class RoadTrack:
         bends: how far the road bends, in m, from which sample on.
         reading_m2: least variance of a reading of the height sensor, in m².
         brakes: what has been told of lean and tilt.
+        leaps: of the height sensor at standstills.
     """
 
     model: FloatArray
@@ -63,6 +65,7 @@ class RoadTrack:
     bends: list[tuple[int, float]]
     reading_m2: float
     brakes: list[Brake] = field(default_factory=list)
+    leaps: list[Leap] = field(default_factory=list)
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -123,8 +126,10 @@ class RoadTrack:
         state = self.x, self.p, self.memory
         count = road_prior.run(a, first, self.sub_block, self.model, ends, *state, height, *kept)
         found = nodes.filled(count)
-        elevation = height[found.at[:, 0] - first] - ends[:, SEEN]
-        self.spectrum.add(elevation, ends[:, TRAVEL], _changed(found, ends))
+        at = found.at[:, 0]
+        elevation = height[at - first] - ends[:, SEEN]
+        self.spectrum.add(elevation, ends[:, TRAVEL], changes(found, ends))
+        self.leaps += leaps(found, ends, self.model[EDGE])
         return found
 
     def bends_of(self, first: int, size: int) -> FloatArray:
@@ -147,11 +152,3 @@ class RoadTrack:
         state = self.x, self.p, self.memory
         count = road_prior.end(at, self.model, known, *state, nodes.at, nodes.rows)
         return nodes.filled(count)
-
-
-def _changed(nodes: RoadNodes, ends: FloatArray) -> FloatArray:
-    """Return what the readings have changed in height and velocity at all nodes, shape (2, n)."""
-    changed, updates = np.zeros((2, len(ends))), nodes.updates
-    innovation = updates[:, INNOVATION] / updates[:, INNOVATION + 1]
-    changed[:, ~np.isnan(ends[:, SEEN])] = updates[:, :2].T * innovation
-    return changed

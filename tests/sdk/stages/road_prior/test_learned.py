@@ -126,3 +126,13 @@ def test_a_brake_that_has_told_little_is_not_kept():
     assert not Brake.of(x, p).tells(variances)
     p[TILT, TILT] = 0.1 * variances[1]
     assert Brake.of(x, p).tells(variances)
+
+
+def test_what_is_known_already_is_not_learned():
+    constants = replace(C, tilt_sigma=1e-9)
+    covariance = np.diag(np.square([1e-3, 1e-9]))
+    brakes = [Brake(np.array([lean, C.tilt_expected]), covariance) for lean in (0.01, 0.012)]
+    found = pooled(brakes, constants)
+    assert found["tilt_expected"] == pytest.approx(C.tilt_expected)
+    assert found["tilt_sigma"] == pytest.approx(1e-9)
+    assert found["lean_expected_rad"] == pytest.approx(0.011, abs=1e-4)
