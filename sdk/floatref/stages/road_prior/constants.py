@@ -40,7 +40,7 @@ class RoadPrior:
     acceleration: float = 1.5e-4
     acceleration_bias: float = 0.03
     acceleration_walk: float = 1e-4
-    walk_along: float = 2.5e-3
+    walk_along: float = 1.6e-3
     missing_acceleration: float = 0.3
     reading_m: float = 1e-4
     road: float = 4e-6

@@ -40,6 +40,8 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 UNKNOWN = ChannelId(MISSING_SHARE)
+LONGEST_S = 180.0
+"""What is known of a bias grows for kilometres; little of it is left after so long."""
 
 
 class RoadPriorSmoother(Stage):
@@ -61,12 +63,17 @@ class RoadPriorSmoother(Stage):
         wavelength_m: float = 105.91,
         tolerance_m: float = TOLERANCE_M,
         waiting_s: float = WAITING_S,
+        longest_s: float = LONGEST_S,
     ) -> None:
-        """Filter with ``constants``; the result is cut off at ``wavelength_m`` over distance."""
+        """Filter with ``constants``; the result is cut off at ``wavelength_m`` over distance.
+
+        Blocks wait for ``waiting_s`` and until nothing to come changes them by ``tolerance_m``, or
+        for ``longest_s``, see `Backlog`.
+        """
         super().__init__()
         self.constants = RoadPrior() if constants is None else constants
         self.wavelength_m, self.tolerance_m = wavelength_m, tolerance_m
-        self.waiting_s = waiting_s
+        self.waiting_s, self.longest_s = waiting_s, longest_s
         self._header: Header | None = None
         self._made: frozenset[ChannelId] = frozenset()
 
@@ -80,7 +87,7 @@ class RoadPriorSmoother(Stage):
         rule = Closing(step, self.tolerance_m, self.wavelength_m, c.height_m)
         excitation = Excitation.of(step * sub_block(step), c.pitch_hz, c.pitch_damping)
         self.memory = {
-            "backlog": Backlog.of(header.tracks, rule, self.waiting_s),
+            "backlog": Backlog.of(header.tracks, rule, self.waiting_s, self.longest_s),
             "excitation": excitation,
             "known": np.empty((2, 0)),
             "waiting": [],

@@ -2,9 +2,12 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import ceil, log2
+from math import ceil, inf, log2
+
+import numpy as np
 
 from floatref.stages.signals import DISTANCE, REFERENCE_HEIGHT, SIGMA
+from floatref.stages.smoothing.lag import settled
 from floatref.stages.smoothing.line import Closing, Line
 from floatref.stages.smoothing.nodes import Filtered, Nodes
 from floatref.values.arrays import FlagArray, FloatArray
@@ -16,9 +19,10 @@ SEGMENT_S = 4.0
 WAITING_S = 60.0
 """A segment waits so long, whatever the bound says: what changes since at the place where one part
 has come out and the next has not would be a step there."""
-LONGEST_S, STANDING_S = 180.0, 900.0
-"""No segment that the 1-σ needs no longer waits longer than the first, and none at all longer than
-the second: what is known of a bias grows for kilometres, and a vehicle may stand for hours."""
+STANDING = 5.0
+"""No segment waits longer than so many times the longest time: a vehicle may stand for hours."""
+JOINT_M = 3e-4
+"""1-σ of what may still change where a part that has waited so long ends."""
 TOLERANCE_M = 2e-6
 """1-σ of what later readings may still change when a segment is closed."""
 ALL = 1 << 62
@@ -32,6 +36,7 @@ class Backlog:
     Attributes:
         lines: of every wheel path.
         waiting_s: segments are closed no earlier than that.
+        longest_s: nor much later, but where the vehicle stands or has just stood.
         length: samples of a segment.
         blocks: kept, without height and 1-σ.
         closed: all samples before this one are.
@@ -39,15 +44,18 @@ class Backlog:
 
     lines: dict[str, Line]
     waiting_s: float
+    longest_s: float
     length: int
     blocks: list[Block] = field(default_factory=list)
     closed: int = 0
 
     @classmethod
-    def of(cls, tracks: tuple[str, ...], rule: Closing, waiting_s: float) -> "Backlog":
+    def of(
+        cls, tracks: tuple[str, ...], rule: Closing, waiting_s: float, longest_s: float = inf
+    ) -> "Backlog":
         """Return one that keeps nothing."""
         length = 1 << max(0, round(log2(SEGMENT_S / rule.step)))
-        return cls({track: Line(rule) for track in tracks}, waiting_s, length)
+        return cls({track: Line(rule) for track in tracks}, waiting_s, longest_s, length)
 
     def add(self, block: Block, found: Mapping[str, Filtered]) -> None:
         """Keep ``block`` and what the filters have made of it."""
@@ -98,19 +106,25 @@ class Backlog:
         least, open_ones = max(waiting, 1), len(lines[0].segments)
         if open_ones < 2 * least:
             return
-        count = min(self._ready(lines), open_ones - waiting)
+        count = self._ready(lines, open_ones - waiting)
         if 2 * count >= open_ones:
             self.closed = lines[0].segments[count - 1].last + 1
             for line in lines:
                 line.close(count)
 
-    def _ready(self, lines: Sequence[Line]) -> int:
-        """Return how many segments need not wait, of all ``lines``, or may no longer."""
-        waited_s = len(lines[0].segments) * self.length * lines[0].rule.step
-        if waited_s >= STANDING_S:
-            return len(lines[0].segments)
-        ready = min(line.ready() for line in lines)
-        return ready if waited_s < LONGEST_S else max(ready, min(line.passed() for line in lines))
+    def _ready(self, lines: Sequence[Line], most: int) -> int:
+        """Return how many segments, ``most`` at most, need not wait, or may no longer."""
+        change: FloatArray = np.maximum.reduce([line.changes() for line in lines])
+        ready = min(settled(change, lines[0].rule.tolerance_m), most)
+        waited_s = (change.size + 1) * self.length * lines[0].rule.step
+        if waited_s >= STANDING * self.longest_s:
+            return most
+        half, passed = ceil(change.size / 2), min(most, *(line.passed() for line in lines))
+        if waited_s < self.longest_s or passed <= half:
+            return ready
+        # Little is still to come away from stops, so that the joint bends nothing.
+        least = half + int(np.argmin(change[half:passed]))
+        return max(ready, least + 1 if change[least] <= JOINT_M else 0)
 
 
 def _flagged(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:

@@ -35,10 +35,11 @@ def influence(
     return change
 
 
-def closing(
-    segments: Sequence[Segment], behind: Settled | None, wavelength_m: float, tolerance_m: float
-) -> int:
-    """Return how many of ``segments`` nothing to come changes by ``tolerance_m``, 1-σ."""
+def changes(segments: Sequence[Segment], behind: Settled | None, wavelength_m: float) -> FloatArray:
+    """Return by how much, 1-σ in m, what is to come can change the end of each of ``segments``.
+
+    Shape (n - 1,): not of the last, which has just ended.
+    """
     marks = Settled.of([segment.marks for segment in segments])
     ends = np.cumsum([len(segment.marks.at) for segment in segments]) - 1
     if behind is not None:
@@ -47,5 +48,10 @@ def closing(
     latest = segments[-1].marks.latest
     standing = marks.distance_m[-2:-1] == marks.distance_m[-1]
     seen = segments[-1].nodes.seen(bool(standing.any()))
-    open_ends = influence(marks, latest, seen, ends[:-1], wavelength_m) > tolerance_m
-    return int(np.argmax(open_ends)) if open_ends.any() else len(segments) - 1
+    return influence(marks, latest, seen, ends[:-1], wavelength_m)
+
+
+def settled(change: FloatArray, tolerance_m: float) -> int:
+    """Return how many segments, from the first, have ends of no more ``change`` than allowed."""
+    open_ends = change > tolerance_m
+    return int(np.argmax(open_ends)) if open_ends.any() else open_ends.size

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.stages.smoothing.lag import closing
+from floatref.stages.smoothing.lag import changes
 from floatref.stages.smoothing.nodes import Nodes
 from floatref.stages.smoothing.segment import Marks, Segment
 from floatref.stages.smoothing.sigma import REACH, Settled, sigma
@@ -72,10 +72,9 @@ class Line:
         self.before, self.origin = self.segments[-1].last, nodes.last()
         self.parts, self.distances = [tail], [self.distances[-1][count:]]
 
-    def ready(self) -> int:
-        """Return how many segments nothing to come changes by more than the tolerance."""
-        rule = self.rule
-        return closing(self.segments, self.behind, rule.wavelength_m, rule.tolerance_m)
+    def changes(self) -> FloatArray:
+        """Return by how much what is to come can change the end of each segment but the last."""
+        return changes(self.segments, self.behind, self.rule.wavelength_m)
 
     def passed(self) -> int:
         """Return how many segments lie so far behind that their 1-σ needs nothing to come."""
@@ -119,13 +118,12 @@ class Line:
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""
         marks = Settled.of([segment.marks for segment in self.segments])
-        closed = sum(len(segment.marks.at) for segment in self.segments[:count])
-        reach = REACH * self.rule.wavelength_m
-        end = int(np.searchsorted(marks.distance_m, marks.distance_m[closed - 1] + reach, "right"))
-        marks = marks.part(slice(0, max(end, closed)))
-        first = 0 if self.behind is None else len(self.behind.at)
         marks = marks if self.behind is None else marks.behind(self.behind)
-        last = first + closed
+        first = 0 if self.behind is None else len(self.behind.at)
+        last = first + sum(len(segment.marks.at) for segment in self.segments[:count])
+        reach = REACH * self.rule.wavelength_m
+        end = int(np.searchsorted(marks.distance_m, marks.distance_m[last - 1] + reach, "right"))
+        marks = marks.part(slice(0, max(end, last)))
         found = sigma(marks, first, last, self.rule.wavelength_m, self.rule.noise_m)
         self.known_at = np.concatenate((self.known_at, marks.at[first:last]))
         self.known = np.concatenate((self.known, found))

@@ -26,18 +26,20 @@ class Settled:
         at: samples, shape (n,).
         distance_m: encoder distance, shape (n,).
         column: P e_r, shape (n, states).
-        left: (I - Lambda P) e_r, shape (n, states).
         passed: product of (I - K H) F from the mark before, shape (n, states, states).
+        gathered: what the readings since then add to Lambda, shape (n, states, states).
+        left: (I - Lambda P) e_r, shape (n, states).
     """
 
     at: IndexArray
     distance_m: FloatArray
     column: FloatArray
-    left: FloatArray
     passed: FloatArray
+    gathered: FloatArray
+    left: FloatArray
 
     @classmethod
-    def of(cls, marks: Sequence[Marks]) -> "Settled":
+    def of(cls, marks: Sequence["Marks | Settled"]) -> "Settled":
         """Settle ``marks`` of segments one after the other, nothing known behind them."""
         from floatref.kernels import covariance
 
@@ -49,16 +51,15 @@ class Settled:
         at = np.concatenate([m.at for m in marks])
         distance = np.concatenate([m.distance_m for m in marks])
         # Distances may be missing, and tremble at a stop.
-        return cls(at, np.fmax.accumulate(distance), column, left, passed)
+        return cls(at, np.fmax.accumulate(distance), column, passed, gathered, left)
 
     def part(self, where: slice) -> "Settled":
         """Return the marks ``where``."""
         return Settled(*(values[where] for values in vars(self).values()))
 
     def behind(self, other: "Settled") -> "Settled":
-        """Return ``other`` with these marks behind it."""
-        pairs = zip(vars(other).values(), vars(self).values(), strict=True)
-        return Settled(*(np.concatenate(pair) for pair in pairs))
+        """Return ``other`` with these marks behind it, all settled by what is known now."""
+        return Settled.of((other, self))
 
 
 def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: float) -> FloatArray:

@@ -56,7 +56,7 @@ def marks(seed, count):
     column, left = np.zeros((2, count, 10))
     column[:, 0], left[:, 0] = rng.uniform(1e-8, 1e-4, count), 1.0
     place = np.cumsum(rng.uniform(0.5, 8.0, count))
-    return Settled(np.arange(count), place, column, left, np.zeros((count, 10, 10)))
+    return Settled(np.arange(count), place, column, *np.zeros((2, count, 10, 10)), left)
 
 
 @laws

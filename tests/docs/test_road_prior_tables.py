@@ -1,0 +1,83 @@
+"""What the pages on the road prior and its variants say of the 17 runs, held to the tables."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS, DATA = Path(__file__).parents[2] / "docs", Path(__file__).parent / "data"
+PAGES = {
+    "road-prior.md": ("table.json", "road-prior-smoother"),
+    "road-prior-spatial.md": ("table_triggered.json", "road-prior-smoother-spatial"),
+    "road-prior-imu.md": ("table.json", "road-prior-smoother-imu"),
+}
+ROW = re.compile(r"^\| `(\w+_\S+)` \|((?: [\d.+-]+ \|)+)$", re.M)
+Cells = dict[tuple[str, str], dict[str, float]]
+
+
+def cells(table: str) -> Cells:
+    read = json.loads((DATA / table).read_text(encoding="utf-8"))["cells"]
+    return {(cell["pipeline"], cell["run"]): cell for cell in read}
+
+
+def read(page: str) -> str:
+    return (DOCS / page).read_text(encoding="utf-8")
+
+
+def beside(page: str) -> list[str]:
+    """Return the pipelines that have a column of the table besides our own."""
+    (head,) = re.findall(r"^\| run \|.*$", read(page), re.M)
+    return re.findall(r"\| `([\w-]+)`", head)
+
+
+@pytest.mark.parametrize(
+    ("page", "run", "figures"), [(page, *row) for page in PAGES for row in ROW.findall(read(page))]
+)
+def test_figures_are_the_tables(page: str, run: str, figures: str) -> None:
+    table, ours = PAGES[page]
+    known = cells(table)
+    own = known[ours, run]
+    expected = [f"{own['cross_correlation']:.3f}", f"{own['iri_error_percent']:+.1f}"]
+    expected += [f"{known[name, run]['cross_correlation']:.3f}" for name in beside(page)]
+    assert [figure.strip() for figure in figures.strip("| ").split("|")] == expected
+
+
+@pytest.mark.parametrize("page", ["road-prior.md", "road-prior-spatial.md"])
+def test_every_run_has_its_row(page: str) -> None:
+    table, ours = PAGES[page]
+    runs = [run for name, run in cells(table) if name == ours]
+    assert [run for run, _ in ROW.findall(read(page))] == runs
+
+
+@pytest.mark.parametrize(
+    ("page", "least", "most_percent"),
+    [
+        ("road-prior.md", 0.98, 2.0),
+        ("road-prior-spatial.md", 0.96, 3.0),
+        ("road-prior-imu.md", 0.98, 2.0),
+    ],
+)
+def test_it_is_adequate_on_every_run(page: str, least: float, most_percent: float) -> None:
+    table, ours = PAGES[page]
+    own = [cell for (name, _), cell in cells(table).items() if name == ours]
+    assert len(own) == 17
+    assert min(cell["cross_correlation"] for cell in own) >= least
+    assert max(abs(cell["iri_error_percent"]) for cell in own) <= most_percent
+
+
+def test_the_lowest_is_the_slowest() -> None:
+    own = [
+        (c["cross_correlation"], run) for (n, run), c in cells("table.json").items() if n == OURS
+    ]
+    assert min(own)[1] == "const_5"
+
+
+def test_every_pipeline_of_triggered_samples_is_in_the_command() -> None:
+    page = "road-prior-spatial.md"
+    table, ours = PAGES[page]
+    told = re.findall(r"`conformance table ([^`]*)`", read(page))[0].split()
+    assert {name for name, _ in cells(table)} == set(told[1::2][:3]) == {ours, *beside(page)}
+
+
+OURS = PAGES["road-prior.md"][1]
