@@ -9,6 +9,7 @@ import pytest
 
 import floatref
 from floatref.architectures.road_prior_pipeline import CONSTANTS, ROAD_PRIOR
+from floatref.errors import InputError
 from floatref.stages.road_prior import RoadPrior
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -90,3 +91,8 @@ def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
     assert np.isfinite(track.elevation).all()
     assert (track.sigma > 0.0).all()
     assert not track.valid.all()
+
+
+def test_a_memory_of_less_than_one_second_difference_is_refused() -> None:
+    with pytest.raises(InputError, match="setting road_memory_m: 31 m; give 32 m or more"):
+        profile(road_memory_m=31.0)

@@ -102,6 +102,27 @@ def test_as_sure_runs_are_averaged_and_the_sigma_is_that_of_one_more(
     assert found["tilt_sigma"] == pytest.approx(1.0 / sqrt(count))
 
 
+@settings(max_examples=50)
+@given(
+    means=st.tuples(st.floats(-0.02, 0.02), st.floats(-0.02, 0.02)),
+    sigmas=st.tuples(st.floats(1e-4, 0.01), st.floats(1e-4, 0.01)),
+)
+def test_the_surer_run_counts_for_more(
+    means: tuple[float, float], sigmas: tuple[float, float]
+) -> None:
+    """Of two Gaussians the mean is as far from each as its variance is large."""
+    one = {"lean_expected_rad": 0.0, "lean_sigma_rad": 1.0}
+    learned = [
+        {**one, "tilt_expected": mean, "tilt_sigma": sigma}
+        for mean, sigma in zip(means, sigmas, strict=True)
+    ]
+    found, (a, b) = kept(learned), (sigma**2 for sigma in sigmas)
+    expected = (b * means[0] + a * means[1]) / (a + b)
+    assert found["tilt_expected"] == pytest.approx(expected, abs=1e-12)
+    apart = a * b * (means[0] - means[1]) ** 2 / (a + b) ** 2
+    assert found["tilt_sigma"] == pytest.approx(sqrt(a * b / (a + b) + apart))
+
+
 def bare(profile: Path, at: Path) -> Path:
     """Write ``profile`` without what it has learned."""
     whole = read_profile(profile)

@@ -136,3 +136,36 @@ def test_what_is_known_already_is_not_learned():
     assert found["tilt_expected"] == pytest.approx(C.tilt_expected)
     assert found["tilt_sigma"] == pytest.approx(1e-9)
     assert found["lean_expected_rad"] == pytest.approx(0.011, abs=1e-4)
+
+
+def test_brakes_of_a_run_are_kept_one_after_the_other(drive, through):
+    """Over 4 s of constant speed they begin anew, so that each tells its own."""
+    one, other = leaning(drive, 1, 0.015, -0.006), leaning(drive, 2, 0.005, -0.006)
+    place = one.distance[-1] + (one.distance[-1] - one.distance[-2]) + other.distance
+    joined = replace(
+        one,
+        a=np.append(one.a, other.a),
+        h=np.append(one.h, other.h),
+        distance=np.append(one.distance, place),
+    )
+    stage = RoadPriorSmoother()
+    through(stage, joined)
+    brakes = stage.memory["filters"]["left"].told()
+    assert [round(brake.estimate[0], 3) for brake in brakes] == [0.015, 0.005]
+    found = stage.learned()
+    assert found["lean_expected_rad"] == pytest.approx(0.010, abs=1e-3)
+    assert found["lean_sigma_rad"] == pytest.approx(0.005, abs=1e-3)
+
+
+def test_no_spread_makes_less_sure_than_at_the_start():
+    """Brakes that contradict one another wildly tell nothing."""
+    covariance = np.diag(np.square([1e-4, 1e-4]))
+    brakes = [Brake(np.array([lean, C.tilt_expected]), covariance) for lean in (-0.3, 0.3)]
+    assert pooled(brakes, C)["lean_sigma_rad"] == C.lean_sigma_rad
+
+
+@pytest.mark.parametrize(("left", "told"), [(0.49, True), (0.51, False)])
+def test_half_of_a_variance_is_what_a_brake_has_to_tell(left, told):
+    x, p, variances = np.zeros(STATES), np.eye(STATES), np.diag(PRIOR)
+    p[LEAN, LEAN], p[TILT, TILT] = variances[0], left * variances[1]
+    assert Brake.of(x, p).tells(variances) is told
