@@ -35,7 +35,6 @@ ROAD_PRIOR_IMU = (
         {
             **ROAD_PRIOR[0].settings,
             "attitude_blend_s": BLENDED_S,
-            "acceleration_walk_along": 3e-4,
             "tilt_sigma": NOTHING,
         },
         {**ROAD_PRIOR[0].answers, "temporal_condition": _condition},
