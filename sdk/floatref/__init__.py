@@ -41,6 +41,12 @@ if TYPE_CHECKING:
     from floatref.retrofit import TravelSpeed as TravelSpeed
     from floatref.values.clock import StampedClock as StampedClock
     from floatref.values.clock import UniformClock as UniformClock
+    from floatref.values.native import Column as Column
+    from floatref.values.native import Epoch as Epoch
+    from floatref.values.native import NativeClock as NativeClock
+    from floatref.values.native import NativeFile as NativeFile
+    from floatref.values.native import Rows as Rows
+    from floatref.values.native import Stream as Stream
     from floatref.values.profile import Profile as Profile
     from floatref.values.profile import ProfileTrack as ProfileTrack
     from floatref.values.recording import Channel as Channel
@@ -55,6 +61,8 @@ _PUBLIC = {
     "AdaptiveCutOff": "retrofit",
     "AdaptiveHighPass": "retrofit",
     "Channel": "values.recording",
+    "Column": "values.native",
+    "Epoch": "values.native",
     "FloatrefError": "errors",
     "FloatrefWarning": "architectures.processing",
     "HeightReflection": "retrofit",
@@ -62,13 +70,17 @@ _PUBLIC = {
     "InputError": "errors",
     "LocalSuppression": "retrofit",
     "MatchedHighPass": "retrofit",
+    "NativeClock": "values.native",
+    "NativeFile": "values.native",
     "Profile": "values.profile",
     "ProfileTrack": "values.profile",
     "Recording": "values.recording",
+    "Rows": "values.native",
     "Setup": "values.recording",
     "SpatialHighPass": "retrofit",
     "StageError": "errors",
     "StampedClock": "values.clock",
+    "Stream": "values.native",
     "TimerDistortion": "retrofit",
     "TrackSetup": "values.recording",
     "TravelSpeed": "retrofit",

@@ -25,9 +25,11 @@ def check_pipeline(pipeline: Any) -> str:
 
 def check_adapter(adapter: Any) -> str:
     """Return the name of ``adapter``; TypeError if it cannot be one."""
-    for method in ("recognises", "read"):
-        if not callable(getattr(adapter, method, None)):
-            raise TypeError(f"{type(adapter).__name__} has no method {method}")
+    kind = type(adapter).__name__
+    if not callable(getattr(adapter, "recognises", None)):
+        raise TypeError(f"{kind} has no method recognises")
+    if not any(callable(getattr(adapter, method, None)) for method in ("read", "streams")):
+        raise TypeError(f"{kind} has neither a method read nor one called streams")
     return _described(adapter)
 
 

@@ -1,9 +1,9 @@
 """Which adapter reads a source, and what is kept of where a recording came from."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
-from floatref.architectures.adapter import Adapter, RecordingDirectory
+from floatref.architectures.adapter import Adapter, RecordingAdapter, RecordingDirectory
 from floatref.architectures.plugins import plugins
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import fingerprint, fingerprint_native
@@ -35,7 +35,7 @@ def reader_of(source: Path, name: str | None) -> Adapter:
 def read_source(reader: Adapter, source: Path) -> Recording:
     """Return the recording; PluginError if the adapter fails in a way it should not."""
     try:
-        recording = reader.read(source)
+        recording = cast(RecordingAdapter, reader).read(source)
     except (FloatrefError, OSError):
         raise
     except Exception as error:

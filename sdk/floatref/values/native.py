@@ -1,0 +1,139 @@
+"""A native file before it is mapped: streams of columns, each stream on a clock of its own.
+
+An adapter delivers what the file holds, as the file says it: its names, its units, its ticks. A
+channel map says what of it is which channel of a recording.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+
+Ticks = NDArray[np.int64] | NDArray[np.float64]
+
+
+class Epoch(Enum):
+    """What the zero of a clock is."""
+
+    LOCAL = "local"
+    """The device's own: its start, or none."""
+    DAY = "day"
+    """Midnight UTC of an unknown day."""
+    UTC = "utc"
+    """1970-01-01 UTC; leap seconds are not counted."""
+    GPS = "gps"
+    """1980-01-06 UTC; leap seconds are counted."""
+
+
+@dataclass(frozen=True)
+class NativeClock:
+    """When the rows of a stream were taken.
+
+    With a ``rate`` in Hz, row k was taken ``first_tick * tick_s + k / rate`` seconds after
+    ``origin_ns``; without one every row has its tick, and was taken ``tick * tick_s`` seconds
+    after it. ``origin_ns`` is in ns since the zero of ``epoch``. Streams of one file whose clocks
+    have one ``name`` are on one clock, whatever their rates.
+    """
+
+    rate: Fraction | None = None
+    tick_s: Fraction = Fraction(1)
+    first_tick: int = 0
+    epoch: Epoch = Epoch.LOCAL
+    origin_ns: int = 0
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        """Refuse a rate and a tick that are not above zero."""
+        if self.tick_s <= 0 or (self.rate is not None and self.rate <= 0):
+            raise InputError(f"clock of {self.rate} Hz with ticks of {self.tick_s} s; correct it")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A quantity of a stream: its name and unit, both as the file has them; "" is no unit.
+
+    ``note`` is one line for the person who lists the file. A column that holds no numbers is
+    listed and cannot be mapped.
+    """
+
+    name: str
+    unit: str = ""
+    note: str = ""
+    numeric: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Successive rows of a stream: ``values`` by column, each of shape (n,), NaN = missing.
+
+    ``ticks``, of shape (n,), are integers, or float64 where the file has no integers; None for a
+    clock with a rate.
+    """
+
+    values: Mapping[str, FloatArray]
+    ticks: Ticks | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Stream:
+    """Columns of a native file that share one clock, and how to read them.
+
+    ``read(names)`` yields the rows of the columns ``names`` from the first one on, in pieces of
+    at most a few megabytes; with no names the ticks alone. It can be called again. ``count`` is
+    how many rows the file says it has.
+    """
+
+    name: str
+    columns: tuple[Column, ...]
+    count: int
+    clock: NativeClock
+    read: Callable[[Sequence[str]], Iterator[Rows]]
+
+    def __post_init__(self) -> None:
+        """Refuse a name that is given twice."""
+        seen: set[str] = set()
+        for column in self.columns:
+            if column.name in seen:
+                raise InputError(f"{self.name}/{column.name}: given twice; rename one of them")
+            seen.add(column.name)
+
+
+def _nothing() -> None:
+    """Close what needs no closing."""
+
+
+@dataclass(frozen=True, eq=False)
+class NativeFile:
+    """What a native file holds; a context that closes it.
+
+    ``told`` has one line for each kind of content that could not be decoded, with its count.
+    """
+
+    streams: tuple[Stream, ...]
+    told: tuple[str, ...] = ()
+    vendor: str = ""
+    model: str = ""
+    close: Callable[[], None] = field(default=_nothing)
+
+    def __enter__(self) -> "NativeFile":
+        """Return the file itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close it."""
+        self.close()
+
+
+__all__ = ["Column", "Epoch", "NativeClock", "NativeFile", "Rows", "Stream", "Ticks"]
