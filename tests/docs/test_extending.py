@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from floatref import InputError
+from floatref import InputError, Profile, ProfileTrack
 from floatref.architectures import hookspecs
 from floatref.architectures.plugins import Plugins
 from floatref.architectures.question import Question
@@ -85,6 +85,23 @@ def test_the_adapter_reads_its_format(plugins: Plugins, tmp_path: Path) -> None:
     path.write_bytes(b"1234")
     with pytest.raises(InputError, match="no triples"):
         adapter.read(path)
+
+
+def test_the_profile_format_writes_and_reads_what_it_can_hold(
+    plugins: Plugins, tmp_path: Path
+) -> None:
+    form = plugins.profile_formats()["bump"]
+    path, profile = tmp_path / "run.bump", Profile(0.1, (ProfileTrack.of("main", [0.001, -0.002]),))
+    form.write(profile, path)
+    assert form.recognises(path)
+    back = form.read(path)
+    assert back.interval_m == 0.1
+    np.testing.assert_allclose(back.tracks[0].elevation, [0.001, -0.002], rtol=1e-12)
+    with pytest.raises(InputError, match="all valid"):
+        form.write(Profile(0.1, (ProfileTrack.of("main", [0.0, np.nan]),)), path)
+    path.write_text("BUMP 0.1 x")
+    with pytest.raises(InputError, match=r"run\.bump: could not convert"):
+        form.read(path)
 
 
 def test_the_device_describes_itself(example: ModuleType) -> None:

@@ -6,6 +6,11 @@ from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.catalogue import PIPELINES as PIPELINES
 from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.kalman_pipelines import KALMAN
+from floatref.architectures.profile_format import (
+    ProfileDirectory,
+    ProfileFormat,
+    ProfileTable,
+)
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
 from floatref.architectures.road_prior_imu import ROAD_PRIOR_IMU
@@ -80,6 +85,12 @@ class Defaults:
     def floatref_register_adapters(self, register: Callable[[Adapter], None]) -> None:
         """Register our recording directory."""
         register(RecordingDirectory())
+
+    @hookimpl
+    def floatref_register_profile_formats(self, register: Callable[[ProfileFormat], None]) -> None:
+        """Register our profile directory and our table."""
+        register(ProfileDirectory())
+        register(ProfileTable())
 
     @hookimpl
     def floatref_register_stages(

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 import pluggy
 
 from floatref.architectures.adapter import Adapter
+from floatref.architectures.profile_format import ProfileFormat
 from floatref.architectures.question import Pipeline, Question
 from floatref.stages.protocol import Stage
 
@@ -22,6 +23,11 @@ Answer = Sequence[Stage] | None
 @spec
 def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
     """Call ``register(adapter)`` for every native format that the plug-in reads."""
+
+
+@spec
+def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
+    """Call ``register(format)`` for every kind of profile file that it writes and reads."""
 
 
 @spec

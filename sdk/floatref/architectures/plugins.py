@@ -9,11 +9,13 @@ import pluggy
 
 from floatref.architectures import hookspecs
 from floatref.architectures.adapter import Adapter
+from floatref.architectures.profile_format import ProfileFormat
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import (
     Register,
     check_adapter,
     check_pipeline,
+    check_profile_format,
     check_stage,
 )
 from floatref.errors import FloatrefError, InputError, PluginError
@@ -82,6 +84,10 @@ class Plugins:
     def adapters(self) -> dict[str, Adapter]:
         """Return every adapter by name."""
         return self.registered("floatref_register_adapters", check_adapter)
+
+    def profile_formats(self) -> dict[str, ProfileFormat]:
+        """Return every format of profile files by name."""
+        return self.registered("floatref_register_profile_formats", check_profile_format)
 
     def pipeline(self, name: str) -> Pipeline:
         """Return the pipeline called ``name``; InputError if there is none."""

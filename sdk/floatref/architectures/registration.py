@@ -1,9 +1,11 @@
 """What a plug-in may register: checked when it does, so that nothing breaks later."""
 
+import re
 from collections.abc import Callable
 from typing import Any
 
 from floatref.architectures import spatial, temporal
+from floatref.architectures.profile_format import ProfileDirectory
 from floatref.architectures.question import Pipeline
 from floatref.errors import PluginError
 
@@ -31,6 +33,19 @@ def check_adapter(adapter: Any) -> str:
     if not any(callable(getattr(adapter, method, None)) for method in ("read", "streams")):
         raise TypeError(f"{kind} has neither a method read nor one called streams")
     return _described(adapter)
+
+
+def check_profile_format(form: Any) -> str:
+    """Return the name of ``form``; TypeError if it cannot be a format of profile files."""
+    kind = type(form).__name__
+    for method in ("recognises", "read", "write"):
+        if not callable(getattr(form, method, None)):
+            raise TypeError(f"{kind} has no method {method}")
+    suffix = getattr(form, "suffix", None)
+    named = isinstance(suffix, str) and re.fullmatch(r"\.[a-z]+", suffix)
+    if not (named or isinstance(form, ProfileDirectory)):
+        raise TypeError(f"{kind}: suffix {suffix!r} is not a point and small letters, as in .erd")
+    return _described(form)
 
 
 def check_stage(name: Any, stage: Any) -> str:

@@ -5,9 +5,9 @@ from typing import Any
 
 import click
 
+from floatref.architectures.reading import profile_of
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.errors import InputError
-from floatref.files import read_profile
 from floatref.files.sources import naming
 from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
 from floatref.values.profile import Profile
@@ -36,7 +36,7 @@ def compare(
     REFERENCE, linearly between its own, where both overlap. An offset above zero says that
     PROFILE lies farther along.
     """
-    expected, found = read_profile(reference), read_profile(profile)
+    expected, found = profile_of(reference), profile_of(profile)
     with naming(f"{reference} and {profile}"):
         _check_tracks(expected, found)
         expected, found = on_common_grid(expected, found)

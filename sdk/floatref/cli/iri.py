@@ -6,8 +6,8 @@ from typing import Any
 import click
 import numpy as np
 
+from floatref.architectures.reading import profile_of
 from floatref.cli.printing import number, print_json, print_settings, print_table
-from floatref.files import read_profile
 from floatref.files.sources import naming
 from floatref.measures import (
     IriSettings,
@@ -30,12 +30,12 @@ UNITS = {"si": "m/km", "us": "in/mi"}
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def iri(profile: Path, segment_m: float | None, units: str, as_json: bool) -> None:
-    """Print the IRI of PROFILE: a profile directory, its profile.json, or a CSV file.
+    """Print the IRI of PROFILE: a profile directory or a profile file of any format.
 
     The car runs once over every wheel path and the result is cut into segments afterwards.
     """
     settings = IriSettings(segment_m=segment_m)
-    read = read_profile(profile)
+    read = profile_of(profile)
     with naming(profile):
         report = iri_report(read, settings, units)
     if as_json:

@@ -31,14 +31,17 @@ def pipelines(as_json: bool) -> None:
 @click.command("adapters")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def adapters(as_json: bool) -> None:
-    """List the adapters: the native formats that can be read."""
-    known = plugins().adapters().values()
+    """List the adapters, which read native formats, and the formats of profile files."""
+    known, formats = plugins().adapters().values(), plugins().profile_formats().values()
     if as_json:
         items = [{"name": adapter.name, "summary": adapter.summary} for adapter in known]
-        print_json({"adapters": items, "warnings": plugins().reports})
+        kinds = [{"name": f.name, "suffix": f.suffix, "summary": f.summary} for f in formats]
+        print_json({"adapters": items, "formats": kinds, "warnings": plugins().reports})
         return
     rows = [[adapter.name, adapter.summary] for adapter in known]
     print_table("Adapters", ("adapter", "what it reads"), rows, numbers=False)
+    rows = [[f.name, f.suffix or "none", f.summary] for f in formats]
+    print_table("Profile formats", ("format", "suffix", "what it is"), rows, numbers=False)
     _warn()
 
 

@@ -10,7 +10,7 @@ COMMANDS = {
     "iri": ("floatref.cli.iri:iri", "IRI of a profile, whole and by segment"),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
-    "adapters": ("floatref.cli.listings:adapters", "list the adapters"),
+    "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
     "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.architectures.writing import format_of, write_as
+from floatref.cli.formats import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.cli.settings import read_settings
 from floatref.cli.sources import origin_of, read_source, reader_of
 from floatref.errors import InputError
-from floatref.files import write_profile, write_profile_csv
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.sources import naming
 from floatref.values.profile import Profile, ProfileTrack
@@ -22,9 +23,6 @@ from floatref.values.recording import Recording
 if TYPE_CHECKING:
     from rich.progress import Progress
 
-WRITERS = {"profile": write_profile, "csv": write_profile_csv}
-SUFFIXES = {"": "profile", ".csv": "csv"}
-
 
 @click.command("process")
 @click.argument("source", type=click.Path(path_type=Path))
@@ -32,9 +30,7 @@ SUFFIXES = {"": "profile", ".csv": "csv"}
 @click.option("--adapter", metavar="NAME", help="Read SOURCE with this adapter.")
 @click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
 @click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
-@click.option(
-    "--format", "form", type=click.Choice(list(WRITERS)), help="By default, after --out's suffix."
-)
+@click.option("--format", "form", type=FormatName(), help="By default, after --out's suffix.")
 @click.option("--overwrite", is_flag=True, help="Replace what is there.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw it too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
@@ -51,9 +47,9 @@ def process(
 ) -> None:
     """Write the road profile of SOURCE: a recording directory, its JSON file, or a native file.
 
-    OUT without a suffix is a profile directory, OUT.csv a table.
+    The suffix of OUT says in which format; without one it is a profile directory.
     """
-    writer = WRITERS[form or _form(out)]
+    written = format_of(out, form)
     _check_targets(source, out, plot, overwrite)
     reader = reader_of(source, adapter)
     recording = read_source(reader, source)
@@ -61,7 +57,7 @@ def process(
     profile = replace(profile, provenance={**profile.provenance, **origin_of(source, reader)})
     report = _report(profile, out, warnings)
     with _drawn(profile, recording, plot):
-        writer(profile, out, overwrite)
+        write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
 
@@ -92,14 +88,6 @@ def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterato
     with replacing_file(plot, overwrite=True) as beside:
         draw_profile(profile, beside, travel_speed(recording))
         yield
-
-
-def _form(out: Path) -> str:
-    # A suffix has letters only: names of runs hold numbers, as in stop_0.20g.
-    suffix = out.suffix if out.suffix[1:].isalpha() else ""
-    if suffix not in SUFFIXES:
-        raise InputError(f"{out}: suffix {suffix} is no format; use .csv, no suffix, or --format")
-    return SUFFIXES[suffix]
 
 
 def _processed(

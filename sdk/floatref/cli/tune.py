@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.architectures.reading import profile_of
 from floatref.cli.printing import print_json
 from floatref.cli.settings import read_settings
 from floatref.cli.sources import read_source, reader_of
 from floatref.cli.tune_report import loss_curves, tune_report
 from floatref.cli.tune_tables import print_tables
 from floatref.errors import InputError
-from floatref.files import read_profile
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
 from floatref.values.profile import Profile
@@ -85,7 +85,7 @@ def tune(
     """
     _check_targets(out, plot, overwrite)
     given = read_settings(settings)
-    expected = read_profile(reference)
+    expected = profile_of(reference)
     runs = _read(recordings, adapter)
     tuning = _tuned(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
     with _drawn(tuning, plot), replacing_file(out, overwrite) as beside:

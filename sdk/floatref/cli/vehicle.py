@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
+from floatref.architectures.reading import profile_of
 from floatref.cli.printing import print_json, print_table
 from floatref.errors import InputError
-from floatref.files import read_profile
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
 
@@ -67,7 +67,7 @@ def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
 
 def _learned(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
     """Return the pipeline of all ``profiles`` and what each run has told."""
-    read = {place: read_profile(place) for place in profiles}
+    read = {place: profile_of(place) for place in profiles}
     pipeline = next(iter(read.values())).pipeline
     for place, profile in read.items():
         if profile.pipeline != pipeline:

@@ -119,6 +119,12 @@ def test_a_name_that_is_taken_removes_nobody(name):
     assert loaded.reports == [f"plug-in {name} skipped: ValueError: another plug-in has this name"]
 
 
+def format_with(suffix, name="mine"):
+    """Return an object with the methods of a profile format."""
+    methods = {method: lambda *args: None for method in ("recognises", "read", "write")}
+    return type("Mine", (), {**methods, "suffix": suffix, "name": name, "summary": "ours"})()
+
+
 @pytest.mark.parametrize(
     ("hook", "item", "message"),
     [
@@ -140,6 +146,22 @@ def test_a_name_that_is_taken_removes_nobody(name):
         ),
         ("floatref_register_adapters", [object()], "object has no method recognises"),
         ("floatref_register_stages", [7, object], "7 is no name"),
+        ("floatref_register_profile_formats", [object()], "object has no method recognises"),
+        (
+            "floatref_register_profile_formats",
+            [format_with(suffix="erd")],
+            "suffix 'erd' is not a point and small letters",
+        ),
+        (
+            "floatref_register_profile_formats",
+            [format_with(suffix="")],
+            "suffix '' is not a point",
+        ),
+        (
+            "floatref_register_profile_formats",
+            [format_with(suffix=".mine", name=None)],
+            "needs a name and a summary",
+        ),
     ],
 )
 def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
@@ -149,7 +171,12 @@ def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
     loaded = Plugins()
     namespace = {hook: staticmethod(hookspecs.hookimpl(registering))}
     loaded.add(type("Vendor", (), namespace)(), "vendor")
-    found = (loaded.pipelines(), loaded.adapters(), loaded.stages())
+    found = (
+        loaded.pipelines(),
+        loaded.adapters(),
+        loaded.stages(),
+        loaded.profile_formats(),
+    )
     assert all(found)
     assert len(loaded.reports) == 1
     assert message in loaded.reports[0]

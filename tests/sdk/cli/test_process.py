@@ -170,7 +170,7 @@ def test_a_drawing_is_not_left_behind_when_the_profile_fails(folder, monkeypatch
     def refused(*args):
         raise InputError("disk full")
 
-    monkeypatch.setitem(process_module.WRITERS, "profile", refused)
+    monkeypatch.setattr(process_module, "write_as", refused)
     result = invoke(*("process", folder / "run", "--out", folder / "o", "--plot", folder / "o.png"))
     assert result.exit_code == 2
     assert not (folder / "o.png").exists()
@@ -185,4 +185,9 @@ def test_listings(folder):
     ]
     assert "recording" in invoke("adapters").output
     assert re.search(r"temporal-mean-removal +temporal ", invoke("pipelines").output)
-    assert json.loads(invoke("adapters", "--json").stdout)["adapters"][0]["name"] == "recording"
+    listed = json.loads(invoke("adapters", "--json").stdout)
+    assert listed["adapters"][0]["name"] == "recording"
+    assert [(f["name"], f["suffix"]) for f in listed["formats"]][:2] == [
+        ("profile", ""),
+        ("csv", ".csv"),
+    ]
