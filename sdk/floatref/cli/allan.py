@@ -9,7 +9,7 @@ import click
 from floatref.cli.allan_report import allan_report, chosen, doubts, travelled
 from floatref.cli.allan_tables import print_tables
 from floatref.cli.printing import print_json
-from floatref.cli.sources import read_source, reader_of
+from floatref.cli.sources import recording_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
@@ -51,7 +51,7 @@ def allan(
     `floatref process --settings` reads the file that --settings writes.
     """
     _check_targets(settings, plot)
-    read = read_source(reader_of(recording, adapter), recording)
+    read = recording_of(recording, adapter).recording
     with naming(recording):
         found, warnings = _analysed(read, names, between, quiet=as_json)
         report = allan_report(found, warnings)

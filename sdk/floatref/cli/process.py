@@ -1,33 +1,39 @@
 """`floatref process`: a recording, or a native file, into a road profile."""
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from math import nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from floatref.architectures.writing import format_of, write_as
 from floatref.cli.formats import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.cli.progress import progress_bar
 from floatref.cli.settings import read_settings
-from floatref.cli.sources import origin_of, read_source, reader_of
+from floatref.cli.sources import recording_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.sources import naming
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
-if TYPE_CHECKING:
-    from rich.progress import Progress
 
 
 @click.command("process")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
 @click.option("--adapter", metavar="NAME", help="Read SOURCE with this adapter.")
+@click.option(
+    "--map",
+    "channel_map",
+    type=click.Path(path_type=Path),
+    metavar="FILE.toml",
+    help="Channel map of a native file.",
+)
 @click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
 @click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
 @click.option("--format", "form", type=FormatName(), help="By default, after --out's suffix.")
@@ -38,6 +44,7 @@ def process(
     source: Path,
     out: Path,
     adapter: str | None,
+    channel_map: Path | None,
     pipeline: str,
     settings: Path | None,
     form: str | None,
@@ -51,12 +58,13 @@ def process(
     """
     written = format_of(out, form)
     _check_targets(source, out, plot, overwrite)
-    reader = reader_of(source, adapter)
-    recording = read_source(reader, source)
-    profile, warnings = _processed(recording, pipeline, read_settings(settings), source, as_json)
-    profile = replace(profile, provenance={**profile.provenance, **origin_of(source, reader)})
-    report = _report(profile, out, warnings)
-    with _drawn(profile, recording, plot):
+    chosen = read_settings(settings)
+    with progress_bar("Reading", as_json) as shown:
+        read = recording_of(source, adapter, channel_map, shown)
+    profile, warnings = _processed(read.recording, pipeline, chosen, source, as_json)
+    profile = replace(profile, provenance={**profile.provenance, **read.origin})
+    report = _report(profile, out, (*read.warnings, *warnings))
+    with _drawn(profile, read.recording, plot):
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
@@ -93,30 +101,13 @@ def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterato
 def _processed(
     recording: Recording, pipeline: str, settings: Mapping[str, Any], source: Path, quiet: bool
 ) -> tuple[Profile, tuple[str, ...]]:
-    from rich.console import Console
-    from rich.progress import Progress
-
     from floatref.architectures.processing import run
 
-    console = Console(stderr=True)
-    shown = console.is_terminal and not quiet
-    with (
-        naming(source),
-        Progress(console=console, transient=True) if shown else nullcontext() as bar,
-    ):
-        result = run(recording, pipeline, settings, _shown(bar) if bar else None)
-    return result.profile, result.warnings
-
-
-def _shown(bar: "Progress") -> Callable[[float], None]:
-    """Return what shows the part of the run that has been read on ``bar``."""
     # Until the first block is through, loops may be compiled: seconds, once per installation.
-    task = bar.add_task("Starting (the first time, this compiles)", total=1.0)
-
-    def show(done: float) -> None:
-        bar.update(task, completed=done, description="Processing")
-
-    return show
+    starting = "Starting (the first time, this compiles)"
+    with naming(source), progress_bar("Processing", quiet, starting) as shown:
+        result = run(recording, pipeline, settings, shown)
+    return result.profile, result.warnings
 
 
 def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:

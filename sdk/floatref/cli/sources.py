@@ -1,65 +1,75 @@
-"""Which adapter reads a source, and what is kept of where a recording came from."""
+"""What a command reads: a recording directory or a native file, and what is kept of its origin."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any
 
-from floatref.architectures.adapter import Adapter, RecordingAdapter, RecordingDirectory
-from floatref.architectures.plugins import plugins
-from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.architectures.adapter import RecordingDirectory
+from floatref.architectures.readers import is_native, read_source, reader_of
+from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
 from floatref.values.recording import Recording
 
+if TYPE_CHECKING:
+    from floatref.mapping import Reading
 
-def reader_of(source: Path, name: str | None) -> Adapter:
-    """Return the adapter called ``name``, else the one that recognises ``source``.
 
-    Raises InputError if there is no such adapter, none recognises it, or several do.
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A recording, where it came from, and one line for each thing to know about its reading.
+
+    ``reading`` is None unless it came through a channel map.
     """
-    known = plugins().adapters()
-    names = ", ".join(known)
-    if name is not None and name not in known:
-        raise InputError(f"adapter {name}: unknown; there are {names}")
-    if name is not None:
-        return known[name]
-    if not source.exists():
-        raise InputError(f"{source}: not found")
-    found = [adapter for adapter in known.values() if _recognised(adapter, source)]
-    if not found:
-        raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
-    if len(found) > 1:
-        both = " and ".join(adapter.name for adapter in found)
-        raise InputError(f"{source}: adapters {both} both recognise it; choose with --adapter")
-    return found[0]
+
+    recording: Recording
+    origin: dict[str, Any]
+    warnings: tuple[str, ...] = ()
+    reading: "Reading | None" = None
 
 
-def read_source(reader: Adapter, source: Path) -> Recording:
-    """Return the recording; PluginError if the adapter fails in a way it should not."""
-    try:
-        recording = cast(RecordingAdapter, reader).read(source)
-    except (FloatrefError, OSError):
-        raise
-    except Exception as error:
-        raise PluginError(_failure(reader, source, error)) from error
-    if not isinstance(recording, Recording):
-        raise PluginError(f"adapter {reader.name}: {source}: gave no recording")
-    return recording
+def recording_of(
+    source: Path,
+    adapter: str | None = None,
+    channel_map: Path | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Source:
+    """Return what is in ``source``, read with ``adapter`` and by ``channel_map`` if given.
+
+    Raises InputError for a source that cannot be used, and for a map where none is needed.
+    """
+    from floatref.mapping.document import read_map
+
+    chart = None if channel_map is None else read_map(channel_map)
+    stated = adapter or (chart.source.adapter if chart is not None else None)
+    reader = reader_of(source, stated)
+    if not is_native(reader):
+        if chart is not None:
+            raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
+        hashes = fingerprint if isinstance(reader, RecordingDirectory) else fingerprint_native
+        origin = {"source": source.name, "adapter": reader.name, "sha256": hashes(source)}
+        return Source(read_source(reader, source), origin)
+    from floatref.mapping.reading import read_native
+
+    reading = read_native(source, chart, reader.name, progress)
+    return Source(reading.recording, _origin(source, reading, channel_map), reading.told, reading)
 
 
-def origin_of(source: Path, reader: Adapter) -> dict[str, Any]:
-    """Return name, adapter and fingerprints of ``source``."""
-    ours = isinstance(reader, RecordingDirectory)
-    hashes = fingerprint(source) if ours else fingerprint_native(source)
-    return {"source": source.name, "adapter": reader.name, "sha256": hashes}
+def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[str, Any]:
+    """Return names, adapters, clocks and fingerprints of every file that was read."""
+    files = [*reading.files.values(), *([] if channel_map is None else [channel_map])]
+    hashes = {name: value for file in files for name, value in fingerprint_native(file).items()}
+    origin: dict[str, Any] = {
+        "source": source.name,
+        "adapter": reading.adapters[""],
+        "sha256": hashes,
+        "channels": dict(
+            zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
+        ),
+    }
+    if channel_map is not None:
+        origin["map"] = channel_map.name
+    if reading.clocks:
+        origin["clocks"] = [dict(clock) for clock in reading.clocks]
+    return origin
 
-
-def _recognised(adapter: Adapter, source: Path) -> bool:
-    try:
-        return bool(adapter.recognises(source))
-    except Exception as error:
-        plugins().reports.append(_failure(adapter, source, error))
-        return False
-
-
-def _failure(adapter: Adapter, source: Path, error: Exception) -> str:
-    reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"adapter {adapter.name}: {source}: {reason}"

@@ -10,7 +10,7 @@ import click
 from floatref.architectures.reading import profile_of
 from floatref.cli.printing import print_json
 from floatref.cli.settings import read_settings
-from floatref.cli.sources import read_source, reader_of
+from floatref.cli.sources import recording_of
 from floatref.cli.tune_report import loss_curves, tune_report
 from floatref.cli.tune_tables import print_tables
 from floatref.errors import InputError
@@ -117,7 +117,7 @@ def _read(sources: tuple[Path, ...], adapter: str | None) -> dict[str, Recording
         if places.count(place) > 1:
             raise InputError(f"{source}: given twice; give every run once")
     return {
-        name: read_source(reader_of(source, adapter), source)
+        name: recording_of(source, adapter).recording
         for name, source in zip(names, sources, strict=True)
     }
 

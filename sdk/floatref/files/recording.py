@@ -35,7 +35,7 @@ def read_recording(path: Path) -> Recording:
     channels = tuple(_channel(entry, source, clocks) for entry in document["channels"])
     device = document.get("device", {})
     with naming(source):
-        setup = _setup(document.get("setup", {}))
+        setup = setup_of(document.get("setup", {}))
         return Recording(channels, setup, device.get("vendor", ""), device.get("model", ""))
 
 
@@ -102,7 +102,8 @@ def _clock(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedCloc
     return clocks[name]
 
 
-def _setup(entry: Mapping[str, Any]) -> Setup:
+def setup_of(entry: Mapping[str, Any]) -> Setup:
+    """Return the setup that a document's ``entry``, which obeys its schema, describes."""
     tracks = {
         name: TrackSetup(**_known(track, "reference_point_m", "laser_offset_m"))
         for name, track in entry.get("tracks", {}).items()

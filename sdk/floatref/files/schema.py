@@ -13,7 +13,7 @@ from floatref.files.document import shown
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
 
-SCHEMAS = ("floatref-recording-1", "floatref-profile-1")
+SCHEMAS = ("floatref-recording-1", "floatref-profile-1", "floatref-map-1")
 """Names of the schemas in the package."""
 
 
@@ -69,6 +69,8 @@ def _complaint(error: "ValidationError") -> str:
         keys = [key for option in options for key in option["required"]]
         found = [key for key in keys if key in cast(dict[str, Any], error.instance)]
         return f"has {' and '.join(found) or 'none'} of {', '.join(keys)}"
+    if error.validator == "additionalProperties" and error.validator_value is False:
+        return f"has the unknown key {shown(_unknown(error))}"
     if "propertyNames" in error.absolute_schema_path:
         return f"holds the name {shown(error.instance)}"
     if isinstance(error.instance, list) and error.validator in ("minItems", "maxItems"):
@@ -76,10 +78,20 @@ def _complaint(error: "ValidationError") -> str:
     return f"is {shown(error.instance)}"
 
 
+def _unknown(error: "ValidationError") -> str:
+    known = cast(dict[str, Any], error.schema)["properties"]
+    return next(key for key in cast(dict[str, Any], error.instance) if key not in known)
+
+
 def _expected(error: "ValidationError") -> str:
     schema = cast(dict[str, Any], error.schema)
+    if error.validator == "additionalProperties":
+        return _similar(_unknown(error), list(schema["properties"]))
     if error.validator == "enum" and isinstance(error.instance, str):
-        known = cast(list[str], error.validator_value)
-        near = get_close_matches(error.instance[:64], known, n=1)
-        return f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+        return _similar(error.instance, cast(list[str], error.validator_value))
     return f"expected {schema['description']}"
+
+
+def _similar(name: str, known: list[str]) -> str:
+    near = get_close_matches(name[:64], known, n=1)
+    return f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"

@@ -1,0 +1,89 @@
+"""Which adapter reads a source, and what it reads; an adapter's own faults in one line."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from floatref.architectures.adapter import Adapter, NativeAdapter, RecordingAdapter
+from floatref.architectures.plugins import plugins
+from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.values.native import NativeFile
+from floatref.values.recording import Recording
+
+T = TypeVar("T")
+
+
+def reader_of(source: Path, name: str | None) -> Adapter:
+    """Return the adapter called ``name``, else the one that recognises ``source``.
+
+    Raises InputError if there is no such adapter, none recognises it, or several do.
+    """
+    if name is not None:
+        return named_reader(name)
+    if not source.exists():
+        raise InputError(f"{source}: not found")
+    known = plugins().adapters()
+    found = [adapter for adapter in known.values() if _recognised(adapter, source)]
+    if not found:
+        names = ", ".join(known)
+        raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
+    if len(found) > 1:
+        both = " and ".join(adapter.name for adapter in found)
+        raise InputError(f"{source}: adapters {both} both recognise it; choose with --adapter")
+    return found[0]
+
+
+def named_reader(name: str) -> Adapter:
+    """Return the adapter called ``name``; InputError if there is none."""
+    known = plugins().adapters()
+    if name not in known:
+        raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
+    return known[name]
+
+
+def is_native(reader: Adapter) -> bool:
+    """Return whether ``reader`` lists what a file holds, for a channel map."""
+    return callable(getattr(reader, "streams", None))
+
+
+def read_source(reader: Adapter, source: Path) -> Recording:
+    """Return the recording; PluginError if the adapter fails in a way it should not."""
+    return _guarded(
+        lambda: cast(RecordingAdapter, reader).read(source), reader, source, Recording
+    )
+
+
+def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
+    """Return what ``source`` holds; InputError if ``reader`` does not list files."""
+    if not source.exists():
+        raise InputError(f"{source}: not found")
+    if not is_native(reader):
+        raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
+    return _guarded(
+        lambda: cast(NativeAdapter, reader).streams(source, options), reader, source, NativeFile
+    )
+
+
+def _guarded(read: Callable[[], Any], reader: Adapter, source: Path, kind: type[T]) -> T:
+    try:
+        found = read()
+    except (FloatrefError, OSError):
+        raise
+    except Exception as error:
+        raise PluginError(_failure(reader, source, error)) from error
+    if not isinstance(found, kind):
+        raise PluginError(f"adapter {reader.name}: {source}: gave no {kind.__name__}")
+    return found
+
+
+def _recognised(adapter: Adapter, source: Path) -> bool:
+    try:
+        return bool(adapter.recognises(source))
+    except Exception as error:
+        plugins().reports.append(_failure(adapter, source, error))
+        return False
+
+
+def _failure(adapter: Adapter, source: Path, error: Exception) -> str:
+    reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
+    return f"adapter {adapter.name}: {source}: {reason}"

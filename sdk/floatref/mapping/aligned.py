@@ -1,0 +1,82 @@
+"""The clock of one stream, put onto the time base of the recording."""
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from floatref.mapping.spool import Spool
+from floatref.mapping.taking import Taken
+from floatref.measures.clock_alignment import Alignment
+from floatref.values.arrays import FloatArray
+from floatref.values.clock import Clock, StampedClock, UniformClock
+from floatref.values.scanning import CHUNK, chunks
+
+
+class Aligned:
+    """A stream whose first row was taken ``start_s`` after the zero of its own clock.
+
+    ``alignment`` leads to base time, None if the clock is the base clock. ``report`` is what
+    there is to say of the alignment, None for the base.
+    """
+
+    def __init__(
+        self,
+        taken: Taken,
+        start_s: Fraction,
+        alignment: Alignment | None,
+        spool: Spool,
+        report: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Keep new stamps in ``spool``."""
+        self._taken, self._start, self._alignment = taken, start_s, alignment
+        self._spool = spool
+        self._clocks: dict[float, Clock] = {}
+        self.report = report
+        self.told = () if alignment is None else alignment.told
+
+    def clock(self, delay_s: float) -> Clock:
+        """Return the clock of samples that were taken ``delay_s`` before their time stamps."""
+        if delay_s not in self._clocks:
+            self._clocks[delay_s] = self._clock(delay_s)
+        return self._clocks[delay_s]
+
+    def sparse(self, values: FloatArray, clock: Clock) -> tuple[FloatArray, Clock]:
+        """Return the samples of ``values``, shape (N,), that are there, and their own clock."""
+        if not any(np.isnan(part).any() for _, part in chunks(values)):
+            return values, clock
+        found, times = self._spool.column(), self._spool.column()
+        for first, part in chunks(values):
+            kept = ~np.isnan(part)
+            found.append(part[kept])
+            times.append(clock.times(part.size, first)[kept])
+        return found.finish(), StampedClock(times.finish())
+
+    def own_times(self, first: int = 0, count: int | None = None) -> FloatArray:
+        """Return when rows from ``first`` on were taken, in s after the zero of the own clock."""
+        taken = self._taken
+        if taken.rate is not None:
+            size = taken.columns[0].size - first if count is None else count
+            index = np.arange(first, first + size, dtype=np.float64)
+            return float(self._start) + index * taken.rate.denominator / taken.rate.numerator
+        assert taken.times_s is not None
+        end = None if count is None else first + count
+        return float(self._start) + taken.times_s[first:end]
+
+    def _clock(self, delay_s: float) -> Clock:
+        alignment, rate = self._alignment, self._taken.rate
+        start = float(self._start) - delay_s
+        if rate is not None and alignment is None:
+            return UniformClock(rate, start)
+        if rate is not None and alignment is not None and alignment.is_line:
+            begin = float(alignment.to_base(np.array([start]))[0])
+            return UniformClock.of(alignment.rate(float(rate)), begin)
+        if alignment is None and start == 0 and self._taken.times_s is not None:
+            return StampedClock(self._taken.times_s)
+        times = self._spool.column()
+        for first in range(0, self._taken.columns[0].size, CHUNK):
+            count = min(CHUNK, self._taken.columns[0].size - first)
+            own = self.own_times(first, count) - delay_s
+            times.append(own if alignment is None else alignment.to_base(own))
+        return StampedClock(times.finish())

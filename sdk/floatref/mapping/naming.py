@@ -1,0 +1,45 @@
+"""Which column of a native file an entry of a map means."""
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+from floatref.errors import InputError
+from floatref.values.native import Column, NativeFile, Stream
+
+Place = tuple[Stream, Column]
+
+
+def full_name(stream: Stream, column: Column) -> str:
+    """Return the name by which a map means ``column`` without ambiguity."""
+    return f"{stream.name}/{column.name}" if stream.name else column.name
+
+
+def find(native: NativeFile, name: str) -> Place:
+    """Return the stream and the column that ``name`` means.
+
+    ``name`` is "stream/column", or the column's own name if one stream alone has it. Raises
+    InputError if none or several have it, and for a column that holds no numbers.
+    """
+    places = [(stream, column) for stream in native.streams for column in stream.columns]
+    found = [place for place in places if full_name(*place) == name]
+    found = found or [place for place in places if place[1].name == name]
+    if not found:
+        raise InputError(f"{name[:80]!r} is not in the file; {_hint(name, places)}")
+    if len(found) > 1:
+        both = ", ".join(full_name(*place) for place in found[:4])
+        raise InputError(f"{name[:80]!r} is in {len(found)} streams; write one of {both}")
+    stream, column = found[0]
+    if not column.numeric:
+        raise InputError(f"{name[:80]!r} holds no numbers ({column.note or 'text'}); map another")
+    return stream, column
+
+
+def _hint(name: str, places: Sequence[Place]) -> str:
+    names = [full_name(*place) for place in places]
+    near = get_close_matches(name, names, n=1) or get_close_matches(
+        name, [column.name for _, column in places], n=1
+    )
+    if near:
+        return f"did you mean {near[0]}?"
+    more = f" and {len(names) - 8} more" if len(names) > 8 else ""
+    return f"there are {', '.join(names[:8])}{more}" if names else "it has no columns"

@@ -1,0 +1,232 @@
+"""From native files and a channel map to a recording, and to what its user should know."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from floatref.architectures.readers import named_reader, native_of, reader_of
+from floatref.errors import InputError
+from floatref.files.sources import naming
+from floatref.mapping.aligning import Aligned, aligned_clocks, auxiliaries
+from floatref.mapping.conversion import Conversion
+from floatref.mapping.document import read_map
+from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
+from floatref.mapping.naming import find, full_name
+from floatref.mapping.ours import map_of_ours
+from floatref.mapping.spool import Spool
+from floatref.mapping.taking import Progress, Taken, Wanted, as_they_are, take
+from floatref.values.native import NativeFile, Stream
+from floatref.values.recording import Channel, Recording
+
+Key = tuple[str, str]
+"""Label of a file, and name of a stream in it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """A recording from native files: what it came from, and what to know about it.
+
+    ``origins`` has the native name of every channel, ``clocks`` one object for each clock that
+    was aligned, ``told`` one line for each thing that may be wrong.
+    """
+
+    recording: Recording
+    files: Mapping[str, Path]
+    adapters: Mapping[str, str]
+    origins: tuple[str, ...]
+    clocks: tuple[Mapping[str, Any], ...]
+    told: tuple[str, ...]
+
+
+def read_native(
+    source: Path,
+    channel_map: Path | ChannelMap | None = None,
+    adapter: str | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Reading:
+    """Return the recording in the native file ``source`` by ``channel_map``.
+
+    Without a map the file's names have to be ours: `height` or `left.height`, in a known unit.
+    ``progress`` is called with the part of all rows that was read. Raises InputError with one
+    line naming file, channel and value for anything that cannot be used.
+    """
+    chart = read_map(channel_map) if isinstance(channel_map, Path) else channel_map
+    with ExitStack() as stack:
+        opened = _Opened(source, adapter, chart, stack)
+        if chart is None:
+            with naming(source):
+                chart = map_of_ours(opened.file(SOURCE))
+        return _Mapping(opened, chart, stack.enter_context(Spool()), progress).reading()
+
+
+class _Opened:
+    """The native files of a run, each opened when it is first asked for."""
+
+    def __init__(
+        self, source: Path, adapter: str | None, chart: ChannelMap | None, stack: ExitStack
+    ) -> None:
+        self.paths: dict[str, Path] = {SOURCE: source}
+        self.adapters: dict[str, str] = {}
+        self._stack, self._chart, self._adapter = stack, chart, adapter
+        self._files: dict[str, NativeFile] = {}
+
+    def file(self, label: str) -> NativeFile:
+        if label not in self._files:
+            self._files[label] = self._open(label)
+        return self._files[label]
+
+    def told(self) -> Iterator[str]:
+        for label, native in self._files.items():
+            for line in native.told:
+                yield f"{self.paths[label].name}: {line}"
+
+    def _open(self, label: str) -> NativeFile:
+        adapter, options = self._adapter, {}
+        if self._chart is not None:
+            entry = self._chart.source if label == SOURCE else self._chart.files[label]
+            options = dict(entry.options)
+            adapter = (label == SOURCE and self._adapter) or entry.adapter
+            if label != SOURCE:
+                self.paths[label] = entry.path
+        path = self.paths[label]
+        reader = reader_of(path, None) if adapter is None else named_reader(adapter)
+        self.adapters[label] = reader.name
+        return self._stack.enter_context(native_of(reader, path, options))
+
+
+@dataclass(frozen=True, eq=False)
+class _Planned:
+    """An entry of the map, the stream it is in, and its conversion."""
+
+    entry: ChannelEntry
+    key: Key
+    stream: Stream
+    column: str
+    name: str
+    conversion: Conversion
+
+
+class _Mapping:
+    """One reading: its plan, and what was taken."""
+
+    def __init__(
+        self,
+        opened: _Opened,
+        chart: ChannelMap,
+        spool: Spool,
+        progress: Callable[[float], None] | None,
+    ) -> None:
+        self._opened, self._chart, self._spool = opened, chart, spool
+        self._progress = progress
+        self._told: list[str] = []
+
+    def reading(self) -> Reading:
+        plan = [self._planned(entry) for entry in self._chart.channels]
+        base = next((p for p in plan if p.entry.channel == "vertical_specific_force"), plan[0])
+        extra = list(auxiliaries(self._chart.clocks, base.key[0], self._opened.file))
+        taken, places = self._taken(plan, extra)
+        clocks = aligned_clocks(taken, places, self._chart.clocks, base.key, self._spool)
+        channels = tuple(self._channel(p, taken, places, clocks) for p in plan)
+        told = [*self._opened.told(), *self._told]
+        told += [line for c in clocks.values() for line in c.told]
+        for planned in plan:
+            planned.conversion.finish()
+            told += [f"{self._where(planned)}: {line}" for line in planned.conversion.told]
+        native = self._opened.file(base.key[0])
+        vendor, model = self._chart.vendor or native.vendor, self._chart.model or native.model
+        return Reading(
+            recording=Recording(channels, self._chart.setup, vendor, model),
+            files=dict(self._opened.paths),
+            adapters=dict(self._opened.adapters),
+            origins=tuple(self._origin(p) for p in plan),
+            clocks=tuple(report for c in clocks.values() if (report := c.report) is not None),
+            told=tuple(dict.fromkeys(told)),
+        )
+
+    def _planned(self, entry: ChannelEntry) -> _Planned:
+        native = self._opened.file(entry.file)
+        with naming(self._opened.paths[entry.file]):
+            stream, column = find(native, entry.native)
+            name = full_name(stream, column)
+            with naming(f"{name} as {entry.channel}"):
+                conversion = Conversion(entry, column)
+        return _Planned(entry, (entry.file, stream.name), stream, column.name, name, conversion)
+
+    def _taken(
+        self, plan: Sequence[_Planned], extra: Sequence[tuple[Key, Stream, str]]
+    ) -> tuple[dict[Key, Taken], dict[tuple[Key, Any], int]]:
+        """Read every stream once; also return where in it each conversion's samples are."""
+        wanted: dict[Key, list[Wanted]] = {}
+        streams: dict[Key, Stream] = {}
+        places: dict[tuple[Key, Any], int] = {}
+        jobs = [(p.key, p.stream, p.column, self._guarded(p), p.entry) for p in plan]
+        jobs += [(key, stream, column, as_they_are, column) for key, stream, column in extra]
+        for key, stream, column, convert, token in jobs:
+            streams[key] = stream
+            places[key, token] = len(wanted.setdefault(key, []))
+            wanted[key].append(Wanted(column, convert))
+        shown = _Shown(self._progress, sum(s.count for s in streams.values()))
+        taken = {key: self._take(key, streams[key], wanted[key], shown) for key in wanted}
+        return taken, places
+
+    def _take(
+        self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: "_Shown"
+    ) -> Taken:
+        rates = {(c.file, c.stream): c.rate for c in self._chart.clocks}
+        rate = rates.get(key) or rates.get((key[0], None))
+        with naming(self._opened.paths[key[0]]):
+            taken = take(stream, wanted, self._spool, rate, shown.of(stream.count))
+        name = f"{self._opened.paths[key[0]].name}: stream {stream.name!r}: "
+        self._told += [f"{name}{line}" for line in taken.told]
+        return taken
+
+    def _guarded(self, planned: _Planned) -> Callable[..., Any]:
+        """Return the conversion of ``planned``, whose refusals name file and channel."""
+
+        def convert(*samples: Any) -> Any:
+            with naming(self._opened.paths[planned.key[0]]), naming(self._where(planned)):
+                return planned.conversion(*samples)
+
+        return convert
+
+    def _channel(
+        self,
+        planned: _Planned,
+        taken: Mapping[Key, Taken],
+        places: Mapping[tuple[Key, Any], int],
+        clocks: Mapping[Key, Aligned],
+    ) -> Channel:
+        entry = planned.entry
+        values = taken[planned.key].columns[places[planned.key, entry]]
+        with naming(self._opened.paths[entry.file]), naming(self._where(planned)):
+            clock = clocks[planned.key].clock(entry.delay_s)
+            if entry.sparse:
+                values, clock = clocks[planned.key].sparse(values, clock)
+            return Channel.of(entry.channel, values, clock, entry.track)
+
+    def _origin(self, planned: _Planned) -> str:
+        label = planned.entry.file
+        return f"{label}: {planned.name}" if label else planned.name
+
+    def _where(self, planned: _Planned) -> str:
+        track = f"{planned.entry.track}." if planned.entry.track else ""
+        return f"{planned.name} as {track}{planned.entry.channel}"
+
+
+class _Shown:
+    """Progress over all streams together."""
+
+    def __init__(self, progress: Callable[[float], None] | None, total: int) -> None:
+        self._progress, self._total, self._before = progress, max(total, 1), 0
+
+    def of(self, count: int) -> Progress | None:
+        before, self._before = self._before, self._before + count
+        progress = self._progress
+        if progress is None:
+            return None
+        return lambda rows: progress(min((before + rows) / self._total, 1.0))
+
+
+__all__ = ["Reading", "read_native"]

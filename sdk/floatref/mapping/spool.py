@@ -1,0 +1,88 @@
+"""Samples on disk, so that memory does not grow with the file."""
+
+import shutil
+import tempfile
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.files.samples import SAMPLE, read_samples
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.scanning import chunks
+
+SPARE = 1 << 28
+"""Bytes that are left free on the disk."""
+
+
+class Spool:
+    """A folder of sample files for the time of a run; a context that removes it.
+
+    Where the system lets files go while they are mapped, arrays outlive the folder.
+    """
+
+    def __init__(self) -> None:
+        """Make the folder where the system keeps temporary files (`TMPDIR`)."""
+        self._folder = Path(tempfile.mkdtemp(prefix="floatref-"))
+        self._count = 0
+
+    def __enter__(self) -> "Spool":
+        """Return the spool itself."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Remove the folder."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    def check_room(self, samples: int) -> None:
+        """Raise InputError unless the disk has room for ``samples``."""
+        free = shutil.disk_usage(self._folder).free - SPARE
+        wanted = samples * SAMPLE.itemsize
+        if wanted > free:
+            raise InputError(
+                f"reading it needs {wanted / 1e9:.1f} GB on disk for a while, and "
+                f"{self._folder.parent} has {max(free, 0) / 1e9:.1f} GB; set TMPDIR to a folder "
+                "with more, or map fewer channels"
+            )
+
+    def column(self) -> "SpooledColumn":
+        """Return a new column to append to."""
+        self._count += 1
+        return SpooledColumn(self._folder / f"{self._count}.f64")
+
+    def thinned(self, values: FloatArray, kept: BoolArray) -> FloatArray:
+        """Return those of ``values``, shape (N,), that are ``kept``, on disk."""
+        column = self.column()
+        for first, part in chunks(values):
+            column.append(part[kept[first : first + part.size]])
+        return column.finish()
+
+
+class SpooledColumn:
+    """Samples of one channel, appended piece by piece."""
+
+    def __init__(self, path: Path) -> None:
+        """Open the file ``path`` for writing."""
+        self._path = path
+        self._stream = path.open("wb")
+
+    def append(self, values: FloatArray) -> None:
+        """Add ``values``, shape (n,); InputError if the disk is full."""
+        try:
+            np.ascontiguousarray(values, SAMPLE).tofile(self._stream)
+        except OSError as error:
+            raise InputError(
+                f"{self._path.parent.parent}: {error.strerror or error} while reading; set TMPDIR "
+                "to a folder with more room"
+            ) from error
+
+    def finish(self) -> FloatArray:
+        """Return all samples, shape (N,), mapped from disk."""
+        self._stream.close()
+        return read_samples(self._path) if self._path.stat().st_size else np.empty(0)

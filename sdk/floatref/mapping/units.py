@@ -1,0 +1,107 @@
+"""Units as files write them, and how they become the SI units of our channels."""
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from fractions import Fraction
+from math import pi
+from types import MappingProxyType
+from typing import NamedTuple
+
+from floatref.errors import InputError
+
+MPS = "m/s"
+"""The SI unit of speed; a speed is integrated into a distance."""
+
+
+class Unit(NamedTuple):
+    """An SI unit, and how many of it the unit is."""
+
+    si: str
+    factor: float
+
+
+G = Fraction("9.80665")
+INCH = Fraction("0.0254")
+MILE = 63360 * INCH
+SIZES: Mapping[str, Mapping[str, Fraction | float | int]] = {
+    "m": {
+        "m metre meter metres meters": 1,
+        "dm": Fraction(1, 10),
+        "cm": Fraction(1, 100),
+        "mm millimetre millimeter": Fraction(1, 1000),
+        "um µm μm micrometer micron": Fraction(1, 10**6),
+        "nm": Fraction(1, 10**9),
+        "km kilometre kilometer": 1000,
+        "in inch inches \"": INCH,
+        "mil thou": INCH / 1000,
+        "ft foot feet '": 12 * INCH,
+        "yd": 36 * INCH,
+        "mi mile miles": MILE,
+    },
+    "m/s^2": {
+        "m/s^2 m/s² m/s2 m/s/s m/s**2 ms^-2 ms-2 m.s^-2 m·s⁻²": 1,
+        "mm/s^2 mm/s² mm/s2": Fraction(1, 1000),
+        "cm/s^2 cm/s² cm/s2 gal": Fraction(1, 100),
+        "g gn g_n g0 gee grav": G,
+        "mg mgn milli-g": G / 1000,
+        "ug µg μg": G / 10**6,
+        "ft/s^2 ft/s² ft/s2": 12 * INCH,
+        "in/s^2 in/s² in/s2": INCH,
+    },
+    "m/s": {
+        "m/s mps ms^-1 m/sec": 1,
+        "mm/s": Fraction(1, 1000),
+        "cm/s": Fraction(1, 100),
+        "km/h kmh km/hr kph kmph": Fraction(5, 18),
+        "mph mi/h mi/hr": MILE / 3600,
+        "kn kt kts knot knots": Fraction(1852, 3600),
+        "ft/s fps": 12 * INCH,
+    },
+    "rad": {
+        "rad radian radians": 1,
+        "mrad": Fraction(1, 1000),
+        "deg ° degree degrees °n °e": pi / 180,
+        "arcmin": pi / 10800,
+        "arcsec": pi / 648000,
+    },
+    "rad/s": {
+        "rad/s rad/sec": 1,
+        "mrad/s": Fraction(1, 1000),
+        "deg/s °/s dps deg/sec degree/s degrees/s": pi / 180,
+        "mdeg/s mdps": pi / 180000,
+        "deg/h °/h deg/hr": pi / 648000,
+        "rpm 1/min r/min": pi / 30,
+    },
+    "1": {"1 - – none count counts cnt pulse pulses": 1, "%": Fraction(1, 100)},
+}
+"""Spellings by SI unit, each with how many SI units it is."""
+
+
+def _table() -> Mapping[str, Unit]:
+    found = {}
+    for si, sizes in SIZES.items():
+        for spellings, size in sizes.items():
+            found.update({name: Unit(si, float(size)) for name in spellings.split()})
+    return MappingProxyType(found)
+
+
+UNITS = _table()
+
+
+def known_unit(text: str) -> Unit | None:
+    """Return the unit that a file or a map writes as ``text``, None if it is not known.
+
+    Case is told apart where it matters alone: `mg` is a thousandth of g, as is `Mg`.
+    """
+    plain = text.strip().strip("[]()").strip().replace(" ", "")
+    return UNITS.get(plain) or UNITS.get(plain.lower())
+
+
+def unit_of(text: str) -> Unit:
+    """Return the unit written as ``text``; InputError if it is not known."""
+    unit = known_unit(text)
+    if unit is not None:
+        return unit
+    near = get_close_matches(text.strip().lower(), UNITS, n=1)
+    hint = f"did you mean {near[0]}?" if near else "state one such as mm, g, deg/s or km/h"
+    raise InputError(f"unit {text[:40]!r}: unknown; {hint}, and a scale for any other")
