@@ -1,6 +1,7 @@
 """Which adapter reads a source, and what it reads; an adapter's own faults in one line."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -48,9 +49,9 @@ def is_native(reader: Adapter) -> bool:
 
 def read_source(reader: Adapter, source: Path) -> Recording:
     """Return the recording; PluginError if the adapter fails in a way it should not."""
-    return _guarded(
-        lambda: cast(RecordingAdapter, reader).read(source), reader, source, Recording
-    )
+    with guarding(reader.name, source):
+        found = cast(RecordingAdapter, reader).read(source)
+    return _checked(found, reader, source, Recording, "recording")
 
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
@@ -59,20 +60,25 @@ def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> Nati
         raise InputError(f"{source}: not found")
     if not is_native(reader):
         raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
-    return _guarded(
-        lambda: cast(NativeAdapter, reader).streams(source, options), reader, source, NativeFile
-    )
+    with guarding(reader.name, source):
+        found = cast(NativeAdapter, reader).streams(source, options)
+    return _checked(found, reader, source, NativeFile, "native file")
 
 
-def _guarded(read: Callable[[], Any], reader: Adapter, source: Path, kind: type[T]) -> T:
+@contextmanager
+def guarding(name: str, source: Path | None = None) -> Iterator[None]:
+    """Turn what an adapter called ``name`` should not raise into a PluginError in one line."""
     try:
-        found = read()
+        yield
     except (FloatrefError, OSError):
         raise
     except Exception as error:
-        raise PluginError(_failure(reader, source, error)) from error
+        raise PluginError(_failure(name, source, error)) from error
+
+
+def _checked(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
     if not isinstance(found, kind):
-        raise PluginError(f"adapter {reader.name}: {source}: gave no {kind.__name__}")
+        raise PluginError(f"adapter {reader.name}: {source}: gave no {said}")
     return found
 
 
@@ -80,10 +86,10 @@ def _recognised(adapter: Adapter, source: Path) -> bool:
     try:
         return bool(adapter.recognises(source))
     except Exception as error:
-        plugins().reports.append(_failure(adapter, source, error))
+        plugins().reports.append(_failure(adapter.name, source, error))
         return False
 
 
-def _failure(adapter: Adapter, source: Path, error: Exception) -> str:
+def _failure(name: str, source: Path | None, error: Exception) -> str:
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"adapter {adapter.name}: {source}: {reason}"
+    return f"adapter {name}: {reason}" if source is None else f"adapter {name}: {source}: {reason}"

@@ -22,7 +22,6 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
 
-
 @click.command("process")
 @click.argument("source", type=click.Path(path_type=Path))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Where to write.")

@@ -72,4 +72,3 @@ def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[
     if reading.clocks:
         origin["clocks"] = [dict(clock) for clock in reading.clocks]
     return origin
-

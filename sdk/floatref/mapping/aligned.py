@@ -2,16 +2,18 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Taken
-from floatref.measures.clock_alignment import Alignment
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.scanning import CHUNK, chunks
+
+if TYPE_CHECKING:
+    from floatref.measures.clock_alignment import Alignment
 
 
 class Aligned:
@@ -25,7 +27,7 @@ class Aligned:
         self,
         taken: Taken,
         start_s: Fraction,
-        alignment: Alignment | None,
+        alignment: "Alignment | None",
         spool: Spool,
         report: Mapping[str, Any] | None = None,
     ) -> None:

@@ -2,27 +2,27 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from floatref.errors import InputError
 from floatref.mapping.aligned import Aligned
-from floatref.mapping.entries import SOURCE, ClockEntry
+from floatref.mapping.entries import SOURCE, ChannelEntry, ClockEntry
 from floatref.mapping.epochs import between_epochs
 from floatref.mapping.naming import find
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import UNKNOWN, Taken
-from floatref.measures.clock_alignment import (
-    Alignment,
-    align_by_pps,
-    align_by_pulses,
-    align_by_time_readings,
-)
-from floatref.measures.pulses import pulse_times
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch, NativeFile, Stream
 
+if TYPE_CHECKING:
+    from floatref.measures.clock_alignment import Alignment
+
 Key = tuple[str, str]
 """Label of a file, and name of a stream in it."""
+Token = ChannelEntry | str
+"""What a column was taken for: an entry of the map, or an alignment, by its own name."""
+Places = Mapping[tuple[Key, Token], int]
+"""Where in what was taken of a stream the samples for a token are."""
 ClockKey = tuple[str, str, Epoch]
 """Label of a file, name of a clock in it, and its epoch."""
 DAY_S, WEEK_S = 86_400, 604_800
@@ -48,7 +48,7 @@ def auxiliaries(
 
 def aligned_clocks(
     taken: Mapping[Key, Taken],
-    places: Mapping[tuple[Key, Any], int],
+    places: Places,
     entries: Sequence[ClockEntry],
     base: Key,
     spool: Spool,
@@ -66,7 +66,7 @@ class _Aligning:
     def __init__(
         self,
         taken: Mapping[Key, Taken],
-        places: Mapping[tuple[Key, Any], int],
+        places: Places,
         entries: Sequence[ClockEntry],
         base: Key,
         spool: Spool,
@@ -76,7 +76,7 @@ class _Aligning:
         self._zeros: dict[ClockKey, Fraction] = {}
         for key, stream in taken.items():
             clock = _clock_key(key, stream)
-            zero = Fraction(0) if clock[2] is Epoch.LOCAL else stream.start_s // 1
+            zero = Fraction(0) if clock[2] is Epoch.LOCAL else Fraction(stream.start_s // 1)
             self._zeros[clock] = min(self._zeros.get(clock, zero), zero)
 
     def all(self) -> dict[Key, Aligned]:
@@ -99,7 +99,7 @@ class _Aligning:
     def _start(self, key: Key) -> Fraction:
         return self._taken[key].start_s - self._zeros[_clock_key(key, self._taken[key])]
 
-    def _alignment(self, key: Key, entry: ClockEntry | None) -> Alignment | None:
+    def _alignment(self, key: Key, entry: ClockEntry | None) -> "Alignment | None":
         clock, base = (_clock_key(k, self._taken[k]) for k in (key, self._base))
         if entry is None:
             return None if clock == base else self._by_epochs(clock, base)
@@ -115,7 +115,14 @@ class _Aligning:
 
     def _by_entry(
         self, key: Key, entry: ClockEntry, clock: ClockKey, base: ClockKey
-    ) -> Alignment:
+    ) -> "Alignment":
+        from floatref.measures.clock_alignment import (
+            Alignment,
+            align_by_pps,
+            align_by_pulses,
+            align_by_time_readings,
+        )
+
         if entry.align == "offset":
             return Alignment.stated(entry.offset_s, 1e-6 * entry.drift_ppm)
         if entry.align == "pulses":
@@ -131,20 +138,22 @@ class _Aligning:
             return align_by_pps(self._pulses(None, entry.base_pps), near)
         return self._by_epochs(clock, base)
 
-    def _by_epochs(self, clock: ClockKey, base: ClockKey) -> Alignment:
+    def _by_epochs(self, clock: ClockKey, base: ClockKey) -> "Alignment":
         """Align two clocks that both know the time of day."""
+        from floatref.measures.clock_alignment import Alignment
+
         if Epoch.LOCAL in (clock[2], base[2]):
             raise InputError(
                 f"clock of {_said((clock[0], clock[1]))}: nothing aligns its {clock[2].value} "
                 f"time with the {base[2].value} time of the accelerometer; state how under "
                 '[[clocks]] in the map, such as align = "offset"'
             )
-        offset, told = between_epochs(
-            (self._zeros[clock], clock[2]), (self._zeros[base], base[2])
-        )
+        offset, told = between_epochs((self._zeros[clock], clock[2]), (self._zeros[base], base[2]))
         return Alignment.stated(float(offset), 0.0, told)
 
     def _pulses(self, key: Key | None, name: str | None) -> FloatArray:
+        from floatref.measures.pulses import pulse_times
+
         times, values = self._column(key, name)
         return pulse_times(times, values)
 
@@ -154,12 +163,16 @@ class _Aligning:
         place, at = next(
             (place, at)
             for (place, token), at in self._places.items()
-            if place[0] == label and isinstance(token, str) and name in (token, f"{place[1]}/{token}")
+            if place[0] == label
+            and isinstance(token, str)
+            and name in (token, f"{place[1]}/{token}")
         )
         if key is None:
             self._check_base(place, str(name))
         stream = self._taken[place]
-        return Aligned(stream, self._start(place), None, self._spool).own_times(), stream.columns[at]
+        return Aligned(stream, self._start(place), None, self._spool).own_times(), stream.columns[
+            at
+        ]
 
     def _check_base(self, place: Key, name: str) -> None:
         ours = _clock_key(self._base, self._taken[self._base])
@@ -194,7 +207,7 @@ def _said(key: Key) -> str:
     return f"{file}, {key[1]}" if key[1] else file
 
 
-def _report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> dict[str, Any]:
+def _report(key: Key, entry: ClockEntry | None, alignment: "Alignment") -> dict[str, Any]:
     return {
         "file": key[0],
         "stream": key[1],

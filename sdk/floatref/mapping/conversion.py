@@ -77,7 +77,7 @@ class Conversion:
             return
         if own.si != stated.si and own.si != "1":
             raise InputError(
-                f"the map says {self.entry.unit}, the file {given}; correct the map, or give a scale"
+                f"the map says {self.entry.unit}, the file {given}; correct the map, or scale"
             )
         self.told.append(f"the file says unit {given}, the map {self.entry.unit}; the map counts")
 

@@ -18,6 +18,7 @@ from floatref.values.clock import rational
 FORMAT = "floatref-map/1"
 SCHEMA = "floatref-map-1"
 LARGEST_BYTES = 1 << 20
+DEEPEST = 16
 
 
 def read_map(path: Path) -> ChannelMap:
@@ -52,7 +53,9 @@ def _document(path: Path) -> dict[str, Any]:
     try:
         document = tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8; save the map as UTF-8") from None
+        raise InputError(
+            f"{path}: byte {error.start} is not UTF-8; save the map as UTF-8"
+        ) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{path}: not TOML: {error}; correct it there") from error
     except (RecursionError, ValueError) as error:
@@ -65,7 +68,7 @@ def _document(path: Path) -> dict[str, Any]:
 
 def _check_plain(value: Any, where: str, depth: int = 0) -> None:
     """Refuse numbers that are none, dates, and nesting that no map has."""
-    if depth > 16:
+    if depth > DEEPEST:
         raise InputError(f"{where[:60]}: nested too deeply; a map has no such entry")
     if isinstance(value, dict):
         for key, item in value.items():
@@ -73,11 +76,16 @@ def _check_plain(value: Any, where: str, depth: int = 0) -> None:
     elif isinstance(value, list):
         for index, item in enumerate(value):
             _check_plain(item, f"{where}[{index}]", depth + 1)
-    elif isinstance(value, float) and not math.isfinite(value):
+    else:
+        _check_value(value, where)
+
+
+def _check_value(value: Any, where: str) -> None:
+    if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"{where} is {value}; give a finite number")
-    elif isinstance(value, int) and abs(value) > 1 << 63:
+    if isinstance(value, int) and abs(value) > 1 << 63:
         raise InputError(f"{where} is an integer beyond 64 bits; give a number")
-    elif not isinstance(value, str | int | float):
+    if not isinstance(value, str | int | float):
         raise InputError(f"{where} is a date or a time; give a number or a string")
 
 
@@ -167,7 +175,9 @@ def _check_file(name: str, files: Mapping[str, FileEntry]) -> None:
 def _check_alignment(clock: ClockEntry) -> None:
     pulses = (clock.pulses is not None, clock.base_pulses is not None)
     if clock.align == "pulses" and not all(pulses):
-        raise InputError("align by pulses needs pulses and base_pulses, the channels that hold them")
+        raise InputError(
+            "align by pulses needs pulses and base_pulses, the channels that hold them"
+        )
     if clock.align != "pulses" and any(pulses):
         raise InputError('pulses are given; write align = "pulses" as well, or leave them out')
     readings = [name for name in ("base_time", "base_pps") if getattr(clock, name) is not None]

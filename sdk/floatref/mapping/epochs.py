@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-from floatref.measures.leap_seconds import gps_minus_utc_s, utc_minus_gps_s
 from floatref.values.native import Epoch
 
 GPS_ZERO_S = 315_964_800
@@ -34,6 +33,8 @@ def _unix(moment: Moment) -> Fraction:
     seconds, epoch = moment
     if epoch is not Epoch.GPS:
         return seconds
+    from floatref.measures.leap_seconds import utc_minus_gps_s
+
     return seconds + GPS_ZERO_S + utc_minus_gps_s(float(seconds))
 
 
@@ -42,4 +43,6 @@ def _of_day(moment: Moment) -> Fraction:
 
 
 def _leap_seconds(moment: Moment) -> int:
+    from floatref.measures.leap_seconds import gps_minus_utc_s
+
     return gps_minus_utc_s(float(moment[0]))

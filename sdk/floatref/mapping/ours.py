@@ -24,7 +24,9 @@ def map_of_ours(native: NativeFile) -> ChannelMap:
     seen: set[tuple[str, str | None]] = set()
     for entry in channels:
         if (entry.channel, entry.track) in seen:
-            raise InputError(f"{entry.native}: its channel is there twice; say in a map which counts")
+            raise InputError(
+                f"{entry.native}: its channel is there twice; say in a map which counts"
+            )
         seen.add((entry.channel, entry.track))
     return ChannelMap(channels)
 

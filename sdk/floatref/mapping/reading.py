@@ -6,22 +6,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref.architectures.readers import named_reader, native_of, reader_of
-from floatref.errors import InputError
+from floatref.architectures.readers import guarding, named_reader, native_of, reader_of
 from floatref.files.sources import naming
-from floatref.mapping.aligning import Aligned, aligned_clocks, auxiliaries
+from floatref.mapping.aligned import Aligned
+from floatref.mapping.aligning import Key, Places, Token, aligned_clocks, auxiliaries
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import read_map
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.ours import map_of_ours
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import Progress, Taken, Wanted, as_they_are, take
+from floatref.mapping.taking import Convert, Progress, Taken, Wanted, as_they_are, take
+from floatref.values.arrays import FloatArray
 from floatref.values.native import NativeFile, Stream
 from floatref.values.recording import Channel, Recording
-
-Key = tuple[str, str]
-"""Label of a file, and name of a stream in it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,12 +154,14 @@ class _Mapping:
 
     def _taken(
         self, plan: Sequence[_Planned], extra: Sequence[tuple[Key, Stream, str]]
-    ) -> tuple[dict[Key, Taken], dict[tuple[Key, Any], int]]:
+    ) -> tuple[dict[Key, Taken], Places]:
         """Read every stream once; also return where in it each conversion's samples are."""
         wanted: dict[Key, list[Wanted]] = {}
         streams: dict[Key, Stream] = {}
-        places: dict[tuple[Key, Any], int] = {}
-        jobs = [(p.key, p.stream, p.column, self._guarded(p), p.entry) for p in plan]
+        places: dict[tuple[Key, Token], int] = {}
+        jobs: list[tuple[Key, Stream, str, Convert, Token]] = [
+            (p.key, p.stream, p.column, self._guarded(p), p.entry) for p in plan
+        ]
         jobs += [(key, stream, column, as_they_are, column) for key, stream, column in extra]
         for key, stream, column, convert, token in jobs:
             streams[key] = stream
@@ -171,23 +171,21 @@ class _Mapping:
         taken = {key: self._take(key, streams[key], wanted[key], shown) for key in wanted}
         return taken, places
 
-    def _take(
-        self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: "_Shown"
-    ) -> Taken:
+    def _take(self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: "_Shown") -> Taken:
         rates = {(c.file, c.stream): c.rate for c in self._chart.clocks}
         rate = rates.get(key) or rates.get((key[0], None))
-        with naming(self._opened.paths[key[0]]):
+        with naming(self._opened.paths[key[0]]), guarding(self._opened.adapters[key[0]]):
             taken = take(stream, wanted, self._spool, rate, shown.of(stream.count))
         name = f"{self._opened.paths[key[0]].name}: stream {stream.name!r}: "
         self._told += [f"{name}{line}" for line in taken.told]
         return taken
 
-    def _guarded(self, planned: _Planned) -> Callable[..., Any]:
+    def _guarded(self, planned: _Planned) -> Convert:
         """Return the conversion of ``planned``, whose refusals name file and channel."""
 
-        def convert(*samples: Any) -> Any:
+        def convert(values: FloatArray, times_s: FloatArray) -> FloatArray:
             with naming(self._opened.paths[planned.key[0]]), naming(self._where(planned)):
-                return planned.conversion(*samples)
+                return planned.conversion(values, times_s)
 
         return convert
 
@@ -195,7 +193,7 @@ class _Mapping:
         self,
         planned: _Planned,
         taken: Mapping[Key, Taken],
-        places: Mapping[tuple[Key, Any], int],
+        places: Places,
         clocks: Mapping[Key, Aligned],
     ) -> Channel:
         entry = planned.entry

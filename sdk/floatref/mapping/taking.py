@@ -185,5 +185,3 @@ def _first_of_each(times: FloatArray) -> BoolArray:
 def as_they_are(values: FloatArray, times_s: FloatArray) -> FloatArray:
     """Return ``values``: the conversion of a channel of pulses or of time readings."""
     return values
-
-

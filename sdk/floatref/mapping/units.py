@@ -32,7 +32,7 @@ SIZES: Mapping[str, Mapping[str, Fraction | float | int]] = {
         "um µm μm micrometer micron": Fraction(1, 10**6),
         "nm": Fraction(1, 10**9),
         "km kilometre kilometer": 1000,
-        "in inch inches \"": INCH,
+        'in inch inches "': INCH,
         "mil thou": INCH / 1000,
         "ft foot feet '": 12 * INCH,
         "yd": 36 * INCH,

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from floatref.architectures import hookspecs, plugins, processing
-from floatref.cli import sources
+from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.cli.main import main
 from floatref.files import read_profile, read_recording, write_recording
 from floatref.values.clock import UniformClock
@@ -62,7 +61,7 @@ def with_adapter(monkeypatch):
 
         loaded = plugins.Plugins()
         loaded.add(Plugin(), "vendor")
-        for module in (sources, processing):
+        for module in (readers, processing):
             monkeypatch.setattr(module, "plugins", lambda: loaded)
 
     return use

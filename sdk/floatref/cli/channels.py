@@ -1,0 +1,139 @@
+"""`floatref channels`: what a native file holds, a draft of its channel map, and a map tried."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from floatref.architectures.readers import is_native, native_of, read_source, reader_of
+from floatref.cli.channel_tables import print_mapped, print_streams
+from floatref.cli.printing import print_json
+from floatref.cli.progress import progress_bar
+from floatref.errors import InputError
+from floatref.values.clock import UniformClock
+from floatref.values.native import NativeClock, NativeFile, Stream
+from floatref.values.recording import Recording
+
+
+@click.command("channels")
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--draft-map", is_flag=True, help="Print a channel map to begin with.")
+@click.option("--adapter", metavar="NAME", help="Read FILE with this adapter.")
+@click.option(
+    "--map",
+    "channel_map",
+    type=click.Path(path_type=Path),
+    metavar="FILE.toml",
+    help="Try this channel map: what becomes of the channels.",
+)
+@click.option(
+    "--dbc", type=click.Path(path_type=Path), metavar="FILE", help="Signals of a CAN log."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def channels(
+    file: Path,
+    draft_map: bool,
+    adapter: str | None,
+    channel_map: Path | None,
+    dbc: Path | None,
+    as_json: bool,
+) -> None:
+    """List what FILE holds: its channels, units and clocks, and what could not be decoded.
+
+    With --map every channel is read, put into SI units and onto one time base, and looked at.
+    """
+    if channel_map is not None:
+        if draft_map or dbc is not None:
+            raise InputError("--map stands alone; it says itself which dbc there is")
+        _try(file, adapter, channel_map, as_json)
+        return
+    reader = reader_of(file, adapter)
+    if not is_native(reader):
+        _list_recording(read_source(reader, file), file, reader.name, draft_map, as_json)
+        return
+    options = {} if dbc is None else {"dbc": str(dbc.resolve())}
+    with native_of(reader, file, options) as native:
+        if draft_map:
+            _draft(native, file, reader.name, dbc)
+            return
+        report = _listed(native, file, reader.name)
+    print_json(report) if as_json else print_streams(report)
+
+
+def _draft(native: NativeFile, file: Path, adapter: str, dbc: Path | None) -> None:
+    from floatref.mapping.draft import draft_map
+
+    click.echo(draft_map(native, file, adapter, None if dbc is None else dbc.name), nl=False)
+    for line in native.told:
+        click.echo(f"Warning: {line}", err=True)
+
+
+def _try(file: Path, adapter: str | None, channel_map: Path, as_json: bool) -> None:
+    from floatref.mapping.looks import looked_at
+    from floatref.mapping.reading import read_native
+
+    with progress_bar("Reading", as_json) as shown:
+        reading = read_native(file, channel_map, adapter, shown)
+    report = {"file": str(file), "map": str(channel_map), **looked_at(reading)}
+    print_json(report) if as_json else print_mapped(report)
+
+
+def _list_recording(
+    recording: Recording, file: Path, adapter: str, draft: bool, as_json: bool
+) -> None:
+    """List a recording whose adapter maps its channels itself."""
+    if draft:
+        raise InputError(f"{file}: adapter {adapter} has our channels; it needs no map")
+    streams = [
+        {
+            "name": "",
+            "count": channel.values.size,
+            "rate_hz": channel.mean_rate_hz,
+            "clock": _rate_said(channel.clock.rate)
+            if isinstance(channel.clock, UniformClock)
+            else "time stamps",
+            "columns": [{"name": str(channel.id), "unit": channel.unit, "note": ""}],
+        }
+        for channel in recording.channels
+    ]
+    report = {"file": str(file), "adapter": adapter, "streams": streams, "warnings": []}
+    print_json(report) if as_json else print_streams(report)
+
+
+def _listed(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
+    """Return what `floatref channels --json` prints."""
+    return {
+        "file": str(file),
+        "adapter": adapter,
+        "device": {"vendor": native.vendor, "model": native.model},
+        "streams": [_stream(stream) for stream in native.streams],
+        "warnings": list(native.told),
+    }
+
+
+def _stream(stream: Stream) -> dict[str, Any]:
+    clock = stream.clock
+    return {
+        "name": stream.name,
+        "count": stream.count,
+        "rate_hz": None if clock.rate is None else float(clock.rate),
+        "clock": _clock_said(clock),
+        "columns": [
+            {"name": c.name, "unit": c.unit, "numeric": c.numeric, "note": c.note}
+            for c in stream.columns
+        ],
+    }
+
+
+def _clock_said(clock: NativeClock) -> str:
+    from floatref.mapping.taking import UNKNOWN
+
+    if clock.name == UNKNOWN:
+        return "none"
+    said = "time stamps" if clock.rate is None else _rate_said(clock.rate)
+    named = f", clock {clock.name}" if clock.name else ""
+    return f"{said}, {clock.epoch.value}{named}"
+
+
+def _rate_said(rate: Any) -> str:
+    return f"{float(rate):.10g} Hz"

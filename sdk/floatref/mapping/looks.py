@@ -1,0 +1,45 @@
+"""A mapped recording looked at: what each channel amounts to, and what is implausible."""
+
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.mapping.reading import Reading
+from floatref.values.plausibility import examine
+from floatref.values.recording import Channel
+from floatref.values.scanning import Summary
+
+
+def looked_at(reading: Reading) -> dict[str, Any]:
+    """Return what `floatref channels --map --json` prints: channels, clocks and warnings.
+
+    What would keep the recording from being processed is a warning here.
+    """
+    channels = reading.recording.channels
+    warnings = list(reading.told)
+    try:
+        warnings += examine(reading.recording)
+    except InputError as error:
+        warnings.append(f"cannot be processed yet: {error}")
+    return {
+        "channels": [_look(c, o) for c, o in zip(channels, reading.origins, strict=True)],
+        "clocks": [dict(clock) for clock in reading.clocks],
+        "warnings": warnings,
+    }
+
+
+def _look(channel: Channel, native: str) -> dict[str, Any]:
+    summary = Summary.of(channel.values)
+    begin, end = channel.span_s
+    return {
+        "channel": str(channel.id),
+        "native": native,
+        "unit": channel.unit,
+        "count": summary.count,
+        "missing": summary.missing,
+        "rate_hz": channel.mean_rate_hz,
+        "begin_s": begin,
+        "end_s": end,
+        "least": summary.least,
+        "mean": summary.mean,
+        "greatest": summary.greatest,
+    }

@@ -1,0 +1,74 @@
+"""A native file and its map give the recording that was measured."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from floatref.mapping import read_native
+from floatref.values.clock import UniformClock
+
+Put = Callable[..., Path]
+
+
+def test_names_that_are_ours_need_no_map(put: Put, make_stream, a_drive) -> None:
+    run = a_drive()
+    reading = read_native(put(make_stream("", run, rate=Fraction(1000))))
+    recording = reading.recording
+    assert reading.told == ()
+    for name, values in run.items():
+        np.testing.assert_array_equal(recording.channel(name).values, values)
+        assert recording.channel(name).clock == UniformClock(Fraction(1000), 0.0)
+
+
+MAP = """
+format = "floatref-map/1"
+[[channels]]
+native = "adc/ch1"
+channel = "specific_force"
+axis = "-z"
+track = "left"
+unit = "g"
+scale = 2.0
+offset = 0.25
+delay_s = 0.002
+[[channels]]
+native = "laser"
+channel = "height"
+track = "left"
+unit = "mm"
+missing = [-1]
+[[channels]]
+native = "wheel"
+channel = "distance"
+unit = "m"
+scale = 0.01
+wrap = 100
+"""
+
+
+def test_a_map_says_unit_scale_offset_axis_delay_and_wrap(
+    put: Put, make_stream, a_drive, tmp_path: Path
+) -> None:
+    run = a_drive()
+    laser = 1000.0 * run["height"]
+    laser[17] = -1.0
+    counts = np.floor(100.0 * run["distance"])
+    native = {
+        "ch1": -(run["vertical_specific_force"] / 9.80665 + 0.25) / 2.0,
+        "laser": laser,
+        "wheel": np.mod(counts, 100),
+    }
+    # SI = sign * unit * (scale * native + offset)
+    source = put(make_stream("adc", native, rate=Fraction(1000)))
+    chart = tmp_path / "map.toml"
+    chart.write_text(MAP)
+    recording = read_native(source, chart).recording
+    force = recording.channel("vertical_specific_force", "left")
+    np.testing.assert_allclose(force.values, -9.80665 * (2.0 * native["ch1"] + 0.25), rtol=1e-14)
+    assert force.clock == UniformClock(Fraction(1000), -0.002)
+    height = recording.channel("height", "left").values
+    assert np.isnan(height[17])
+    np.testing.assert_allclose(np.delete(height, 17), np.delete(run["height"], 17), rtol=1e-14)
+    np.testing.assert_allclose(recording.channel("distance").values, 0.01 * counts, rtol=1e-14)
