@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
+    from floatref.mapping import read_native as read_native
     from floatref.retrofit import AdaptiveCutOff as AdaptiveCutOff
     from floatref.retrofit import AdaptiveHighPass as AdaptiveHighPass
     from floatref.retrofit import HeightReflection as HeightReflection
@@ -88,6 +89,7 @@ _PUBLIC = {
     "pipeline_capabilities": "architectures.processing",
     "pipelines": "architectures.processing",
     "process": "architectures.processing",
+    "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
     "write_profile": "files",

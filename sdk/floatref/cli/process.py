@@ -14,7 +14,7 @@ from floatref.cli.formats import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.cli.progress import progress_bar
 from floatref.cli.settings import read_settings
-from floatref.cli.sources import recording_of
+from floatref.cli.sources import Source, recording_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.sources import naming
@@ -60,7 +60,7 @@ def process(
     chosen = read_settings(settings)
     with progress_bar("Reading", as_json) as shown:
         read = recording_of(source, adapter, channel_map, shown)
-    profile, warnings = _processed(read.recording, pipeline, chosen, source, as_json)
+    profile, warnings = _processed(read, pipeline, chosen, source, as_json)
     profile = replace(profile, provenance={**profile.provenance, **read.origin})
     report = _report(profile, out, (*read.warnings, *warnings))
     with _drawn(profile, read.recording, plot):
@@ -98,15 +98,15 @@ def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterato
 
 
 def _processed(
-    recording: Recording, pipeline: str, settings: Mapping[str, Any], source: Path, quiet: bool
+    read: Source, pipeline: str, settings: Mapping[str, Any], source: Path, quiet: bool
 ) -> tuple[Profile, tuple[str, ...]]:
     from floatref.architectures.processing import run
 
     # Until the first block is through, loops may be compiled: seconds, once per installation.
     starting = "Starting (the first time, this compiles)"
-    with naming(source), progress_bar("Processing", quiet, starting) as shown:
-        result = run(recording, pipeline, settings, shown)
-    return result.profile, result.warnings
+    with naming(source), read.named(), progress_bar("Processing", quiet, starting) as shown:
+        result = run(read.recording, pipeline, settings, shown)
+    return result.profile, tuple(map(read.said, result.warnings))
 
 
 def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """What a command reads: a recording directory or a native file, and what is kept of its origin."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,18 @@ class Source:
     origin: dict[str, Any]
     warnings: tuple[str, ...] = ()
     reading: "Reading | None" = None
+
+    def said(self, line: str) -> str:
+        """Return ``line`` with the native name of the channel that it is about."""
+        return line if self.reading is None else self.reading.named_natively(line)
+
+    @contextmanager
+    def named(self) -> Iterator[None]:
+        """Put the native name of a channel into any InputError raised inside."""
+        try:
+            yield
+        except InputError as error:
+            raise InputError(self.said(str(error))) from error
 
 
 def recording_of(

@@ -17,9 +17,9 @@ def looked_at(reading: Reading) -> dict[str, Any]:
     channels = reading.recording.channels
     warnings = list(reading.told)
     try:
-        warnings += examine(reading.recording)
+        warnings += map(reading.named_natively, examine(reading.recording))
     except InputError as error:
-        warnings.append(f"cannot be processed yet: {error}")
+        warnings.append(f"cannot be processed yet: {reading.named_natively(str(error))}")
     return {
         "channels": [_look(c, o) for c, o in zip(channels, reading.origins, strict=True)],
         "clocks": [dict(clock) for clock in reading.clocks],

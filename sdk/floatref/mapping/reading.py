@@ -13,6 +13,7 @@ from floatref.mapping.aligning import Key, Places, Token, aligned_clocks, auxili
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import read_map
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
+from floatref.mapping.limits import check_limits
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.ours import map_of_ours
 from floatref.mapping.spool import Spool
@@ -36,6 +37,14 @@ class Reading:
     origins: tuple[str, ...]
     clocks: tuple[Mapping[str, Any], ...]
     told: tuple[str, ...]
+
+    def named_natively(self, line: str) -> str:
+        """Return ``line``, which says something of a channel, with the channel's native name."""
+        for channel, origin in zip(self.recording.channels, self.origins, strict=True):
+            said = f"channel {channel.id}:"
+            if line.startswith(said) and origin != str(channel.id):
+                return f"channel {channel.id} ({origin}):{line.removeprefix(said)}"
+        return line
 
 
 def read_native(
@@ -202,7 +211,9 @@ class _Mapping:
             clock = clocks[planned.key].clock(entry.delay_s)
             if entry.sparse:
                 values, clock = clocks[planned.key].sparse(values, clock)
-            return Channel.of(entry.channel, values, clock, entry.track)
+            channel = Channel.of(entry.channel, values, clock, entry.track)
+            check_limits(channel)
+            return channel
 
     def _origin(self, planned: _Planned) -> str:
         label = planned.entry.file
