@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pluggy
 
 from floatref_adapters.csv_recording import CsvRecording
+from floatref_adapters.erd import Erd
 
 hookimpl = pluggy.HookimplMarker("floatref")
 
@@ -13,3 +14,9 @@ hookimpl = pluggy.HookimplMarker("floatref")
 def floatref_register_adapters(register: Callable[[CsvRecording], None]) -> None:
     """Register every adapter of this package."""
     register(CsvRecording())
+
+
+@hookimpl
+def floatref_register_profile_formats(register: Callable[[Erd], None]) -> None:
+    """Register every format of profile files of this package."""
+    register(Erd())
