@@ -6,6 +6,7 @@ import pluggy
 
 from floatref_adapters.csv_recording import CsvRecording
 from floatref_adapters.erd import Erd
+from floatref_adapters.parquet_profile import ParquetProfile
 
 hookimpl = pluggy.HookimplMarker("floatref")
 
@@ -17,6 +18,7 @@ def floatref_register_adapters(register: Callable[[CsvRecording], None]) -> None
 
 
 @hookimpl
-def floatref_register_profile_formats(register: Callable[[Erd], None]) -> None:
+def floatref_register_profile_formats(register: Callable[[Erd | ParquetProfile], None]) -> None:
     """Register every format of profile files of this package."""
     register(Erd())
+    register(ParquetProfile())
