@@ -1,8 +1,8 @@
 """Profiles and recordings as pandas frames and xarray data sets.
 
 Samples are not copied where pandas or xarray can look at them where they are; they stay
-read-only: take a `copy()` of a frame before changing it. A recording has one frame, or one dimension, for every clock of its channels: nothing
-is resampled.
+read-only: take a `copy()` of a frame before changing it. A recording has one frame, or one
+dimension, for every clock of its channels: nothing is resampled.
 """
 
 from typing import TYPE_CHECKING, Any
