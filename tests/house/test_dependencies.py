@@ -13,6 +13,7 @@ ALLOWED = {
     "sdk": {"click", "jsonschema", "numba", "numpy", "pluggy", "rich", "scipy"},
     "sdk/floatref/plots": {"matplotlib"},
     "adapters": {"numpy", "pluggy"},
+    "adapters/floatref_adapters": {"pandas", "xarray"},
     "reference_impl": {"numpy"},
     "conformance": {
         "click",
