@@ -34,6 +34,10 @@ class ParquetProfile:
     suffix = ".parquet"
     summary = "Parquet: distance, elevation, validity, 1-σ, and what made them as metadata"
 
+    def check_installed(self) -> None:
+        """Raise InputError where pyarrow is missing."""
+        _libraries("writing Parquet")
+
     def recognises(self, path: Path) -> bool:
         """Tell whether ``path`` begins as a Parquet file does."""
         if not path.is_file():

@@ -17,7 +17,9 @@ class ProfileFormat(Protocol):
 
     `suffix`, such as ".erd", has small letters only. A format does not care for an existing file
     or for a write that fails half-way: it is given the name of a new file, with the suffix that
-    the user gave, and that gets its final name when `write` has returned.
+    the user gave, and that gets its final name when `write` has returned. One that needs a library
+    may have a method `check_installed`, which raises InputError where it is missing: it is called
+    before the work on what is to be written.
     """
 
     name: str

@@ -8,14 +8,25 @@ from floatref.architectures.reading import failure
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import write_profile
 from floatref.files.atomic import replacing_file
+from floatref.files.sources import naming
 from floatref.values.profile import Profile
 
 
 def format_of(out: Path, name: str | None = None) -> ProfileFormat:
     """Return the format called ``name``, else the one that the suffix of ``out`` asks for.
 
-    Raises InputError, with the formats there are, if it is none or that of two.
+    Raises InputError, with the formats there are, if it is none or that of two, or if it needs a
+    library that is missing.
     """
+    form = _chosen(out, name)
+    check = getattr(form, "check_installed", None)
+    if callable(check):
+        with naming(out):
+            check()
+    return form
+
+
+def _chosen(out: Path, name: str | None) -> ProfileFormat:
     known = plugins().profile_formats()
     if name is not None and name not in known:
         raise InputError(f"format {name}: unknown; there are {', '.join(known)}")

@@ -1,11 +1,13 @@
 """Profile formats as a user calls them: written by `process`, read wherever a PROFILE is."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from floatref.cli import process as process_module
 from floatref.cli.main import main
 from floatref.files import read_profile, write_recording
 from floatref.values.clock import UniformClock
@@ -93,6 +95,14 @@ def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder):
     assert result.exit_code == 2
     assert "suffix .ppf is no format; use .csv, .erd, .parquet, no suffix" in result.stderr
     assert not list(folder.glob(".floatref-*"))
+
+
+def test_a_missing_library_is_told_before_the_work(folder, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    monkeypatch.setattr(process_module, "_processed", None)
+    result = invoke("process", folder / "run", "--out", folder / "b.parquet")
+    assert result.exit_code == 2
+    assert "b.parquet: writing Parquet needs pyarrow; install floatref[adapters]" in result.stderr
 
 
 def test_a_broken_file_is_one_line_and_exit_code_2(folder):
