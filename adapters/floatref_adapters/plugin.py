@@ -4,17 +4,23 @@ from collections.abc import Callable
 
 import pluggy
 
+from floatref_adapters.can_log import CanLog
 from floatref_adapters.csv_recording import CsvRecording
 from floatref_adapters.erd import Erd
+from floatref_adapters.nmea import Nmea
+from floatref_adapters.novatel import NovAtel
 from floatref_adapters.parquet_profile import ParquetProfile
 
 hookimpl = pluggy.HookimplMarker("floatref")
 
 
 @hookimpl
-def floatref_register_adapters(register: Callable[[CsvRecording], None]) -> None:
+def floatref_register_adapters(register: Callable[[object], None]) -> None:
     """Register every adapter of this package."""
     register(CsvRecording())
+    register(Nmea())
+    register(NovAtel())
+    register(CanLog())
 
 
 @hookimpl
