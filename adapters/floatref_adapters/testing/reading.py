@@ -29,7 +29,8 @@ def table_of(stream: Stream) -> tuple[Table, NDArray[np.int64]]:
     names = [column.name for column in stream.columns if column.numeric]
     parts = list(stream.read(names))
     ticks = [np.zeros(0, np.int64), *(np.asarray(p.ticks, np.int64) for p in parts)]
-    values = {name: np.concatenate([p.values[name] for p in parts] or [[]]) for name in names}
+    none = np.zeros(0)
+    values = {name: np.concatenate([none, *(p.values[name] for p in parts)]) for name in names}
     return values, np.concatenate(ticks)
 
 
