@@ -1,0 +1,29 @@
+"""What floatref finds through the entry point: an adapter, a stage and a pipeline."""
+
+from collections.abc import Callable
+
+import pluggy
+
+from acme_roadlogger.adapter import RoadLogger
+from acme_roadlogger.pipeline import PIPELINE
+from acme_roadlogger.spikes import RemoveSpikes
+
+hookimpl = pluggy.HookimplMarker("floatref")
+
+
+@hookimpl
+def floatref_register_adapters(register: Callable[[RoadLogger], None]) -> None:
+    """Read our files."""
+    register(RoadLogger())
+
+
+@hookimpl
+def floatref_register_stages(register: Callable[[str, type[RemoveSpikes]], None]) -> None:
+    """Offer our stage to other pipelines."""
+    register("RemoveSpikes", RemoveSpikes)
+
+
+@hookimpl
+def floatref_register_pipelines(register: Callable[[object], None]) -> None:
+    """Add our pipeline."""
+    register(PIPELINE)
