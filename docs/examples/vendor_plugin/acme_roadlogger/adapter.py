@@ -62,7 +62,8 @@ def _rows(
 ) -> Iterator[Rows]:
     """Yield the rows of channel ``number``, in its unit; dropouts are NaN."""
     step = header.ticks_per_s / header.channels[number].rate
-    offsets = np.array([int(k * step) for k in range(layout.MOST_SAMPLES)])
+    places = range(layout.MOST_SAMPLES)
+    offsets = np.array([k * step.numerator // step.denominator for k in places])
     ticks, values, held = list[NDArray[np.int64]](), list[NDArray[np.float64]](), 0
     for found, tick, counts in sound_blocks(source, header, begin, Skipped()):
         if found != number:

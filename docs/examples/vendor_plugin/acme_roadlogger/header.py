@@ -2,7 +2,6 @@
 
 import zlib
 from fractions import Fraction
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,8 @@ from floatref import InputError
 
 RATES = Fraction(1, 1000), Fraction(10**7)
 """Slowest and fastest sensor, in Hz."""
+LARGEST = 1e30
+"""Of scale and offset; a sample is finite then."""
 
 
 def read_header(source: Path) -> tuple[Header, int]:
@@ -43,7 +44,7 @@ def _channel(source: Path, entry: tuple[Any, ...]) -> LoggedChannel:
         raise InputError(f"{told}: unit code {unit} is unknown; update this plug-in")
     if not bottom or not RATES[0] <= Fraction(top, bottom) <= RATES[1]:
         raise InputError(f"{told}: a rate of {top}/{bottom} Hz is no sensor's; set the logger up")
-    if not (isfinite(scale) and isfinite(offset) and scale):
+    if not (0 < abs(scale) <= LARGEST and abs(offset) <= LARGEST):
         raise InputError(f"{told}: scale {scale}, offset {offset}; set the logger up")
     dropout = code if dropouts else None
     rate = Fraction(top, bottom)

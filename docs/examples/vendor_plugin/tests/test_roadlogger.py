@@ -150,6 +150,7 @@ def test_any_byte_of_the_header_may_be_wrong(
         ({"width": 3}, "samples of 3 bytes"),
         ({"rate": Fraction(10**9)}, "no sensor's"),
         ({"scale": 0.0}, "scale 0.0"),
+        ({"scale": 1e300}, "scale 1e\\+300"),
         ({"offset": float("nan")}, "offset nan"),
     ],
 )

@@ -1,0 +1,135 @@
+"""Fuzz the example of a vendor's adapter: any bytes are streams, or one `InputError` of one line.
+
+atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
+floatref in it. Then, with a folder for the inputs that are found (it may be empty):
+
+    python tests/fuzz/fuzz_vendor_logger.py -max_total_time=600 CORPUS
+
+A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
+again. No fuzzer guesses a CRC-32: after the first byte of an input, the checks of the header and
+of the blocks are put right, so that what lies behind them is reached.
+"""
+
+import sys
+import tempfile
+import warnings
+import zlib
+from fractions import Fraction
+from pathlib import Path
+
+import atheris
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "docs" / "examples" / "vendor_plugin"))
+
+with atheris.instrument_imports():
+    from acme_roadlogger import layout
+    from acme_roadlogger.adapter import RoadLogger
+    from acme_roadlogger.blocks import Skipped, sound_blocks
+    from acme_roadlogger.header import read_header
+    from acme_roadlogger.layout import Header, LoggedChannel
+    from acme_roadlogger.writer import packed_block, packed_header
+
+    from floatref import InputError, NativeFile, Stream
+
+FILE = Path(tempfile.mkdtemp(prefix="fuzz-logger-")) / "run.arl"
+WHOLE, BLOCKS_AS_THEY_ARE, AS_IT_IS = range(3)
+"""What the first byte of an input says of the checks."""
+
+
+def read_any(data: bytes) -> None:
+    """Read ``data`` as a file of the logger."""
+    FILE.write_bytes(checked(data[1:], data[0] % 3) if data else b"")
+    RoadLogger().recognises(FILE)
+    native = opened()
+    if native is None:
+        return
+    for stream in native.streams:
+        whole(stream)
+    accounted(native)
+
+
+def opened() -> NativeFile | None:
+    """Return what is in the file, None if it is refused in a line that can be printed."""
+    try:
+        return RoadLogger().streams(FILE, {})
+    except InputError as error:
+        if not str(error).isprintable():
+            raise AssertionError(f"not one line: {error!r}") from error
+        return None
+
+
+def whole(stream: Stream) -> None:
+    """Raise AssertionError unless ``stream`` holds what it says, finite and with its ticks."""
+    rows, name = 0, stream.columns[0].name
+    for part in stream.read([name]):
+        if part.ticks is None or part.ticks.size != part.values[name].size:
+            raise AssertionError("rows without ticks")
+        if (
+            part.ticks.dtype != np.int64
+            or part.ticks.min() < 0
+            or np.isinf(part.values[name]).any()
+        ):
+            raise AssertionError("ticks or samples beyond their range")
+        rows += part.ticks.size
+    if rows != stream.count or not name.isprintable():
+        raise AssertionError(f"{rows} rows of {stream.count} in {name!r}")
+
+
+def accounted(native: NativeFile) -> None:
+    """Raise AssertionError unless every byte is of the header, of a sound block, or skipped."""
+    header, at = read_header(FILE)
+    skipped = Skipped()
+    for _, _, counts in sound_blocks(FILE, header, at, skipped):
+        at += layout.AROUND + counts.nbytes
+    if at + skipped.size != FILE.stat().st_size or skipped.told() != native.told:
+        raise AssertionError("bytes are lost and nobody says so")
+    if bool(skipped.size) != bool(native.told):
+        raise AssertionError("damage is not told")
+
+
+def checked(data: bytes, kept: int) -> bytes:
+    """Return ``data`` with checks put in where they belong, as far as ``kept`` says."""
+    if kept == AS_IT_IS or len(data) < layout.HEADER.size:
+        return data
+    channels = layout.HEADER.unpack_from(data)[2] % (layout.MOST_CHANNELS + 1)
+    end = layout.HEADER.size + channels * layout.CHANNEL.size
+    head, rest = data[:end], data[end:]
+    head += layout.CHECK.pack(zlib.crc32(head))
+    if kept == BLOCKS_AS_THEY_ARE:
+        return head + rest
+    return head + b"".join(blocks(rest))
+
+
+def blocks(data: bytes) -> list[bytes]:
+    """Return the pieces of ``data`` between syncs, each with its check."""
+    pieces = [layout.SYNC + piece for piece in data.split(layout.SYNC)]
+    return [piece + layout.CHECK.pack(zlib.crc32(piece)) for piece in pieces]
+
+
+def seeds() -> list[bytes]:
+    """Return inputs to begin with: files as they are written, without the checks put right."""
+    channels = (
+        LoggedChannel("A", "g", 4, Fraction(1000), 1e-6, dropout=5),
+        LoggedChannel("B", "mm", 2, Fraction(3, 2), 0.5, -1.0),
+    )
+    head = packed_header(Header(channels, start_ns=7, device="X"))
+    parts = [packed_block(n % 2, 4 - 2 * (n % 2), 10**6 * n, np.arange(9)) for n in range(4)]
+    bare = head[:-4] + b"".join(part[4:-4] + layout.SYNC for part in parts)
+    return [bytes([WHOLE]) + bare, bytes([AS_IT_IS]) + head + b"".join(parts)]
+
+
+def main() -> None:
+    """Fuzz, beginning with `seeds` where the corpus is empty."""
+    folders = [Path(argument) for argument in sys.argv[1:] if Path(argument).is_dir()]
+    for number, seed in enumerate(seeds()):
+        for folder in folders[:1]:
+            (folder / f"seed-{number}").write_bytes(seed)
+    warnings.simplefilter("error")
+    atheris.Setup(sys.argv, read_any)
+    atheris.Fuzz()
+
+
+if __name__ == "__main__":
+    main()
