@@ -1,8 +1,17 @@
 """The errors a user can act on."""
 
 
+def one_line(text: str) -> str:
+    """Return ``text`` with what is not printable, line ends above all, as Python writes it."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
 class FloatrefError(Exception):
     """Base of every error that floatref raises on purpose; its text is one clear line."""
+
+    def __str__(self) -> str:
+        """Return the text on one line: names out of files may hold line ends and escapes."""
+        return one_line(super().__str__())
 
 
 class InputError(FloatrefError, ValueError):
