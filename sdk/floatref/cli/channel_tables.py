@@ -6,12 +6,13 @@ from typing import Any
 import click
 
 from floatref.cli.printing import number, print_table
+from floatref.errors import one_line
 
 
 def print_streams(report: Mapping[str, Any]) -> None:
     """Print one line for every column of every stream, then what was not decoded."""
     rows = [row for stream in report["streams"] for row in _rows(stream)]
-    title = f"{report['file']} ({report['adapter']})"
+    title = one_line(f"{report['file']} ({report['adapter']})")
     headers = ("stream", "channel", "unit", "samples", "clock", "note")
     print_table(title, headers, rows, numbers=False)
     total = sum(stream["count"] for stream in report["streams"])
@@ -24,7 +25,7 @@ def print_mapped(report: Mapping[str, Any]) -> None:
     rows = [
         [
             c["channel"],
-            c["native"],
+            one_line(c["native"]),
             str(c["count"]),
             number(c["rate_hz"], 3),
             f"{c['begin_s']:.3f}",
@@ -37,7 +38,7 @@ def print_mapped(report: Mapping[str, Any]) -> None:
     ]
     sampled = ("channel", "native", "samples", "Hz", "from s", "to s")
     headers = (*sampled, "least", "mean", "greatest", "missing", "unit")
-    print_table(f"{report['file']} by {report['map']}", headers, rows)
+    print_table(one_line(f"{report['file']} by {report['map']}"), headers, rows)
     for clock in report["clocks"]:
         click.echo(_clock_line(clock))
     _warn(report)
@@ -46,13 +47,15 @@ def print_mapped(report: Mapping[str, Any]) -> None:
 def _rows(stream: Mapping[str, Any]) -> list[list[str]]:
     shared = [str(stream["count"]), stream["clock"]]
     if not stream["columns"]:
-        return [[stream["name"], "", "", *shared, ""]]
-    return [[stream["name"], c["name"], c["unit"], *shared, c["note"]] for c in stream["columns"]]
+        return [[one_line(stream["name"]), "", "", *shared, ""]]
+    name = one_line(stream["name"])
+    told = ([one_line(c[key]) for key in ("name", "unit", "note")] for c in stream["columns"])
+    return [[name, column, unit, *shared, note] for column, unit, note in told]
 
 
 def _clock_line(clock: Mapping[str, Any]) -> str:
     name = " ".join(part for part in (clock["file"], clock["stream"]) if part) or "the source"
-    line = f"Clock of {name}: by {clock['align']}, {clock['offset_s']:+.6f} s"
+    line = f"Clock of {one_line(name)}: by {clock['align']}, {clock['offset_s']:+.6f} s"
     if clock["pairs"]:
         line += (
             f", drift {clock['drift_ppm']:+.3f} ± {clock['drift_sigma_ppm']:.3f} ppm, "
@@ -63,4 +66,4 @@ def _clock_line(clock: Mapping[str, Any]) -> str:
 
 def _warn(report: Mapping[str, Any]) -> None:
     for line in report["warnings"]:
-        click.echo(f"Warning: {line}", err=True)
+        click.echo(f"Warning: {one_line(line)}", err=True)

@@ -9,7 +9,7 @@ from floatref.architectures.readers import is_native, native_of, read_source, re
 from floatref.cli.channel_tables import print_mapped, print_streams
 from floatref.cli.printing import print_json
 from floatref.cli.progress import progress_bar
-from floatref.errors import InputError
+from floatref.errors import InputError, one_line
 from floatref.values.clock import UniformClock
 from floatref.values.native import NativeClock, NativeFile, Stream
 from floatref.values.recording import Recording
@@ -65,7 +65,7 @@ def _draft(native: NativeFile, file: Path, adapter: str, dbc: Path | None) -> No
 
     click.echo(draft_map(native, file, adapter, None if dbc is None else dbc.name), nl=False)
     for line in native.told:
-        click.echo(f"Warning: {line}", err=True)
+        click.echo(f"Warning: {one_line(line)}", err=True)
 
 
 def _try(file: Path, adapter: str | None, channel_map: Path, as_json: bool) -> None:
