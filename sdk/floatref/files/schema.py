@@ -54,7 +54,7 @@ def _place(document: Any, path: Iterable[str | int]) -> str:
 
 
 def _label(node: dict[str, Any]) -> str:
-    known = (node.get("track"), node.get("name"))
+    known = (node.get("track"), node.get("name", node.get("channel")))
     parts = [shown(part)[1:-1] for part in known if isinstance(part, str)]
     return f" ({'.'.join(parts)})" if parts else ""
 

@@ -47,7 +47,8 @@ class ChannelEntry:
 class ClockEntry:
     """How the clock of a file, or of one stream of it, is aligned with the base clock.
 
-    ``rate_hz`` and ``start_s`` are those of a stream whose file has no clock.
+    ``rate`` in Hz takes the place of the stream's own clock; ``start_s``, if it is given, that of
+    the time of its first row.
     """
 
     file: str = SOURCE
@@ -60,12 +61,12 @@ class ClockEntry:
     base_time: str | None = None
     base_pps: str | None = None
     rate: Fraction | None = None
-    start_s: float = 0.0
+    start_s: float | None = None
 
 
 @dataclass(frozen=True)
 class ChannelMap:
-    """A channel map; ``place`` is its own file, None for one that was made from ours names."""
+    """A channel map; ``place`` is its own file, None for one made from our names."""
 
     channels: tuple[ChannelEntry, ...]
     files: Mapping[str, FileEntry] = field(default_factory=dict)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from floatref.architectures import hookspecs, plugins, processing, readers
+from floatref.errors import InputError
+from floatref.mapping import read_map
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 
 Content = Callable[[Mapping[str, str]], NativeFile]
@@ -106,3 +108,32 @@ def make_stream() -> Callable[..., Stream]:
 def a_drive() -> Callable[..., dict[str, np.ndarray]]:
     """Make a run: seconds and rate."""
     return drive
+
+
+@pytest.fixture
+def save(tmp_path: Path) -> Callable[[str | bytes], Path]:
+    """Write a map into a folder of its own."""
+    folder = tmp_path / "maps"
+    folder.mkdir()
+
+    def write(content: str | bytes) -> Path:
+        path = folder / "map.toml"
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return write
+
+
+@pytest.fixture(scope="session")
+def refusal() -> Callable[[Path], str]:
+    """Tell why a map is refused, in one line, without its name in front."""
+
+    def told(path: Path) -> str:
+        with pytest.raises(InputError) as caught:
+            read_map(path)
+        line = str(caught.value)
+        assert line.startswith(f"{path}: ")
+        assert line.isprintable()
+        return line.removeprefix(f"{path}: ")
+
+    return told
