@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
+from os.path import exists
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -21,7 +23,7 @@ def reader_of(source: Path, name: str | None) -> Adapter:
     """
     if name is not None:
         return named_reader(name)
-    if not source.exists():
+    if not exists(source):
         raise InputError(f"{source}: not found")
     known = plugins().adapters()
     found = [adapter for adapter in known.values() if _recognised(adapter, source)]
@@ -56,23 +58,36 @@ def read_source(reader: Adapter, source: Path) -> Recording:
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return what ``source`` holds; InputError if ``reader`` does not list files."""
-    if not source.exists():
+    if not exists(source):
         raise InputError(f"{source}: not found")
     if not is_native(reader):
         raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
     with guarding(reader.name, source):
         found = cast(NativeAdapter, reader).streams(source, options)
-    return _checked(found, reader, source, NativeFile, "native file")
+    native = _checked(found, reader, source, NativeFile, "native file")
+    names = [stream.name for stream in native.streams]
+    if len(set(names)) < len(names):
+        twice = next(name for at, name in enumerate(names) if name in names[:at])
+        raise PluginError(f"adapter {reader.name}: {source}: gave two streams called {twice!r}")
+
+    def close() -> None:
+        with guarding(reader.name, source):
+            native.close()
+
+    return replace(native, close=close)
 
 
 @contextmanager
-def guarding(name: str, source: Path | None = None) -> Iterator[None]:
+def guarding(name: str, source: Path) -> Iterator[None]:
     """Turn what an adapter called ``name`` should not raise into a PluginError in one line."""
     try:
         yield
-    except (FloatrefError, OSError):
+    except (FloatrefError, MemoryError):
         raise
-    except Exception as error:
+    except OSError as error:
+        place = error.filename or source
+        raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
+    except (Exception, SystemExit) as error:
         raise PluginError(_failure(name, source, error)) from error
 
 
@@ -90,6 +105,5 @@ def _recognised(adapter: Adapter, source: Path) -> bool:
         return False
 
 
-def _failure(name: str, source: Path | None, error: Exception) -> str:
-    reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"adapter {name}: {reason}" if source is None else f"adapter {name}: {source}: {reason}"
+def _failure(name: str, source: Path, error: BaseException) -> str:
+    return f"adapter {name}: {source}: {type(error).__name__}: {' '.join(str(error).split())}"

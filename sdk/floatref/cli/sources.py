@@ -1,8 +1,9 @@
 """What a command reads: a recording directory or a native file, and what is kept of its origin."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -70,12 +71,12 @@ def recording_of(
 
 def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[str, Any]:
     """Return names, adapters, clocks and fingerprints of every file that was read."""
-    files = [*reading.files.values(), *([] if channel_map is None else [channel_map])]
-    hashes = {name: value for file in files for name, value in fingerprint_native(file).items()}
+    files = [*reading.files.values(), *reading.databases]
+    files += [] if channel_map is None else [channel_map]
     origin: dict[str, Any] = {
         "source": source.name,
         "adapter": reading.adapters[""],
-        "sha256": hashes,
+        "sha256": _hashes(files, source.resolve().parent),
         "channels": dict(
             zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
         ),
@@ -85,3 +86,13 @@ def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[
     if reading.clocks:
         origin["clocks"] = [dict(clock) for clock in reading.clocks]
     return origin
+
+
+def _hashes(files: Sequence[Path], folder: Path) -> dict[str, str]:
+    """Return the SHA-256 of ``files``: by name, or by path from ``folder`` if it is another's."""
+    found: dict[str, str] = {}
+    for file in dict.fromkeys(path.resolve() for path in files):
+        for name, value in fingerprint_native(file).items():
+            path = file / name if file.is_dir() else file
+            found[name if name not in found else Path(relpath(path, folder)).as_posix()] = value
+    return found

@@ -45,14 +45,18 @@ class Conversion:
         found = np.array(values, np.float64)
         for code in entry.missing:
             found[found == code] = np.nan
+        self._drop_infinite(found)
         if self._counter is not None:
             found = self._counter(found)
         with np.errstate(over="ignore", invalid="ignore"):
             found = self._factor * (entry.scale * found + entry.offset)
-        wild = np.isinf(found)
-        self._infinite += int(wild.sum())
-        found[wild] = np.nan
+        self._drop_infinite(found)
         return self._travelled(found, times_s) if self.integrates else found
+
+    def _drop_infinite(self, values: FloatArray) -> None:
+        wild = np.isinf(values)
+        self._infinite += int(wild.sum())
+        values[wild] = np.nan
 
     def finish(self) -> None:
         """Tell what the samples amounted to."""
@@ -62,8 +66,10 @@ class Conversion:
             self.told.append("a speed, integrated into the distance")
 
     def _unit(self) -> Unit:
-        stated, given = self.entry.unit, self._column.unit
-        if stated is None and given == "" and channel_spec(self.entry.channel).unit != "1":
+        stated, given = self.entry.unit, self._column.unit.strip()
+        if stated is None and given == "":
+            if channel_spec(self.entry.channel).unit == "1":
+                return unit_of("1")
             raise InputError('the file gives no unit; state it in the map, such as unit = "mm"')
         found = unit_of(given if stated is None else stated)
         if stated is not None:
@@ -73,7 +79,7 @@ class Conversion:
     def _compare(self, stated: Unit, given: str) -> None:
         """Hold the stated unit against the file's own, where samples are not scaled first."""
         own = known_unit(given)
-        if given.strip() == "" or own is None or own == stated or self.entry.scale != 1:
+        if given == "" or own is None or own == stated or self.entry.scale != 1:
             return
         if own.si != stated.si and own.si != "1":
             raise InputError(

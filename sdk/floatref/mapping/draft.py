@@ -4,14 +4,21 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
+from floatref.errors import InputError, one_line
+from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import FORMAT
+from floatref.mapping.entries import ChannelEntry
 from floatref.mapping.guesses import Guess, guess
-from floatref.mapping.naming import full_name
+from floatref.mapping.naming import find, full_name
 from floatref.mapping.taking import UNKNOWN
+from floatref.mapping.toml_document import MOST_PARTS
 from floatref.mapping.units import known_unit
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, Epoch, NativeFile, Stream
 
+MOST_CHANNELS = 256
+LONGEST_TEXT = 256
+"""What the schema of maps allows."""
 SIGNS = {
     "vertical_specific_force": "+9.8 at rest",
     "height": "range down to the road, positive",
@@ -30,7 +37,9 @@ def draft_map(native: NativeFile, source: Path, adapter: str, dbc: str | None = 
     Entries that nothing but a name speaks for, a second one for the same channel, and columns
     that are unlike any channel are comments.
     """
-    return "\n".join([*_head(source, adapter, dbc), *_clocks(native), *_entries(native)]) + "\n"
+    used: set[str] = set()
+    entries = list(_entries(native, used))
+    return "\n".join([*_head(source, adapter, dbc), *_clocks(native, used), *entries]) + "\n"
 
 
 def _head(source: Path, adapter: str, dbc: str | None) -> Iterator[str]:
@@ -47,12 +56,14 @@ def _head(source: Path, adapter: str, dbc: str | None) -> Iterator[str]:
     yield "# tracks.left = { reference_point_m = [0, 0, 0], laser_offset_m = [0, 0, 0] }"
 
 
-def _clocks(native: NativeFile) -> Iterator[str]:
+def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
+    """State what is missing of the clocks of the streams that are ``used``."""
     for stream in native.streams:
         if stream.clock.name == UNKNOWN:
-            yield "\n[[clocks]]"
-            yield f"stream = {_text(stream.name)}"
-            yield "rate_hz = 0  # the file has no time: state the rate in Hz"
+            mark = "" if stream.name in used else "# "
+            yield f"\n{mark}[[clocks]]"
+            yield f"{mark}stream = {_text(stream.name)}"
+            yield f"{mark}rate_hz = 0  # the file has no time: state the rate in Hz"
     names = {(s.clock.name, s.clock.epoch) for s in native.streams if s.clock.name != UNKNOWN}
     if len(names) > 1 or any(epoch is Epoch.GPS for _, epoch in names):
         yield "\n# Clocks other than the accelerometer's need a word on how they are aligned:"
@@ -60,7 +71,8 @@ def _clocks(native: NativeFile) -> Iterator[str]:
         yield "# offset_s = 0.0"
 
 
-def _entries(native: NativeFile) -> Iterator[str]:
+def _entries(native: NativeFile, used: set[str]) -> Iterator[str]:
+    """Write an entry for every column; note in ``used`` the streams of those that count."""
     seen: set[tuple[str, str | None]] = set()
     for stream in native.streams:
         for column in stream.columns:
@@ -68,13 +80,37 @@ def _entries(native: NativeFile) -> Iterator[str]:
             if found is None:
                 yield _unlike(stream, column)
                 continue
-            active = found.sure and found[:2] not in seen
-            seen.add(found[:2])
+            active = found.sure and found[:2] not in seen and len(seen) < MOST_CHANNELS
+            active = active and _maps(native, stream, column, found)
+            if active:
+                seen.add(found[:2])
+                used.add(stream.name)
             yield _entry(stream, column, found, "" if active else "# ")
 
 
+def _maps(native: NativeFile, stream: Stream, column: Column, found: Guess) -> bool:
+    """Tell whether the entry for ``column`` can be read as it stands, and means that column."""
+    name, unit = full_name(stream, column), _unit(column, found)
+    if not all(map(_writable, (name, unit, stream.name))):
+        return False
+    try:
+        place = find(native, name)
+        Conversion(ChannelEntry(name, found.channel, track=found.track, unit=unit), column)
+    except InputError:
+        return False
+    return place[0] is stream and place[1] is column
+
+
+def _unit(column: Column, found: Guess) -> str:
+    return column.unit.strip() or CHANNELS[found.channel].unit
+
+
+def _writable(text: str) -> bool:
+    """Tell whether a channel map can hold ``text``: TOML has no lone surrogates."""
+    return len(text) <= LONGEST_TEXT and not any("\ud800" <= c <= "\udfff" for c in text)
+
+
 def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
-    unit = column.unit or CHANNELS[found.channel].unit
     lines = [
         "[[channels]]",
         f"native = {_text(full_name(stream, column))}",
@@ -82,10 +118,10 @@ def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
     ]
     if found.track is not None:
         lines.append(f"track = {_text(found.track)}")
-    doubt = "" if column.unit else "  # the file gives none: check it"
-    if column.unit and known_unit(column.unit) is None:
+    doubt = "" if column.unit.strip() else "  # the file gives none: check it"
+    if column.unit.strip() and known_unit(column.unit) is None:
         doubt = "  # not known: state another, with a scale"
-    lines.append(f"unit = {_text(unit)}{doubt}")
+    lines.append(f"unit = {_text(_unit(column, found))}{doubt}")
     return "\n" + "\n".join(f"{mark}{line}" for line in lines)
 
 
@@ -100,10 +136,21 @@ def _remark(channel: str) -> str:
 
 
 def _text(text: str) -> str:
-    """Return ``text`` as a TOML string."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    """Return ``text`` as a TOML string, on one line and printable."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    dotted = text.count(".") >= MOST_PARTS
+    return "".join(
+        c if c.isprintable() and not (dotted and c == ".") else _escaped(c) for c in quoted
+    )
+
+
+def _escaped(character: str) -> str:
+    """Return ``character`` as TOML escapes it; a lone surrogate, which TOML has not, as U+FFFD."""
+    code = ord(character)
+    return f"\\U{0xFFFD if 0xD800 <= code <= 0xDFFF else code:08X}"
 
 
 def _comment(text: str) -> str:
-    """Return ``text`` as it may stand in a comment: printable and on one line."""
-    return "".join(c if c.isprintable() else "?" for c in text[:200])
+    """Return ``text`` as it may stand in a comment: printable, on one line and not too dotted."""
+    plain = one_line(text[:200])
+    return plain.replace(".", "·") if plain.count(".") >= MOST_PARTS else plain

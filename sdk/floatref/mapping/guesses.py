@@ -9,32 +9,41 @@ from floatref.values.native import Column
 
 TRACKS = {
     "left": r"left|links|lwp|gauche|izq|\bl\b|\bli\b|\blh\b",
-    "right": r"right|rechts|rwp|droite|der\b|\br\b|\bre\b|\brh\b",
+    "right": r"right|rechts|rwp|droite|derech|\br\b|\bre\b|\brh\b",
     "center": r"cent(er|re)|mid(dle)?|mitte|\bc\b",
 }
 """Words for the wheel paths."""
+AXIS = r"\b(a|w|acc(el)?|gyro?|om(ega)?)?"
+"""What may stand before the letter of an axis, in one word with it."""
+GNSS = (
+    r"gps|gnss|gga|vtg|rmc|gll|nav\b|(best|psr|rtk|ppp)\w*(pos|vel|utm)"
+    r"|\bins(pva|pos|vel|att)?[sx]?\b"
+)
+"""Words for a receiver, in the name of a stream or of a channel."""
+PLACE = r"\blat(itude)?\b|\blong?(itude)?\b|\balt(itude)?\b"
+"""Words for a place, if the unit is that of an angle or a length."""
+TURNING = r"gyr|rate|omega"
+"""Words for an angular rate where there is no unit."""
 QUANTITIES = (
-    ("gnss_latitude", "rad", r"lat(itude)?\b|breite"),
-    ("gnss_longitude", "rad", r"lon(g|gitude)?\b|l.nge"),
+    ("gnss_latitude", "rad", r"\blat(itude)?\b|breite"),
+    ("gnss_longitude", "rad", r"\blong?(itude)?\b|l.nge"),
     ("gnss_quality", "1", r"qual|\bfix\b|solution|pos ?type"),
     ("gnss_vertical_velocity", "m/s", r"(vert|up|climb|\bd\b).*(vel|speed|spd)|vel.*(up|vert)"),
-    ("gnss_height", "m", r"alt|ellips|\bhgt\b|(gps|gnss|gga|bestpos|ins\w*).*height"),
+    ("gnss_height", "m", r"\balt|ellips|height|\bhgt\b"),
     ("gnss_pitch", "rad", r"pitch"),
     ("gnss_roll", "rad", r"roll"),
+    ("height", "m", r"laser|height|\bhgt|range|gocator|selcom|optocator|hoehe|h.he|texture"),
     ("distance", "m", r"dist|dmi|odo|encoder|station|chain|weg\b|position"),
-    ("distance", "m/s", r"speed|vel|geschw|v\b"),
+    ("distance", "m/s", r"speed|\bvel|geschw|\bv\b"),
     ("distance", "1", r"dmi|odo|encoder|pulse.?count|counts"),
-    ("height", "m", r"laser|height|range|hoehe|h.he|optocator|texture"),
-    ("longitudinal_specific_force", "m/s^2", r"long|\bx\b|[_ ]?a?x\b|fwd|forward|surge"),
-    ("lateral_specific_force", "m/s^2", r"lateral|\by\b|a?y\b|sway"),
-    ("vertical_specific_force", "m/s^2", r"acc|vert|\bz\b|a?z\b|heave|beschl"),
-    ("roll_rate", "rad/s", r"roll|\bx\b|w?x\b"),
-    ("pitch_rate", "rad/s", r"pitch|nick|\by\b|w?y\b"),
-    ("yaw_rate", "rad/s", r"yaw|gier|\bz\b|w?z\b|head"),
+    ("longitudinal_specific_force", "m/s^2", rf"long|{AXIS}x\b|fwd|forward|surge"),
+    ("lateral_specific_force", "m/s^2", rf"\blat(eral)?\b|{AXIS}y\b|sway"),
+    ("vertical_specific_force", "m/s^2", rf"acc|vert|{AXIS}z\b|heave|beschl"),
+    ("roll_rate", "rad/s", rf"roll|{AXIS}x\b"),
+    ("pitch_rate", "rad/s", rf"pitch|nick|{AXIS}y\b"),
+    ("yaw_rate", "rad/s", rf"yaw|gier|{AXIS}z\b|head"),
 )
 """Channels, the SI unit they come in, and words for them, the more particular first."""
-FEW = {"m/s^2", "rad/s"}
-"""Units that alone tell what a channel is, if not which."""
 
 
 class Guess(NamedTuple):
@@ -53,12 +62,14 @@ def guess(stream: str, column: Column) -> Guess | None:
     if ours is not None:
         return Guess(*ours, sure=True)
     words = _words(column.name)
-    unit = known_unit(column.unit) if column.unit else None
-    gnss = bool(re.search(r"gps|gnss|gga|pos|vel|ins|rmc|nav", _words(stream)))
-    for channel, si, pattern in QUANTITIES:
-        if channel.startswith("gnss_") != gnss and not re.search("lat|lon|alt", words):
+    unit = known_unit(column.unit)
+    si = unit.si if unit is not None else "rad/s" if re.search(TURNING, words) else None
+    gnss = bool(re.search(GNSS, f"{_words(stream)} {words}"))
+    gnss = gnss or (si in (None, "rad", "m") and bool(re.search(PLACE, words)))
+    for channel, usual, pattern in QUANTITIES:
+        if channel.startswith("gnss_") != gnss or si not in (None, usual):
             continue
-        if (unit is None or unit.si == si) and re.search(pattern, words):
+        if re.search(pattern, words):
             track = None if channel.startswith(("gnss_", "distance")) else _track(words)
             return Guess(channel, track, sure=unit is not None)
     return None

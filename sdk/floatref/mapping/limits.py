@@ -27,7 +27,7 @@ class Limit(NamedTuple):
 DEGREE = 180 / pi
 ANGLE = Limit(pi / 2, 0.5, "deg", DEGREE)
 RATE = Limit(50.0, 1.0, "deg/s", DEGREE)
-FORCE = Limit(1e4, 5.0, "g", 1 / 9.80665)
+FORCE = Limit(1e4, 5.0, "mg", 1000 / 9.80665)
 LIMITS: Mapping[str, Limit] = {
     "gnss_latitude": Limit(pi / 2 + 1e-9, pi / 2, "deg", DEGREE),
     "gnss_longitude": Limit(2 * pi + 1e-9, 2 * pi, "deg", DEGREE),

@@ -1,5 +1,6 @@
 """A mapped recording looked at: what each channel amounts to, and what is implausible."""
 
+from math import isfinite, nan
 from typing import Any
 
 from floatref.errors import InputError
@@ -36,7 +37,7 @@ def _look(channel: Channel, native: str) -> dict[str, Any]:
         "unit": channel.unit,
         "count": summary.count,
         "missing": summary.missing,
-        "rate_hz": channel.mean_rate_hz,
+        "rate_hz": rate if isfinite(rate := channel.mean_rate_hz) else nan,
         "begin_s": begin,
         "end_s": end,
         "least": summary.least,

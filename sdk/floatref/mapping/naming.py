@@ -7,6 +7,8 @@ from floatref.errors import InputError
 from floatref.values.native import Column, NativeFile, Stream
 
 Place = tuple[Stream, Column]
+MOST = 4096
+"""Names that are compared with one that is not there; comparing takes its time."""
 
 
 def full_name(stream: Stream, column: Column) -> str:
@@ -26,20 +28,26 @@ def find(native: NativeFile, name: str) -> Place:
     if not found:
         raise InputError(f"{name[:80]!r} is not in the file; {_hint(name, places)}")
     if len(found) > 1:
-        both = ", ".join(full_name(*place) for place in found[:4])
-        raise InputError(f"{name[:80]!r} is in {len(found)} streams; write one of {both}")
+        both = list(dict.fromkeys(full_name(*place) for place in found[:4]))
+        advice = f"write one of {', '.join(both)}" if len(both) > 1 else "rename one of them"
+        raise InputError(f"{name[:80]!r} is in {len(found)} streams; {advice}")
     stream, column = found[0]
     if not column.numeric:
         raise InputError(f"{name[:80]!r} holds no numbers ({column.note or 'text'}); map another")
     return stream, column
 
 
+def similar(name: str, names: Sequence[str], more: Sequence[str] = ()) -> str:
+    """Return which of ``names``, or ``more``, is like ``name``, else what there is; "" for none."""
+    for known in (names, more):
+        near = get_close_matches(name, known[:MOST], n=1)
+        if near:
+            return f"did you mean {near[0]}?"
+    rest = f" and {len(names) - 8} more" if len(names) > 8 else ""
+    return f"there are {', '.join(names[:8])}{rest}" if names else ""
+
+
 def _hint(name: str, places: Sequence[Place]) -> str:
     names = [full_name(*place) for place in places]
-    near = get_close_matches(name, names, n=1) or get_close_matches(
-        name, [column.name for _, column in places], n=1
-    )
-    if near:
-        return f"did you mean {near[0]}?"
-    more = f" and {len(names) - 8} more" if len(names) > 8 else ""
-    return f"there are {', '.join(names[:8])}{more}" if names else "it has no columns"
+    own = [column.name for _, column in places]
+    return similar(name, names, own) or "it has no columns"

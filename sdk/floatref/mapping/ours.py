@@ -1,5 +1,6 @@
 """The map of a file whose channels already have our names."""
 
+import re
 from collections.abc import Iterator
 
 from floatref.errors import InputError
@@ -7,6 +8,12 @@ from floatref.mapping.entries import ChannelEntry, ChannelMap
 from floatref.mapping.naming import full_name
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, NativeFile
+
+TRACK = re.compile(
+    r"""[^./\\:*?"<>|\x00-\x1f\x7f\ud800-\udfff][^/\\:*?"<>|\x00-\x1f\x7f\ud800-\udfff]*"""
+)
+"""Names of wheel paths, which become parts of file names; the schemas have the same."""
+LONGEST_TRACK = 48
 
 
 def map_of_ours(native: NativeFile) -> ChannelMap:
@@ -34,7 +41,11 @@ def map_of_ours(native: NativeFile) -> ChannelMap:
 def channel_of(column: Column) -> tuple[str, str | None] | None:
     """Return the channel and the track that the name of ``column`` says, None if it says none."""
     track, _, channel = column.name.rpartition(".")
-    return (channel, track or None) if channel in CHANNELS and column.numeric else None
+    if channel not in CHANNELS or not column.numeric or column.name.startswith("."):
+        return None
+    if track and not (len(track) <= LONGEST_TRACK and TRACK.fullmatch(track)):
+        return None
+    return channel, track or None
 
 
 def _entries(native: NativeFile) -> Iterator[ChannelEntry]:

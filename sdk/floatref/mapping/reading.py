@@ -1,12 +1,13 @@
 """From native files and a channel map to a recording, and to what its user should know."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref.architectures.readers import guarding, named_reader, native_of, reader_of
+from floatref.architectures.readers import guarding
+from floatref.errors import one_line
 from floatref.files.sources import naming
 from floatref.mapping.aligned import Aligned
 from floatref.mapping.aligning import Key, Places, Token, aligned_clocks, auxiliaries
@@ -15,11 +16,12 @@ from floatref.mapping.document import read_map
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
 from floatref.mapping.limits import check_limits
 from floatref.mapping.naming import find, full_name
+from floatref.mapping.opening import Opened
 from floatref.mapping.ours import map_of_ours
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Convert, Progress, Taken, Wanted, as_they_are, take
 from floatref.values.arrays import FloatArray
-from floatref.values.native import NativeFile, Stream
+from floatref.values.native import Stream
 from floatref.values.recording import Channel, Recording
 
 
@@ -27,12 +29,14 @@ from floatref.values.recording import Channel, Recording
 class Reading:
     """A recording from native files: what it came from, and what to know about it.
 
-    ``origins`` has the native name of every channel, ``clocks`` one object for each clock that
-    was aligned, ``told`` one line for each thing that may be wrong.
+    ``files`` are those that were read by their labels in the map, ``databases`` what they were
+    decoded with; ``origins`` has the native name of every channel, ``clocks`` one object for each
+    clock that was aligned, ``told`` one line for each thing that may be wrong.
     """
 
     recording: Recording
     files: Mapping[str, Path]
+    databases: tuple[Path, ...]
     adapters: Mapping[str, str]
     origins: tuple[str, ...]
     clocks: tuple[Mapping[str, Any], ...]
@@ -48,8 +52,8 @@ class Reading:
 
 
 def read_native(
-    source: Path,
-    channel_map: Path | ChannelMap | None = None,
+    source: Path | str,
+    channel_map: Path | str | ChannelMap | None = None,
     adapter: str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Reading:
@@ -59,48 +63,14 @@ def read_native(
     ``progress`` is called with the part of all rows that was read. Raises InputError with one
     line naming file, channel and value for anything that cannot be used.
     """
-    chart = read_map(channel_map) if isinstance(channel_map, Path) else channel_map
+    source = Path(source)
+    chart = read_map(Path(channel_map)) if isinstance(channel_map, Path | str) else channel_map
     with ExitStack() as stack:
-        opened = _Opened(source, adapter, chart, stack)
+        opened = Opened(source, adapter, chart, stack)
         if chart is None:
             with naming(source):
                 chart = map_of_ours(opened.file(SOURCE))
         return _Mapping(opened, chart, stack.enter_context(Spool()), progress).reading()
-
-
-class _Opened:
-    """The native files of a run, each opened when it is first asked for."""
-
-    def __init__(
-        self, source: Path, adapter: str | None, chart: ChannelMap | None, stack: ExitStack
-    ) -> None:
-        self.paths: dict[str, Path] = {SOURCE: source}
-        self.adapters: dict[str, str] = {}
-        self._stack, self._chart, self._adapter = stack, chart, adapter
-        self._files: dict[str, NativeFile] = {}
-
-    def file(self, label: str) -> NativeFile:
-        if label not in self._files:
-            self._files[label] = self._open(label)
-        return self._files[label]
-
-    def told(self) -> Iterator[str]:
-        for label, native in self._files.items():
-            for line in native.told:
-                yield f"{self.paths[label].name}: {line}"
-
-    def _open(self, label: str) -> NativeFile:
-        adapter, options = self._adapter, {}
-        if self._chart is not None:
-            entry = self._chart.source if label == SOURCE else self._chart.files[label]
-            options = dict(entry.options)
-            adapter = (label == SOURCE and self._adapter) or entry.adapter
-            if label != SOURCE:
-                self.paths[label] = entry.path
-        path = self.paths[label]
-        reader = reader_of(path, None) if adapter is None else named_reader(adapter)
-        self.adapters[label] = reader.name
-        return self._stack.enter_context(native_of(reader, path, options))
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +90,7 @@ class _Mapping:
 
     def __init__(
         self,
-        opened: _Opened,
+        opened: Opened,
         chart: ChannelMap,
         spool: Spool,
         progress: Callable[[float], None] | None,
@@ -131,6 +101,8 @@ class _Mapping:
 
     def reading(self) -> Reading:
         plan = [self._planned(entry) for entry in self._chart.channels]
+        for entry in self._chart.clocks:
+            self._opened.check_clock(entry)
         base = next((p for p in plan if p.entry.channel == "vertical_specific_force"), plan[0])
         extra = list(auxiliaries(self._chart.clocks, base.key[0], self._opened.file))
         taken, places = self._taken(plan, extra)
@@ -145,11 +117,12 @@ class _Mapping:
         vendor, model = self._chart.vendor or native.vendor, self._chart.model or native.model
         return Reading(
             recording=Recording(channels, self._chart.setup, vendor, model),
-            files=dict(self._opened.paths),
+            files={label: self._opened.paths[label] for label in self._opened.adapters},
+            databases=tuple(self._opened.databases),
             adapters=dict(self._opened.adapters),
             origins=tuple(self._origin(p) for p in plan),
             clocks=tuple(report for c in clocks.values() if (report := c.report) is not None),
-            told=tuple(dict.fromkeys(told)),
+            told=tuple(dict.fromkeys(map(one_line, told))),
         )
 
     def _planned(self, entry: ChannelEntry) -> _Planned:
@@ -181,19 +154,20 @@ class _Mapping:
         return taken, places
 
     def _take(self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: "_Shown") -> Taken:
-        rates = {(c.file, c.stream): c.rate for c in self._chart.clocks}
-        rate = rates.get(key) or rates.get((key[0], None))
-        with naming(self._opened.paths[key[0]]), guarding(self._opened.adapters[key[0]]):
-            taken = take(stream, wanted, self._spool, rate, shown.of(stream.count))
-        name = f"{self._opened.paths[key[0]].name}: stream {stream.name!r}: "
+        stated = {(c.file, c.stream): c for c in self._chart.clocks if c.rate is not None}
+        clock = stated.get(key) or stated.get((key[0], None))
+        path = self._opened.paths[key[0]]
+        with naming(path), guarding(self._opened.adapters[key[0]], path):
+            taken = take(stream, wanted, self._spool, clock, shown.of(stream.count))
+        name = f"{path.name}: stream {stream.name!r}: "
         self._told += [f"{name}{line}" for line in taken.told]
         return taken
 
     def _guarded(self, planned: _Planned) -> Convert:
-        """Return the conversion of ``planned``, whose refusals name file and channel."""
+        """Return the conversion of ``planned``, whose refusals name the channel."""
 
         def convert(values: FloatArray, times_s: FloatArray) -> FloatArray:
-            with naming(self._opened.paths[planned.key[0]]), naming(self._where(planned)):
+            with naming(self._where(planned)):
                 return planned.conversion(values, times_s)
 
         return convert

@@ -24,8 +24,13 @@ class Spool:
 
     def __init__(self) -> None:
         """Make the folder where the system keeps temporary files (`TMPDIR`)."""
-        self._folder = Path(tempfile.mkdtemp(prefix="floatref-"))
-        self._count = 0
+        try:
+            self._folder = Path(tempfile.mkdtemp(prefix="floatref-"))
+        except OSError as error:
+            raise InputError(
+                f"no folder for samples: {error.strerror or error}; set TMPDIR to one with room"
+            ) from error
+        self._columns: list[SpooledColumn] = []
 
     def __enter__(self) -> "Spool":
         """Return the spool itself."""
@@ -38,6 +43,8 @@ class Spool:
         trace: TracebackType | None,
     ) -> None:
         """Remove the folder."""
+        for column in self._columns:
+            column.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def check_room(self, samples: int) -> None:
@@ -53,8 +60,8 @@ class Spool:
 
     def column(self) -> "SpooledColumn":
         """Return a new column to append to."""
-        self._count += 1
-        return SpooledColumn(self._folder / f"{self._count}.f64")
+        self._columns.append(SpooledColumn(self._folder / f"{len(self._columns)}.f64"))
+        return self._columns[-1]
 
     def thinned(self, values: FloatArray, kept: BoolArray) -> FloatArray:
         """Return those of ``values``, shape (N,), that are ``kept``, on disk."""
@@ -68,7 +75,7 @@ class SpooledColumn:
     """Samples of one channel, appended piece by piece."""
 
     def __init__(self, path: Path) -> None:
-        """Open the file ``path`` for writing."""
+        """Make the file ``path``, to be written."""
         self._path = path
         self._stream = path.open("wb")
 
@@ -84,5 +91,9 @@ class SpooledColumn:
 
     def finish(self) -> FloatArray:
         """Return all samples, shape (N,), mapped from disk."""
-        self._stream.close()
+        self.close()
         return read_samples(self._path) if self._path.stat().st_size else np.empty(0)
+
+    def close(self) -> None:
+        """Write no more."""
+        self._stream.close()

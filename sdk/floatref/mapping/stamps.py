@@ -1,8 +1,10 @@
 """Time stamps of a stream: which are kept, and the uniform clock that they were rounded from."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
@@ -16,6 +18,15 @@ TURNS_BACK = 0.01
 """Part of all rows whose time may lie before that of an earlier one."""
 FEW = 3
 """So many may in any case."""
+
+
+def as_ticks(ticks: NDArray[Any]) -> Ticks:
+    """Return ``ticks``, shape (n,), as int64 or float64; ValueError if they are neither."""
+    if ticks.dtype.kind == "f":
+        return ticks.astype(np.float64, copy=False)
+    if ticks.dtype.kind not in "iu" or (ticks.dtype.kind == "u" and (ticks >= 1 << 63).any()):
+        raise ValueError(f"ticks of type {ticks.dtype} do not fit into int64 or float64")
+    return ticks.astype(np.int64, copy=False)
 
 
 class Advancing:

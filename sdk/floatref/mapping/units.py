@@ -39,7 +39,7 @@ SIZES: Mapping[str, Mapping[str, Fraction | float | int]] = {
         "mi mile miles": MILE,
     },
     "m/s^2": {
-        "m/s^2 m/s² m/s2 m/s/s m/s**2 ms^-2 ms-2 m.s^-2 m·s⁻²": 1,
+        "m/s^2 m/s² m/s2 m/s/s m/s**2 m/sec^2 m/sec² m/sec2 ms^-2 ms-2 m.s^-2 m·s⁻²": 1,
         "mm/s^2 mm/s² mm/s2": Fraction(1, 1000),
         "cm/s^2 cm/s² cm/s2 gal": Fraction(1, 100),
         "g gn g_n g0 gee grav": G,
@@ -86,15 +86,18 @@ def _table() -> Mapping[str, Unit]:
 
 
 UNITS = _table()
+CASED = {"nm", "kn"}
+"""Spellings that mean something else in capitals: newton metres, nautical miles, kilonewtons."""
 
 
 def known_unit(text: str) -> Unit | None:
     """Return the unit that a file or a map writes as ``text``, None if it is not known.
 
-    Case is told apart where it matters alone: `mg` is a thousandth of g, as is `Mg`.
+    Case is told apart only where it matters: `Mg` is a thousandth of g, but `Nm` is no length.
     """
     plain = text.strip().strip("[]()").strip().replace(" ", "")
-    return UNITS.get(plain) or UNITS.get(plain.lower())
+    small = plain.lower()
+    return UNITS.get(plain) or (None if small in CASED else UNITS.get(small))
 
 
 def unit_of(text: str) -> Unit:
