@@ -1,0 +1,19 @@
+"""Names of a file that have to be told apart."""
+
+from collections.abc import Sequence
+
+
+def numbered(names: Sequence[str]) -> list[str]:
+    """Return ``names``, a repeated one with a number: `speed`, `speed #2`, `speed #3`.
+
+    All names returned differ, also where the file itself has a name such as `speed #2`.
+    """
+    given, taken, out = set(names), set[str](), []
+    for name in names:
+        unique, number = name, 1
+        while unique in taken or (number > 1 and unique in given):
+            number += 1
+            unique = f"{name} #{number}"
+        taken.add(unique)
+        out.append(unique)
+    return out

@@ -1,0 +1,93 @@
+"""The values of a channel of a TDMS file, some rows at a time.
+
+npTDMS reads a chunk as a whole, however long it is; here no more is read than is asked for.
+"""
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from itertools import accumulate
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref import InputError
+from floatref_adapters.tdms_extents import Extent
+
+SMALL_CHUNK = 1 << 20
+"""Chunks up to so many bytes are read whole, once for all channels."""
+
+
+@dataclass
+class Window:
+    """Reads bytes of ``file``, and keeps those read last for the next channel."""
+
+    file: BinaryIO
+    kept: tuple[int, int] = (0, 0)
+    data: bytes = b""
+
+    def bytes(self, start: int, size: int, keep: bool) -> bytes:
+        """Return ``size`` bytes from ``start`` on; InputError if the file has become shorter."""
+        if keep and self.kept == (start, size):
+            return self.data
+        self.file.seek(start)
+        data = self.file.read(size)
+        if len(data) < size:
+            raise InputError(f"the file ends before byte {start + size}; copy the complete file")
+        if keep:
+            self.kept, self.data = (start, size), data
+        return data
+
+
+@dataclass(frozen=True, eq=False)
+class Values:
+    """The values of a channel, wherever they are."""
+
+    extents: list[Extent]
+    starts: list[int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Count the values before each extent."""
+        starts = [0, *accumulate(extent.count for extent in self.extents)]
+        object.__setattr__(self, "starts", starts)
+
+    @property
+    def row_bytes(self) -> int:
+        """How many bytes at most are read for one value."""
+        return max((-(-e.stride // e.per_chunk) for e in self.extents), default=1)
+
+    def read(self, window: Window, first: int, last: int) -> NDArray[Any]:
+        """Return the values from number ``first`` up to, without, ``last``."""
+        parts, index = [], bisect_right(self.starts, first) - 1
+        while first < last and index < len(self.extents):
+            extent, start = self.extents[index], self.starts[index]
+            until = min(last, start + extent.count)
+            parts.append(_within(extent, window, first - start, until - start))
+            first, index = until, index + 1
+        return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _within(extent: Extent, window: Window, first: int, last: int) -> NDArray[Any]:
+    low, high = first // extent.per_chunk, -(-last // extent.per_chunk)
+    if extent.total > SMALL_CHUNK:
+        return _of_large(extent, window, first, last)
+    start = extent.base + low * extent.stride
+    data = window.bytes(start, (high - low - 1) * extent.stride + extent.total, keep=True)
+    strides = (extent.stride, extent.dtype.itemsize)
+    shape = (high - low, extent.per_chunk)
+    values: NDArray[Any] = np.ndarray(shape, extent.dtype, data, extent.offset, strides)
+    skipped = first - low * extent.per_chunk
+    return values.reshape(-1)[skipped : skipped + last - first]
+
+
+def _of_large(extent: Extent, window: Window, first: int, last: int) -> NDArray[Any]:
+    parts = []
+    while first < last:
+        chunk, skipped = divmod(first, extent.per_chunk)
+        count = min(last - first, extent.per_chunk - skipped)
+        size = extent.dtype.itemsize
+        start = extent.base + chunk * extent.stride + extent.offset + skipped * size
+        data = window.bytes(start, count * size, keep=False)
+        parts.append(np.frombuffer(data, extent.dtype))
+        first += count
+    return np.concatenate(parts)
