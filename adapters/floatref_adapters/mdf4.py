@@ -19,6 +19,7 @@ from floatref_adapters.mdf4_opening import MAGIC, first_line, opened, quiet
 from floatref_adapters.mdf4_records import Bytes
 from floatref_adapters.naming import numbered
 
+WIDEST_RECORD = 1 << 24
 LENGTHS, BUS_EVENTS, REMOTE_MASTER = 1, 2, 8
 """Flags of a channel group: values of varying length of another one, frames of a bus, and one
 whose master is in another group."""
@@ -87,6 +88,8 @@ def _left_out(group: Group) -> str:
         return f"{channels} channels stored by column are not read; save the file as MDF 4.10"
     if group.width == 0 or channels == 0:
         return f"{channels} channels without a record of their own"
+    if group.width > WIDEST_RECORD:
+        return f"records of {group.width} bytes, {WIDEST_RECORD} at most; the file is damaged"
     return ""
 
 

@@ -29,9 +29,9 @@ class Group:
         return int(made.samples_byte_nr + made.invalidation_bytes_nr)
 
     @property
-    def mixed(self) -> bool:
-        """Whether its records were recorded among those of other groups."""
-        return bool(self.origin.data_group.record_id_len)
+    def arranged(self) -> bool:
+        """Whether asammdf has sorted its records, or finished what the recorder had not."""
+        return bool(self.origin.data_group.record_id_len) or Path(self.mdf.name) != self.source
 
     def field(self, index: int) -> Field:
         """Return channel ``index``."""
@@ -40,14 +40,14 @@ class Group:
         return Field(channel, made.samples_byte_nr, made.invalidation_bytes_nr)
 
     def parts(self) -> list[Part]:
-        """Return the parts of its data; none for records that asammdf has sorted."""
-        with open(self.mdf.name, "rb") as file:
+        """Return the parts of its data; of no use where asammdf has arranged them."""
+        with self.source.open("rb") as file:
             size = file.seek(0, 2)
             return parts_of(file, self.origin.data_group.data_block_addr, size)
 
     def held(self) -> int:
         """Return how many records there are."""
-        if self.mixed:
+        if self.arranged:
             stored = sum(block.original_size for block in self.origin.get_data_blocks())
         else:
             stored = sum(part.bytes for part in self.parts())
@@ -65,8 +65,8 @@ class Group:
             first += len(piece)
 
     def _pieces(self, rows: int) -> Iterator[bytes]:
-        if not self.mixed:
-            with open(self.mdf.name, "rb") as file:
+        if not self.arranged:
+            with self.source.open("rb") as file:
                 yield from pieces_of(file, self.parts())
             return
         self.origin.read_split_count = rows

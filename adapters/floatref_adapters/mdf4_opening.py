@@ -7,12 +7,12 @@ import logging
 import struct
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from floatref import InputError
-from floatref_adapters.mdf4_expansion import expanded
+from floatref_adapters.mdf4_expansion import Part, expanded
 from floatref_adapters.mdf4_links import check_links, read_block
 from floatref_adapters.mdf4_records import parts_of
 
@@ -73,28 +73,34 @@ def _check(file: BinaryIO, size: int) -> None:
     for address in check_links(file, size):
         links = read_block(file, address, size).links
         data = links[2] if len(links) > 2 else 0
-        if unfinished & LAST_LENGTHS:
-            _check_one_list(file, data, size)
+        # The length of the only data block may not be known yet: asammdf finds it.
+        if unfinished & LAST_LENGTHS and data and _one_block(file, data, size):
+            continue
+        parts = parts_of(file, data, size)
         file.seek(address + RECORD_IDS)
-        if file.read(1) not in (b"", b"\0"):
-            _check_expansion(file, data, size)
+        if unfinished or file.read(1) not in (b"", b"\0"):
+            _check_expansion(file, parts)
 
 
-def _check_one_list(file: BinaryIO, address: int, size: int) -> None:
-    """Raise InputError for an unfinished file with a chain of lists, in which asammdf is lost."""
-    block = read_block(file, address, size) if address else None
-    if block and block.kind == b"##HL" and block.links:
+def _one_block(file: BinaryIO, address: int, size: int) -> bool:
+    """Tell whether the data is one block; InputError for several lists: asammdf loses its way."""
+    file.seek(address)
+    if file.read(4) == b"##DT":
+        return True
+    block = read_block(file, address, size)
+    if block.kind == b"##HL" and block.links:
         block = read_block(file, block.links[0], size)
-    if block and block.kind == b"##DL" and any(block.links[:1]):
+    if block.kind == b"##DL" and any(block.links[:1]):
         raise InputError("the recording was not finished; finish it with the maker's own program")
+    return False
 
 
-def _check_expansion(file: BinaryIO, address: int, size: int) -> None:
-    """Raise InputError for mixed records that expand to more than they say.
+def _check_expansion(file: BinaryIO, parts: Iterable[Part]) -> None:
+    """Raise InputError for records that expand to more than they say.
 
-    asammdf sorts them when it opens the file, and expands whatever there is.
+    asammdf itself expands those it has to sort, or of unfinished files, whatever there is.
     """
-    for part in parts_of(file, address, size):
+    for part in parts:
         if part.method is not None:
             file.seek(part.address)
             expanded(part, file.read(part.stored))
