@@ -1,0 +1,154 @@
+"""The line between two clocks, through times that both have told."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.arrays import BoolArray, FloatArray
+
+LOCAL = 9
+"""Pulses in a row that tell what the clocks do there; one that is far from it is no pulse."""
+OUTLIER = 6.0
+"""How many standard deviations are far."""
+LEAST_OFF_S = 2e-6
+"""And what is never far, in s."""
+CURVED_S = 1e-4
+"""Drift is not constant if a straight line leaves so much that is no jitter, in s."""
+QUIET_S = 5e-5
+"""Knots are means of so many pulses that they jitter by no more than this, in s."""
+SURE = 3.0
+"""A curve has to stand out by so many standard deviations."""
+ROUNDS = 3
+
+
+class ClockLine(NamedTuple):
+    """base − ``base_s`` = (1 + ``drift``)·(own − ``own_s``), the fit's figures, and what it kept.
+
+    Args:
+        own_s: a time of the own clock within its pulses, in s.
+        base_s: the time of the base clock at that moment, in s.
+        drift: of the own clock against the base clock, as a ratio.
+        drift_sigma: its standard deviation; NaN if no residual tells it.
+        residual_s: root mean square of what the line leaves, in s; NaN for a single pair.
+        kept: which pairs it goes through, shape (pairs,).
+    """
+
+    own_s: float
+    base_s: float
+    drift: float
+    drift_sigma: float
+    residual_s: float
+    kept: BoolArray
+
+
+def clock_line(own_s: FloatArray, base_s: FloatArray) -> ClockLine:
+    """Return the line of least squares through the pairs, shape (n,), n > 0, but for outliers.
+
+    A pair counts unless it is far from its neighbours. Both times increase.
+    """
+    kept = np.ones(own_s.size, dtype=np.bool_)
+    line = _least_squares(own_s, base_s, kept)
+    for _ in range(ROUNDS):
+        rest = _residual(line, own_s, base_s)
+        off = np.abs(rest - _local(own_s, rest, kept))
+        before, kept = kept, off <= max(OUTLIER * _spread(off[kept]), LEAST_OFF_S)
+        line = _least_squares(own_s, base_s, kept)
+        if (kept == before).all():
+            break
+    return line
+
+
+def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray | None:
+    """Return base times at ``own_s`` on a curve, if ``line`` leaves more than jitter, else None."""
+    rest = _residual(line, own_s, base_s)
+    if rest.size < LOCAL:
+        return None
+    jitter, all_of_it = float(np.mean(np.diff(rest) ** 2) / 2), float(np.mean(rest**2))
+    # Of n pairs that jitter alone, the two differ by 1/sqrt(n) of it.
+    if all_of_it - jitter <= max(CURVED_S**2, SURE * all_of_it / rest.size**0.5):
+        return None
+    half = min(int(jitter / QUIET_S**2 / 2 + 0.5), rest.size // 6)
+    bent = _smoothed(own_s, rest, half)
+    found = line.base_s + (own_s - line.own_s) * (1 + line.drift) + bent
+    return found if (np.diff(found) > 0).all() else None
+
+
+def lower_line(own_s: FloatArray, base_s: FloatArray) -> tuple[float, float]:
+    """Return base time and drift at the mean of ``own_s`` on the line below all pairs.
+
+    Of all lines that no pair lies below it is the nearest to them: the side of their convex hull
+    under their middle. It needs two pairs or more.
+    """
+    middle = float(np.mean(own_s))
+    hull: list[int] = []
+    x, y = (own_s - middle).tolist(), (base_s - own_s).tolist()
+    for k in range(len(x)):
+        while len(hull) > 1 and _right_turn(x, y, hull[-2], hull[-1], k):
+            hull.pop()
+        hull.append(k)
+    after = next((n for n in range(1, len(hull)) if x[hull[n]] >= 0.0), len(hull) - 1)
+    i, j = hull[after - 1], hull[after]
+    drift = (y[j] - y[i]) / (x[j] - x[i])
+    return middle + y[i] - drift * x[i], drift
+
+
+def _right_turn(x: list[float], y: list[float], i: int, j: int, k: int) -> bool:
+    """Return whether the lower hull does not turn left from i over j to k."""
+    return (x[j] - x[i]) * (y[k] - y[i]) <= (y[j] - y[i]) * (x[k] - x[i])
+
+
+def _least_squares(own_s: FloatArray, base_s: FloatArray, kept: BoolArray) -> ClockLine:
+    if not kept.any():
+        raise InputError("no two pulses agree on the clocks; check the channels of pulses")
+    own, shift = own_s[kept], base_s[kept] - own_s[kept]
+    middle, mean = float(own.mean()), float(shift.mean())
+    x, y = own - middle, shift - mean
+    squares = float(x @ x)
+    if squares == 0.0:
+        return ClockLine(middle, middle + mean, 0.0, np.nan, np.nan, kept)
+    drift = float(x @ y) / squares
+    rest = y - drift * x
+    sigma = float(np.sqrt(rest @ rest / (own.size - 2) / squares)) if own.size > 2 else np.nan
+    return ClockLine(middle, middle + mean, drift, sigma, float(np.sqrt(np.mean(rest**2))), kept)
+
+
+def _residual(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray:
+    shift = base_s - own_s - (line.base_s - line.own_s)
+    return np.asarray(shift - line.drift * (own_s - line.own_s))
+
+
+def _spread(off: FloatArray) -> float:
+    """Return the standard deviation that the smaller four fifths of ``off`` tell."""
+    some = np.sort(off)[: max(1, off.size * 4 // 5)]
+    return max(1.4826 * float(np.median(off)), 1.5 * float(np.sqrt(np.mean(some**2))))
+
+
+def _local(own_s: FloatArray, rest: FloatArray, kept: BoolArray) -> FloatArray:
+    """Return what the neighbours that are kept say about ``rest``, everywhere.
+
+    On the line between the median of those before and the median of those behind: a slope is not
+    off, and one that is off moves nothing.
+    """
+    at, some = own_s[kept], rest[kept]
+    if some.size < LOCAL:
+        return np.full(rest.size, np.median(some))
+    half = LOCAL // 2
+    sides = []
+    for series in (at, some):
+        wide = np.pad(series, half, mode="reflect", reflect_type="odd")
+        windows = np.lib.stride_tricks.sliding_window_view(wide, LOCAL)
+        sides += [np.median(windows[:, :half], axis=1), np.median(windows[:, -half:], axis=1)]
+    before_s, behind_s, before, behind = sides
+    there = before + (at - before_s) / (behind_s - before_s) * (behind - before)
+    return np.interp(own_s, at, there)
+
+
+def _smoothed(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:
+    """Return ``rest`` on straight lines through ``half`` neighbours on either side."""
+    found = rest.copy()
+    for k in range(rest.size) if half else ():
+        near = slice(max(k - half, 0), k + half + 1)
+        x = own_s[near] - own_s[k]
+        found[k] = np.polyfit(x, rest[near], 1)[1]
+    return found

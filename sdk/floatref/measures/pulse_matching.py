@@ -1,0 +1,196 @@
+"""Which pulse of one train is which of another, each timed by a clock of its own (4.4).
+
+Either train may lack pulses, have false ones, begin earlier and end later. The pattern of the
+intervals around a few pulses tells where they belong; from there the trains are followed both ways.
+"""
+
+from bisect import bisect_left
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray, IndexArray
+
+FASTEST_DRIFT = 3e-4
+"""Clocks may run so differently; 200 ppm and some room."""
+JITTER_SHARE, MOST_JITTER_S = 0.05, 0.02
+"""A pulse may be off by this share of the usual interval, and by no more than this time."""
+ANCHORS, NEIGHBOURS = 12, 24
+"""Pulses that are looked for, and how many on either side of each have to fit."""
+GOOD = 0.6
+"""A place that fits so well against the best one may be the right one as well."""
+FEW, LEAST_FIT = 10, 0.2
+"""Of so many pulses or more, so large a share does not fit by chance."""
+LEAST_SHARE = 0.35
+"""Of the pulses that both trains should have so many are found in both."""
+UNSURE = 0.4
+"""A shift that is farther from what was stated than this share of a period is none."""
+FOLLOWED = 7
+"""Pulses whose median says where the next one is."""
+HELD = 1 << 20
+"""Differences that are looked at together."""
+
+
+class Matching(NamedTuple):
+    """Indices of the same pulses in both trains, each of shape (pairs,), and lines about them."""
+
+    own: IndexArray
+    base: IndexArray
+    told: tuple[str, ...]
+
+
+def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> Matching:
+    """Return which pulses at ``own_s`` are which at ``base_s``, both increasing, in s.
+
+    ``near_s`` is about what base time less own time is when both begin; it decides where the
+    trains repeat themselves, which is told. Raises InputError if the trains have nothing in
+    common, or if two shifts lie equally near.
+    """
+    own, base = _train(own_s, "this clock"), _train(base_s, "the base clock")
+    jitter = min(MOST_JITTER_S, JITTER_SHARE * min(_interval(own), _interval(base)))
+    places = _places(own, base, jitter)
+    chosen, told = _nearest(base[places.base] - own[places.own], places.own, near_s, 3 * jitter)
+    anchor, at = int(places.own[chosen]), int(places.base[chosen])
+    pairs = _followed(own, base, anchor, at, jitter)
+    _check_share(own, base, pairs)
+    mine, others = np.array(pairs, np.int64).T
+    return Matching(mine, others, told)
+
+
+def _train(times_s: FloatArray, whose: str) -> FloatArray:
+    """Return the times as float64; InputError unless there are some, finite and increasing."""
+    times = np.asarray(times_s, dtype=np.float64)
+    if times.ndim != 1 or times.size == 0:
+        raise InputError(f"{whose} has no pulses; name the channel that holds them, or an offset")
+    if not np.isfinite(times).all() or (np.diff(times) <= 0).any():
+        raise InputError(f"the pulses of {whose} are not at increasing times in s; sort them")
+    return times
+
+
+def _interval(times: FloatArray) -> float:
+    return float(np.median(np.diff(times))) if times.size > 1 else np.inf
+
+
+def _anchors(count: int) -> IndexArray:
+    return np.unique(np.linspace(0, count - 1, min(ANCHORS, count)).round().astype(np.int64))
+
+
+def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
+    """Return pairs that fit well: the first few pulses of ``own`` that do, and where they may be.
+
+    Later ones would fit as well, at a shift that drift has changed.
+    """
+    anchors = _anchors(own.size)
+    shares = [_fits(own, base, int(i), jitter) for i in anchors]
+    best = max(float(share.max()) for share, _ in shares)
+    most = max(float(share.max()) * count for share, count in shares)
+    around = max(count for _, count in shares)
+    if most < min(own.size, base.size, 2) - 0.5 or (around >= FEW and best < LEAST_FIT):
+        raise InputError(_nothing(own, base, "no pattern of intervals is the same in both"))
+    first = next(n for n, (share, _) in enumerate(shares) if share.max() >= GOOD * best)
+    mine, others = [], []
+    for i in range(int(anchors[first]), min(int(anchors[first]) + FOLLOWED, own.size)):
+        share, _ = _fits(own, base, i, jitter)
+        there = np.flatnonzero(share >= GOOD * best)
+        mine.append(np.full(there.size, i))
+        others.append(there)
+    return Matching(np.concatenate(mine), np.concatenate(others), ())
+
+
+def _fits(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -> tuple[FloatArray, int]:
+    """Return which share of the pulses around ``anchor`` fits if it is each pulse of ``base``.
+
+    And how many there are around it, itself among them.
+    """
+    around = own[max(anchor - NEIGHBOURS, 0) : anchor + NEIGHBOURS + 1] - own[anchor]
+    allowed = jitter + FASTEST_DRIFT * np.abs(around)
+    fits = np.zeros(base.size)
+    step = max(1, HELD // around.size)
+    for first in range(0, base.size, step):
+        expected = base[first : first + step, None] + around
+        after = np.searchsorted(base, expected).clip(1, max(base.size - 1, 1))
+        off = np.abs(base[after.clip(max=base.size - 1)] - expected)
+        off = np.minimum(off, np.abs(base[after - 1] - expected))
+        fits[first : first + step] = (off <= allowed).sum(axis=1)
+    return fits / around.size, around.size
+
+
+def _nearest(
+    shifts: FloatArray, pulses: IndexArray, near_s: float, alike_s: float
+) -> tuple[int, tuple[str, ...]]:
+    """Return which of the ``shifts`` in s lies nearest to ``near_s``, and what is to be told.
+
+    ``pulses`` are those that the shifts are of: two shifts of one pulse are two places, unless
+    they differ by less than ``alike_s``.
+    """
+    chosen = int(np.argmin(np.abs(shifts - near_s)))
+    first = float(shifts[chosen])
+    same = np.sort(shifts[pulses == pulses[chosen]])
+    others = same[np.abs(same - first) > alike_s]
+    if others.size == 0:
+        return chosen, ()
+    second = float(others[np.argmin(np.abs(others - near_s))])
+    gaps = np.diff(same)
+    period = float(gaps[gaps > alike_s].min())
+    if abs(first - near_s) > UNSURE * period and (first - near_s) * (second - near_s) < 0:
+        raise InputError(
+            f"the pulses fit with a shift of {first:.6g} s as well as of {second:.6g} s, and "
+            f"{near_s:g} s lies between them; state an offset within {UNSURE * period:.3g} s"
+        )
+    return chosen, (
+        f"the pulses repeat every {period:.3g} s; of the shifts that fit, {first:.6g} s was taken, "
+        f"as the nearest to {near_s:g} s",
+    )
+
+
+def _followed(
+    own: FloatArray, base: FloatArray, anchor: int, at: int, jitter: float
+) -> list[tuple[int, int]]:
+    """Return the pairs of indices in order, followed from one pair both ways."""
+    onward = _follow(own, base, anchor, at, jitter)
+    back = _follow(-own[::-1], -base[::-1], own.size - 1 - anchor, base.size - 1 - at, jitter)
+    before = [(own.size - 1 - i, base.size - 1 - j) for i, j in reversed(back[1:])]
+    return before + onward
+
+
+def _follow(
+    own: FloatArray, base: FloatArray, anchor: int, at: int, jitter: float
+) -> list[tuple[int, int]]:
+    """Return the pairs from (``anchor``, ``at``) onward."""
+    usual = _interval(own) if own.size > 1 else 0.0
+    mine, others = own.tolist(), base.tolist()
+    pairs, recent = [(anchor, at)], [others[at] - mine[anchor]]
+    for i in range(anchor + 1, own.size):
+        shift = sorted(recent)[len(recent) // 2]
+        gap = mine[i] - mine[pairs[-1][0]] + FOLLOWED * usual
+        j = _at(others, mine[i] + shift, pairs[-1][1] + 1)
+        if j < len(others) and abs(others[j] - mine[i] - shift) <= jitter + FASTEST_DRIFT * gap:
+            pairs.append((i, j))
+            recent = [*recent[1 - FOLLOWED :], others[j] - mine[i]]
+    return pairs
+
+
+def _at(times: list[float], near: float, first: int) -> int:
+    """Return the index from ``first`` on of the time nearest to ``near``."""
+    after = bisect_left(times, near, first)
+    if first < after < len(times):
+        return after - 1 if near - times[after - 1] <= times[after] - near else after
+    return after - 1 if after == len(times) and after > first else after
+
+
+def _check_share(own: FloatArray, base: FloatArray, pairs: list[tuple[int, int]]) -> None:
+    """Refuse trains of which too few pulses are the same where both have some."""
+    shift = base[pairs[0][1]] - own[pairs[0][0]]
+    begin, end = max(own[0] + shift, base[0]), min(own[-1] + shift, base[-1])
+    there = min(np.count_nonzero((x >= begin) & (x <= end)) for x in (own + shift, base))
+    if len(pairs) < LEAST_SHARE * there:
+        found = f"only {len(pairs)} of {there} that both should have are the same"
+        raise InputError(_nothing(own, base, found))
+
+
+def _nothing(own: FloatArray, base: FloatArray, found: str) -> str:
+    return (
+        f"{own.size} pulses of this clock and {base.size} of the base clock do not belong "
+        f"together: {found}; check the channels, or state an offset"
+    )

@@ -1,0 +1,150 @@
+"""Pulses of a common signal, as each clock saw them: the times of their leading edges (4.4)."""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.clock import UniformClock
+from floatref.values.scanning import CHUNK, chunks
+
+BINS = 4096
+"""Between the lowest and the highest sample, to find the levels."""
+CLEAR = 8.0
+"""A sample that is so many standard deviations of the noise from the idle level is no noise."""
+LEAST_SHARE = 0.02
+"""Nor may it be nearer than this share of the range."""
+HYSTERESIS = 0.15
+"""Share of the pulse's height on either side of the middle that belongs to neither level."""
+EVEN = 0.4
+"""From this share of the time on neither level is the rarer: the pulses rise."""
+RINGING = 0.02
+"""An edge that follows another within this share of the usual interval is its ringing."""
+MOST_EDGES = 1_000_000
+"""More are no common pulses."""
+
+_SOUGHT = "pulses that rise from one level to another, or fall if the signal is mostly high"
+
+
+class PulseLevels(NamedTuple):
+    """Level at rest and level of a pulse; the pulse is the rarer of the two."""
+
+    idle: float
+    pulse: float
+
+
+def pulse_times(times_s: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the times in s of the leading edges in ``values``, taken at ``times_s``.
+
+    Both of shape (n,), read a piece at a time, NaN = missing. An edge lies where the signal
+    crosses the middle of its two levels, linear between samples. The level that the signal has for
+    more of the time is that of rest, so that the pulses of an active-low signal fall. Ringing
+    makes no further edge, and an edge inside a gap is left out. Raises InputError without pulses.
+    """
+    times = np.asarray(times_s, dtype=np.float64)
+    if times.shape != values.shape:
+        raise InputError(f"{values.size} samples of pulses but {times.size} times; give one each")
+    return _edges(values, lambda first, count: times[first : first + count])
+
+
+def pulse_times_at_rate(values: FloatArray, rate_hz: float, start_s: float = 0.0) -> FloatArray:
+    """Return the times in s of the leading edges in ``values``, sampled evenly from ``start_s``.
+
+    As `pulse_times` otherwise.
+    """
+    clock = UniformClock.of(rate_hz, start_s)
+    return _edges(values, lambda first, count: clock.times(count, first))
+
+
+def pulse_levels(values: FloatArray) -> PulseLevels:
+    """Return the two levels of ``values``, shape (n,), NaN = missing; InputError if it has one."""
+    lowest, highest, noise = _range(values)
+    counts = np.zeros(BINS, np.int64)
+    edges = np.linspace(lowest, highest, BINS + 1)
+    for _, chunk in chunks(values):
+        counts += np.histogram(chunk[~np.isnan(chunk)], edges)[0]
+    level = (edges[1:] + edges[:-1]) / 2
+    idle = _typical(level, counts, np.abs(level - level[counts.argmax()]) <= noise)
+    clear = max(CLEAR * noise, LEAST_SHARE * (highest - lowest))
+    above, below = level > idle + clear, level < idle - clear
+    beyond = above if counts[above].sum() >= counts[below].sum() else below
+    if not counts[beyond].any():
+        raise InputError(
+            f"all samples lie from {lowest:.6g} to {highest:.6g} around one level, {idle:.6g}; "
+            f"looked for {_SOUGHT}"
+        )
+    rough = _typical(level, counts, beyond)
+    # Not the samples on the way to it.
+    there = beyond & (np.abs(level - idle) > 0.5 * abs(rough - idle))
+    found = PulseLevels(idle, _typical(level, counts, there))
+    even = counts[beyond].sum() >= EVEN * counts.sum()
+    return PulseLevels(*sorted(found)) if even else found
+
+
+def _typical(level: FloatArray, counts: IndexArray, where: np.ndarray) -> float:
+    """Return the median of the samples ``where``."""
+    below = np.cumsum(np.where(where, counts, 0))
+    return float(level[np.searchsorted(below, below[-1] / 2)])
+
+
+def _range(values: FloatArray) -> tuple[float, float, float]:
+    """Return lowest and highest sample, and the standard deviation of the noise."""
+    lowest, highest, steps = np.inf, -np.inf, []
+    for _, chunk in chunks(values, overlap=1):
+        known = chunk[np.isfinite(chunk)]
+        if known.size:
+            lowest, highest = min(lowest, known.min()), max(highest, known.max())
+        if known.size > 1:
+            steps.append(float(np.median(np.abs(np.diff(known)))))
+    if not highest > lowest:
+        found = f"all samples are {lowest:g}" if highest == lowest else "no sample is there"
+        raise InputError(f"{found}; looked for {_SOUGHT}")
+    # The median step of white noise is 0.954 of its standard deviation.
+    return float(lowest), float(highest), float(np.median(steps or [0.0])) / 0.954
+
+
+def _edges(values: FloatArray, times: Callable[[int, int], FloatArray]) -> FloatArray:
+    """Return the times of the leading edges; ``times`` returns those of samples."""
+    idle, pulse = pulse_levels(values)
+    found: list[float] = []
+    for first in _leading(values, idle, pulse):
+        before = times(first, 2)
+        stretch = (values[first : first + 2] - idle) / (pulse - idle)
+        share = (0.5 - stretch[0]) / (stretch[1] - stretch[0])
+        found.append(float(before[0] + share * (before[1] - before[0])))
+        if len(found) > MOST_EDGES:
+            raise InputError(f"more than {MOST_EDGES} edges; looked for {_SOUGHT}")
+    if not found:
+        raise InputError(
+            f"no edge from {idle:.6g} to {pulse:.6g} is there whole; looked for {_SOUGHT}"
+        )
+    return _without_ringing(np.array(found))
+
+
+def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[int]:
+    """Yield the sample before every crossing of the middle on the way to a pulse."""
+    carried = np.empty(0)
+    for first, chunk in chunks(values):
+        shown = np.concatenate([carried, (chunk - idle) / (pulse - idle)])
+        begin, side = first - carried.size, np.zeros(shown.size, np.int8)
+        side[shown < 0.5 - HYSTERESIS] = -1
+        side[shown > 0.5 + HYSTERESIS] = 1
+        side[np.isnan(shown)] = 2
+        marks = np.flatnonzero(side)
+        rises = np.flatnonzero((side[marks[:-1]] == -1) & (side[marks[1:]] == 1))
+        for low, high in zip(marks[rises], marks[rises + 1], strict=True):
+            above = shown[low : high + 1] > 0.5
+            yield int(begin + low + np.flatnonzero(~above[:-1] & above[1:])[-1])
+        # What ends low may be the beginning of an edge that goes on in the next chunk.
+        last = marks[-1] if marks.size and side[marks[-1]] == -1 else shown.size
+        carried = shown[last:] if shown.size - last <= CHUNK else np.empty(0)
+
+
+def _without_ringing(times_s: FloatArray) -> FloatArray:
+    """Return the edges but for those that follow another at once."""
+    if times_s.size < 3:
+        return times_s
+    near = RINGING * float(np.median(np.diff(times_s)))
+    return np.asarray(times_s[np.concatenate([[True], np.diff(times_s) > near])])
