@@ -2,18 +2,16 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Taken
+from floatref.measures.clock_alignment import Alignment
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.scanning import CHUNK, chunks
-
-if TYPE_CHECKING:
-    from floatref.measures.clock_alignment import Alignment
 
 
 class Aligned:
@@ -27,7 +25,7 @@ class Aligned:
         self,
         taken: Taken,
         start_s: Fraction,
-        alignment: "Alignment | None",
+        alignment: Alignment | None,
         spool: Spool,
         report: Mapping[str, Any] | None = None,
     ) -> None:
@@ -36,7 +34,17 @@ class Aligned:
         self._spool = spool
         self._clocks: dict[float, Clock] = {}
         self.report = report
-        self.told = () if alignment is None else alignment.told
+        self.told = () if alignment is None else self._told(alignment)
+
+    @property
+    def rate(self) -> Fraction | None:
+        """Rows per second of the own clock, None for time stamps."""
+        return self._taken.rate
+
+    @property
+    def start_s(self) -> float:
+        """The first row, or the zero of time stamps, in s after the zero of the own clock."""
+        return float(self._start)
 
     def clock(self, delay_s: float) -> Clock:
         """Return the clock of samples that were taken ``delay_s`` before their time stamps."""
@@ -66,12 +74,18 @@ class Aligned:
         end = None if count is None else first + count
         return float(self._start) + taken.times_s[first:end]
 
+    def _told(self, alignment: Alignment) -> tuple[str, ...]:
+        last = self._taken.columns[0].size - 1
+        begin, end = (float(self.own_times(at, 1)[0]) for at in (0, last))
+        beyond = alignment.beyond(begin, end)
+        return alignment.told if beyond is None else (*alignment.told, beyond)
+
     def _clock(self, delay_s: float) -> Clock:
         alignment, rate = self._alignment, self._taken.rate
         start = float(self._start) - delay_s
         if rate is not None and alignment is None:
             return UniformClock(rate, start)
-        if rate is not None and alignment is not None and alignment.is_line:
+        if rate is not None and alignment is not None and alignment.uniform:
             begin = float(alignment.to_base(np.array([start]))[0])
             return UniformClock.of(alignment.rate(float(rate)), begin)
         if alignment is None and start == 0 and self._taken.times_s is not None:

@@ -1,8 +1,10 @@
 """How the clocks of a run's streams are aligned with that of its accelerometer."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from math import hypot, sqrt
+from typing import Any
 
 from floatref.errors import InputError
 from floatref.mapping.aligned import Aligned
@@ -11,11 +13,15 @@ from floatref.mapping.epochs import between_epochs
 from floatref.mapping.naming import find
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import UNKNOWN, Taken
+from floatref.mapping.timed import Timed
+from floatref.measures.clock_alignment import (
+    Alignment,
+    align_by_pps,
+    align_by_pulses,
+    align_by_time_readings,
+)
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch, NativeFile, Stream
-
-if TYPE_CHECKING:
-    from floatref.measures.clock_alignment import Alignment
 
 Key = tuple[str, str]
 """Label of a file, and name of a stream in it."""
@@ -99,7 +105,7 @@ class _Aligning:
     def _start(self, key: Key) -> Fraction:
         return self._taken[key].start_s - self._zeros[_clock_key(key, self._taken[key])]
 
-    def _alignment(self, key: Key, entry: ClockEntry | None) -> "Alignment | None":
+    def _alignment(self, key: Key, entry: ClockEntry | None) -> Alignment | None:
         clock, base = (_clock_key(k, self._taken[k]) for k in (key, self._base))
         if entry is None:
             return None if clock == base else self._by_epochs(clock, base)
@@ -113,35 +119,27 @@ class _Aligning:
         except InputError as error:
             raise InputError(f"clock of {_said(key)}: {error}") from error
 
-    def _by_entry(
-        self, key: Key, entry: ClockEntry, clock: ClockKey, base: ClockKey
-    ) -> "Alignment":
-        from floatref.measures.clock_alignment import (
-            Alignment,
-            align_by_pps,
-            align_by_pulses,
-            align_by_time_readings,
-        )
-
+    def _by_entry(self, key: Key, entry: ClockEntry, clock: ClockKey, base: ClockKey) -> Alignment:
         if entry.align == "offset":
             return Alignment.stated(entry.offset_s, 1e-6 * entry.drift_ppm)
         if entry.align == "pulses":
-            own = self._pulses(key, entry.pulses)
-            return align_by_pulses(own, self._pulses(None, entry.base_pulses), entry.offset_s)
+            own, common = self._signal(key, entry.pulses), self._signal(None, entry.base_pulses)
+            found = align_by_pulses(own.pulses(), common.pulses(), entry.offset_s)
+            return _no_surer(found, hypot(own.step_s, common.step_s))
         if entry.base_time is not None:
-            times, readings = self._column(None, entry.base_time)
+            times, readings = self._signal(None, entry.base_time).readings()
             return align_by_time_readings(times, self._unrolled(readings, clock))
         if entry.base_pps is not None:
             near = entry.offset_s
             if _absolute(clock) and _absolute(base):
                 near += self._by_epochs(clock, base).offset_s
-            return align_by_pps(self._pulses(None, entry.base_pps), near)
+            seconds = self._signal(None, entry.base_pps)
+            found = align_by_pps(seconds.pulses(), -near).inverse()
+            return _no_surer(found, seconds.step_s)
         return self._by_epochs(clock, base)
 
-    def _by_epochs(self, clock: ClockKey, base: ClockKey) -> "Alignment":
+    def _by_epochs(self, clock: ClockKey, base: ClockKey) -> Alignment:
         """Align two clocks that both know the time of day."""
-        from floatref.measures.clock_alignment import Alignment
-
         if Epoch.LOCAL in (clock[2], base[2]):
             raise InputError(
                 f"clock of {_said((clock[0], clock[1]))}: nothing aligns its {clock[2].value} "
@@ -149,30 +147,20 @@ class _Aligning:
                 '[[clocks]] in the map, such as align = "offset"'
             )
         offset, told = between_epochs((self._zeros[clock], clock[2]), (self._zeros[base], base[2]))
-        return Alignment.stated(float(offset), 0.0, told)
+        return replace(Alignment.stated(float(offset)), told=told)
 
-    def _pulses(self, key: Key | None, name: str | None) -> FloatArray:
-        from floatref.measures.pulses import pulse_times
-
-        times, values = self._column(key, name)
-        return pulse_times(times, values)
-
-    def _column(self, key: Key | None, name: str | None) -> tuple[FloatArray, FloatArray]:
-        """Return times on their own clock and samples of the channel called ``name``."""
+    def _signal(self, key: Key | None, name: str | None) -> Timed:
+        """Return the channel called ``name``, of the base clock if ``key`` is None."""
         label = self._base[0] if key is None else key[0]
         place, at = next(
             (place, at)
             for (place, token), at in self._places.items()
-            if place[0] == label
-            and isinstance(token, str)
-            and name in (token, f"{place[1]}/{token}")
+            if place[0] == label and isinstance(token, str) and name in _names(place, token)
         )
         if key is None:
             self._check_base(place, str(name))
-        stream = self._taken[place]
-        return Aligned(stream, self._start(place), None, self._spool).own_times(), stream.columns[
-            at
-        ]
+        taken = self._taken[place]
+        return Timed(taken.columns[at], Aligned(taken, self._start(place), None, self._spool))
 
     def _check_base(self, place: Key, name: str) -> None:
         ours = _clock_key(self._base, self._taken[self._base])
@@ -185,17 +173,32 @@ class _Aligning:
             return readings
         zero = float(self._zeros[clock])
         period = WEEK_S if clock[2] is Epoch.GPS else DAY_S
-        first = float(readings[readings == readings][0]) if (readings == readings).any() else zero
-        if abs(first - zero) > WEEK_S / 2:
-            first_off = round((zero - first) / period) * period
-            return readings + first_off - zero
-        return readings - zero
+        if not readings.size or abs(readings[0] - zero) <= WEEK_S / 2:
+            return readings - zero
+        turns = round((zero - float(readings[0])) / period)
+        return readings + turns * period - zero
+
+
+def _no_surer(alignment: Alignment, step_s: float) -> Alignment:
+    """Return ``alignment`` with a drift no surer than edges between samples ``step_s`` apart are.
+
+    An edge lies anywhere within its step, and the pulses anywhere between the first and the last.
+    """
+    begin, end = alignment.between_s
+    if alignment.pairs < 2 or not end > begin:
+        return alignment
+    floor = step_s / ((end - begin) * sqrt(alignment.pairs))
+    return replace(alignment, drift_sigma=hypot(alignment.drift_sigma, floor))
 
 
 def _clock_key(key: Key, taken: Taken) -> ClockKey:
     clock = taken.stream.clock
     name = f"{UNKNOWN} {key[1]}" if clock.name == UNKNOWN else clock.name
     return key[0], name, clock.epoch
+
+
+def _names(place: Key, column: str) -> tuple[str, str]:
+    return column, f"{place[1]}/{column}"
 
 
 def _absolute(clock: ClockKey) -> bool:
@@ -207,7 +210,7 @@ def _said(key: Key) -> str:
     return f"{file}, {key[1]}" if key[1] else file
 
 
-def _report(key: Key, entry: ClockEntry | None, alignment: "Alignment") -> dict[str, Any]:
+def _report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> dict[str, Any]:
     return {
         "file": key[0],
         "stream": key[1],

@@ -41,22 +41,30 @@ class Conversion:
 
         Raises InputError for a counter beyond its wrap.
         """
-        entry = self.entry
-        found = np.array(values, np.float64)
-        for code in entry.missing:
-            found[found == code] = np.nan
-        self._drop_infinite(found)
+        found = np.asarray(values, np.float64)
+        for code in self.entry.missing:
+            found = np.where(found == code, np.nan, found)
+        found = self._finite(found)
         if self._counter is not None:
             found = self._counter(found)
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = self._factor * (entry.scale * found + entry.offset)
-        self._drop_infinite(found)
+        found = self._finite(self._scaled(found))
         return self._travelled(found, times_s) if self.integrates else found
 
-    def _drop_infinite(self, values: FloatArray) -> None:
+    def _scaled(self, values: FloatArray) -> FloatArray:
+        entry = self.entry
+        if entry.scale == self._factor == 1 and entry.offset == 0:
+            return values
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(self._factor * (entry.scale * values + entry.offset))
+
+    def _finite(self, values: FloatArray) -> FloatArray:
+        """Return ``values`` without infinities, which are counted."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            if np.isfinite(values.sum()):
+                return values
         wild = np.isinf(values)
         self._infinite += int(wild.sum())
-        values[wild] = np.nan
+        return np.where(wild, np.nan, values) if wild.any() else values
 
     def finish(self) -> None:
         """Tell what the samples amounted to."""

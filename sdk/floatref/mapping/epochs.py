@@ -2,10 +2,14 @@
 
 from fractions import Fraction
 
+from floatref.measures.leap_seconds import (
+    GPS_EPOCH_UNIX_S,
+    gps_minus_utc_at_gps_s,
+    gps_minus_utc_s,
+    leap_seconds_told,
+)
 from floatref.values.native import Epoch
 
-GPS_ZERO_S = 315_964_800
-"""1980-01-06 in s since 1970-01-01, the zero of GPS time."""
 DAY_S = 86_400
 
 Moment = tuple[Fraction, Epoch]
@@ -15,17 +19,19 @@ Moment = tuple[Fraction, Epoch]
 def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]]:
     """Return how many s ``own`` is after ``base``, and what there is to say about it.
 
-    A time of an unknown day is of the day that brings both nearest.
+    A time of an unknown day is of the day that brings both nearest. Raises InputError for UTC
+    before GPS time began, where both are needed.
     """
     if own[1] is base[1]:
         return own[0] - base[0], ("aligned by the absolute times of both clocks",)
     if Epoch.DAY in (own[1], base[1]):
-        apart = _of_day(own) - _of_day(base)
+        apart = _unix(own) % DAY_S - _unix(base) % DAY_S
         apart -= DAY_S * round(apart / DAY_S)
         return apart, ("aligned by the time of day, taken to be of the same day",)
-    leaps = _leap_seconds(own if own[1] is Epoch.UTC else base)
-    told = f"aligned by UTC and GPS time, {leaps} leap seconds apart"
-    return _unix(own) - _unix(base), (told,)
+    utc = float(own[0] if own[1] is Epoch.UTC else base[0])
+    line = f"aligned by UTC and GPS time, {gps_minus_utc_s(utc)} leap seconds apart"
+    doubt = leap_seconds_told(utc)
+    return _unix(own) - _unix(base), (line,) if doubt is None else (line, doubt)
 
 
 def _unix(moment: Moment) -> Fraction:
@@ -33,16 +39,4 @@ def _unix(moment: Moment) -> Fraction:
     seconds, epoch = moment
     if epoch is not Epoch.GPS:
         return seconds
-    from floatref.measures.leap_seconds import utc_minus_gps_s
-
-    return seconds + GPS_ZERO_S + utc_minus_gps_s(float(seconds))
-
-
-def _of_day(moment: Moment) -> Fraction:
-    return _unix(moment) % DAY_S
-
-
-def _leap_seconds(moment: Moment) -> int:
-    from floatref.measures.leap_seconds import gps_minus_utc_s
-
-    return gps_minus_utc_s(float(moment[0]))
+    return seconds + GPS_EPOCH_UNIX_S - gps_minus_utc_at_gps_s(float(seconds))

@@ -35,7 +35,7 @@ class Logger:
 
 
 def stream(
-    name: str,
+    title: str,
     columns: Mapping[str, Sequence[float]],
     units: Mapping[str, str] | None = None,
     ticks: Sequence[float] | None = None,
@@ -56,7 +56,7 @@ def stream(
 
     named = tuple(Column(key, (units or {}).get(key, "")) for key in values)
     made = NativeClock(**clock)  # type: ignore[arg-type]
-    return Stream(name, named, size if count is None else count, made, read)
+    return Stream(title, named, size if count is None else count, made, read)
 
 
 @pytest.fixture
