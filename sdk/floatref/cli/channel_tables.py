@@ -41,6 +41,8 @@ def print_mapped(report: Mapping[str, Any]) -> None:
     print_table(one_line(f"{report['file']} by {report['map']}"), headers, rows)
     for clock in report["clocks"]:
         click.echo(_clock_line(clock))
+    for skew in report["skews"]:
+        click.echo(_skew_line(skew))
     _warn(report)
 
 
@@ -62,6 +64,14 @@ def _clock_line(clock: Mapping[str, Any]) -> str:
             f"{1e3 * clock['residual_s']:.3f} ms rms over {clock['pairs']} pairs"
         )
     return line
+
+
+def _skew_line(skew: Mapping[str, Any]) -> str:
+    line = f"Skew of {skew['track']}, height after accelerometer: "
+    if skew["reason"]:
+        return f"{line}open, {skew['reason']}"
+    late, sigma = (1e3 * skew[key] for key in ("skew_s", "sigma_s"))
+    return f"{line}{late:+.2f} ± {sigma:.2f} ms, told by {skew['seconds']:.3g} s"
 
 
 def _warn(report: Mapping[str, Any]) -> None:

@@ -24,6 +24,7 @@ def looked_at(reading: Reading) -> dict[str, Any]:
     return {
         "channels": [_look(c, o) for c, o in zip(channels, reading.origins, strict=True)],
         "clocks": [dict(clock) for clock in reading.clocks],
+        "skews": [dict(skew) for skew in reading.skews],
         "warnings": warnings,
     }
 

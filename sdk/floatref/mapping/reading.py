@@ -18,6 +18,7 @@ from floatref.mapping.limits import check_limits
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.opening import Opened
 from floatref.mapping.ours import map_of_ours
+from floatref.mapping.skews import skews_of
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Convert, Progress, Taken, Wanted, as_they_are, take
 from floatref.values.arrays import FloatArray
@@ -40,6 +41,7 @@ class Reading:
     adapters: Mapping[str, str]
     origins: tuple[str, ...]
     clocks: tuple[Mapping[str, Any], ...]
+    skews: tuple[Mapping[str, Any], ...]
     told: tuple[str, ...]
 
     def named_natively(self, line: str) -> str:
@@ -115,8 +117,10 @@ class _Mapping:
             told += [f"{self._where(planned)}: {line}" for line in planned.conversion.told]
         native = self._opened.file(base.key[0])
         vendor, model = self._chart.vendor or native.vendor, self._chart.model or native.model
+        recording = Recording(channels, self._chart.setup, vendor, model)
+        skews, late = skews_of(recording)
         return Reading(
-            recording=Recording(channels, self._chart.setup, vendor, model),
+            recording=recording,
             files={label: self._opened.paths[label] for label in self._opened.adapters},
             databases=tuple(self._opened.databases),
             adapters=dict(self._opened.adapters),

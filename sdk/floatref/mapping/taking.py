@@ -34,14 +34,6 @@ class Wanted:
 
 
 @dataclass(frozen=True, eq=False)
-class Rate:
-    """A stated rate in Hz, and where rows of a stream without any time start, in s."""
-
-    hz: Fraction
-    start_s: float = 0.0
-
-
-@dataclass(frozen=True, eq=False)
 class Taken:
     """Columns of a stream, in the order they were wanted, and when their rows were taken.
 
