@@ -126,7 +126,8 @@ class _Mapping:
             adapters=dict(self._opened.adapters),
             origins=tuple(self._origin(p) for p in plan),
             clocks=tuple(report for c in clocks.values() if (report := c.report) is not None),
-            told=tuple(dict.fromkeys(map(one_line, told))),
+            skews=skews,
+            told=tuple(dict.fromkeys(map(one_line, [*told, *late]))),
         )
 
     def _planned(self, entry: ChannelEntry) -> _Planned:
