@@ -11,7 +11,7 @@ COMMANDS = {
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
-    "channels": ("floatref.cli.channels:channels", "list what a native file holds"),
+    "channels": ("floatref.cli.channels:channels", "list what a native file holds, draft its map"),
     "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
     "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),

@@ -106,5 +106,7 @@ def unit_of(text: str) -> Unit:
     if unit is not None:
         return unit
     near = get_close_matches(text.strip().lower(), UNITS, n=1)
-    hint = f"did you mean {near[0]}?" if near else "state one such as mm, g, deg/s or km/h"
-    raise InputError(f"unit {text[:40]!r}: unknown; {hint}, and a scale for any other")
+    hint = f"did you mean {near[0]}? " if near else ""
+    raise InputError(
+        f"unit {text[:40]!r}: unknown; {hint}state one such as mm, g or km/h, and a scale to it"
+    )
