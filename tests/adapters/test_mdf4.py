@@ -4,6 +4,7 @@ import contextlib
 import random
 import struct
 import sys
+import tracemalloc
 import warnings
 import zlib
 from collections.abc import Callable
@@ -392,7 +393,12 @@ def test_a_compressed_block_gives_what_it_says_or_is_refused(tmp_path: Path) -> 
     bombed = bytearray(sound) + head + bomb
     struct.pack_into("<Q", bombed, sound.index(b"##DL") + 32, len(sound))
     path.write_bytes(bombed)
-    assert "does not hold 60 bytes" in refused(path)
+    tracemalloc.start()
+    why = refused(path)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert "does not hold 60 bytes" in why
+    assert most < 1 << 24
 
 
 def test_what_is_no_mdf_4_is_refused_in_one_line(tmp_path: Path) -> None:

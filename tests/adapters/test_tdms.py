@@ -222,10 +222,11 @@ def test_high_byte_first_is_read_too(tmp_path: Path) -> None:
     np.testing.assert_array_equal(values["c1"], [3, 4, 5, 9, 10, 11])
 
 
-def test_large_chunks_are_read_in_pieces(tmp_path: Path) -> None:
+@pytest.mark.parametrize("chunk", [1000, 75_000])
+def test_chunks_of_any_size_are_read_in_pieces(tmp_path: Path, chunk: int) -> None:
     path = tmp_path / "a.tdms"
     columns = np.random.default_rng(1).normal(size=(3, 150_000))
-    raw = segment(META | NEW | RAW, doubles(3, 75_000), laid(columns, 75_000, False))
+    raw = segment(META | NEW | RAW, doubles(3, chunk), laid(columns, chunk, False))
     path.write_bytes(raw)
     with Tdms().streams(path, {}) as native:
         pieces = [rows.values["c1"] for rows in native.streams[0].read(["c1"])]
