@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from floatref.files import read_profile, read_recording
+from floatref.mapping.reading import read_native
 from floatref.values.channels import CHANNELS
-from floatref_adapters.csv_recording import CsvRecording
 
 PAGE = (Path(__file__).parents[2] / "docs" / "files.md").read_text(encoding="utf-8")
 RECORDING, PROFILE = (json.loads(t) for t in re.findall(r"^```json\n(.*?)^```$", PAGE, re.M | re.S))
@@ -40,6 +40,6 @@ def test_the_csv_table_is_read(tmp_path: Path) -> None:
     (table,) = re.findall(r"^```text\n(time_s,.*?)^```$", PAGE, re.M | re.S)
     path = tmp_path / "run.csv"
     path.write_text(table, encoding="utf-8")
-    recording = CsvRecording().read(path)
+    recording = read_native(path).recording
     np.testing.assert_array_equal(recording.channel("height", "left").values, [0.3, np.nan, 0.2999])
     assert float(recording.channels[0].clock.rate) == 1000.0
