@@ -4,9 +4,11 @@ from collections.abc import Callable
 
 import pluggy
 
+from floatref_adapters.arrow import ArrowIpc, Parquet
 from floatref_adapters.can_log import CanLog
-from floatref_adapters.csv_recording import CsvRecording
+from floatref_adapters.csv_table import CsvTable
 from floatref_adapters.erd import Erd
+from floatref_adapters.hdf5 import Hdf5
 from floatref_adapters.mdf4 import Mdf4
 from floatref_adapters.nmea import Nmea
 from floatref_adapters.novatel import NovAtel
@@ -19,12 +21,9 @@ hookimpl = pluggy.HookimplMarker("floatref")
 @hookimpl
 def floatref_register_adapters(register: Callable[[object], None]) -> None:
     """Register every adapter of this package."""
-    register(CsvRecording())
-    register(Nmea())
-    register(NovAtel())
-    register(CanLog())
-    register(Mdf4())
-    register(Tdms())
+    adapters = (CsvTable, Parquet, ArrowIpc, Hdf5, Mdf4, Tdms, Nmea, NovAtel, CanLog)
+    for adapter in adapters:
+        register(adapter())
 
 
 @hookimpl
