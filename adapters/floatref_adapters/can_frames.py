@@ -7,9 +7,8 @@ import logging
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from floatref_adapters.can_blf import SoundBlf
 from floatref_adapters.can_formats import LATEST_NS, Format, format_of
@@ -34,8 +33,7 @@ TROUBLE += (NotImplementedError,)
 """What python-can raises at a line that it cannot read."""
 
 
-@dataclass(frozen=True)
-class Frame:
+class Frame(NamedTuple):
     """A data frame: its time in ns, the name of its bus, "" if the log has none, id and data."""
 
     tick: int
@@ -46,7 +44,7 @@ class Frame:
 
 
 class Frames:
-    """The data frames of ``source``, as often as they are asked for.
+    """The data frames of ``source``.
 
     Raises InputError in one line if the log is of no format that is read, or python-can is not
     installed.

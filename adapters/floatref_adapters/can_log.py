@@ -17,6 +17,7 @@ from floatref_adapters.can_database import Database, Message
 from floatref_adapters.can_formats import looks_like
 from floatref_adapters.can_frames import Frame, Frames
 from floatref_adapters.piled_rows import piled
+from floatref_adapters.record_spool import Spool
 
 MOST_IDS = 20_000
 SHOWN = 8
@@ -58,8 +59,9 @@ class CanLog:
         database = Database(Path(options["dbc"])) if options.get("dbc") else None
         survey = Survey(source, database)
         if not survey.seen:
+            survey.close()
             raise InputError(f"{source}: no CAN data frame that is sound; copy the log again")
-        return NativeFile(survey.streams(), told=survey.told())
+        return NativeFile(survey.streams(), told=survey.told(), close=survey.close)
 
 
 Key = tuple[str, int, bool]
@@ -79,6 +81,8 @@ class Survey:
         self.seen: Counter[Key] = Counter()
         self._counts: Counter[Key] = Counter()
         self._first = self._last = 0
+        self._spool = Spool()
+        self.close = self._spool.close
         for frame in self._frames.read(self._faults):
             self._count(frame)
 
@@ -86,7 +90,8 @@ class Survey:
         key = (frame.bus, frame.number, frame.extended)
         if not self.seen:
             self._first = self._last = frame.tick
-        self._faults["back"] += frame.tick < self._last
+        if frame.tick < self._last:
+            self._faults["back"] += 1
         self._last = frame.tick
         self.seen[key] += 1
         if len(self.seen) > MOST_IDS:
@@ -96,6 +101,7 @@ class Survey:
             self._short[message.name] += 1
         else:
             self._counts[key] += 1
+            self._spool.add(key, frame.tick, frame.data if message is not None else b"")
 
     def _message(self, key: Key) -> Message | None:
         number = key[1:]
@@ -140,13 +146,8 @@ class Survey:
     def _rows(
         self, key: Key, message: Message | None, names: Sequence[str]
     ) -> Iterator[tuple[int, Sequence[float]]]:
-        for frame in self._frames.read(Counter()):
-            if (frame.bus, frame.number, frame.extended) != key:
-                continue
-            if message is None:
-                yield frame.tick, ()
-            elif message.fits(frame.data):
-                yield frame.tick, message.values(frame.data, names)
+        for tick, data in self._spool.records(key):
+            yield tick, () if message is None else message.values(data, names)
 
     def told(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""

@@ -7,6 +7,7 @@ the last sentence before it that has one. Every other kind of sentence is listed
 """
 
 import re
+from array import array
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -17,13 +18,15 @@ from floatref_adapters.nmea_fields import LAYOUTS, NotANumber, Quantity
 from floatref_adapters.nmea_sentences import MOST_KINDS, Sentence, Sentences
 from floatref_adapters.nmea_times import DAY_NS, DayCount, ordinal_of, time_of_day_ns
 from floatref_adapters.piled_rows import piled
+from floatref_adapters.record_spool import Spool
 from floatref_adapters.text_lines import first_bytes
 
 HEAD = 1 << 13
 TALKED = re.compile(rb"[$!][A-Z]{2}(?:GGA|GNS|RMC|VTG|GLL|ZDA|GST|GSA|GSV|HDT|VDM),|\$PASHR,")
 NOVATEL = re.compile(rb"\xaaD[\x12\x13]|[#%][A-Z][A-Z0-9_]{2,31},[^;\r\n]{8,120};")
-TIMED = frozenset(kind for kind, layout in LAYOUTS.items() if layout.time is not None)
-FINEST = 9
+NAN = float("nan")
+COARSEST = 10**6
+"""ns of a tick, unless the times have more decimals."""
 TOLD = {
     "sum": "sentences with a wrong checksum: dropped",
     "unsummed": "sentences without a checksum, which others have: dropped",
@@ -55,19 +58,21 @@ class Nmea:
         sentences = Sentences(source)
         survey = Survey(sentences)
         if not survey.counts:
+            survey.close()
             raise InputError(f"{source}: no NMEA 0183 sentence that is sound; copy the log again")
         streams = (survey.stream(kind) for kind in sorted(survey.counts))
-        return NativeFile(tuple(streams), told=survey.told())
+        return NativeFile(tuple(streams), told=survey.told(), close=survey.close)
 
 
 class Survey:
     """What one pass over a log tells: how many rows of each kind, the clock, the faults."""
 
     def __init__(self, sentences: Sentences) -> None:
-        self._sentences = sentences
         self.counts: Counter[str] = Counter()
         self._faults: Counter[str] = Counter()
-        self._decimals = 3
+        self._unit = COARSEST
+        self._spool = Spool()
+        self.close = self._spool.close
         days = DayCount(self._faults)
         for sentence in sentences.read(self._faults):
             self._count(sentence, _moment(sentence, days))
@@ -82,40 +87,42 @@ class Survey:
         if moment is None:
             self._faults[f"untimed {kind}"] += 1
             return
-        if kind in LAYOUTS:
-            values = _values(sentence, LAYOUTS[kind].quantities)
-            self._faults[f"text {kind}"] += sum(value is None for value in values)
-        while moment % 10 ** (FINEST - self._decimals):
-            self._decimals += 1
+        self._spool.add(kind, moment, self._packed(sentence))
+        while moment % self._unit:
+            self._unit //= 10
+
+    def _packed(self, sentence: Sentence) -> bytes:
+        """Return the values of a sentence as float64, NaN where a field is no number."""
+        values = array("d")
+        for quantity in _quantities(sentence.kind):
+            try:
+                values.append(quantity.value(sentence.fields))
+            except NotANumber:
+                values.append(NAN)
+                self._faults[f"text {sentence.kind}"] += 1
+        return values.tobytes()
 
     def stream(self, kind: str) -> Stream:
         """Return the stream of the sentences of one kind."""
-        layout = LAYOUTS.get(kind)
-        quantities = {q.column.name: q for q in (layout.quantities if layout else ())}
+        columns = tuple(quantity.column for quantity in _quantities(kind))
+        places = {column.name: place for place, column in enumerate(columns)}
 
         def read(names: Sequence[str]) -> Iterator[Rows]:
-            return piled(self._rows(kind, [quantities[name] for name in names]), names)
+            return piled(self._rows(kind, [places[name] for name in names]), names)
 
-        columns = tuple(quantity.column for quantity in quantities.values())
         return Stream(kind, columns, self.counts[kind], self._clock(), read)
 
     def _clock(self) -> NativeClock:
-        tick = Fraction(1, 10**self._decimals)
+        tick = Fraction(self._unit, 10**9)
         if self._first_day is None:
             return NativeClock(tick_s=tick, epoch=Epoch.DAY, name="NMEA")
         origin = self._first_day * DAY_NS
         return NativeClock(tick_s=tick, epoch=Epoch.UTC, origin_ns=origin, name="NMEA")
 
-    def _rows(
-        self, kind: str, quantities: Sequence[Quantity]
-    ) -> Iterator[tuple[int, Sequence[float]]]:
-        days = DayCount(Counter(), self._first_day)
-        unit = 10 ** (FINEST - self._decimals)
-        for sentence in self._sentences.read(Counter(), TIMED | {kind}):
-            moment = _moment(sentence, days)
-            if sentence.kind == kind and moment is not None:
-                values = _values(sentence, quantities)
-                yield moment // unit, [float("nan") if v is None else v for v in values]
+    def _rows(self, kind: str, places: Sequence[int]) -> Iterator[tuple[int, Sequence[float]]]:
+        for moment, packed in self._spool.records(kind):
+            values = array("d", packed)
+            yield moment // self._unit, [values[place] for place in places]
 
     def told(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""
@@ -150,15 +157,8 @@ def _day(sentence: Sentence) -> int | None:
     return None
 
 
-def _values(sentence: Sentence, quantities: Sequence[Quantity]) -> list[float | None]:
-    """Return the value of each of ``quantities``: NaN if it is empty, None if it is no number."""
-    values: list[float | None] = []
-    for quantity in quantities:
-        try:
-            values.append(quantity.value(sentence.fields))
-        except NotANumber:
-            values.append(None)
-    return values
+def _quantities(kind: str) -> tuple[Quantity, ...]:
+    return LAYOUTS[kind].quantities if kind in LAYOUTS else ()
 
 
 __all__ = ["Nmea"]

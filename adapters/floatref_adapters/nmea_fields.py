@@ -8,7 +8,7 @@ from floatref import Column
 
 Fields = Sequence[str]
 NAN = float("nan")
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)$", re.ASCII)
+LARGEST = 1e15
 ANGLE = re.compile(r"(\d{1,3})([0-5]\d(?:\.\d*)?)$", re.ASCII)
 MODES = {"R": 4.0, "F": 5.0, "P": 3.0, "D": 2.0, "A": 1.0, "E": 6.0, "M": 7.0, "S": 8.0, "N": 0.0}
 """Of GNS, the one that is told first, as the quality of GGA."""
@@ -39,9 +39,14 @@ def number(text: str) -> float:
     """Return the number ``text``, NaN if it is empty; NotANumber."""
     if not text:
         return NAN
-    if len(text) > 40 or not NUMBER.match(text):
+    try:
+        value = float(text)
+    except ValueError:
+        raise NotANumber(text) from None
+    # Python also reads inf, nan and 1_0.
+    if not -LARGEST < value < LARGEST or "_" in text:
         raise NotANumber(text)
-    return float(text)
+    return value
 
 
 def _plain(name: str, unit: str, at: int, note: str = "") -> Quantity:
@@ -49,7 +54,7 @@ def _plain(name: str, unit: str, at: int, note: str = "") -> Quantity:
 
 
 def _field(fields: Fields, at: int) -> str:
-    return fields[at].strip() if at < len(fields) else ""
+    return fields[at] if at < len(fields) else ""
 
 
 def _angle(name: str, at: int, sides: str, limit: int) -> Quantity:

@@ -3,8 +3,8 @@
 import re
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from floatref_adapters.libraries import library
 from floatref_adapters.nmea_fields import LAYOUTS, Fields
@@ -18,8 +18,7 @@ HEAD = 1 << 16
 MOST_KINDS = 500
 
 
-@dataclass(frozen=True)
-class Sentence:
+class Sentence(NamedTuple):
     """A sound sentence: its kind, which is its name without the talker, and its fields."""
 
     kind: str
@@ -27,7 +26,7 @@ class Sentence:
 
 
 class Sentences:
-    """The sound sentences of ``source``, as often as they are asked for.
+    """The sound sentences of ``source``.
 
     A wrong checksum drops a sentence. So does a missing one, unless the log has none at all.
     ``InputError`` if pynmea2 is not installed.
@@ -39,20 +38,21 @@ class Sentences:
         head = first_bytes(source, HEAD).decode("latin-1")
         self.checked = any(self._sound(found) for found in SENTENCE.finditer(head))
 
-    def read(self, faults: Counter[str], kinds: frozenset[str] | None = None) -> Iterator[Sentence]:
-        """Yield the sentences of ``kinds``, or all; ``faults`` counts what is dropped."""
+    def read(self, faults: Counter[str]) -> Iterator[Sentence]:
+        """Yield the sentences; ``faults`` counts what is dropped."""
         for line in text_lines(self._source):
             text = line.decode("latin-1")
             seen = False
             for found in SENTENCE.finditer(text):
                 seen = True
-                kind = _kind(found)
-                if kinds is None or kind in kinds:
-                    yield from self._checked(found, kind, faults)
+                sentence = self._checked(found, faults)
+                if sentence is not None:
+                    yield sentence
             if not seen:
                 faults["broken" if "$" in text else "lines"] += 1
 
-    def _checked(self, found: re.Match[str], kind: str, faults: Counter[str]) -> Iterator[Sentence]:
+    def _checked(self, found: re.Match[str], faults: Counter[str]) -> Sentence | None:
+        kind = _kind(found)
         fields = found[2][1:].split(",")
         if found[3] is None and (self.checked or not _complete(kind, fields)):
             faults["unsummed" if self.checked else "broken"] += 1
@@ -61,8 +61,10 @@ class Sentences:
         elif not self._sound(found, bare=True):
             faults["sum"] += 1
         else:
-            faults["bare"] += found[3] is None
-            yield Sentence(kind, fields)
+            if found[3] is None:
+                faults["bare"] += 1
+            return Sentence(kind, fields)
+        return None
 
     def _sound(self, found: re.Match[str], bare: bool = False) -> bool:
         """Tell whether the checksum is right; without one, ``bare``."""

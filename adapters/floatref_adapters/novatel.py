@@ -8,6 +8,7 @@ would lie years away. One whose time was coarse or drifting is delivered and cou
 """
 
 import re
+import struct
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -19,6 +20,7 @@ from floatref_adapters.libraries import library
 from floatref_adapters.novatel_frames import Frames, Log
 from floatref_adapters.novatel_layouts import LogLayout, layout_of
 from floatref_adapters.piled_rows import piled
+from floatref_adapters.record_spool import Spool
 from floatref_adapters.text_lines import first_bytes
 
 HEAD = 1 << 16
@@ -31,6 +33,7 @@ BEGINS = re.compile(
 COARSE = 140
 TIMELESS = 80
 """A time status of less than `TIMELESS` is no time, of less than `COARSE` a coarse one."""
+BINARY = 0xAA
 PADDING = bytes(64)
 """Behind a binary log, so that the decoder cannot read beyond it."""
 CLOCK = NativeClock(tick_s=Fraction(1, 1000), epoch=Epoch.GPS, name="GPS")
@@ -68,21 +71,25 @@ class NovAtel:
         """
         survey = Survey(source)
         if not survey.counts:
+            survey.close()
             raise InputError(f"{source}: no NovAtel log that is sound; copy the file again")
-        return NativeFile(survey.streams(), told=survey.told(), vendor="NovAtel")
+        return NativeFile(survey.streams(), survey.told(), "NovAtel", close=survey.close)
 
 
 Key = tuple[str, int]
+PLACE = struct.Struct("<H")
 
 
 class Survey:
     """What one pass over a file tells: how many logs of each kind, their columns, the faults."""
 
     def __init__(self, source: Path) -> None:
-        self._source = source
         self._decoder = Decoder(source)
+        self._spool = Spool()
+        self.close = self._spool.close
         self.counts: Counter[Key] = Counter()
         self._columns: dict[Key, dict[str, Column]] = {}
+        self._layouts: dict[LogLayout, bytes] = {}
         self._last: dict[Key, int] = {}
         self._frames: Counter[str] = Counter()
         self._faults: Counter[tuple[str, str]] = Counter()
@@ -94,19 +101,30 @@ class Survey:
             self._frames["response"] += 1
             return
         name = self._decoder.name_of(log)
-        fault, _ = self._decoder.opened(log)
+        fault = self._decoder.fault_of(log)
         if fault is not None:
             self._faults[name, fault] += 1
             if fault != "lists":
                 return
         key = (name, log.antenna)
         self.counts[key] += 1
-        self._faults[name, "coarse"] += log.time_status in range(TIMELESS, COARSE)
-        self._faults[name, "back"] += log.gps_ms < self._last.get(key, log.gps_ms)
+        if log.time_status is not None and log.time_status < COARSE:
+            self._faults[name, "coarse"] += 1
+        if log.gps_ms < self._last.get(key, log.gps_ms):
+            self._faults[name, "back"] += 1
         self._last[key] = log.gps_ms
+        self._keep(log, key)
+
+    def _keep(self, log: Log, key: Key) -> None:
+        """Keep a log behind the number of its layout."""
+        layout = self._decoder.layout_of(log)
         columns = self._columns.setdefault(key, {})
-        for column in self._decoder.layout_of(log).columns:
-            columns.setdefault(column.name, column)
+        if layout not in self._layouts:
+            self._layouts[layout] = PLACE.pack(len(self._layouts))
+        if layout.columns and layout.columns[0].name not in columns:
+            columns.update({c.name: c for c in layout.columns if c.name not in columns})
+        content = log.content if layout.columns else b""
+        self._spool.add(key, log.gps_ms, self._layouts[layout] + content)
 
     def streams(self) -> tuple[Stream, ...]:
         """Return the streams, by name."""
@@ -122,13 +140,10 @@ class Survey:
         return Stream(name, columns, self.counts[key], CLOCK, read)
 
     def _rows(self, key: Key, names: Sequence[str]) -> Iterator[tuple[int, Sequence[float]]]:
-        for log in Frames(self._source, Counter()):
-            if log.response or (self._decoder.name_of(log), log.antenna) != key:
-                continue
-            fault, message = self._decoder.opened(log)
-            if fault in (None, "lists"):
-                values = self._decoder.layout_of(log).values
-                yield log.gps_ms, [values[n](message) if n in values else NAN for n in names]
+        getters = [[layout.values.get(name, _absent) for name in names] for layout in self._layouts]
+        for gps_ms, kept in self._spool.records(key):
+            message = self._decoder.decoded(kept[PLACE.size :]) if names else None
+            yield gps_ms, [value(message) for value in getters[PLACE.unpack_from(kept)[0]]]
 
     def told(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""
@@ -169,32 +184,39 @@ class Decoder:
             self._layouts[key] = layout_of(self._definition(log.key), log.definition)
         return self._layouts[key]
 
-    def opened(self, log: Log) -> tuple[str | None, Any]:
-        """Return why ``log`` cannot be used, None if it can, and the decoded log."""
+    def fault_of(self, log: Log) -> str | None:
+        """Return why ``log`` cannot be used, None if it can."""
         if self._definition(log.key) is None:
-            return "unknown", None
+            return "unknown"
         if log.time_status is not None and log.time_status < TIMELESS:
-            return "timeless", None
+            return "timeless"
         layout = self.layout_of(log)
         if not layout.columns:
-            return "lists", None
-        message = self._message(log, layout)
-        return ("unfit" if message is None else None), message
+            return "lists"
+        if log.room < (layout.size if log.binary else layout.fields):
+            return "unfit"
+        # A binary log of the right size always decodes; text may hold anything.
+        return None if log.binary or self._holds(log.content) else "unfit"
+
+    def decoded(self, content: bytes) -> Any:
+        """Return the decoded log; ``content`` has no fault."""
+        return self._decode(content + PADDING if content[0] == BINARY else content)
+
+    def _holds(self, content: bytes) -> bool:
+        try:
+            return hasattr(self._decode(content), "get_field_names")
+        except (self._trouble, RuntimeError, ValueError):
+            return False
 
     def _definition(self, key: str | int) -> Any:
         if key not in self._definitions:
             self._definitions[key] = self._database.get_msg_def(key)
         return self._definitions[key]
 
-    def _message(self, log: Log, layout: LogLayout) -> Any:
-        """Return the decoded log, None if it does not fit."""
-        if log.room < (layout.size if log.binary else layout.fields):
-            return None
-        try:
-            message = self._decode(log.content + PADDING if log.binary else log.content)
-        except (self._trouble, RuntimeError, ValueError):
-            return None
-        return message if hasattr(message, "get_field_names") else None
+
+def _absent(message: Any) -> float:
+    """Return NaN: the log's definition has no such field."""
+    return NAN
 
 
 __all__ = ["NovAtel"]

@@ -10,8 +10,8 @@ import struct
 import zlib
 from collections import Counter
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from floatref import InputError
 from floatref_adapters.text_lines import BLOCK, blocks
@@ -49,8 +49,7 @@ TIME_STATUS = {
 }
 
 
-@dataclass(frozen=True)
-class Log:
+class Log(NamedTuple):
     """A sound log: ``key`` is its name, or its number if it is binary; ``gps_ms`` since 1980.
 
     ``antenna`` is 0 for the primary one. ``definition`` tells which definition of its fields it
@@ -198,6 +197,8 @@ def _text(data: bytes) -> Log | None:
 
 def _fields(body: bytes) -> int:
     """Return how many fields ``body`` has; commas in quotes separate nothing."""
+    if b'"' not in body:
+        return body.count(b",") + 1
     return sum(part.count(b",") for part in body.split(b'"')[::2]) + 1
 
 

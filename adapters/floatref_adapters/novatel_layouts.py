@@ -26,7 +26,7 @@ TAKEN = frozenset(("name", "header", "encode"))
 Values = Mapping[str, Callable[[Any], float]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LogLayout:
     """Columns of one definition of a log, how to have them, and the least size of the log.
 
