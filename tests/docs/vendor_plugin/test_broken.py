@@ -49,14 +49,34 @@ SAID = {
     "registers_nonsense": "TypeError: int has no method recognises",
     "misfits_the_hook": "PluginValidationError: ",
 }
+FAILING = """import pluggy
+
+hookimpl = pluggy.HookimplMarker("floatref")
+
+
+class Failing:
+    name, summary = "failing", "whatever ends in .bad"
+
+    def recognises(self, source):
+        return source.suffix == ".bad"
+
+    def streams(self, source, options):
+        return {}["nothing"]
+
+
+@hookimpl
+def floatref_register_adapters(register):
+    register(Failing())
+"""
 AT_IMPORT = {"raises_at_import", "no_syntax", "misses_a_module", "ends_the_program"}
 
 
 @pytest.fixture(scope="module")
 def broken(installed, tmp_path_factory):
     """The environment of the example, with every broken plug-in installed as well."""
-    projects = [tmp_path_factory.mktemp(name) for name in BROKEN]
-    for project, (name, module) in zip(projects, BROKEN.items(), strict=True):
+    modules = {**BROKEN, "fails_to_read": FAILING}
+    projects = [tmp_path_factory.mktemp(name) for name in modules]
+    for project, (name, module) in zip(projects, modules.items(), strict=True):
         (project / "pyproject.toml").write_text(PROJECT.format(name=name))
         (project / f"{name}.py").write_text(module)
     installed.install(*projects)
@@ -100,6 +120,13 @@ def test_the_judge_leaves_them_out_as_well(broken):
         (line,) = [x for x in whole.stderr.splitlines() if f"plug-in {name}: " in x]
         assert line.endswith("it is left out")
     assert "quiescent" in whole.stdout
+
+
+def test_an_adapter_that_fails_on_a_file_is_named_with_it(broken):
+    (broken.folder / "run.bad").write_bytes(b"bytes")
+    done = broken.run("floatref", "channels", "run.bad", code=2)
+    (line,) = [x for x in done.stderr.splitlines() if not x.startswith("Warning")]
+    assert line == "Error: adapter failing: run.bad: KeyError: 'nothing'"
 
 
 def test_mended_it_is_said_no_more(broken):

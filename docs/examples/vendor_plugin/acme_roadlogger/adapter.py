@@ -80,7 +80,7 @@ def _rows(
 
 def _values(header: Header, number: int, counts: Counts) -> NDArray[np.float64]:
     channel = header.channels[number]
-    values = channel.scale * counts + channel.offset
+    values = channel.scale * counts.astype(np.float64) + channel.offset
     if channel.dropout is not None:
         values[counts == channel.dropout] = np.nan
     return values

@@ -105,7 +105,7 @@ def _counts(channel: Channel, logged: LoggedChannel) -> tuple[Counts, NDArray[np
             there = np.isfinite(turned)
             return np.where(there, turned, 0).astype(np.int64), there
         good = np.abs(exact) < 1 << (8 * logged.width - 1)
-    return np.where(good, exact, logged.dropout).astype(np.int64), np.ones(good.size, bool)
+    return np.where(good, exact, logged.dropout or 0).astype(np.int64), np.ones(good.size, bool)
 
 
 def _blocks(number: int, header: Header, channel: Channel) -> Iterator[tuple[int, int, Counts]]:
