@@ -22,6 +22,8 @@ FEW = 3
 
 def as_ticks(ticks: NDArray[Any]) -> Ticks:
     """Return ``ticks``, shape (n,), as int64 or float64; ValueError if they are neither."""
+    if ticks.ndim != 1:
+        raise ValueError(f"ticks of shape {ticks.shape} do not fit, which are one for each row")
     if ticks.dtype.kind == "f":
         return ticks.astype(np.float64, copy=False)
     if ticks.dtype.kind not in "iu" or (ticks.dtype.kind == "u" and (ticks >= 1 << 63).any()):
