@@ -22,6 +22,8 @@ GNSS = (
 """Words for a receiver, in the name of a stream or of a channel."""
 PLACE = r"\blat(itude)?\b|\blong?(itude)?\b|\balt(itude)?\b"
 """Words for a place, if the unit is that of an angle or a length."""
+ABOUT = r"geoid|undulation|std|stdev|sigma|\bsd\b|variance|accuracy|dop\b|\bage\b|temp"
+"""Words for what is known about a channel, rather than the channel."""
 TURNING = r"gyr|rate|omega"
 """Words for an angular rate where there is no unit."""
 QUANTITIES = (
@@ -62,6 +64,8 @@ def guess(stream: str, column: Column) -> Guess | None:
     if ours is not None:
         return Guess(*ours, sure=True)
     words = _words(column.name)
+    if re.search(ABOUT, words):
+        return None
     unit = known_unit(column.unit)
     si = unit.si if unit is not None else "rad/s" if re.search(TURNING, words) else None
     gnss = bool(re.search(GNSS, f"{_words(stream)} {words}"))
