@@ -1,4 +1,8 @@
-"""The guide prints what it shows, and shows the example as it is."""
+"""The guide prints what it shows, and shows the example as it is.
+
+After a change that moves it: `pip install ./docs/examples/vendor_plugin`, then
+`python .ci/consoles.py --write docs/your-format.md`, and look at the difference.
+"""
 
 import re
 from pathlib import Path
