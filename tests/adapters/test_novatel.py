@@ -20,6 +20,7 @@ from floatref_adapters.testing.novatel import (
     text_log,
 )
 from floatref_adapters.testing.reading import stream_of, table_of
+from floatref_adapters.text_lines import BLOCK
 
 DATA = Path(__file__).parent / "data"
 EDIE, SWRI = DATA / "novatel-edie", DATA / "novatel-swri"
@@ -195,3 +196,13 @@ def test_the_clock_counts_on_over_the_end_of_a_week(tmp_path: Path) -> None:
     log = b"".join(long_log(42, NOW_MS + ms, body) for ms in (-100, -50, 0, 50))
     _, ticks = table_of(stream_of(opened(tmp_path, log), "BESTPOS"))
     assert [b - a for a, b in pairwise(ticks.tolist())] == [50] * 3
+
+
+@pytest.mark.parametrize("ahead", [1, 2, 3, 9, 15, 27, 60, 103])
+@pytest.mark.parametrize("log", [binary_log(ONE), ascii_log(ONE), ascii_log(ONE, b"\n")])
+def test_a_log_that_begins_in_one_block_and_ends_in_the_next_is_found(
+    tmp_path: Path, log: bytes, ahead: int
+) -> None:
+    file = opened(tmp_path, b"." * (BLOCK - ahead) + log)
+    assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTVEL": 1}
+    assert f"{BLOCK - ahead} bytes between logs" in file.told[0]
