@@ -29,7 +29,7 @@ TURNING = r"gyr|rate|omega"
 QUANTITIES = (
     ("gnss_latitude", "rad", r"\blat(itude)?\b|breite"),
     ("gnss_longitude", "rad", r"\blong?(itude)?\b|l.nge"),
-    ("gnss_quality", "1", r"qual|\bfix\b|solution|pos ?type"),
+    ("gnss_quality", "1", r"qual"),
     ("gnss_vertical_velocity", "m/s", r"(vert|up|climb|\bd\b).*(vel|speed|spd)|vel.*(up|vert)"),
     ("gnss_height", "m", r"\balt|ellips|height|\bhgt\b"),
     ("gnss_pitch", "rad", r"pitch"),
@@ -38,7 +38,7 @@ QUANTITIES = (
     ("distance", "m", r"dist|dmi|odo|encoder|station|chain|weg\b|position"),
     ("distance", "m/s", r"speed|\bvel|geschw|\bv\b"),
     ("distance", "1", r"dmi|odo|encoder|pulse.?count|counts"),
-    ("longitudinal_specific_force", "m/s^2", rf"long|{AXIS}x\b|fwd|forward|surge"),
+    ("longitudinal_specific_force", "m/s^2", rf"\blong|{AXIS}x\b|fwd|forward|surge"),
     ("lateral_specific_force", "m/s^2", rf"\blat(eral)?\b|{AXIS}y\b|sway"),
     ("vertical_specific_force", "m/s^2", rf"acc|vert|{AXIS}z\b|heave|beschl"),
     ("roll_rate", "rad/s", rf"roll|{AXIS}x\b"),
@@ -60,22 +60,24 @@ def guess(stream: str, column: Column) -> Guess | None:
     """Return what ``column`` of ``stream`` may be, None if nothing speaks for a channel."""
     if not column.numeric:
         return None
-    ours = channel_of(column)
-    if ours is not None:
+    ours, receiver = channel_of(column), bool(re.search(GNSS, _words(stream)))
+    # What a receiver calls height is no range to the road.
+    if ours is not None and (ours[0].startswith("gnss_") or not receiver):
         return Guess(*ours, sure=True)
     words = _words(column.name)
     if re.search(ABOUT, words):
         return None
     unit = known_unit(column.unit)
     si = unit.si if unit is not None else "rad/s" if re.search(TURNING, words) else None
-    gnss = bool(re.search(GNSS, f"{_words(stream)} {words}"))
+    gnss = receiver or bool(re.search(GNSS, words))
     gnss = gnss or (si in (None, "rad", "m") and bool(re.search(PLACE, words)))
     for channel, usual, pattern in QUANTITIES:
         if channel.startswith("gnss_") != gnss or si not in (None, usual):
             continue
         if re.search(pattern, words):
             track = None if channel.startswith(("gnss_", "distance")) else _track(words)
-            return Guess(channel, track, sure=unit is not None)
+            alone = usual == "1" and gnss and not column.unit.strip()
+            return Guess(channel, track, sure=unit is not None or alone)
     return None
 
 

@@ -84,7 +84,9 @@ def test_common_pulses_give_offset_and_drift(
     clock += 'pulses = "laser/sync"\nbase_pulses = "adc/pulse"\n'
     source = adc(make_stream, columns={"pulse": lambda t: pulsed(t, at)})
     reading = read(clock + FORCE + HEIGHT, source, laser)
-    np.testing.assert_allclose(times_of(reading, "height"), base, rtol=0, atol=3e-3)  # steps are 2 ms
+    np.testing.assert_allclose(
+        times_of(reading, "height"), base, rtol=0, atol=3e-3
+    )  # steps are 2 ms
     (report,) = reading.clocks
     assert report["align"] == "pulses"
     assert abs(report["drift_ppm"] - 1e6 * drift) < 4 * report["drift_sigma_ppm"]

@@ -42,6 +42,8 @@ SURE = [
     ("GGA", "latitude", "deg", "gnss_latitude", None),
     ("GGA", "longitude", "deg", "gnss_longitude", None),
     ("GGA", "quality", "1", "gnss_quality", None),
+    ("BESTPOS", "quality", "", "gnss_quality", None),
+    ("BESTPOS", "height", "m", "gnss_height", None),
     ("BESTPOS", "hgt", "m", "gnss_height", None),
     ("BESTPOS", "lat", "deg", "gnss_latitude", None),
     ("BESTVEL", "vert speed", "m/s", "gnss_vertical_velocity", None),
@@ -80,6 +82,8 @@ def test_a_name_and_a_unit_of_a_logger_give_its_channel(
         ("GGA", "geoid height", "m"),
         ("BESTPOS", "hgt std", "m"),
         ("", "Laser temperature", "mm"),
+        ("BESTPOS", "solution_status", ""),
+        ("Engine", "ASAM.M.SCALAR.SLONG.IDENTICAL", "m/s^2"),
         ("GGA", "hdop", "1"),
     ],
 )
@@ -121,7 +125,7 @@ def test_what_is_sure_has_a_unit_that_speaks_for_it(stream: str, name: str, unit
         return
     assert found.channel in CHANNELS
     known = known_unit(unit)
-    assert found.sure == (known is not None)
+    assert found.sure == (known is not None or (found.channel == "gnss_quality" and not unit))
     if known is not None:
         also = {"m/s", "1"} if found.channel == "distance" else set()
         assert known.si in also | {CHANNELS[found.channel].unit}
