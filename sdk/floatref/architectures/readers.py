@@ -88,7 +88,9 @@ def guarding(name: str, source: Path) -> Iterator[None]:
         place = error.filename or source
         raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
     except (Exception, SystemExit) as error:
-        raise PluginError(_failure(name, source, error)) from error
+        # contextlib takes a RuntimeError that a StopIteration has caused for that itself.
+        cause = None if isinstance(error, StopIteration) else error
+        raise PluginError(_failure(name, source, error)) from cause
 
 
 def _checked(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
