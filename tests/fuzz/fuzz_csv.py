@@ -1,0 +1,85 @@
+"""Fuzz the CSV reader: any bytes are a table, or one `InputError` of one line.
+
+atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
+floatref in it. Then, with a folder for the inputs that are found (it may be empty):
+
+    python tests/fuzz/fuzz_csv.py -max_total_time=600 CORPUS
+
+A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
+again. The first byte chooses what a channel map would state of the table. A table that is read
+has as many rows as it was counted to have, in every column, read twice the same.
+"""
+
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import atheris
+
+with atheris.instrument_imports():
+    import numpy as np
+
+    from floatref import InputError, Stream
+    from floatref_adapters.csv_table import CsvTable
+
+TABLE = Path(tempfile.mkdtemp(prefix="fuzz-csv-")) / "a.csv"
+OPTIONS: tuple[Mapping[str, str], ...] = (
+    {},
+    {"delimiter": ";"},
+    {"delimiter": ";", "decimal": ","},
+    {"time": "a"},
+    {"time": "Zeit", "epoch": "utc"},
+    {"delimiter": "\t"},
+)
+SEEDS = (
+    b"\x00time_s,left.height,distance\n0.0000625,0.3,1e-3\n0.000125,,2\n",
+    b"\x00Zeit [s];H\xc3\xb6he [mm];Weg\r\n0,001;-1,5;NaN\r\n0,002;2,5;3\r\n",
+    b"\x01# logger\nsep=;\ntime;a;b\ns;mm;g\n1;2;3\n2;3;4\n",
+    b"\x002026-11-22T10:00:00.5Z 1 2\n2026-11-22T10:00:01.5Z 3 4\n",
+    b'\x00"a, b",c\n"1",2\n"3",4',
+    b"\x00\xff\xfet\x00;\x00a\x00\n\x001\x00;\x002\x00\n\x00",
+    b"\x0322.11.2026 10:00:00,123\t1\n22.11.2026 10:00:00,124\t2\n",
+)
+
+
+def read_any(data: bytes) -> None:
+    """Read ``data`` as a table."""
+    chosen = OPTIONS[data[0] % len(OPTIONS)] if data else {}
+    TABLE.write_bytes(data[1:])
+    CsvTable().recognises(TABLE)
+    try:
+        with CsvTable().streams(TABLE, chosen) as native:
+            for stream in native.streams:
+                check(stream)
+    except InputError as error:
+        if not str(error).isprintable():
+            raise AssertionError(f"not one line: {error!r}") from error
+
+
+def check(stream: Stream) -> None:
+    """Raise AssertionError unless all columns have the rows that were counted, twice the same."""
+    names = [column.name for column in stream.columns if column.numeric]
+    once, again = ([*stream.read(names)] for _ in range(2))
+    for name in names:
+        values = np.concatenate([rows.values[name] for rows in once]) if once else np.empty(0)
+        if values.size != stream.count:
+            raise AssertionError(f"{values.size} rows of {stream.count}")
+    for one, other in zip(once, again, strict=True):
+        for name in names:
+            if one.values[name].tobytes() != other.values[name].tobytes():
+                raise AssertionError("the second reading differs")
+
+
+def main() -> None:
+    """Fuzz, beginning with `SEEDS` where the corpus is empty."""
+    folders = [Path(argument) for argument in sys.argv[1:] if Path(argument).is_dir()]
+    for number, seed in enumerate(SEEDS):
+        for folder in folders[:1]:
+            (folder / f"seed-{number}").write_bytes(seed)
+    atheris.Setup(sys.argv, read_any)
+    atheris.Fuzz()
+
+
+if __name__ == "__main__":
+    main()
