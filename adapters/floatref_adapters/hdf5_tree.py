@@ -18,6 +18,9 @@ from floatref_adapters.stated_clock import RATES, STARTS, STEPS
 MOST_OBJECTS = 20_000
 LONGEST_ATTRIBUTE = 1000
 """Elements of an attribute that is read."""
+_MEANT = "unit units _fillvalue missing_value scale_factor add_offset matlab_class vendor model"
+MEANT = frozenset(_MEANT.split()) | RATES | STEPS | STARTS
+"""Attributes that are read, in small letters. Others may be damaged, and are none of ours."""
 TROUBLE = (OSError, RuntimeError, ValueError, TypeError, LookupError, AttributeError, MemoryError)
 """What h5py raises for damaged files."""
 
@@ -143,9 +146,11 @@ def _dataset(path: str, name: str, item: Any, left: Counter[str]) -> Dataset:
 
 
 def attributes_of(item: Any) -> dict[str, Any]:
-    """Return the attributes of ``item`` that are short and can be read."""
+    """Return the attributes of ``item`` that mean something here, are short and can be read."""
     found = {}
     for name in item.attrs:
+        if name.lower() not in MEANT:
+            continue
         try:
             shape = item.attrs.get_id(name).shape or ()
             if len(shape) < 2 and all(size <= LONGEST_ATTRIBUTE for size in shape):

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.hdf5 import Hdf5
+from floatref_adapters.hdf5_here import native_file
 
 
 @pytest.fixture
@@ -86,7 +87,7 @@ def test_packed_numbers_are_unpacked_as_cf_says(
         file["x"].attrs["scale_factor"] = scale
         file["x"].attrs["add_offset"] = np.array([offset])
         file["x"].attrs["_FillValue"] = np.array([lost], np.int16)
-    found = rows(Hdf5().streams(path, {}))["root"]["x"]
+    found = rows(native_file(path, {}))["root"]["x"]
     expected = [np.nan if k == lost else k * scale + offset for k in raw]
     np.testing.assert_allclose(found, expected, rtol=1e-15, atol=0)
 

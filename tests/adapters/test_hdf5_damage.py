@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
 from floatref.architectures.plugins import plugins
+from floatref_adapters import hdf5_apart
 from floatref_adapters.hdf5 import Hdf5
+from floatref_adapters.hdf5_here import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5
 
 
@@ -82,7 +84,7 @@ def test_a_dataset_of_a_billion_rows_is_listed_at_once(path: Path) -> None:
         wide = file.create_dataset("y", (10**9,), "i1", chunks=(1 << 28,), compression="gzip")
         wide.id.write_direct_chunk((0,), b"x")
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    (stream,) = Hdf5().streams(path, {}).streams
+    (stream,) = native_file(path, {}).streams
     assert stream.count == 10**9
     pieces = stream.read(["x"])
     assert np.nansum(next(pieces).values["x"]) == 10
@@ -108,7 +110,7 @@ def test_a_row_without_its_time_is_refused(path: Path) -> None:
         rows(Hdf5().streams(path, {}))
 
 
-@settings(deadline=None, max_examples=120)
+@settings(deadline=None, max_examples=10)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
@@ -133,6 +135,45 @@ def test_a_damaged_file_is_read_or_refused(
     else:
         said = ""
     assert "\n" not in said
+
+
+@pytest.mark.parametrize(
+    "ill", ["import os; os.abort()", "import time; time.sleep(60)", "print(1)"]
+)
+def test_a_library_that_breaks_down_does_no_harm(
+    path: Path, monkeypatch: pytest.MonkeyPatch, ill: str
+) -> None:
+    """Damaged files have crashed and hung the HDF5 library; what it does here stands for that."""
+    with h5py.File(path, "w") as file:
+        file["x"] = np.arange(3.0)
+    (stream,) = Hdf5().streams(path, {}).streams
+    monkeypatch.setattr(hdf5_apart, "COMMAND", ill)
+    monkeypatch.setattr(hdf5_apart, "LONGEST_SILENCE_S", 0.5)
+    with pytest.raises(InputError, match=r"run\.h5: no sound HDF5 .* copy the complete file again"):
+        Hdf5().streams(path, {})
+    with pytest.raises(InputError, match="no sound HDF5"):
+        list(stream.read(["x"]))
+
+
+def test_a_reader_that_is_left_early_leaves_no_process(path: Path) -> None:
+    with h5py.File(path, "w") as file:
+        file["x"] = np.zeros(1 << 20)
+    (stream,) = Hdf5().streams(path, {}).streams
+    pieces = stream.read(["x"])
+    next(pieces)
+    pieces.close()
+    assert next(stream.read(["x"])).values["x"].size == 1 << 16
+
+
+def test_modules_beside_the_file_are_not_imported(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with h5py.File(path, "w") as file:
+        file["x"] = np.arange(3.0)
+    for name in ("numpy", "h5py", "pickle"):
+        path.with_name(f"{name}.py").write_text("raise SystemExit")
+    monkeypatch.chdir(path.parent)
+    assert rows(Hdf5().streams(path, {})) == {"root": {"x": [0, 1, 2]}}
 
 
 def test_other_files_are_not_recognised(path: Path) -> None:

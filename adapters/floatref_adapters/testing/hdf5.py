@@ -32,12 +32,12 @@ def write_hdf5(recording: Recording, path: Path, quanta: Mapping[str, float] | N
 
     check_quanta(recording, quanta)
     with replacing(path) as beside, h5py.File(beside, "w") as file:
-        file.attrs["vendor"], file.attrs["model"] = recording.vendor, recording.model
+        _state(file, {"vendor": recording.vendor, "model": recording.model})
         for number, channels in enumerate(by_clock(recording.channels), 1):
             group = file.create_group(f"clock_{number}")
             clock = channels[0].clock
             if isinstance(clock, UniformClock):
-                group.attrs["rate_hz"], group.attrs["start_s"] = str(clock.rate), start_of(clock)
+                _state(group, {"rate_hz": str(clock.rate), "start_s": start_of(clock)})
             else:
                 _write(group, "time_s", clock.times_s, "s")
             for channel in channels:
@@ -64,6 +64,12 @@ def _steps(values: Floats, quantum: float) -> NDArray[np.int64]:
     return np.where(missing, MISSING, steps.astype(np.int64))
 
 
+def _state(item: Any, attributes: Mapping[str, str]) -> None:
+    """Write attributes as text of a fixed length, which lies in the object's own header."""
+    for name, text in attributes.items():
+        item.attrs[name] = np.bytes_(text.encode())
+
+
 def _write(group: Any, name: str, values: NDArray[Any], unit: str) -> Any:
     chunks = (min(ROWS, values.size),)
     dataset = group.create_dataset(
@@ -75,7 +81,7 @@ def _write(group: Any, name: str, values: NDArray[Any], unit: str) -> Any:
         shuffle=True,
         fletcher32=True,
     )
-    dataset.attrs["unit"] = unit
+    _state(dataset, {"unit": unit})
     return dataset
 
 
