@@ -9,6 +9,8 @@ HALF_DAY_NS = DAY_NS // 2
 HOUR_NS = 3600 * 10**9
 UNIX_DAY = date(1970, 1, 1).toordinal()
 TIME = re.compile(r"([01]\d|2[0-3])([0-5]\d)([0-5]\d|60)(?:\.(\d{0,9}))?$", re.ASCII)
+YEARS = range(1980, 2200)
+"""Of GNSS; ns since 1970 fit in 64 bits for longer."""
 
 
 def time_of_day_ns(text: str) -> int | None:
@@ -23,11 +25,15 @@ def time_of_day_ns(text: str) -> int | None:
 
 def ordinal_of(day: str, month: str, year: str) -> int | None:
     """Return the days since 1970-01-01; None if the three are no date. 80 is 1980, 79 is 2079."""
+    if not all(text.isascii() and text.isdigit() for text in (day, month, year)):
+        return None
+    number = int(year[:9])
+    if len(year) <= 2:
+        number += 1900 if number >= 80 else 2000
+    if number not in YEARS:
+        return None
     try:
-        number = int(year)
-        if len(year) <= 2:
-            number += 1900 if number >= 80 else 2000
-        return date(number, int(month), int(day)).toordinal() - UNIX_DAY
+        return date(number, int(month[:9]), int(day[:9])).toordinal() - UNIX_DAY
     except ValueError:
         return None
 

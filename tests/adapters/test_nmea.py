@@ -1,7 +1,10 @@
 """NMEA 0183: what is written is read, published sentences say what they say, faults are told."""
 
 import math
+import re
 from datetime import UTC, datetime
+from functools import reduce
+from operator import xor
 from pathlib import Path
 
 import numpy as np
@@ -164,6 +167,16 @@ def test_a_date_that_comes_late_dates_what_was_before_it(tmp_path: Path) -> None
     assert ns.tolist() == [first * 1e9, (first + 2) * 1e9]
 
 
+@pytest.mark.parametrize(
+    "date", ["01,01,9999", "01,01,4294967296", "99999999999999999999,01,2024", "31,02,2024", "-1,1,24"]
+)
+def test_a_date_that_cannot_be_is_none(tmp_path: Path, date: str) -> None:
+    log = [sentence(f"GNZDA,120000,{date},00,00"), sentence("GNZDA,120001,01,03,2024,00,00")]
+    of = stream_of(opened(tmp_path, "\n".join(log)), "ZDA")
+    noon = datetime(2024, 3, 1, 12, tzinfo=UTC).timestamp()
+    assert rows(of)[1].tolist() == [noon * 1e9, (noon + 1) * 1e9]
+
+
 def test_decimals_beyond_ms_are_kept_whole(tmp_path: Path) -> None:
     times = ("120000.1234", "120000.123456")
     log = "\n".join(sentence(f"GNGGA,{time},,,,,0,,,,M,,M,,") for time in times)
@@ -223,16 +236,25 @@ def test_it_is_recognised_by_its_sentences(tmp_path: Path, ending: str) -> None:
     assert not Nmea().recognises(path)
 
 
+def summed(found: re.Match[bytes]) -> bytes:
+    """Return the sentence with the checksum that it should have."""
+    return b"$%s*%02X" % (found[1], reduce(xor, found[1], 0))
+
+
 @settings(deadline=None, max_examples=120)
 @given(data=st.data())
 def test_mutated_logs_are_read_or_refused(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
 ) -> None:
-    log = bytearray("\r\n".join([GGA, RMC, VTG, GST, PASHR, AIS] * 2).encode())
+    zda = sentence("GNZDA,123520.00,23,03,1994,00,00")
+    log = bytearray("\r\n".join([GGA, RMC, zda, VTG, GST, PASHR, AIS] * 2).encode())
+    junk = st.binary(max_size=8) | st.integers(0, 10**20).map(lambda number: b"%d" % number)
     for _ in range(data.draw(st.integers(1, 6))):
         at = data.draw(st.integers(0, len(log)))
         gone = data.draw(st.integers(0, 40))
-        log[at : at + gone] = data.draw(st.binary(max_size=8))
+        log[at : at + gone] = data.draw(junk)
+    if data.draw(st.booleans()):
+        log = bytearray(re.sub(rb"\$([^*$\r\n]*)\*..", summed, bytes(log)))
     path = tmp_path_factory.mktemp("mutated") / "run.txt"
     path.write_bytes(log)
     read_or_refused(Nmea(), path, {})
