@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream
-from floatref_adapters.libraries import library
-from floatref_adapters.novatel_frames import Frames, Log
-from floatref_adapters.novatel_layouts import LogLayout, layout_of
+from floatref_adapters.novatel_decoder import Decoder
+from floatref_adapters.novatel_frames import WEEK_MS, Frames, Log
+from floatref_adapters.novatel_layouts import LogLayout
 from floatref_adapters.piled_rows import piled
 from floatref_adapters.record_spool import Spool
 from floatref_adapters.text_lines import first_bytes
@@ -31,11 +31,9 @@ BEGINS = re.compile(
     rb"|%[A-Z][A-Z0-9_]{2,31}A,\d+,[\d.]+;"
 )
 COARSE = 140
-TIMELESS = 80
-"""A time status of less than `TIMELESS` is no time, of less than `COARSE` a coarse one."""
-BINARY = 0xAA
-PADDING = bytes(64)
-"""Behind a binary log, so that the decoder cannot read beyond it."""
+"""A time status of less is a coarse one."""
+ROLLED_MS = 1024 * WEEK_MS
+LATENCY = "latency"
 CLOCK = NativeClock(tick_s=Fraction(1, 1000), epoch=Epoch.GPS, name="GPS")
 TOLD = {
     "damaged": "beginnings of a log that is cut off or has a wrong checksum: dropped",
@@ -46,7 +44,8 @@ TOLD = {
 }
 FAULTS = {
     "unknown": "logs that novatel_edie does not know: not decoded",
-    "timeless": "logs without GPS time (status below coarse): dropped",
+    "timeless": "logs without GPS time (status below coarse, or week 0): dropped",
+    "rolled": "logs of a GPS week below 1024: a receiver that missed a week roll-over is years off",
     "coarse": "logs with a coarse or drifting time: taken as they are",
     "unfit": "logs that do not fit their definition: dropped",
     "lists": "logs with lists of varying length: not decoded",
@@ -90,7 +89,9 @@ class Survey:
         self.counts: Counter[Key] = Counter()
         self._columns: dict[Key, dict[str, Column]] = {}
         self._layouts: dict[LogLayout, bytes] = {}
+        self._seen: set[tuple[Key, LogLayout]] = set()
         self._last: dict[Key, int] = {}
+        self._late: dict[str, float] = {}
         self._frames: Counter[str] = Counter()
         self._faults: Counter[tuple[str, str]] = Counter()
         for log in Frames(source, self._frames):
@@ -112,6 +113,7 @@ class Survey:
             self._faults[name, "coarse"] += 1
         if log.gps_ms < self._last.get(key, log.gps_ms):
             self._faults[name, "back"] += 1
+        self._faults[name, "rolled"] += log.gps_ms < ROLLED_MS
         self._last[key] = log.gps_ms
         self._keep(log, key)
 
@@ -121,8 +123,13 @@ class Survey:
         columns = self._columns.setdefault(key, {})
         if layout not in self._layouts:
             self._layouts[layout] = PLACE.pack(len(self._layouts))
-        if layout.columns and layout.columns[0].name not in columns:
+        if (key, layout) not in self._seen:
+            self._seen.add((key, layout))
             columns.update({c.name: c for c in layout.columns if c.name not in columns})
+        if LATENCY in layout.values:
+            late = layout.values[LATENCY](self._decoder.decoded(log.content))
+            # NaN is not later.
+            self._late[key[0]] = max(self._late.get(key[0], 0.0), late)
         content = log.content if layout.columns else b""
         self._spool.add(key, log.gps_ms, self._layouts[layout] + content)
 
@@ -153,65 +160,12 @@ class Survey:
                 lines.append(f"{name}: time goes back {n} times")
             elif n:
                 lines.append(f"{name}: {n} {FAULTS[fault]}")
+        lines += [
+            f"{name}: velocities of up to {late:.3g} s before their time stamps; state a delay_s"
+            for name, late in sorted(self._late.items())
+            if late > 0
+        ]
         return tuple(lines)
-
-
-class Decoder:
-    """The decoder of novatel_edie, which gets sound logs of the right size only.
-
-    It reads beyond the end of any other one. InputError if it is not installed.
-    """
-
-    def __init__(self, source: Path) -> None:
-        novatel_edie = library("novatel_edie", f"{source}: reading NovAtel logs")
-        oem = library("novatel_edie.oem", f"{source}: reading NovAtel logs")
-        novatel_edie.disable_internal_logging()
-        self._database = oem.get_builtin_database()
-        self._decode = oem.Decoder(self._database).decode
-        self._trouble = novatel_edie.NovatelEdieException
-        self._definitions: dict[str | int, Any] = {}
-        self._layouts: dict[tuple[str | int, int | None], LogLayout] = {}
-
-    def name_of(self, log: Log) -> str:
-        """Return the name of ``log``, or its number where the list of logs has none."""
-        definition = self._definition(log.key)
-        return str(log.key) if definition is None else str(definition.name)
-
-    def layout_of(self, log: Log) -> LogLayout:
-        """Return the columns of ``log``."""
-        key = (log.key, log.definition)
-        if key not in self._layouts:
-            self._layouts[key] = layout_of(self._definition(log.key), log.definition)
-        return self._layouts[key]
-
-    def fault_of(self, log: Log) -> str | None:
-        """Return why ``log`` cannot be used, None if it can."""
-        if self._definition(log.key) is None:
-            return "unknown"
-        if log.time_status is not None and log.time_status < TIMELESS:
-            return "timeless"
-        layout = self.layout_of(log)
-        if not layout.columns:
-            return "lists"
-        if log.room < (layout.size if log.binary else layout.fields):
-            return "unfit"
-        # A binary log of the right size always decodes; text may hold anything.
-        return None if log.binary or self._holds(log.content) else "unfit"
-
-    def decoded(self, content: bytes) -> Any:
-        """Return the decoded log; ``content`` has no fault."""
-        return self._decode(content + PADDING if content[0] == BINARY else content)
-
-    def _holds(self, content: bytes) -> bool:
-        try:
-            return hasattr(self._decode(content), "get_field_names")
-        except (self._trouble, RuntimeError, ValueError):
-            return False
-
-    def _definition(self, key: str | int) -> Any:
-        if key not in self._definitions:
-            self._definitions[key] = self._database.get_msg_def(key)
-        return self._definitions[key]
 
 
 def _absent(message: Any) -> float:

@@ -7,7 +7,7 @@ from math import isfinite
 from typing import Any
 
 from floatref import Column
-from floatref_adapters.novatel_units import QUALITIES, unit_of
+from floatref_adapters.novatel_units import QUALITIES, SOLVED, unit_of
 
 NAN = float("nan")
 WIDTHS = {
@@ -93,8 +93,9 @@ def _derived(fields: Any) -> list[Pair]:
     pairs: list[Pair] = []
     if "SolType" in enums:
         note = f"as in NMEA GGA, from {enums['SolType']}: 4 RTK fixed, 5 RTK float"
-        value = partial(_quality, enums["SolType"], enums.get("SolStatus"))
-        pairs.append(("quality", (Column("quality", "", note), value)))
+        status = enums.get("SolStatus", enums.get("INSStatus"))
+        value = partial(_quality, enums["SolType"], status)
+        pairs.append(("quality", (Column("quality", "1", note), value)))
     height = next((n for n in ("height", "orthometric_height") if n in names), None)
     if height is not None and "undulation" in names:
         column = Column("ellipsoidal_height", "m", f"{height} + undulation")
@@ -119,7 +120,7 @@ def _element(name: str, k: int, message: Any) -> float:
 
 def _quality(kind: str, status: str | None, message: Any) -> float:
     """Return 0 unless the solution was computed."""
-    if status is not None and getattr(message, status).name != "SOL_COMPUTED":
+    if status is not None and getattr(message, status).name not in SOLVED:
         return 0.0
     return QUALITIES.get(getattr(message, kind).name, NAN)
 

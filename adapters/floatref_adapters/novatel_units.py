@@ -27,9 +27,11 @@ INERTIAL: tuple[str, ...] = (
     "INSATT",
     "INSATTX",
 )
-INERTIAL += ("INSSTDEV", "INSSPD", "HEADING", "HEADING2", "DUALANTENNAHEADING")
+INERTIAL += ("INSSTDEV", "INSSPD", "IMURATEPVA", *(f"MARK{k}PVA" for k in range(1, 5)))
+BASELINES = ("HEADING", "HEADING2", "DUALANTENNAHEADING")
 RATES = ("CORRIMUDATA", "CORRIMU", "RAWIMU", "RAWIMUX")
-KNOWN = frozenset((*POSITIONS, *VELOCITIES, *INERTIAL, *(f"{name}S" for name in INERTIAL)))
+KNOWN = frozenset((*POSITIONS, *VELOCITIES, *BASELINES))
+KNOWN |= frozenset((*INERTIAL, *(f"{name}S" for name in INERTIAL)))
 TIMED = KNOWN | frozenset((*RATES, *(f"{name}S" for name in RATES), "RAWIMUSX", "TIME"))
 
 DEGREES: tuple[str, ...] = (
@@ -60,16 +62,24 @@ UNITS = {
     **dict.fromkeys(SPEEDS, "m/s"),
     **dict.fromkeys(SECONDS, "s"),
 }
-TURN = "turn in one sample of the inertial unit, rad"
-GAIN = "change of velocity in one sample of the inertial unit, m/s"
-PER_SAMPLE = {
-    **dict.fromkeys(("corr_wb_ib", "pitch", "roll", "azimuth"), TURN),
-    **dict.fromkeys(("corr_fb", "lateral", "longitudinal", "vertical"), GAIN),
+TURN = "turn since the log before, rad"
+GAIN = "velocity gained since the log before, m/s, without gravity"
+PER_LOG = {
+    "corr_wb_ib": TURN,
+    "pitch": f"{TURN}, nose up positive",
+    "roll": f"{TURN}, left side up positive",
+    "azimuth": f"{TURN}, left turn positive",
+    "corr_fb": GAIN,
+    "lateral": f"{GAIN}, to the right",
+    "longitudinal": f"{GAIN}, forward",
+    "vertical": f"{GAIN}, up",
 }
 NOTES = {
     "orthometric_height": "above mean sea level",
     "undulation": "geoid above the ellipsoid",
     "pitch": "nose up positive",
+    "roll": "left side up positive",
+    "latency": "so much older than its time stamp a velocity is",
 }
 
 
@@ -88,9 +98,11 @@ def unit_of(log: str, field: str) -> Unit:
     if log in TIMED and field in ("seconds", "gps_seconds"):
         return Unit("s", "of the GPS week")
     if log.startswith("CORRIMU"):
-        return Unit("", PER_SAMPLE.get(field, ""))
+        return Unit("", PER_LOG.get(field, ""))
     if log not in KNOWN:
         return Unit("", "")
+    if log in BASELINES and field == "pitch":
+        return Unit("deg", "of the base line, up to the second antenna positive")
     if field == "height":
         return Unit(
             "m", "above the ellipsoid" if log in INERTIAL_HEIGHT else "above mean sea level"
@@ -98,7 +110,18 @@ def unit_of(log: str, field: str) -> Unit:
     return Unit(UNITS.get(field, ""), NOTES.get(field, ""))
 
 
-INERTIAL_HEIGHT = ("INSPVA", "INSPVAS", "INSPOS", "INSPOSS")
+INERTIAL_HEIGHT: tuple[str, ...] = (
+    "INSPVA",
+    "INSPVAS",
+    "INSPOS",
+    "INSPOSS",
+    "IMURATEPVA",
+    "IMURATEPVAS",
+)
+INERTIAL_HEIGHT += tuple(f"MARK{k}PVA" for k in range(1, 5))
+SOLVED = frozenset(("SOL_COMPUTED", "INS_HIGH_VARIANCE", "INS_SOLUTION_GOOD", "INS_SOLUTION_FREE"))
+SOLVED |= {"INS_ALIGNMENT_COMPLETE", "INS_TEST_SOLUTION_GOOD"}
+"""Status of a solution, of the receiver or of its inertial unit, that is one."""
 
 QUALITIES = {
     **dict.fromkeys(("NONE",), 0.0),
@@ -111,10 +134,11 @@ QUALITIES = {
     **dict.fromkeys(("RTK_DIRECT_INS", "INS_RTKFIXED"), 4.0),
     **dict.fromkeys(("L1_FLOAT", "IONOFREE_FLOAT", "NARROW_FLOAT", "INS_RTKFLOAT"), 5.0),
     **dict.fromkeys(("OMNISTAR_HP", "OMNISTAR_XP", "PPP", "INS_PPP"), 5.0),
+    **dict.fromkeys(("PPP_PLUS", "INS_PPP_PLUS"), 5.0),
     **dict.fromkeys(("INS_OMNISTAR_HP", "INS_OMNISTAR_XP"), 5.0),
     **dict.fromkeys(("PROPAGATED",), 6.0),
     **dict.fromkeys(("FIXEDPOS", "FIXEDHEIGHT"), 7.0),
 }
 """Of GGA, by the kind of solution; a kind that is not here has none."""
 
-__all__ = ["QUALITIES", "Unit", "unit_of"]
+__all__ = ["QUALITIES", "SOLVED", "Unit", "unit_of"]

@@ -19,7 +19,8 @@ from floatref_adapters.testing.novatel import (
 )
 from floatref_adapters.testing.reading import read_or_refused, stream_of, table_of
 
-NOW_MS = 2300 * 604_800_000
+WEEK_MS = 604_800_000
+NOW_MS = 2300 * WEEK_MS
 ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [-0.25])
 
 
@@ -48,8 +49,32 @@ def test_logs_without_gps_time_are_dropped_and_coarse_ones_told(tmp_path: Path) 
     )
     file = opened(tmp_path, log)
     assert table_of(stream_of(file, "BESTPOS"))[1].tolist() == [NOW_MS + k for k in (2, 3, 4)]
-    assert "BESTPOS: 2 logs without GPS time (status below coarse): dropped" in file.told
+    assert "BESTPOS: 2 logs without GPS time (status below coarse, or week 0): dropped" in file.told
     assert "BESTPOS: 2 logs with a coarse or drifting time: taken as they are" in file.told
+
+
+def inertial(ms: int) -> bytes:
+    """Return a log of INSPVAS, whose short header says nothing of the time but the time."""
+    week, of_week = divmod(ms, WEEK_MS)
+    motion = 151.25, 42.5, 1, 2, 3, 4, 5, 6
+    body = struct.pack("<Iddddddddddi", week, of_week / 1000, -33.5, *motion, 3)
+    return short_log(508, ms, body)
+
+
+def test_a_short_header_before_the_time_is_known_is_dropped(tmp_path: Path) -> None:
+    file = opened(tmp_path, inertial(5000) + inertial(NOW_MS))
+    assert table_of(stream_of(file, "INSPVAS"))[1].tolist() == [NOW_MS]
+    assert file.told == (
+        "INSPVAS: 1 logs without GPS time (status below coarse, or week 0): dropped",
+    )
+
+
+def test_a_week_that_rolled_over_unseen_is_told(tmp_path: Path) -> None:
+    early = NOW_MS - 2048 * WEEK_MS
+    file = opened(tmp_path, inertial(early) + inertial(early + 10))
+    assert stream_of(file, "INSPVAS").count == 2
+    (line,) = file.told
+    assert line.startswith("INSPVAS: 2 logs of a GPS week below 1024")
 
 
 @pytest.mark.parametrize("size", [0, 1, 40, 71])
