@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.entries import ChannelEntry
-from floatref.mapping.units import unit_of
 from floatref.values.native import Column
 
 few = settings(deadline=None, max_examples=80)
@@ -33,6 +32,26 @@ def converted(
     return np.concatenate([made(piece, time) for piece, time in pieces])
 
 
+@st.composite
+def cut_samples(draw: st.DrawFn) -> tuple[list[float], list[int]]:
+    values = draw(st.lists(st.one_of(finite, st.just(math.nan)), min_size=1, max_size=40))
+    return values, draw(st.lists(st.integers(0, len(values)), max_size=6))
+
+
+def travelled(speeds: Sequence[float], times: Sequence[float]) -> list[float]:
+    """Return the distance by the trapezoidal rule, one sample after the other."""
+    distance, found, before = 0.0, [], None
+    for v, t in zip(speeds, times, strict=True):
+        if math.isnan(v):
+            found.append(math.nan)
+            continue
+        if before is not None:
+            distance += (t - before[1]) * (v + before[0]) / 2
+        found.append(distance)
+        before = (v, t)
+    return found
+
+
 @few
 @given(
     values=st.lists(finite, min_size=1, max_size=30),
@@ -51,12 +70,6 @@ def test_si_is_sign_times_unit_times_scale_times_sample_plus_offset(
     np.testing.assert_allclose(converted(made, values), wanted, rtol=1e-13, atol=room)
     made.finish()
     assert made.told == []
-
-
-@st.composite
-def cut_samples(draw: st.DrawFn) -> tuple[list[float], list[int]]:
-    values = draw(st.lists(st.one_of(finite, st.just(math.nan)), min_size=1, max_size=40))
-    return values, draw(st.lists(st.integers(0, len(values)), max_size=6))
 
 
 @few
@@ -108,20 +121,6 @@ def test_a_counter_goes_on_where_it_starts_again(
 def test_a_counter_beyond_its_wrap_is_refused(sample: float) -> None:
     with pytest.raises(InputError, match=r"wrap is 65536, but a sample is .*; correct wrap"):
         converted(conversion("distance", wrap=65536), [1.0, sample])
-
-
-def travelled(speeds: Sequence[float], times: Sequence[float]) -> list[float]:
-    """Return the distance by the trapezoidal rule, one sample after the other."""
-    distance, found, before = 0.0, [], None
-    for v, t in zip(speeds, times, strict=True):
-        if math.isnan(v):
-            found.append(math.nan)
-            continue
-        if before is not None:
-            distance += (t - before[1]) * (v + before[0]) / 2
-        found.append(distance)
-        before = (v, t)
-    return found
 
 
 @few
@@ -186,61 +185,3 @@ def test_the_samples_of_an_adapter_stay_as_they_were() -> None:
     values = np.array([1.0, -1.0, np.inf])
     converted(conversion(missing=(-1.0,)), values)
     np.testing.assert_array_equal(values, [1.0, -1.0, np.inf])
-
-
-def test_the_unit_of_the_file_counts_where_the_map_says_none() -> None:
-    made = Conversion(ChannelEntry("c", "height"), Column("c", "mm"))
-    assert converted(made, [250.0])[0] == pytest.approx(0.25)
-    assert made.unit == "mm"
-
-
-@pytest.mark.parametrize("given_", ["", " "])
-def test_a_channel_without_a_unit_may_have_none_in_the_file(given_: str) -> None:
-    made = Conversion(ChannelEntry("c", "gnss_quality"), Column("c", given_))
-    assert converted(made, [4.0]).tolist() == [4.0]
-    with pytest.raises(InputError, match="the file gives no unit; state it in the map"):
-        Conversion(ChannelEntry("c", "height"), Column("c", given_))
-
-
-@pytest.mark.parametrize(
-    ("channel", "unit", "file", "message"),
-    [
-        ("height", "m", "deg", "the map says m, the file deg; correct the map, or scale"),
-        ("distance", "m", "km/h", "the map says m, the file km/h"),
-        ("height", "g", "", "unit 'g' is none of height; expected one of m"),
-        ("pitch_rate", "deg", "", "unit 'deg' is none of pitch_rate; expected one of rad/s"),
-        ("height", "km/h", "", "is none of height"),
-        ("distance", None, "counts", 'give scale, how many m one is, and unit = "m"'),
-        ("height", None, "volts", "unit 'volts': unknown"),
-        ("height", "volts", "", "unit 'volts': unknown"),
-        ("gnss_quality", "m", "", "is none of gnss_quality"),
-    ],
-)
-def test_units_that_cannot_be_are_refused(
-    channel: str, unit: str | None, file: str, message: str
-) -> None:
-    with pytest.raises(InputError) as caught:
-        Conversion(ChannelEntry("c", channel, unit=unit), Column("c", file))
-    assert message in str(caught.value)
-
-
-@pytest.mark.parametrize(
-    ("unit", "file", "scale", "told"),
-    [
-        ("mm", "m", 1.0, True),
-        ("m", "counts", 1.0, True),
-        ("mm", "mm", 1.0, False),
-        ("mm", "[MM]", 1.0, False),
-        ("m", "V", 0.25, False),
-        ("m", "mm", 0.001, False),
-        ("m", "furlong", 1.0, False),
-    ],
-)
-def test_a_map_that_overrules_the_file_is_told(
-    unit: str, file: str, scale: float, told: bool
-) -> None:
-    made = conversion(unit=unit, file=file, scale=scale)
-    assert made.told == (
-        [f"the file says unit {file}, the map {unit}; the map counts"] if told else []
-    )
-    assert converted(made, [2.0])[0] == pytest.approx(unit_of(unit).factor * scale * 2.0)

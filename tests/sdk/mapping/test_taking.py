@@ -14,7 +14,7 @@ from floatref.errors import InputError
 from floatref.mapping import spool as spools
 from floatref.mapping.entries import ClockEntry
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import UNKNOWN, Taken, Wanted, as_they_are, take
+from floatref.mapping.taking import Taken, Wanted, as_they_are, take
 from floatref.values.native import Column, Epoch, NativeClock, Rows, Stream
 
 few = settings(deadline=None, max_examples=50)
@@ -53,6 +53,15 @@ def times(found: Taken) -> np.ndarray:
 cuts = st.lists(st.integers(0, 200), max_size=5)
 
 
+def many_pieces(pieces: int, size: int) -> Callable[[Sequence[str]], Iterator[Rows]]:
+    def read(names: Sequence[str]) -> Iterator[Rows]:
+        for at in range(pieces):
+            ticks = np.arange(at * size, (at + 1) * size)
+            yield Rows({"row": ticks.astype(np.float64)}, 10 * ticks + ticks % 7)
+
+    return read
+
+
 @few
 @given(
     steps=st.lists(st.integers(0, 9), min_size=1, max_size=200),
@@ -89,14 +98,6 @@ def test_every_row_has_its_own_time_whatever_the_pieces(
     if found.rate is None:
         assert (np.diff(times(found)) > 0).all() or abs(origin) > 1e15
         assert np.array_equal(np.unique(ticks), ticks[rows])
-
-
-def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row() -> None:
-    ticks = np.round(np.arange(32_000) / 16.0).astype(np.int64)
-    found = taken(reading(ticks, [5000], tick_s=Fraction(1, 1000)))
-    assert found.rate == 16_000
-    assert found.columns[0].size == 32_000
-    assert found.told == ()
 
 
 def test_rows_that_go_back_take_their_samples_with_them() -> None:
@@ -154,76 +155,6 @@ def test_a_stream_that_yields_nothing_is_refused() -> None:
         taken(stream)
 
 
-def test_a_stream_without_any_time_says_so() -> None:
-    with pytest.raises(InputError, match="none of its 5 rows has a time; state rate_hz"):
-        taken(reading(np.full(5, np.nan)))
-    with pytest.raises(InputError, match="its adapter gives none"):
-        taken(reading(None, size=5))
-    with pytest.raises(InputError, match="has no time; state rate_hz for it under"):
-        taken(reading(None, size=5, name=UNKNOWN))
-
-
-STATED = Fraction(48_000, 7)
-
-
-@pytest.mark.parametrize("start_s", [None, 0.0, 12.5])
-@pytest.mark.parametrize(
-    ("ticks", "clock", "begin"),
-    [
-        (None, {"name": UNKNOWN}, 0),
-        (np.array([40, 30, 20]), {}, 40),
-        (np.array([40, 40, 40], np.uint8), {"tick_s": Fraction(1, 4)}, 10),
-        (np.array([1.5, np.nan, 0]), {"origin_ns": 10**9, "epoch": Epoch.UTC}, 2.5),
-        (None, {"rate": Fraction(5), "first_tick": 3, "tick_s": Fraction(2)}, 6),
-    ],
-)
-def test_a_stated_rate_replaces_the_clock_of_the_stream(
-    ticks: np.ndarray | None, clock: dict, begin: float, start_s: float | None
-) -> None:
-    stream = reading(ticks, [1], **clock, **({"size": 3} if ticks is None else {}))
-    found = taken(stream, ClockEntry(rate=STATED, start_s=start_s))
-    assert (found.rate, found.times_s, found.told) == (STATED, None, ())
-    assert found.columns[0].tolist() == [0, 1, 2]
-    origin = clock.get("origin_ns", 0) / 1e9
-    assert found.start_s == (begin if start_s is None else origin + start_s)
-
-
-def test_a_stated_rate_counts_back_from_the_first_row_that_has_a_time() -> None:
-    ticks = np.array([np.nan, np.nan, 10.0, 11.0])
-    found = taken(reading(ticks, [1]), ClockEntry(rate=Fraction(2)))
-    assert found.start_s == 9
-
-
-def test_an_alignment_without_a_rate_leaves_the_clock_alone() -> None:
-    found = taken(reading(np.array([0, 30, 50])), ClockEntry(align="offset"))
-    assert times(found).tolist() == [0, 30, 50]
-
-
-@pytest.mark.parametrize(
-    ("ticks", "clock"),
-    [
-        (np.array([0.0, 1e300]), {}),
-        (np.array([0.0, 1e308]), {"tick_s": Fraction(1000)}),
-        (np.array([-1e300, 0.0]), {"epoch": Epoch.UTC}),
-        (np.array([-(2**63), 2**63 - 1]), {}),
-        (np.array([2**62, 2**62 + 1]), {}),
-        (np.array([0, 1]), {"origin_ns": 2 * 10**21}),
-        (np.array([1.7e308, 1.7e308]), {"tick_s": Fraction(10**300)}),
-    ],
-)
-def test_a_time_that_no_epoch_explains_is_refused(ticks: np.ndarray, clock: dict) -> None:
-    with pytest.raises(InputError, match=r"time of row \d+ is more than 1e\+12 s from zero"):
-        taken(reading(ticks, **clock))
-
-
-def test_large_integers_lose_nothing() -> None:
-    ticks = 2**62 + np.array([0, 1, 5, 6])
-    found = taken(reading(ticks, tick_s=Fraction(1, 10**9)))
-    assert found.times_s is not None
-    assert (1e9 * found.times_s).round().tolist() == [0, 1, 5, 6]
-    assert found.start_s == Fraction(2**62, 10**9)
-
-
 @pytest.mark.parametrize(
     "rows",
     [
@@ -266,15 +197,6 @@ def test_progress_goes_up_to_the_number_of_rows() -> None:
         stream = reading(np.arange(100), [10, 40])
         take(stream, [Wanted("row", as_they_are)], spool, None, seen.append)
     assert seen == [10, 40, 100]
-
-
-def many_pieces(pieces: int, size: int) -> Callable[[Sequence[str]], Iterator[Rows]]:
-    def read(names: Sequence[str]) -> Iterator[Rows]:
-        for at in range(pieces):
-            ticks = np.arange(at * size, (at + 1) * size)
-            yield Rows({"row": ticks.astype(np.float64)}, 10 * ticks + ticks % 7)
-
-    return read
 
 
 def test_memory_does_not_grow_with_the_file() -> None:
