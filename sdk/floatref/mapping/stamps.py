@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import HIGHEST_RATE_HZ, LOWEST_RATE_HZ, UniformClock
 from floatref.values.native import Ticks
-from floatref.values.scanning import chunks
+from floatref.values.scanning import chunks, longest_step
 
 MOST_DIGITS = 12
 """Significant digits of a rate or a step that is looked for."""
@@ -18,6 +18,8 @@ TURNS_BACK = 0.01
 """Part of all rows whose time may lie before that of an earlier one."""
 FEW = 3
 """So many may in any case."""
+LEAP_S = 3600.0
+"""A step beyond this, in s, is a clock that was set."""
 
 
 def as_ticks(ticks: NDArray[Any]) -> Ticks:
@@ -76,6 +78,19 @@ class Advancing:
         self.rows += ticks.size
         self.back += int(back.sum())
         self.untimed += int((~known).sum())
+
+
+def leap_told(times_s: FloatArray) -> str | None:
+    """Return a line on the longest step of ``times_s``, shape (N,), if no run pauses so long."""
+    if times_s.size < 2:
+        return None
+    row, step_s = longest_step(times_s)
+    if step_s <= LEAP_S:
+        return None
+    return (
+        f"no rows for {step_s:.6g} s after row {row}; "
+        "if the clock was set there, or came to another epoch, split the file there"
+    )
 
 
 def uniform_clock(times_s: FloatArray, unit_s: float) -> UniformClock | None:

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.mapping.entries import ClockEntry
 from floatref.mapping.spool import Spool
-from floatref.mapping.stamps import uniform_clock
+from floatref.mapping.stamps import leap_told, uniform_clock
 from floatref.mapping.timing import Timing
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.native import Rows, Stream
@@ -115,6 +115,8 @@ class _Taking:
         clock = uniform_clock(times, self._timing.unit_s)
         if clock is not None:
             return clock.rate, clock.start_s, None, columns
+        leap = leap_told(times)
+        told += [] if leap is None else [leap]
         kept = _first_of_each(times)
         repeated = int(kept.size - kept.sum())
         if not repeated:

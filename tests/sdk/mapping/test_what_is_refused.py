@@ -85,6 +85,13 @@ def test_time_that_goes_back_is_refused_with_its_stream(put: Put, make_stream) -
     assert "time goes back in 9 of 20 rows" in line
 
 
+def test_another_epoch_in_the_middle_is_told(put: Put, make_stream) -> None:
+    ticks = [*range(0, 1000, 10), *range(1_700_000_000, 1_700_001_000, 10)]
+    source = put(make_stream("gps", {"laser": np.full(200, 300.0)}, ticks=ticks))
+    (line,) = read_native(source, chart()).told
+    assert line.startswith("run.log: stream 'gps': no rows for 1.7e+09 s after row 99; if")
+
+
 def test_a_clock_of_a_stream_that_is_not_there_is_refused(put: Put, make_stream) -> None:
     source = put(make_stream("laser", {"laser": [1.0, 2.0]}, rate=Fraction(100)))
     lost = chart(clocks=(ClockEntry(stream="lasre", rate=Fraction(5)),))
