@@ -114,8 +114,8 @@ def line(t_own: npt.ArrayLike, t_base: npt.ArrayLike) -> Line:
     """Fit a straight line by least squares.
 
     Equation:
-        The normal equations of t_base − t_own = offset + drift t_own, with
-        sigma² = Σ r² / (N − 2) / Σ (t_own − mean)².
+        Section 4.4, to reconcile two clocks: the normal equations of
+        t_base − t_own = offset + drift t_own, with sigma² = Σ r² / (N − 2) / Σ (t_own − mean)².
 
     Args:
         t_own: s, shape (N,), N > 2.

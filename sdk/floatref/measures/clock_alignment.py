@@ -119,6 +119,7 @@ def align_by_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) 
     is, to within 0.4 of a period where the pulses are periodic. One common pulse gives the offset
     alone. Where the drift is not constant the alignment is linear between the pulses. Raises
     InputError if the trains are empty, have nothing in common, or fit equally well in two places.
+    Source: section 4.4.
     """
     own, base = (np.asarray(x, dtype=np.float64) for x in (own_s, base_s))
     matched = match_pulses(own, base, near_s)
@@ -157,7 +158,7 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
     updates, NaN where there was none, of a day or of a week, which may roll over. The first
     sample of every new reading counts, and of those the earliest: what delayed the others is no
     time. A delay that all share remains, up to ``late_s``. Raises InputError unless there are two
-    readings or more that go on as time does.
+    readings or more that go on as time does. Source: section 4.4.
     """
     edges = reading_edges(base_s, gnss_s)
     rough = clock_line(edges.gnss_s, edges.base_s)

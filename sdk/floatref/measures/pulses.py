@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, IndexArray
@@ -21,7 +22,7 @@ HYSTERESIS = 0.15
 EVEN = 0.4
 """From this share of the time on neither level is the rarer: the pulses rise."""
 RINGING = 0.02
-"""An edge that follows another within this share of the usual interval is its ringing."""
+"""An edge that follows a pulse within this share of the usual interval is its ringing."""
 MOST_EDGES = 1_000_000
 """More are no common pulses."""
 
@@ -108,43 +109,57 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
 def _edges(values: FloatArray, times: Callable[[int, int], FloatArray]) -> FloatArray:
     """Return the times of the leading edges; ``times`` returns those of samples."""
     idle, pulse = pulse_levels(values)
-    found: list[float] = []
-    for first in _leading(values, idle, pulse):
-        before = times(first, 2)
+    found, rest = [], []
+    for first, before in _leading(values, idle, pulse):
+        at = times(first, 2)
         stretch = (values[first : first + 2] - idle) / (pulse - idle)
         share = (0.5 - stretch[0]) / (stretch[1] - stretch[0])
-        found.append(float(before[0] + share * (before[1] - before[0])))
+        found.append(float(at[0] + share * (at[1] - at[0])))
+        rest.append(found[-1] - float(times(before, 1)[0]) if before >= 0 else np.inf)
         if len(found) > MOST_EDGES:
             raise InputError(f"more than {MOST_EDGES} edges; looked for {_SOUGHT}")
     if not found:
         raise InputError(
             f"no edge from {idle:.6g} to {pulse:.6g} is there whole; looked for {_SOUGHT}"
         )
-    return _without_ringing(np.array(found))
+    return _without_ringing(np.array(found), np.array(rest))
 
 
-def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[int]:
-    """Yield the sample before every crossing of the middle on the way to a pulse."""
-    carried = np.empty(0)
+def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[tuple[int, int]]:
+    """Yield the sample before every crossing of the middle on the way to a pulse.
+
+    And the last one of the pulse before, -1 for none.
+    """
+    carried, before = np.empty(0), -1
     for first, chunk in chunks(values):
         shown = np.concatenate([carried, (chunk - idle) / (pulse - idle)])
-        begin, side = first - carried.size, np.zeros(shown.size, np.int8)
-        side[shown < 0.5 - HYSTERESIS] = -1
-        side[shown > 0.5 + HYSTERESIS] = 1
-        side[np.isnan(shown)] = 2
-        marks = np.flatnonzero(side)
+        begin, side = first - carried.size, _sides(shown)
+        marks, highs = np.flatnonzero(side), np.flatnonzero(side == 1)
         rises = np.flatnonzero((side[marks[:-1]] == -1) & (side[marks[1:]] == 1))
         for low, high in zip(marks[rises], marks[rises + 1], strict=True):
             above = shown[low : high + 1] > 0.5
-            yield int(begin + low + np.flatnonzero(~above[:-1] & above[1:])[-1])
+            ended = int(np.searchsorted(highs, low))
+            at = begin + low + np.flatnonzero(~above[:-1] & above[1:])[-1]
+            yield int(at), int(begin + highs[ended - 1]) if ended else before
+        before = int(begin + highs[-1]) if highs.size else before
         # What ends low may be the beginning of an edge that goes on in the next chunk.
         last = marks[-1] if marks.size and side[marks[-1]] == -1 else shown.size
         carried = shown[last:] if shown.size - last <= CHUNK else np.empty(0)
 
 
-def _without_ringing(times_s: FloatArray) -> FloatArray:
-    """Return the edges but for those that follow another at once."""
+def _sides(shown: FloatArray) -> NDArray[np.int8]:
+    """Return 1 for samples of a pulse, -1 at rest, 2 for missing ones, 0 between the levels."""
+    side = np.zeros(shown.size, np.int8)
+    side[shown < 0.5 - HYSTERESIS] = -1
+    side[shown > 0.5 + HYSTERESIS] = 1
+    side[np.isnan(shown)] = 2
+    return side
+
+
+def _without_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
+    """Return the edges but for those before which the signal rested for too short a time."""
     if times_s.size < 3:
         return times_s
-    near = RINGING * float(np.median(np.diff(times_s)))
-    return np.asarray(times_s[np.concatenate([[True], np.diff(times_s) > near])])
+    # Ringing may have more edges than pulses.
+    usual = float(np.quantile(np.diff(times_s), 0.9))
+    return np.asarray(times_s[rest_s > RINGING * usual])

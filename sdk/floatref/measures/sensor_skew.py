@@ -16,18 +16,18 @@ from floatref.measures.skew_windows import SkewWindow, skew_window
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
 
-WINDOW_S = 1.0
+WINDOW_S = 1.5
 """Longer ones, and the noise of the integrated acceleration counts; shorter ones, no swing."""
-STANDS_M = 0.002
-"""A vehicle that moves by less in a window stands."""
+STANDS_M, STANDS_S = 0.002, 0.75
+"""A vehicle that moves by less in so long stands; a shorter window tells nothing."""
 LEAST_COHERENCE, GAIN_OFF = 0.95, 0.05
 """What a window of a standing vehicle has to show."""
 BOUNCE_COHERENCE, BOUNCE_OFF = 0.9999, 0.03
 """What a window has to show where the distance says that the vehicle moves, or nothing."""
-FEWEST_BOUNCES = 3
+FEWEST_BOUNCES = 2
 """So many such windows have to follow one another."""
 LEAST_MOTION_M = 2e-5
-SLOWEST_HZ = 100.0
+SLOWEST_HZ, SHORTEST_S = 100.0, 2.0
 LARGEST_SIGMA_S = 5e-4
 """A skew that is known no better is not told."""
 WORTH_S, CERTAIN = 5e-4, 3.0
@@ -66,9 +66,9 @@ class Skew:
 def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None) -> Skew:
     """Return by how much ``height`` is later than the vertical ``force``, where that shows.
 
-    Windows of one second count where the vehicle stands by its ``distance``, or, whatever the
-    distance, where height and acceleration agree as in a bounce test alone. Channels may have any
-    clocks above 100 Hz and gaps; memory grows by 2 kB for each second.
+    Windows of a second and a half count where the vehicle stands by its ``distance``, or, whatever
+    the distance, where height and acceleration agree as in a bounce test alone. Channels may have
+    any clocks above 100 Hz and gaps; memory grows by 10 kB for each second.
     """
     slow = next((c for c in (force, height) if c.mean_rate_hz < SLOWEST_HZ), None)
     if slow is not None:
@@ -77,13 +77,13 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
         )
     begin = max(force.span_s[0], height.span_s[0])
     end = min(force.span_s[1], height.span_s[1])
-    if end - begin < 2 * WINDOW_S:
-        return Skew.none(f"channels {force.id} and {height.id} share less than {2 * WINDOW_S:g} s")
+    if end - begin < SHORTEST_S:
+        return Skew.none(f"channels {force.id} and {height.id} share less than {SHORTEST_S:g} s")
     grid: FloatArray = begin + STEP_S * np.arange(int((end - begin) * RATE_HZ) + 1.0)
     series = on_grid(force, grid), on_grid(height, grid)
     stands = np.zeros(grid.size, dtype=np.bool_)
     if distance is not None:
-        stands = standing(distance, grid, STANDS_M, WINDOW_S)
+        stands = standing(distance, grid, STANDS_M, STANDS_S)
     return _judged([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 
@@ -152,7 +152,7 @@ def _windows(
     many = max(1, round((end - first) * STEP_S / WINDOW_S))
     edges = np.linspace(first, end, many + 1).astype(int).tolist()
     for a, b in pairwise(edges):
-        yield skew_window(force, height, a, b - a) if b - a >= WINDOW_S * RATE_HZ / 2 else None
+        yield skew_window(force, height, a, b - a) if b - a >= STANDS_S * RATE_HZ else None
 
 
 def _is_one(window: SkewWindow, coherence: float, off: float) -> bool:
@@ -165,7 +165,7 @@ def _judged(found: list[_Stretch]) -> Skew:
     """Return what all stretches tell together."""
     if not found:
         return Skew.none(
-            "no second in which the body alone moves: neither a stop after which it still swings "
+            "no moment in which the body alone moves: neither a stop after which it still swings "
             "nor a bounce test"
         )
     skews, sigmas = np.array([s.skew() for s in found]).T
@@ -177,8 +177,8 @@ def _judged(found: list[_Stretch]) -> Skew:
     windows = [w for s in found for w in s.windows]
     if sigma > LARGEST_SIGMA_S:
         return Skew.none(
-            f"{len(windows)} s in which the body alone moves tell it to {1e3 * sigma:.2g} ms only; "
-            "a bounce test tells it to 0.05 ms",
+            f"{len(windows)} windows in which the body alone moves tell it to "
+            f"{1e3 * sigma:.2g} ms only; a bounce test tells it to 0.05 ms",
             sigma,
         )
     power = np.array([w.motion_m**2 for w in windows])

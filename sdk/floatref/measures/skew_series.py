@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from floatref.values.arrays import BoolArray, FloatArray, release
-from floatref.values.clock import UniformClock
+from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
 RATE_HZ = 200
@@ -34,7 +34,6 @@ def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
         points = grid_s[first : first + BLOCK]
         times, values = _between(channel, points[0] - HALF * STEP_S, points[-1] + HALF * STEP_S)
         found[first : first + BLOCK] = _smoothed(times, values, points, fewest)
-        release(channel.values)
     return found
 
 
@@ -52,10 +51,12 @@ def standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: float
             there = np.interp(points, times[known], values[known], np.nan, np.nan)
             places[first : first + BLOCK] = there
     ahead = round(over_s * RATE_HZ)
-    found = np.zeros(grid_s.size, dtype=np.bool_)
-    for k in np.flatnonzero(np.abs(places[ahead:] - places[:-ahead]) < most_m):
-        found[k : k + ahead + 1] = True
-    return found
+    stays = np.abs(places[ahead:] - places[:-ahead]) < most_m
+    # Every point from which it stays, and all that it stays until.
+    edges = np.zeros(grid_s.size + 1, np.int64)
+    edges[: stays.size] += stays
+    edges[ahead + 1 : ahead + 1 + stays.size] -= stays
+    return np.asarray(np.cumsum(edges[:-1]) > 0)
 
 
 def stretches(where: BoolArray) -> Iterator[tuple[int, int]]:
@@ -73,7 +74,11 @@ def _between(channel: Channel, begin_s: float, end_s: float) -> tuple[FloatArray
         first, end = (int(np.clip(x, 0, size)) for x in ends)
     else:
         first, end = np.searchsorted(clock.times_s, [begin_s, end_s]).tolist()
-    return clock.times(end - first, first), channel.values[first:end]
+    times, values = clock.times(end - first, first).copy(), channel.values[first:end].copy()
+    release(channel.values)
+    if isinstance(clock, StampedClock):
+        release(clock.times_s)
+    return times, values
 
 
 def _smoothed(

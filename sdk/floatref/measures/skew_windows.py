@@ -1,9 +1,10 @@
-"""How late a height is in one second in which the body alone moves.
+"""How late a height is in one short window in which the body alone moves.
 
 There height and twice integrated acceleration are one signal, but for what integration leaves
 open: h(t) = g·z(t − τ) + parabola. By least squares τ is the slope of the phase of their cross
-spectrum against frequency, every frequency weighted by how fast the body moves at it; the
-integral is not tapered, so that a decaying swing shifts nothing.
+spectrum against frequency, every frequency weighted by how fast the body moves at it. A taper
+weighs the middle of the window most: the jolt at which a stop begins moves more than the body.
+Acceleration and height must not be tapered before the integration, or a swing that decays shifts.
 """
 
 from dataclasses import dataclass
@@ -27,7 +28,7 @@ class SkewWindow:
         skew_s: by how much the height is later, in s.
         gain: of the height against the twice integrated acceleration.
         rest: share of the height's motion that is not explained, as a ratio of amplitudes.
-        motion_m: root mean square of the height's motion, in m.
+        motion_m: root mean square of the height's motion, tapered, in m.
         omega: root mean square frequency of the motion, in rad/s.
     """
 
@@ -88,10 +89,11 @@ class _Body:
         self.place = _integral(self.velocity)
         powers = np.vander(np.linspace(-1.0, 1.0, count), 3)
         self.open, _ = np.linalg.qr(powers)
+        self.taper = np.sin(np.pi * (np.arange(count) + 0.5) / count)
 
     def bare(self, series: FloatArray) -> FloatArray:
-        """Return ``series`` without the parabola that integration leaves open."""
-        return np.asarray(series - self.open @ (self.open.T @ series))
+        """Return ``series`` without the parabola that integration leaves open, tapered."""
+        return np.asarray(self.taper * (series - self.open @ (self.open.T @ series)))
 
     def roughly(self, y: FloatArray) -> float:
         """Return the skew in whole steps that explains most of ``y``, in s."""

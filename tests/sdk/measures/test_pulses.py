@@ -61,9 +61,9 @@ def test_ringing_makes_no_further_edge(seed: int) -> None:
     edges = edges_at(seed)
     times = np.arange(int((edges[-1] + 1.0) * 10 * RATE)) / RATE / 10
     signal = analog(times, edges, 0.1, 5e-4)
-    for edge in (*edges, *(edges + 0.1)):
+    for edge, size in (*((e, 1.6) for e in edges), *((e, -1.6) for e in edges + 0.1)):
         since = np.clip(times - edge, 0.0, None)
-        signal += 0.9 * np.exp(-since / 1e-3) * np.sin(2 * np.pi * 1500.0 * since)
+        signal += size * np.exp(-since / 1e-3) * np.sin(2 * np.pi * 1500.0 * since)
     found = pulse_times(times, signal)
     assert found.size == edges.size
     assert np.abs(found - edges).max() < 3e-4
