@@ -177,7 +177,7 @@ def _judged(found: list[_Stretch]) -> Skew:
     windows = [w for s in found for w in s.windows]
     if sigma > LARGEST_SIGMA_S:
         return Skew.none(
-            f"{len(windows)} windows in which the body alone moves tell it to "
+            f"{WINDOW_S * len(windows):.3g} s in which the body alone moves tell it to "
             f"{1e3 * sigma:.2g} ms only; a bounce test tells it to 0.05 ms",
             sigma,
         )
