@@ -88,7 +88,7 @@ def _other_width(number: int, width: int, expected: int) -> str:
 
 def pieces(path: Path, layout: Layout) -> Iterator[Piece]:
     """Yield the rows of the table at ``path``; those of a last line without an end come alone."""
-    for first, text in blocks(path, layout.encoding):
+    for first, text in blocks(path, layout.encoding, layout.delimiter):
         above = layout.above + 1 - first
         if above > 0:
             first, text = _below(above, first, text)

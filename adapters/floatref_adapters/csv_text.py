@@ -11,6 +11,7 @@ BLOCK = 1 << 20
 SAMPLE = 1 << 16
 """Bytes from which the layout is found."""
 LONGEST_LINE = 1 << 24
+WHITE = b" \t\r\n\f\v"
 
 Block = tuple[int, bytes]
 """Number of the first line, and lines."""
@@ -47,30 +48,31 @@ def read_sample(path: Path) -> tuple[str, list[str]]:
     return encoding, lines
 
 
-def blocks(path: Path, encoding: str) -> Iterator[Block]:
+def blocks(path: Path, encoding: str, delimiter: str) -> Iterator[Block]:
     """Yield the lines of the file in pieces; a last line without an end comes alone.
 
-    Every piece but such a line ends in LF. Empty lines at the end of the file are left out.
-    InputError for a line of more than 16 MiB.
+    Every piece but such a line ends in LF. Lines at the end of the file that hold nothing but
+    spaces and the ``delimiter``, as spreadsheets leave them, are left out. InputError for a line
+    of more than 16 MiB.
     """
-    line, rest = 1, b""
+    line, rest, nothing = 1, b"", WHITE + delimiter.encode()
     with path.open("rb") as stream:
         for text in _unix(stream.read, encoding):
-            body, rest = _whole_lines(rest + text)
+            body, rest = _whole_lines(rest + text, nothing)
             if len(rest) > LONGEST_LINE:
                 number = line + body.count(b"\n")
                 raise InputError(f"row {number}: no line end in 16 MB; this is no table")
             if body:
                 yield line, body
                 line += body.count(b"\n")
-    if rest.strip():
+    if rest.strip(nothing):
         yield line, rest
 
 
-def _whole_lines(text: bytes) -> tuple[bytes, bytes]:
+def _whole_lines(text: bytes, nothing: bytes) -> tuple[bytes, bytes]:
     """Return the lines of ``text``, and what may be empty lines at the end of the file."""
     cut = text.rfind(b"\n") + 1
-    filled = len(text[:cut].rstrip())
+    filled = len(text[:cut].rstrip(nothing))
     cut = text.find(b"\n", filled, cut) + 1
     return text[:cut], text[cut:]
 

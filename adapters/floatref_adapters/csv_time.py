@@ -14,7 +14,8 @@ from floatref_adapters.csv_fields import is_number
 from floatref_adapters.csv_rows import Piece
 
 MOST_DIGITS = 18
-"""Digits of a tick that int64 holds."""
+"""Digits of a tick that int64 holds, whatever they are."""
+LARGEST = 2.0**63
 EXACT_DIGITS = 15
 """Digits that a float64 holds, so that its product with a power of ten rounds to the tick."""
 _ISO = re.compile(
@@ -52,7 +53,8 @@ class Times:
     """The column of time: its place, name, writing and unit in s.
 
     ``decimals`` is the most that one of its numbers is written with, ``whole`` the most digits
-    before the decimal mark; ``exact`` is false where a number has an exponent.
+    before the decimal mark; ``exact`` is false where a number has an exponent. ``largest`` is the
+    largest of those with more digits than any tick may have, ns since 1970 above all.
     """
 
     column: int
@@ -63,14 +65,23 @@ class Times:
     decimals: int = 0
     whole: int = 0
     exact: bool = True
+    largest: float = 0.0
 
     def seen(self, piece: Piece) -> "Times":
         """Return this, with the decimals and digits in ``piece`` taken into account."""
-        grid = piece.grid if self.writing is Writing.NUMBER else None
-        plain = grid.plain([self.column]) if grid else None
+        if self.writing is not Writing.NUMBER:
+            return self
+        seen = self._seen_digits(piece)
+        if seen.decimals + seen.whole <= MOST_DIGITS:
+            return seen
+        values = np.abs(piece.numbers([self.column]))
+        return replace(seen, largest=float(np.fmax.reduce(values[:, 0], initial=self.largest)))
+
+    def _seen_digits(self, piece: Piece) -> "Times":
+        plain = piece.grid.plain([self.column]) if piece.grid else None
         if plain is None:
             # What is not plain is read field by field anyway.
-            return self if self.writing is not Writing.NUMBER else self._seen_fields(piece)
+            return self._seen_fields(piece)
         codes = np.frombuffer(plain, np.uint8)
         ends = np.flatnonzero(codes == ord(","))
         starts = np.concatenate(([0], ends[:-1] + 1))
@@ -101,7 +112,9 @@ class Times:
     @property
     def integral(self) -> bool:
         """Tell whether all times are ticks of the last decimal within int64."""
-        return self.exact and self.decimals + self.whole <= MOST_DIGITS
+        digits = self.decimals + self.whole
+        large = self.largest * 10.0**self.decimals < LARGEST
+        return self.exact and (digits <= MOST_DIGITS or (digits <= MOST_DIGITS + 2 and large))
 
     def clock(self) -> NativeClock:
         """Return the clock; its ticks are those of `ticks`."""
@@ -128,11 +141,15 @@ class Times:
             return values
         if self.decimals + self.whole <= EXACT_DIGITS:
             return np.rint(values * 10.0**self.decimals).astype(np.int64)
-        return np.array([self._tick(text) for text in piece.texts(self.column)], np.int64)
+        texts = piece.texts(self.column)
+        return np.array([self._tick(text, piece.first) for text in texts], np.int64)
 
-    def _tick(self, text: str) -> int:
+    def _tick(self, text: str, first: int) -> int:
         whole, _, part = text.partition(self.decimal)
-        return int(whole + part.ljust(self.decimals, "0"))
+        tick = int(whole + part.ljust(self.decimals, "0"))
+        if abs(tick) >= LARGEST:
+            raise InputError(f"rows from {first} on: {self.name} is {text}; write fewer decimals")
+        return tick
 
     def _of_text(self, piece: Piece) -> NDArray[np.int64]:
         texts = piece.texts(self.column)

@@ -154,6 +154,19 @@ def test_no_number_is_made_of_fields_that_hold_another(
             )
 
 
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", "|"])
+def test_rows_of_nothing_at_the_end_are_left_out(tmp_path: Path, delimiter: str) -> None:
+    """As spreadsheets leave them; above another row such a row has no time."""
+    rows = ["time_s,a,b", "0,1,2", "1,,", ",,", " ,,", "", ",,"]
+    lines = [row.replace(",", delimiter) for row in rows]
+    for end in ("\n", ""):
+        native = read(tmp_path, "\n".join(lines) + end)
+        assert (native.streams[0].count, native.told) == (2, ())
+        np.testing.assert_array_equal(columns(native)["b"], [2, np.nan])
+    with pytest.raises(InputError, match="row 4: time_s is ''; every row needs its time"):
+        columns(read(tmp_path, "\n".join([*lines[:4], lines[1]])))
+
+
 def test_what_other_adapters_read_is_not_taken_for_a_table(tmp_path: Path) -> None:
     others = {
         "a.txt": "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n" * 3,

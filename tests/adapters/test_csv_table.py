@@ -125,6 +125,38 @@ def test_times_are_ticks_of_their_last_decimal(
     assert exact == [Fraction(n, 10**decimals * 1000) for n in numbers]
 
 
+@few
+@given(
+    starts=st.lists(st.integers(-(2**63) + 1, 2**63 - 1), min_size=1, max_size=8),
+    decimals=st.sampled_from([0, 3, 9]),
+)
+def test_ns_since_1970_keep_their_last_digit(
+    tmp_path_factory: pytest.TempPathFactory, starts: list[int], decimals: int
+) -> None:
+    numbers = [1_764_000_000_123_456_789, 1_764_000_000_123_456_790, *starts]
+    clear = [n for n in numbers if abs(n) < 2**63 - 2**11]
+
+    def shown(number: int) -> str:
+        digits = f"{abs(number):0{decimals + 1}d}"
+        point = len(digits) - decimals
+        return "-" * (number < 0) + digits[:point] + "." * (decimals > 0) + digits[point:]
+
+    text = "timestamp,x\n" + "".join(f"{shown(n)},1.5\n" for n in clear)
+    native = read(tmp_path_factory.mktemp("csv"), text)
+    assert ticks(native).tolist() == clear
+    assert native.streams[0].clock.tick_s == Fraction(1, 10**decimals)
+
+
+def test_times_beyond_64_bits_are_floats(tmp_path: Path) -> None:
+    assert ticks(read(tmp_path, "t,x\n1,1\n9300000000000000000,2\n")).tolist() == [1.0, 9.3e18]
+
+
+def test_a_time_that_later_decimals_push_beyond_64_bits_is_refused(tmp_path: Path) -> None:
+    rows = "999999999999999999,1\n" + "1,1\n" * (1 << 19) + "1.5,1\n"
+    with pytest.raises(InputError, match="t is 999999999999999999; write fewer decimals"):
+        ticks(read(tmp_path, "t,x\n" + rows))
+
+
 def test_times_with_exponents_are_floats(tmp_path: Path) -> None:
     native = read(tmp_path, "t,x\n1e-3,1\n2.5e-3,2\n1e30,3\n")
     assert ticks(native).tolist() == [0.001, 0.0025, 1e30]
