@@ -12,9 +12,11 @@ from pathlib import Path
 from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Stream
 from floatref_adapters.naming import numbered
 from floatref_adapters.tdms_channels import TdmsChannel
-from floatref_adapters.tdms_clock import TICKS_S, UNKNOWN, tick_of, time_channel
+from floatref_adapters.tdms_clock import NS, UNKNOWN
 from floatref_adapters.tdms_opening import MAGIC, first_line, opened, quiet
 from floatref_adapters.tdms_rows import Reader, Source
+from floatref_adapters.tdms_waveforms import Waveforms
+from floatref_adapters.time_columns import time_column
 
 
 class Tdms:
@@ -34,14 +36,14 @@ class Tdms:
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the groups of ``source``; InputError if it cannot be read."""
         try:
-            tdms, file = opened(source)
+            tdms, changes, file = opened(source)
         except InputError as error:
             raise InputError(f"{source}: {error}") from error
         except OSError as error:
             raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
         try:
             with file, quiet():
-                return _native(Source(source, tdms))
+                return _native(Source(source, tdms, changes))
         except Exception as error:
             fault = str(error) if isinstance(error, InputError) else first_line(error)
             raise InputError(f"{source}: {fault}; the file is damaged") from error
@@ -53,7 +55,10 @@ def _native(source: Source) -> NativeFile:
     for number, group in enumerate(source.tdms.groups()):
         name = group.name.strip() or f"group {number}"
         inherited = (group.properties, source.tdms.properties)
-        channels = [TdmsChannel(channel, inherited) for channel in group.channels()]
+        channels = [
+            TdmsChannel(channel, inherited, source.changes.of(channel.path, len(channel)))
+            for channel in group.channels()
+        ]
         empty = sum(not len(channel.origin) for channel in channels)
         if empty:
             told.append(f"{name}: {empty} channels hold no values")
@@ -75,11 +80,16 @@ def _cut_off(source: Source) -> Iterator[str]:
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """Channels on one clock, and the channel that holds their ticks, None if none does."""
+    """Channels on one clock, and the channel that holds their ticks or their waveforms, if any.
+
+    ``others`` is what is to be told of channels that could have been the time as well.
+    """
 
     channels: list[TdmsChannel]
     clock: NativeClock
     time: TdmsChannel | None = None
+    waves: Waveforms | None = None
+    others: tuple[str, ...] = ()
 
 
 def _timed(source: Source, channels: Sequence[TdmsChannel]) -> Iterator[Timed]:
@@ -88,34 +98,41 @@ def _timed(source: Source, channels: Sequence[TdmsChannel]) -> Iterator[Timed]:
     others: dict[int, list[TdmsChannel]] = defaultdict(list)
     for channel in channels:
         length = source.length(channel)
-        if channel.waveform is None:
+        if channel.waveforms is None:
             others[length].append(channel)
         else:
-            waves[channel.waveform, length].append(channel)
+            waves[channel.waveforms, length].append(channel)
     for shared in waves.values():
-        waveform = shared[0].waveform
-        if waveform is not None:
-            yield Timed(shared, waveform.clock())
+        wave = shared[0].waveforms
+        if wave is not None:
+            yield Timed(shared, wave.clock(), waves=wave)
     for alike in others.values():
         yield _by_channel(alike)
 
 
 def _by_channel(channels: list[TdmsChannel]) -> Timed:
-    listed = [(c.origin.name, c.unit, c.stamps) for c in channels]
-    index = time_channel(listed)
-    if index is None or (channels[index].unreadable() and not channels[index].stamps):
+    """Return ``channels`` with the first of time stamps as the time, else one called like it."""
+    stamped = [channel for channel in channels if channel.stamps]
+    if stamped:
+        rest = [channel for channel in channels if channel is not stamped[0]]
+        return Timed(rest, NativeClock(tick_s=NS, epoch=Epoch.UTC), stamped[0])
+    usable = [channel for channel in channels if not channel.unreadable()]
+    columns = [Column(channel.origin.name, channel.unit) for channel in usable]
+    found = time_column(columns, None)
+    if found is None:
         return Timed(channels, UNKNOWN)
-    time = channels[index]
+    time = usable[found.index]
     rest = [channel for channel in channels if channel is not time]
-    if time.stamps:
-        return Timed(rest, NativeClock(tick_s=TICKS_S["ns"], epoch=Epoch.UTC), time)
-    return Timed(rest, NativeClock(tick_s=tick_of(*listed[index][:2]) or TICKS_S["s"]), time)
+    return Timed(rest, NativeClock(tick_s=found.unit_s), time, others=found.told(columns))
 
 
 def _stream(source: Source, name: str, timed: Timed, told: list[str]) -> Stream:
     channels = timed.channels
     if timed.clock is UNKNOWN:
         told.append(f"{name}: no time; its clock is called unknown, give its rate in the map")
+    if timed.waves and len(timed.waves.parts) > 1:
+        told.append(f"{name}: {len(timed.waves.parts)} waveforms one after the other")
+    told.extend(f"{name}: {line}" for line in timed.others)
     faults = [channel.unreadable() for channel in channels]
     bad = [fault for fault in faults if fault]
     told.extend(f"{name}: {bad.count(f)} channels are {f}" for f in dict.fromkeys(bad))
@@ -129,5 +146,5 @@ def _stream(source: Source, name: str, timed: Timed, told: list[str]) -> Stream:
         for channel, fault in zip(channels, faults, strict=True)
     ]
     usable = {c.origin.name: c for c, fault in zip(channels, faults, strict=True) if not fault}
-    reader = Reader(source, name, usable, timed.time, count)
+    reader = Reader(source, name, usable, timed.time, count, timed.waves)
     return Stream(name, tuple(columns), count, timed.clock, reader)

@@ -3,12 +3,14 @@
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref_adapters.tdms_clock import Waveform, waveform_of
+from floatref_adapters.tdms_changes import SCALING, History
+from floatref_adapters.tdms_waveforms import Waveforms, waveforms_of
 
 SCALES = (
     "Polynomial",
@@ -31,10 +33,14 @@ STAMPS, TEXT, RAW_BUFFERS = "TimeStamp", "String", "DaqMxRawData"
 
 @dataclass(frozen=True, eq=False)
 class TdmsChannel:
-    """A channel of npTDMS, ``origin``, with the properties of its group and its file."""
+    """A channel of npTDMS, ``origin``, with the properties of its group and its file.
+
+    ``changes`` are those of its own properties that change on the way.
+    """
 
     origin: Any
     inherited: tuple[Mapping[str, Any], ...]
+    changes: Mapping[str, History]
 
     @property
     def kind(self) -> str:
@@ -58,10 +64,10 @@ class TdmsChannel:
         unit = properties.get("unit_string") or properties.get("NI_UnitDescription") or ""
         return str(unit).strip()
 
-    @property
-    def waveform(self) -> Waveform | None:
+    @cached_property
+    def waveforms(self) -> Waveforms | None:
         """Its time properties, if it has them."""
-        return waveform_of(self.origin.properties)
+        return waveforms_of(self.origin.properties, self.changes)
 
     def unreadable(self) -> str:
         """Return why it gives no numbers; "" if it does."""
@@ -75,6 +81,8 @@ class TdmsChannel:
         return self._scaling_fault()
 
     def _scaling_fault(self) -> str:
+        if any(name.startswith(SCALING) for name in self.changes):
+            return "numbers whose scale or unit changes on the way"
         for properties in (self.origin.properties, *self.inherited):
             kinds = [str(properties[name]) for name in properties if _NAMES_SCALE.match(name)]
             unknown = [kind for kind in kinds if kind not in SCALES]

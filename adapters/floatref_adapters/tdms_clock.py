@@ -1,8 +1,7 @@
 """The clocks of a TDMS group: waveform properties, or a channel that holds the time."""
 
 import math
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -19,17 +18,7 @@ UNIX_S = 2_082_844_800
 """Seconds from the zero of TDMS, 1904-01-01 UTC, to 1970-01-01 UTC."""
 LAST_S = 9_000_000_000
 """Most seconds from 1970 whose ns are an int64."""
-TICKS_S = {
-    "s": Fraction(1),
-    "sec": Fraction(1),
-    "seconds": Fraction(1),
-    "ms": Fraction(1, 10**3),
-    "us": Fraction(1, 10**6),
-    "µs": Fraction(1, 10**6),
-    "ns": Fraction(1, 10**9),
-}
-"""Units of time."""
-TIME_NAME = re.compile(r"(?:time|timestamp|t)(?:_(s|ms|us|ns))?", re.IGNORECASE)
+NS = Fraction(1, 10**9)
 
 
 @dataclass(frozen=True)
@@ -87,23 +76,3 @@ def ns_of(stamps: NDArray[Any]) -> NDArray[np.int64]:
     parts = stamps["second_fractions"].astype(np.uint64) >> np.uint64(32)
     rounded = (parts * np.uint64(10**9) + np.uint64(1 << 31)) >> np.uint64(32)
     return seconds * 10**9 + rounded.astype(np.int64)
-
-
-def tick_of(name: str, unit: str) -> Fraction | None:
-    """Return how long a tick of the column ``name`` is in s; None if it does not hold the time.
-
-    The unit is that of the column, or the end of its name, as in `time_ms`.
-    """
-    named = TIME_NAME.fullmatch(name.strip())
-    return TICKS_S.get((unit.strip() or named[1] or "").lower()) if named else None
-
-
-def time_channel(candidates: Iterable[tuple[str, str, bool]]) -> int | None:
-    """Return which of the channels, given as name, unit and whether of time stamps, is the time.
-
-    The first of time stamps, else the first that is called so and has a unit of time.
-    """
-    listed = list(candidates)
-    stamped = [k for k, (_, _, stamps) in enumerate(listed) if stamps]
-    named = [k for k, (name, unit, _) in enumerate(listed) if tick_of(name, unit) is not None]
-    return next(iter([*stamped, *named]), None)

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from floatref import InputError
+from floatref_adapters.libraries import library
+from floatref_adapters.tdms_changes import Changes, watched
 
 MAGIC = b"TDSm"
 LEAD_IN = 28
@@ -28,23 +30,20 @@ class Guarded(io.BufferedReader):
         return super().read(size)
 
 
-def opened(source: Path) -> tuple[Any, BinaryIO]:
-    """Return npTDMS's TdmsFile of ``source`` and the file that it reads.
+def opened(source: Path) -> tuple[Any, Changes, BinaryIO]:
+    """Return npTDMS's TdmsFile of ``source``, how properties change in it, and the file itself.
 
     An index file beside it is left alone: it may belong to another version of the file, and
     then values would be read from where they are not. InputError in one line if the file is
     damaged.
     """
-    try:
-        from nptdms import TdmsFile
-    except ImportError:
-        raise InputError("reading TDMS needs npTDMS; install floatref[adapters]") from None
+    library("nptdms", "reading TDMS")
     file = Guarded(io.FileIO(source))
     try:
         _check(file, os.fstat(file.fileno()).st_size)
         file.seek(0)
         with quiet():
-            return TdmsFile.open(file, raw_timestamps=True), file
+            return *watched(file), file
     except InputError:
         file.close()
         raise

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Rows
+from floatref_adapters.tdms_changes import Changes
 from floatref_adapters.tdms_channels import TdmsChannel
 from floatref_adapters.tdms_clock import ns_of
 from floatref_adapters.tdms_extents import extents_of
 from floatref_adapters.tdms_opening import first_line, opened, quiet
 from floatref_adapters.tdms_values import Values, Window
+from floatref_adapters.tdms_waveforms import Waveforms
 
 PIECE_BYTES = 1 << 24
 MOST_ROWS = 1 << 16
@@ -23,10 +25,11 @@ Numbers = NDArray[Any]
 
 @dataclass(eq=False)
 class Source:
-    """A file by its path, and npTDMS's TdmsFile of what it says of its channels."""
+    """A file by its path, npTDMS's TdmsFile of what it says of its channels, and its changes."""
 
     path: Path
     tdms: Any
+    changes: Changes
 
     @cached_property
     def lost(self) -> dict[str, int]:
@@ -48,13 +51,17 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Reader:
-    """Reads rows of a stream: ``channels`` by column, and ``time``, which holds the ticks."""
+    """Reads rows of a stream: ``channels`` by column.
+
+    The ticks are in the channel ``time``, or those of ``waves``; one with a rate has neither.
+    """
 
     source: Source
     name: str
     channels: Mapping[str, TdmsChannel]
     time: TdmsChannel | None
     count: int
+    waves: Waveforms | None = None
 
     def __call__(self, names: Sequence[str]) -> Iterator[Rows]:
         """Yield the rows of the columns ``names``; InputError if the file is not as it says."""
@@ -63,14 +70,25 @@ class Reader:
                 raise self._fault(f"{name}: not a column of numbers; see floatref channels")
         every = [self.channels[name] for name in names] + ([self.time] if self.time else [])
         through = self._buffered if any(c.daqmx for c in every) else self._direct
-        pieces = through(every) if every else iter(())
+        pieces = through(every) if every else self._nothing()
+        first = 0
         while True:
             with quiet():
                 values = self._next(pieces)
             if values is None:
                 return
-            ticks = values.pop() if self.time else None
+            last = first + len(values[0]) if values else min(first + MOST_ROWS, self.count)
+            ticks = values.pop() if self.time else self._ticks(first, last)
             yield Rows(dict(zip(names, values, strict=True)), ticks)
+            first = last
+
+    def _nothing(self) -> Iterator[list[Numbers]]:
+        """Yield no values of no channels, where the ticks are all that is asked for."""
+        if self.waves and len(self.waves.parts) > 1:
+            yield from ([] for _ in range(0, self.count, MOST_ROWS))
+
+    def _ticks(self, first: int, last: int) -> Numbers | None:
+        return self.waves.ticks(first, last) if self.waves else None
 
     def _next(self, pieces: Iterator[list[Numbers]]) -> list[Numbers] | None:
         try:
@@ -115,7 +133,7 @@ class Reader:
 
         It reads the chunks of the file one after the other, for all channels at once.
         """
-        tdms, file = opened(self.source.path)
+        tdms, _, file = opened(self.source.path)
         held = [np.empty(0)] * len(channels)
         left = self.count
         with file:

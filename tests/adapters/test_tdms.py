@@ -261,6 +261,75 @@ def test_the_zero_of_labview_is_no_start_and_a_spectrum_has_no_time(tmp_path: Pa
     assert read(path)[0].streams[0].clock.name == "unknown"
 
 
+def waves(parts: Sequence[tuple[int, Properties]]) -> bytes:
+    """Return a segment of one channel for each of ``parts``: so many values, its properties."""
+    return b"".join(
+        segment(META | NEW | RAW, doubles(1, count, wave), bytes(8 * count))
+        for count, wave in parts
+    )
+
+
+def starting(ns: int, step_s: float) -> Properties:
+    """Return a waveform that begins so many ns after 1.7e9 s since 1970."""
+    seconds, rest = divmod(ns, 10**9)
+    start = (UNIX_S + 1_700_000_000 + seconds, (rest << 64) // 10**9)
+    return {"wf_increment": step_s, "wf_start_time": start}
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    parts=st.lists(
+        st.tuples(st.integers(1, 5), st.integers(1, 10**6), st.integers(0, 10**10)),
+        min_size=2,
+        max_size=5,
+    )
+)
+def test_every_row_has_the_time_of_its_own_waveform(
+    tmp_path_factory: pytest.TempPathFactory, parts: list[tuple[int, int, int]]
+) -> None:
+    """Each is some values, a step of so many us, and a pause of so many ns before it."""
+    now, expected, written = 0, [], []
+    for count, step_us, pause_ns in parts:
+        now += pause_ns
+        written.append((count, starting(now, step_us / 1e6)))
+        expected += [now + k * step_us * 1000 for k in range(count)]
+        now += count * step_us * 1000
+    path = tmp_path_factory.mktemp("tdms") / "a.tdms"
+    path.write_bytes(waves(written))
+    native, [(values, ticks)] = read(path)
+    clock = native.streams[0].clock
+    if ticks is None:
+        assert clock.rate is not None
+        ticks = np.array([round(k / clock.rate * 10**9) for k in range(len(values["c0"]))])
+    within = max(step for _, step, _ in parts) * 500 + 1
+    assert np.abs(ticks + clock.origin_ns - 1_700_000_000 * 10**9 - expected).max() <= within
+    alone = [rows.ticks for rows in native.streams[0].read([])]
+    assert sum(len(part) for part in alone) == (len(expected) if clock.rate is None else 0)
+
+
+def test_a_start_that_is_stated_again_as_recording_goes_on_is_no_new_waveform(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "a.tdms"
+    path.write_bytes(waves([(4, starting(k * 4_000_000, 0.001)) for k in range(5)]))
+    native, [(values, ticks)] = read(path)
+    clock = native.streams[0].clock
+    assert (clock.rate, clock.origin_ns, ticks) == (1000, 1_700_000_000 * 10**9, None)
+    assert (len(values["c0"]), native.told) == (20, ())
+
+
+def test_a_pause_between_waveforms_is_kept_and_told(tmp_path: Path) -> None:
+    path = tmp_path / "a.tdms"
+    path.write_bytes(waves([(2, starting(0, 0.001)), (2, starting(10**9, 0.001))]))
+    native, [(_, ticks)] = read(path)
+    assert ticks.tolist() == [0, 1_000_000, 1_000_000_000, 1_001_000_000]
+    assert native.told == ("g: 2 waveforms one after the other",)
+    path.write_bytes(waves([(2, {"wf_increment": 0.5}), (2, {"wf_increment": 0.25})]))
+    assert read(path)[1][0][1].tolist() == [0, 500_000_000, 1_000_000_000, 1_250_000_000]
+    path.write_bytes(waves([(2, {"wf_increment": 0.5}), (2, {"wf_increment": 0.0})]))
+    assert read(path)[0].streams[0].clock.name == "unknown"
+
+
 def test_time_stamps_are_whole_ns(tmp_path: Path) -> None:
     ns = np.array([1_700_000_000_123_456_789, 1_700_000_001_999_999_999])
     seconds, rest = ns // 10**9 + UNIX_S, ns % 10**9
@@ -287,7 +356,10 @@ def test_time_stamps_are_whole_ns(tmp_path: Path) -> None:
         ("time", "s", Fraction(1)),
         ("Timestamp", "ms", Fraction(1, 1000)),
         ("time_us", "", Fraction(1, 10**6)),
-        ("t", "", None),
+        ("t", "", Fraction(1)),
+        ("Zeit", "s", Fraction(1)),
+        ("Time [ms]", "", Fraction(1, 1000)),
+        ("Temp", "s", None),
         ("time", "m", None),
     ],
 )
@@ -349,6 +421,25 @@ def test_scales_are_applied_and_those_that_are_not_known_are_told(tmp_path: Path
         native, [(values, _)] = read(path)
         assert native.told == (f"g: 1 channels are {why}",)
         assert values == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "values"), [("NI_Scale[0]_Linear_Slope", (2.0, 4.0)), ("unit_string", ("V", "mV"))]
+)
+def test_a_scale_or_unit_that_changes_on_the_way_is_not_applied_to_what_came_before(
+    tmp_path: Path, name: str, values: tuple[float | str, float | str]
+) -> None:
+    path = tmp_path / "a.tdms"
+    before, after = ({"wf_increment": 1.0, **scaled("Linear"), name: value} for value in values)
+    path.write_bytes(waves([(2, before), (2, after)]))
+    native, _ = read(path)
+    assert not native.streams[0].columns[0].numeric
+    assert "whose scale or unit changes" in native.told[0]
+    for same in (waves([(2, before), (2, before)]), waves([(4, before)]) + waves([(0, after)])):
+        path.write_bytes(same)
+        native, _ = read(path)
+        assert native.streams[0].columns[0].numeric
+        assert native.told == ()
 
 
 def test_buffers_of_a_device_are_read(tmp_path: Path) -> None:
@@ -440,7 +531,7 @@ def test_without_nptdms_one_line_says_what_to_install(
     path = tmp_path / "a.tdms"
     path.write_bytes(segment(META | NEW | RAW, doubles(1, 2), bytes(16)))
     monkeypatch.setitem(sys.modules, "nptdms", None)
-    assert "needs npTDMS; install floatref[adapters]" in refused(path)
+    assert "needs nptdms; install floatref[adapters]" in refused(path)
 
 
 def test_floatref_finds_the_adapter_through_its_entry_point() -> None:
