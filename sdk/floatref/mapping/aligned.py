@@ -18,7 +18,7 @@ class Aligned:
     """A stream whose first row was taken ``start_s`` after the zero of its own clock.
 
     ``alignment`` leads to base time, None if the clock is the base clock. ``report`` is what
-    there is to say of the alignment, None for the base.
+    there is to say of the alignment, None for the base; ``told`` has lines for its user.
     """
 
     def __init__(
@@ -28,13 +28,15 @@ class Aligned:
         alignment: Alignment | None,
         spool: Spool,
         report: Mapping[str, Any] | None = None,
+        told: tuple[str, ...] = (),
     ) -> None:
         """Keep new stamps in ``spool``."""
         self._taken, self._start, self._alignment = taken, start_s, alignment
         self._spool = spool
         self._clocks: dict[float, Clock] = {}
         self.report = report
-        self.told = () if alignment is None else self._told(alignment)
+        beyond = None if alignment is None else self._beyond(alignment)
+        self.told = told if beyond is None else (*told, beyond)
 
     @property
     def rate(self) -> Fraction | None:
@@ -74,11 +76,11 @@ class Aligned:
         end = None if count is None else first + count
         return float(self._start) + taken.times_s[first:end]
 
-    def _told(self, alignment: Alignment) -> tuple[str, ...]:
+    def _beyond(self, alignment: Alignment) -> str | None:
         last = self._taken.columns[0].size - 1
         begin, end = (float(self.own_times(at, 1)[0]) for at in (0, last))
         beyond = alignment.beyond(begin, end)
-        return alignment.told if beyond is None else (*alignment.told, beyond)
+        return None if beyond is None else f"stream {self._taken.stream.name!r}: {beyond}"
 
     def _clock(self, delay_s: float) -> Clock:
         alignment, rate = self._alignment, self._taken.rate

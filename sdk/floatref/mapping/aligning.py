@@ -7,12 +7,14 @@ from math import hypot, sqrt
 from typing import Any
 
 from floatref.errors import InputError
+from floatref.files.sources import naming
 from floatref.mapping.aligned import Aligned
-from floatref.mapping.entries import SOURCE, ChannelEntry, ClockEntry
+from floatref.mapping.clock_keys import ClockKey, Key, absolute, beginning_told, clock_key, said
+from floatref.mapping.entries import ChannelEntry, ClockEntry
 from floatref.mapping.epochs import between_epochs
 from floatref.mapping.naming import find
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import UNKNOWN, Taken
+from floatref.mapping.taking import Taken
 from floatref.mapping.timed import Timed
 from floatref.measures.clock_alignment import (
     Alignment,
@@ -23,14 +25,10 @@ from floatref.measures.clock_alignment import (
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch, NativeFile, Stream
 
-Key = tuple[str, str]
-"""Label of a file, and name of a stream in it."""
 Token = ChannelEntry | str
 """What a column was taken for: an entry of the map, or an alignment, by its own name."""
 Places = Mapping[tuple[Key, Token], int]
 """Where in what was taken of a stream the samples for a token are."""
-ClockKey = tuple[str, str, Epoch]
-"""Label of a file, name of a clock in it, and its epoch."""
 DAY_S, WEEK_S = 86_400, 604_800
 OWN, BASE = ("pulses",), ("base_pulses", "base_time", "base_pps")
 
@@ -81,7 +79,7 @@ class _Aligning:
         self._base, self._spool = base, spool
         self._zeros: dict[ClockKey, Fraction] = {}
         for key, stream in taken.items():
-            clock = _clock_key(key, stream)
+            clock = clock_key(key, stream)
             zero = Fraction(0) if clock[2] is Epoch.LOCAL else Fraction(stream.start_s // 1)
             self._zeros[clock] = min(self._zeros.get(clock, zero), zero)
 
@@ -89,51 +87,61 @@ class _Aligning:
         found: dict[Key, Aligned] = {}
         known: dict[tuple[ClockKey, ClockEntry | None], Alignment | None] = {}
         for key, stream in self._taken.items():
-            entry, clock = self._entry(key), _clock_key(key, stream)
-            new = (clock, entry) not in known
-            if new:
-                known[clock, entry] = self._alignment(key, entry)
-            alignment = known[clock, entry]
-            report = _report(key, entry, alignment) if new and alignment is not None else None
-            found[key] = Aligned(stream, self._start(key), alignment, self._spool, report)
+            entry, clock = self._entry(key), clock_key(key, stream)
+            report, told = (
+                None,
+                beginning_told(key, stream.stream) if self._unsaid(key, entry) else (),
+            )
+            if (clock, entry) not in known:
+                with naming(f"clock of {said(key)}"):
+                    known[clock, entry] = alignment = self._alignment(key, entry)
+                if alignment is not None:
+                    report = _report(key, entry, alignment)
+                    told = tuple(f"clock of {said(key)}: {line}" for line in alignment.told)
+            found[key] = Aligned(
+                stream, self._start(key), known[clock, entry], self._spool, report, told
+            )
         return found
+
+    def _unsaid(self, key: Key, entry: ClockEntry | None) -> bool:
+        """Tell whether ``key`` is beside the base, on its clock, without a word in the map."""
+        same = clock_key(key, self._taken[key]) == clock_key(self._base, self._taken[self._base])
+        return entry is None and same and key != self._base
 
     def _entry(self, key: Key) -> ClockEntry | None:
         named = {(e.file, e.stream): e for e in self._entries if e.align is not None}
         return named.get(key) or named.get((key[0], None))
 
     def _start(self, key: Key) -> Fraction:
-        return self._taken[key].start_s - self._zeros[_clock_key(key, self._taken[key])]
+        return self._taken[key].start_s - self._zeros[clock_key(key, self._taken[key])]
 
     def _alignment(self, key: Key, entry: ClockEntry | None) -> Alignment | None:
-        clock, base = (_clock_key(k, self._taken[k]) for k in (key, self._base))
+        clock, base = (clock_key(k, self._taken[k]) for k in (key, self._base))
         if entry is None:
             return None if clock == base else self._by_epochs(clock, base)
-        if clock == base:
+        if key == self._base or (clock == base and entry.stream is None):
             raise InputError(
-                f"clock of {_said(key)}: is the clock of the accelerometer, the time base; "
-                "align the others with it"
+                "is the clock of the accelerometer, the time base; align the others with it, "
+                "each stream by its name"
             )
-        try:
-            return self._by_entry(key, entry, clock, base)
-        except InputError as error:
-            raise InputError(f"clock of {_said(key)}: {error}") from error
+        return self._by_entry(key, entry, clock, base)
 
     def _by_entry(self, key: Key, entry: ClockEntry, clock: ClockKey, base: ClockKey) -> Alignment:
         if entry.align == "offset":
             return Alignment.stated(entry.offset_s, 1e-6 * entry.drift_ppm)
         if entry.align == "pulses":
-            own, common = self._signal(key, entry.pulses), self._signal(None, entry.base_pulses)
+            own = self._signal(key[0], entry.pulses, key)
+            common = self._signal(self._base[0], entry.base_pulses)
             found = align_by_pulses(own.pulses(), common.pulses(), entry.offset_s)
             return _no_surer(found, hypot(own.step_s, common.step_s))
         if entry.base_time is not None:
-            times, readings = self._signal(None, entry.base_time).readings()
+            times, readings = self._signal(self._base[0], entry.base_time).readings()
             return align_by_time_readings(times, self._unrolled(readings, clock))
         if entry.base_pps is not None:
             near = entry.offset_s
-            if _absolute(clock) and _absolute(base):
+            if absolute(clock) and absolute(base):
                 near += self._by_epochs(clock, base).offset_s
-            seconds = self._signal(None, entry.base_pps)
+            seconds = self._signal(self._base[0], entry.base_pps)
             found = align_by_pps(seconds.pulses(), -near).inverse()
             return _no_surer(found, seconds.step_s)
         return self._by_epochs(clock, base)
@@ -142,30 +150,31 @@ class _Aligning:
         """Align two clocks that both know the time of day."""
         if Epoch.LOCAL in (clock[2], base[2]):
             raise InputError(
-                f"clock of {_said((clock[0], clock[1]))}: nothing aligns its {clock[2].value} "
-                f"time with the {base[2].value} time of the accelerometer; state how under "
-                '[[clocks]] in the map, such as align = "offset"'
+                f"nothing aligns its {clock[2].value} time with the {base[2].value} time of the "
+                'accelerometer; state how under [[clocks]] in the map, such as align = "offset"'
             )
         offset, told = between_epochs((self._zeros[clock], clock[2]), (self._zeros[base], base[2]))
         return replace(Alignment.stated(float(offset)), told=told)
 
-    def _signal(self, key: Key | None, name: str | None) -> Timed:
-        """Return the channel called ``name``, of the base clock if ``key`` is None."""
-        label = self._base[0] if key is None else key[0]
+    def _signal(self, label: str, name: str | None, of: Key | None = None) -> Timed:
+        """Return the channel ``name`` of a file, on the clock of stream ``of`` or the base."""
         place, at = next(
             (place, at)
             for (place, token), at in self._places.items()
             if place[0] == label and isinstance(token, str) and name in _names(place, token)
         )
-        if key is None:
-            self._check_base(place, str(name))
+        self._check_clock(place, str(name), of)
         taken = self._taken[place]
         return Timed(taken.columns[at], Aligned(taken, self._start(place), None, self._spool))
 
-    def _check_base(self, place: Key, name: str) -> None:
-        ours = _clock_key(self._base, self._taken[self._base])
-        if _clock_key(place, self._taken[place]) != ours:
+    def _check_clock(self, place: Key, name: str, of: Key | None) -> None:
+        """Refuse pulses and readings that are not on the clock which they are to align."""
+        owner = self._base if of is None else of
+        fits = clock_key(place, self._taken[place]) == clock_key(owner, self._taken[owner])
+        if of is None and (not fits or self._entry(place) is not None):
             raise InputError(f"{name} is not on the clock of the accelerometer; map one that is")
+        if of is not None and (not fits or place == self._base):
+            raise InputError(f"{name} is not on this clock; give the pulses that it timed")
 
     def _unrolled(self, readings: FloatArray, clock: ClockKey) -> FloatArray:
         """Return time readings as s after the zero of ``clock``: of the day, the week, or whole."""
@@ -191,23 +200,8 @@ def _no_surer(alignment: Alignment, step_s: float) -> Alignment:
     return replace(alignment, drift_sigma=hypot(alignment.drift_sigma, floor))
 
 
-def _clock_key(key: Key, taken: Taken) -> ClockKey:
-    clock = taken.stream.clock
-    name = f"{UNKNOWN} {key[1]}" if clock.name == UNKNOWN else clock.name
-    return key[0], name, clock.epoch
-
-
 def _names(place: Key, column: str) -> tuple[str, str]:
     return column, f"{place[1]}/{column}"
-
-
-def _absolute(clock: ClockKey) -> bool:
-    return clock[2] is not Epoch.LOCAL
-
-
-def _said(key: Key) -> str:
-    file = "the source" if key[0] == SOURCE else key[0]
-    return f"{file}, {key[1]}" if key[1] else file
 
 
 def _report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> dict[str, Any]:

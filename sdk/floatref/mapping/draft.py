@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from floatref.errors import InputError, one_line
+from floatref.mapping.clock_keys import unstarted
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import FORMAT
 from floatref.mapping.entries import ChannelEntry
@@ -64,11 +65,17 @@ def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
             yield f"\n{mark}[[clocks]]"
             yield f"{mark}stream = {_text(stream.name)}"
             yield f"{mark}rate_hz = 0  # the file has no time: state the rate in Hz"
-    names = {(s.clock.name, s.clock.epoch) for s in native.streams if s.clock.name != UNKNOWN}
+    timed = [s for s in native.streams if s.clock.name != UNKNOWN]
+    names = {(s.clock.name, s.clock.epoch) for s in timed}
     if len(names) > 1 or any(epoch is Epoch.GPS for _, epoch in names):
         yield "\n# Clocks other than the accelerometer's need a word on how they are aligned:"
-        yield '# [[clocks]]\n# stream = "…"\n# align = "offset"  # or "pulses" or "gnss"'
-        yield "# offset_s = 0.0"
+    elif sum(map(unstarted, timed)) > 1:
+        yield "\n# Streams are counted from zero, each by its rate. One that began at another time, or"
+        yield "# has a clock other than the accelerometer's, needs a word on how it is aligned:"
+    else:
+        return
+    yield '# [[clocks]]\n# stream = "…"\n# align = "offset"  # or "pulses" or "gnss"'
+    yield "# offset_s = 0.0"
 
 
 def _entries(native: NativeFile, used: set[str]) -> Iterator[str]:

@@ -23,7 +23,9 @@ def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]
     before GPS time began, where both are needed.
     """
     if own[1] is base[1]:
-        return own[0] - base[0], ("aligned by the absolute times of both clocks",)
+        return own[0] - base[0], (
+            "aligned by the absolute times of both clocks, as right as both were set",
+        )
     if Epoch.DAY in (own[1], base[1]):
         apart = _unix(own) % DAY_S - _unix(base) % DAY_S
         apart -= DAY_S * round(apart / DAY_S)

@@ -10,7 +10,8 @@ from floatref.architectures.readers import guarding
 from floatref.errors import one_line
 from floatref.files.sources import naming
 from floatref.mapping.aligned import Aligned
-from floatref.mapping.aligning import Key, Places, Token, aligned_clocks, auxiliaries
+from floatref.mapping.aligning import Places, Token, aligned_clocks, auxiliaries
+from floatref.mapping.clock_keys import Key
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import read_map
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap

@@ -105,6 +105,87 @@ def test_a_stated_offset_and_drift_count_from_the_own_zero(
     np.testing.assert_allclose(times_of(reading, "height"), expected, rtol=0, atol=1e-9)
 
 
+def laser_of(make_stream: Any, start: float, drift: float, **more: Any) -> Any:
+    """Return a laser that began ``start`` s later than the accelerometer, at a rate of its own."""
+    own = np.arange(400 * 50) / 400
+    sync = pulsed(start + (1 + drift) * own, 1.5 + 4 * np.arange(20))
+    columns = {"range": 0.3 + 0 * own, "sync": sync}
+    return make_stream("laser", columns, rate=Fraction(400), **more)
+
+
+SYNC = '[[clocks]]\nstream = "laser"\nalign = "pulses"\noffset_s = 0.5\n'
+SYNC += 'pulses = "laser/sync"\nbase_pulses = "adc/pulse"\n'
+
+
+def test_a_stream_that_the_file_puts_on_the_base_clock_can_have_its_own(
+    make_stream: Any, read: Callable[..., Reading]
+) -> None:
+    """Groups of one file with rates and no start: devices that began when they did."""
+    source = adc(make_stream, columns={"pulse": lambda t: pulsed(t, 1.5 + 4 * np.arange(20))})
+    reading = read(SYNC + FORCE + HEIGHT, source, laser_of(make_stream, 0.37, 40e-6))
+    expected = 0.37 + (1 + 40e-6) * np.arange(400 * 50) / 400
+    np.testing.assert_allclose(times_of(reading, "height"), expected, rtol=0, atol=2.5e-3)
+    assert times_of(reading, "vertical_specific_force")[0] == 0
+    (line,) = reading.told
+    assert line.startswith("clock of the source, laser: the pulses repeat every 4 s")
+
+
+def test_an_offset_to_a_stream_of_the_base_clock_counts_from_what_the_file_says(
+    make_stream: Any, read: Callable[..., Reading]
+) -> None:
+    day = {"epoch": Epoch.UTC, "origin_ns": 20_000 * 86_400 * 10**9}
+    laser = laser_of(make_stream, 0, 0, tick_s=Fraction(1, 100), first_tick=325, **day)
+    clock = '[[clocks]]\nstream = "laser"\nalign = "offset"\noffset_s = 0.5\n'
+    reading = read(clock + FORCE + HEIGHT, adc(make_stream, **day), laser)
+    assert times_of(reading, "height")[0] == pytest.approx(3.75, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("clock", "rated", "lines"),
+    [
+        ("", {}, 1),
+        ('[[clocks]]\nstream = "laser"\nalign = "offset"\n', {}, 0),
+        ("", {"first_tick": 1}, 0),
+    ],
+)
+def test_that_streams_begin_together_is_told_unless_file_or_map_says_so(
+    make_stream: Any, read: Callable[..., Reading], clock: str, rated: dict[str, int], lines: int
+) -> None:
+    laser = laser_of(make_stream, 0, 0, **rated)
+    told = read(clock + FORCE + HEIGHT, adc(make_stream), laser).told
+    assert len(told) == lines
+    assert all("counted from zero by its rate" in line for line in told)
+
+
+@pytest.mark.parametrize(
+    ("clock", "said"),
+    [
+        (SYNC.replace("laser/sync", "adc/pulse"), "adc/pulse is not on this clock"),
+        (SYNC.replace("laser/sync", "other/tick"), "other/tick is not on this clock"),
+        (SYNC.replace("adc/pulse", "laser/sync"), "laser/sync is not on the clock of the accel"),
+        (SYNC.replace("adc/pulse", "other/tick"), "other/tick is not on the clock of the accel"),
+        (SYNC.replace('stream = "laser"', 'stream = "adc"'), "is the clock of the accelerometer"),
+        (SYNC.replace('stream = "laser"\n', ""), "is the clock of the accelerometer"),
+    ],
+)
+def test_pulses_are_those_of_the_clock_that_they_are_given_for(
+    make_stream: Any, read: Callable[..., Reading], clock: str, said: str
+) -> None:
+    source = adc(make_stream, columns={"pulse": lambda t: pulsed(t, 1.5 + 4 * np.arange(20))})
+    other = make_stream("other", {"tick": [0.0, 5.0] * 50}, rate=Fraction(10), name="other")
+    with pytest.raises(InputError) as caught:
+        read(clock + FORCE + HEIGHT, source, laser_of(make_stream, 0.37, 0), other)
+    assert said in str(caught.value)
+
+
+def test_what_aligned_a_clock_names_it(make_stream: Any, read: Callable[..., Reading]) -> None:
+    utc = {"epoch": Epoch.UTC, "origin_ns": 20_000 * 86_400 * 10**9}
+    rows = make_stream("GGA", {"hgt": [5.0] * 20}, rate=Fraction(20), name="NMEA", **utc)
+    reading = read(GNSS + FORCE + HGT, adc(make_stream, **utc), gps=rows)
+    (line,) = reading.told
+    assert line.startswith("clock of gps, GGA: aligned by the absolute times of both clocks")
+
+
 def gps(make_stream: Any, first: int, step: int = 50, epoch: Epoch = Epoch.GPS) -> Any:
     ticks = first + step * np.arange(200)
     ticks[100:] += 1  # no uniform clock
@@ -173,7 +254,10 @@ def test_pulses_per_second_make_a_rough_offset_sharp(
 @pytest.mark.parametrize(
     ("chart", "said"),
     [
-        (GNSS + FORCE + HGT, "clock of gps: nothing aligns its gps time with the local time"),
+        (
+            GNSS + FORCE + HGT,
+            "clock of gps, BESTPOS: nothing aligns its gps time with the local",
+        ),
         (
             '[[clocks]]\nalign = "offset"\n' + FORCE,
             "clock of the source, adc: is the clock of the accelerometer",

@@ -138,3 +138,20 @@ def test_rows_are_not_read_for_a_draft() -> None:
 
     stream = Stream("s", (Column("Laser", "mm"),), 3, NativeClock(), read)
     assert 'channel = "height"' in draft_map(NativeFile((stream,)), Path("x"), "logger")
+
+
+@pytest.mark.parametrize(
+    ("streams", "clock", "hinted"),
+    [
+        (1, NativeClock(Fraction(100)), False),
+        (2, NativeClock(Fraction(100)), True),
+        (2, NativeClock(Fraction(100), first_tick=3), False),
+        (2, NativeClock(), False),
+    ],
+)
+def test_streams_that_nothing_says_to_begin_together_get_a_word_on_clocks(
+    streams: int, clock: NativeClock, hinted: bool
+) -> None:
+    held = [stream_of(f"s{k}", Column("x"), clock=clock) for k in range(streams)]
+    text = draft_map(NativeFile(tuple(held)), Path("x"), "tdms")
+    assert ("counted from zero" in text) is ("# [[clocks]]" in text) is hinted
