@@ -72,9 +72,7 @@ def iri_off(profile: Profile, reference: Profile) -> float:
 
 def nominal(recording: Recording) -> Recording:
     """Return the nominal channels alone."""
-    return replace(
-        recording, channels=tuple(c for c in recording.channels if c.id.name in QUANTA)
-    )
+    return replace(recording, channels=tuple(c for c in recording.channels if c.id.name in QUANTA))
 
 
 def main() -> None:
@@ -85,8 +83,7 @@ def main() -> None:
     recording = nominal(simulate(scenario_of_run(RUN)).recording)
     reference = process(recording, pipeline)
     moved = max(
-        farthest(process(dithered(recording, seed), pipeline), reference)
-        for seed in range(DITHERS)
+        farthest(process(dithered(recording, seed), pipeline), reference) for seed in range(DITHERS)
     )
     print(f"{RUN}, {pipeline}: propagated quantum {1e6 * moved:.3g} um")
     print("format    MB  float64: um  IRI %   quanta: MB  um  of the quantum  IRI %")
