@@ -70,7 +70,7 @@ def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
     if len(names) > 1 or any(epoch is Epoch.GPS for _, epoch in names):
         yield "\n# Clocks other than the accelerometer's need a word on how they are aligned:"
     elif sum(map(unstarted, timed)) > 1:
-        yield "\n# Streams are counted from zero, each by its rate. One that began at another time, or"
+        yield "\n# Streams are counted from zero, each by its rate. One that began later, or that"
         yield "# has a clock other than the accelerometer's, needs a word on how it is aligned:"
     else:
         return
