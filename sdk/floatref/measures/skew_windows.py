@@ -17,6 +17,8 @@ from floatref.values.arrays import FloatArray
 LARGEST = 10
 """Skews are looked for up to so many steps of the grid either way: 50 ms."""
 ROUNDS = 6
+LEAST_ALIKE = 0.8
+"""Correlation at the best whole step; half a step off costs 0.05 of it at 20 Hz."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,9 @@ class SkewWindow:
 
 
 def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -> SkewWindow | None:
-    """Return what ``count`` points from ``first`` on tell; None if samples are missing.
+    """Return what ``count`` points from ``first`` on tell.
+
+    None if samples are missing, and where the two are unlike each other at any skew.
 
     ``force`` in m/s² and ``height`` in m, on one grid of `RATE_HZ`.
     """
@@ -61,7 +65,9 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
         return None
     body = _Body(acceleration, count)
     y = body.bare(seen)
-    skew_s = body.roughly(y)
+    skew_s, alike = body.roughly(y)
+    if alike < LEAST_ALIKE:
+        return None
     for _ in range(ROUNDS):
         (gain, late), z, v = body.fitted(y, skew_s)
         if not gain > 0:
@@ -95,14 +101,15 @@ class _Body:
         """Return ``series`` without the parabola that integration leaves open, tapered."""
         return np.asarray(self.taper * (series - self.open @ (self.open.T @ series)))
 
-    def roughly(self, y: FloatArray) -> float:
-        """Return the skew in whole steps that explains most of ``y``, in s."""
-        shifts = range(-LARGEST, LARGEST + 1)
-        fits = []
-        for shift in shifts:
-            z = self.bare(self.place[LARGEST + 1 - shift :][: self.count])
-            fits.append(float(y @ z) / max(float(np.linalg.norm(z)), 1e-300))
-        return STEP_S * shifts[int(np.argmax(fits))]
+    def roughly(self, y: FloatArray) -> tuple[float, float]:
+        """Return the skew in whole steps that explains most of ``y``, in s, and the correlation."""
+        shifted = np.lib.stride_tricks.sliding_window_view(self.place[1:-1], self.count)
+        z = self.taper * (shifted - (shifted @ self.open) @ self.open.T)
+        sizes = np.maximum(np.linalg.norm(z, axis=1) * float(np.linalg.norm(y)), 1e-300)
+        alike = z @ y / sizes
+        best = int(np.argmax(alike))
+        # The first of them begins earliest: the place that comes latest.
+        return STEP_S * (LARGEST - best), float(alike[best])
 
     def fitted(
         self, y: FloatArray, skew_s: float
