@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from floatref.mapping.spool import Spool
+from floatref.mapping.stamps import uniform_clock
 from floatref.mapping.taking import Taken
 from floatref.measures.clock_alignment import Alignment
 from floatref.values.arrays import FloatArray
@@ -63,7 +64,9 @@ class Aligned:
             kept = ~np.isnan(part)
             found.append(part[kept])
             times.append(clock.times(part.size, first)[kept])
-        return found.finish(), StampedClock(times.finish())
+        stamps = times.finish()
+        even = uniform_clock(stamps, 0.0) if stamps.size else None
+        return found.finish(), StampedClock(stamps) if even is None else even
 
     def own_times(self, first: int = 0, count: int | None = None) -> FloatArray:
         """Return when rows from ``first`` on were taken, in s after the zero of the own clock."""

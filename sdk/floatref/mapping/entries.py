@@ -26,7 +26,8 @@ class ChannelEntry:
 
     A sample in SI units is sign · unit · (scale · native + offset), taken ``delay_s`` before its
     time stamp. ``wrap`` is where a counter starts again; ``missing`` are values that say that
-    nothing was measured; of a ``sparse`` column empty rows are no samples.
+    nothing was measured. Empty rows of a ``sparse`` column are no samples; None leaves that to
+    the channel.
     """
 
     native: str
@@ -40,7 +41,12 @@ class ChannelEntry:
     delay_s: float = 0.0
     wrap: float | None = None
     missing: tuple[float, ...] = ()
-    sparse: bool = False
+    sparse: bool | None = None
+
+    @property
+    def skips_empty_rows(self) -> bool:
+        """Whether empty rows are no samples: readings of GNSS come when they come."""
+        return self.channel.startswith("gnss_") if self.sparse is None else self.sparse
 
 
 @dataclass(frozen=True)

@@ -189,7 +189,7 @@ class _Mapping:
         values = taken[planned.key].columns[places[planned.key, entry]]
         with naming(self._opened.paths[entry.file]), naming(self._where(planned)):
             clock = clocks[planned.key].clock(entry.delay_s)
-            if entry.sparse:
+            if entry.skips_empty_rows:
                 values, clock = clocks[planned.key].sparse(values, clock)
             channel = Channel.of(entry.channel, values, clock, entry.track)
             check_limits(channel)

@@ -5,6 +5,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from floatref.mapping import read_native
 from floatref.values.clock import UniformClock
@@ -72,3 +73,30 @@ def test_a_map_says_unit_scale_offset_axis_delay_and_wrap(
     assert np.isnan(height[17])
     np.testing.assert_allclose(np.delete(height, 17), np.delete(run["height"], 17), rtol=1e-14)
     np.testing.assert_allclose(recording.channel("distance").values, 0.01 * counts, rtol=1e-14)
+
+
+@pytest.mark.parametrize("stated", ["", "sparse = true\n"])
+def test_rows_between_the_samples_of_a_slower_channel_are_none(
+    put: Put, make_stream, a_drive, tmp_path: Path, stated: str
+) -> None:
+    # A table with a row for every sample of the fastest channel has empty fields elsewhere.
+    run = a_drive()
+    slow = np.full(run["height"].size, np.nan)
+    slow[3::10] = np.arange(slow[3::10].size)
+    name = "pitch_rate" if stated else "gnss_height"
+    unit = "rad/s" if stated else "m"
+    source = put(make_stream("", {**run, "slow": 1e-3 * slow}, rate=Fraction(1000)))
+    entries = [(n, n, "") for n in run] + [("slow", name, stated)]
+    chart = tmp_path / "map.toml"
+    units = {"vertical_specific_force": "m/s^2", name: unit}
+    chart.write_text(
+        'format = "floatref-map/1"\n'
+        + "".join(
+            f'[[channels]]\nnative = "{native}"\nchannel = "{channel}"\n'
+            f'unit = "{units.get(channel, "m")}"\n{more}'
+            for native, channel, more in entries
+        )
+    )
+    channel = read_native(source, chart).recording.channel(name)
+    np.testing.assert_array_equal(channel.values, 1e-3 * np.arange(channel.values.size))
+    assert channel.clock == UniformClock(Fraction(100), 0.003)
