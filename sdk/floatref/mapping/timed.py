@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.mapping.aligned import Aligned
-from floatref.measures.pulses import pulse_times, pulse_times_at_rate
+from floatref.measures.pulses import pulse_times_at_rate, pulse_times_by
 from floatref.values.arrays import FloatArray
 from floatref.values.scanning import chunks
 
@@ -29,7 +29,7 @@ class Timed:
         rate, start = self.stream.rate, self.stream.start_s
         if rate is not None:
             return pulse_times_at_rate(self.values, float(rate), start)
-        return pulse_times(self.stream.own_times(), self.values)
+        return pulse_times_by(self.values, self.stream.own_times)
 
     def readings(self) -> tuple[FloatArray, FloatArray]:
         """Return where readings of GNSS time change: own times in s, and what is read there."""

@@ -9,6 +9,8 @@ from floatref.values.arrays import BoolArray, FloatArray
 
 LOCAL = 9
 """Pulses in a row that tell what the clocks do there; one that is far from it is no pulse."""
+SIDE = 4
+"""Pulses on one side that tell how it goes on, where drift or time itself leaps."""
 OUTLIER = 6.0
 """How many standard deviations are far."""
 LEAST_OFF_S = 2e-6
@@ -45,14 +47,16 @@ class ClockLine(NamedTuple):
 def clock_line(own_s: FloatArray, base_s: FloatArray) -> ClockLine:
     """Return the line of least squares through the pairs, shape (n,), n > 0, but for outliers.
 
-    A pair counts unless it is far from its neighbours. Both times increase.
+    A pair counts unless it is far from its neighbours, and from where those on either side lead.
+    Both times increase.
     """
     kept = np.ones(own_s.size, dtype=np.bool_)
     line = _least_squares(own_s, base_s, kept)
     for _ in range(ROUNDS):
         rest = _residual(line, own_s, base_s)
         off = np.abs(rest - _local(own_s, rest, kept))
-        before, kept = kept, off <= max(OUTLIER * _spread(off[kept]), LEAST_OFF_S)
+        far = max(OUTLIER * _spread(off[kept]), LEAST_OFF_S)
+        before, kept = kept, (off <= far) | (_from_a_side(own_s, rest, kept) <= far)
         line = _least_squares(own_s, base_s, kept)
         if (kept == before).all():
             break
@@ -68,7 +72,7 @@ def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray 
     # Of n pairs that jitter alone, the two differ by 1/sqrt(n) of it.
     if all_of_it - jitter <= max(CURVED_S**2, SURE * all_of_it / rest.size**0.5):
         return None
-    half = min(int(jitter / QUIET_S**2 / 2 + 0.5), rest.size // 6)
+    half = min(int(_jitter(own_s, rest) / QUIET_S**2 / 2 + 0.5), rest.size // 6)
     bent = _smoothed(own_s, rest, half)
     found = line.base_s + (own_s - line.own_s) * (1 + line.drift) + bent
     return found if (np.diff(found) > 0).all() else None
@@ -142,6 +146,32 @@ def _local(own_s: FloatArray, rest: FloatArray, kept: BoolArray) -> FloatArray:
     before_s, behind_s, before, behind = sides
     there = before + (at - before_s) / (behind_s - before_s) * (behind - before)
     return np.interp(own_s, at, there)
+
+
+def _from_a_side(own_s: FloatArray, rest: FloatArray, kept: BoolArray) -> FloatArray:
+    """Return how far ``rest`` is from the nearer line of those before it and of those behind it."""
+    at, some = own_s[kept], rest[kept]
+    found = np.full(rest.size, np.inf)
+    if some.size <= SIDE:
+        return found
+    x, y = (np.lib.stride_tricks.sliding_window_view(series, SIDE) for series in (at, some))
+    i, j = np.triu_indices(SIDE, 1)
+    slope = np.median((y[:, j] - y[:, i]) / (x[:, j] - x[:, i]), axis=1)
+    level = np.median(y - slope[:, None] * x, axis=1)
+    for first in (np.searchsorted(at, own_s) - SIDE, np.searchsorted(at, own_s, side="right")):
+        there = (first >= 0) & (first < slope.size)
+        k = first[there]
+        off = np.abs(rest[there] - level[k] - slope[k] * own_s[there])
+        found[there] = np.minimum(found[there], off)
+    return found
+
+
+def _jitter(own_s: FloatArray, rest: FloatArray) -> float:
+    """Return the variance of ``rest`` beside the line between neighbours; leaps do not count."""
+    share = (own_s[1:-1] - own_s[:-2]) / (own_s[2:] - own_s[:-2])
+    off = rest[1:-1] - rest[:-2] - share * (rest[2:] - rest[:-2])
+    # The median of a squared normal deviate is 0.455.
+    return float(np.median(off**2 / (1.0 + share**2 + (1.0 - share) ** 2))) / 0.455
 
 
 def _smoothed(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:

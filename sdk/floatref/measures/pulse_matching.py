@@ -24,6 +24,8 @@ FEW, LEAST_FIT = 10, 0.2
 """Of so many pulses or more, so large a share does not fit by chance."""
 LEAST_SHARE = 0.35
 """Of the pulses that both trains should have so many are found in both."""
+IN_A_ROW = 12
+"""So many pulses in a row that fit none, and the clocks have parted there."""
 UNSURE = 0.4
 """A shift that is farther from what was stated than this share of a period is none."""
 FOLLOWED = 7
@@ -55,7 +57,7 @@ def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> 
     pairs = _followed(own, base, anchor, at, jitter)
     _check_share(own, base, pairs)
     mine, others = np.array(pairs, np.int64).T
-    return Matching(mine, others, told)
+    return Matching(mine, others, (*told, *_parted(own, base, mine, others)))
 
 
 def _train(times_s: FloatArray, whose: str) -> FloatArray:
@@ -187,6 +189,24 @@ def _check_share(own: FloatArray, base: FloatArray, pairs: list[tuple[int, int]]
     if len(pairs) < LEAST_SHARE * there:
         found = f"only {len(pairs)} of {there} that both should have are the same"
         raise InputError(_nothing(own, base, found))
+
+
+def _parted(
+    own: FloatArray, base: FloatArray, mine: IndexArray, others: IndexArray
+) -> tuple[str, ...]:
+    """Return a line if many pulses in a row fit none where both trains have some."""
+    before, behind = base[others[0]] - own[mine[0]], base[others[-1]] - own[mine[-1]]
+    begin, end = max(own[0], base[0] - before), min(own[-1], base[-1] - behind)
+    at = np.concatenate([[begin], own[mine], [end]])
+    to = np.concatenate([[begin + before], base[others], [end + behind]])
+    lonely = np.minimum(*(np.diff(np.searchsorted(x, t)) for x, t in ((own, at), (base, to))))
+    k = int(lonely.argmax())
+    if lonely[k] <= IN_A_ROW:
+        return ()
+    return (
+        f"{lonely[k]} pulses in a row, from {at[k]:.6g} to {at[k + 1]:.6g} s of this clock, fit "
+        "none of the base clock: one of the clocks was set, or pulses are false",
+    )
 
 
 def _nothing(own: FloatArray, base: FloatArray, found: str) -> str:

@@ -23,6 +23,8 @@ EVEN = 0.4
 """From this share of the time on neither level is the rarer: the pulses rise."""
 RINGING = 0.02
 """An edge that follows a pulse within this share of the usual interval is its ringing."""
+USUAL = 0.1
+"""Shorter intervals than the usual one last this share of the time: ringing lasts less."""
 MOST_EDGES = 1_000_000
 """More are no common pulses."""
 
@@ -47,7 +49,7 @@ def pulse_times(times_s: FloatArray, values: FloatArray) -> FloatArray:
     times = np.asarray(times_s, dtype=np.float64)
     if times.shape != values.shape:
         raise InputError(f"{values.size} samples of pulses but {times.size} times; give one each")
-    return _edges(values, lambda first, count: times[first : first + count])
+    return pulse_times_by(values, lambda first, count: times[first : first + count])
 
 
 def pulse_times_at_rate(values: FloatArray, rate_hz: float, start_s: float = 0.0) -> FloatArray:
@@ -56,7 +58,30 @@ def pulse_times_at_rate(values: FloatArray, rate_hz: float, start_s: float = 0.0
     As `pulse_times` otherwise.
     """
     clock = UniformClock.of(rate_hz, start_s)
-    return _edges(values, lambda first, count: clock.times(count, first))
+    return pulse_times_by(values, lambda first, count: clock.times(count, first))
+
+
+def pulse_times_by(values: FloatArray, times: Callable[[int, int], FloatArray]) -> FloatArray:
+    """Return the times in s of the leading edges in ``values``, of shape (n,).
+
+    ``times(first, count)`` returns when ``count`` samples from ``first`` on were taken, in s; it
+    is asked at the edges alone. As `pulse_times` otherwise.
+    """
+    idle, pulse = pulse_levels(values)
+    found, rest = [], []
+    for first, before in _leading(values, idle, pulse):
+        at = times(first, 2)
+        stretch = (values[first : first + 2] - idle) / (pulse - idle)
+        share = (0.5 - stretch[0]) / (stretch[1] - stretch[0])
+        found.append(float(at[0] + share * (at[1] - at[0])))
+        rest.append(found[-1] - float(times(before, 1)[0]) if before >= 0 else np.inf)
+        if len(found) > MOST_EDGES:
+            raise InputError(f"more than {MOST_EDGES} edges; looked for {_SOUGHT}")
+    if not found:
+        raise InputError(
+            f"no edge from {idle:.6g} to {pulse:.6g} is there whole; looked for {_SOUGHT}"
+        )
+    return _without_ringing(np.array(found), np.array(rest))
 
 
 def pulse_levels(values: FloatArray) -> PulseLevels:
@@ -106,25 +131,6 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
     return float(lowest), float(highest), float(np.median(steps or [0.0])) / 0.954
 
 
-def _edges(values: FloatArray, times: Callable[[int, int], FloatArray]) -> FloatArray:
-    """Return the times of the leading edges; ``times`` returns those of samples."""
-    idle, pulse = pulse_levels(values)
-    found, rest = [], []
-    for first, before in _leading(values, idle, pulse):
-        at = times(first, 2)
-        stretch = (values[first : first + 2] - idle) / (pulse - idle)
-        share = (0.5 - stretch[0]) / (stretch[1] - stretch[0])
-        found.append(float(at[0] + share * (at[1] - at[0])))
-        rest.append(found[-1] - float(times(before, 1)[0]) if before >= 0 else np.inf)
-        if len(found) > MOST_EDGES:
-            raise InputError(f"more than {MOST_EDGES} edges; looked for {_SOUGHT}")
-    if not found:
-        raise InputError(
-            f"no edge from {idle:.6g} to {pulse:.6g} is there whole; looked for {_SOUGHT}"
-        )
-    return _without_ringing(np.array(found), np.array(rest))
-
-
 def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[tuple[int, int]]:
     """Yield the sample before every crossing of the middle on the way to a pulse.
 
@@ -160,6 +166,8 @@ def _without_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
     """Return the edges but for those before which the signal rested for too short a time."""
     if times_s.size < 3:
         return times_s
-    # Ringing may have more edges than pulses.
-    usual = float(np.quantile(np.diff(times_s), 0.9))
+    # Ringing may have many more edges than pulses.
+    intervals = np.sort(np.diff(times_s))
+    lasted = np.cumsum(intervals)
+    usual = intervals[np.searchsorted(lasted, USUAL * lasted[-1])]
     return np.asarray(times_s[rest_s > RINGING * usual])

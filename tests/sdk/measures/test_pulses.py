@@ -69,6 +69,20 @@ def test_ringing_makes_no_further_edge(seed: int) -> None:
     assert np.abs(found - edges).max() < 3e-4
 
 
+@FEW
+@given(seed=seeds, edges=st.integers(1, 40))
+def test_a_bouncing_switch_makes_no_further_edge(seed: int, edges: int) -> None:
+    rng = np.random.default_rng(seed)
+    pulses = 0.5 + np.cumsum(rng.uniform(1.0, 4.0, 12))
+    times = np.arange(int((pulses[-1] + 1.0) * 10 * RATE)) / RATE / 10
+    since = times - pulses[np.searchsorted(pulses, times, side="right").clip(1) - 1]
+    closed = (since >= 0) & (since < 0.1)
+    opens = closed & (since < 1e-3 * edges / 4) & (since % 2.5e-4 > 1.25e-4)
+    found = pulse_times(times, 5.0 * (closed & ~opens))
+    assert found.size == pulses.size
+    assert np.abs(found - pulses).max() < 1.1 / RATE / 10
+
+
 def test_a_square_wave_rises_whatever_it_begins_with() -> None:
     times = np.arange(20_000) / RATE
     for phase in (0.0, 0.5):
