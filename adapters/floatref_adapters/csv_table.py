@@ -28,9 +28,9 @@ LISTED = 1024
 """Bytes by which a table is recognised."""
 _OTHERS = re.compile(
     r"\s*(\$[A-Z]{2}|[#%][A-Z0-9]+,|ERDFILE|date \w+ |base (hex|dec)|[{\[]"
-    r'|"?distance_m"?,.*_elevation_m)'
+    r'|"?distance_m"?,.*_elevation_m|timestamp,arbitration_id,)'
 )
-"""How NMEA, NovAtel ASCII, ERD, Vector ASC, JSON and our own profiles begin."""
+"""How NMEA, NovAtel ASCII, ERD, Vector ASC, JSON, our profiles and CSV of python-can begin."""
 
 
 class CsvTable:

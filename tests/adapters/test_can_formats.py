@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.can_log import CanLog
+from floatref_adapters.csv_table import CsvTable
 from floatref_adapters.testing.can_log import (
     FAST_ID,
     WHEELS_DBC,
@@ -49,6 +50,7 @@ def opened(
         (folder / "bus.dbc").write_text(dbc)
         options = {"dbc": str(folder / "bus.dbc")}
     assert CanLog().recognises(path)
+    assert not CsvTable().recognises(path)
     return CanLog().streams(path, options)
 
 

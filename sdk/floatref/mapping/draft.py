@@ -88,11 +88,26 @@ def _entries(native: NativeFile, used: set[str]) -> Iterator[str]:
                 yield _unlike(stream, column)
                 continue
             active = found.sure and found[:2] not in seen and len(seen) < MOST_CHANNELS
+            active = active and not _lesser(native, column, found)
             active = active and _maps(native, stream, column, found)
             if active:
                 seen.add(found[:2])
                 used.add(stream.name)
             yield _entry(stream, column, found, "" if active else "# ")
+
+
+def _lesser(native: NativeFile, column: Column, found: Guess) -> bool:
+    """Tell whether ``column`` is a height over a geoid model, whose steps no road has.
+
+    Only where the file has the height over the ellipsoid as well.
+    """
+    if found.channel != "gnss_height" or _ellipsoidal(column):
+        return False
+    return any(_ellipsoidal(other) for stream in native.streams for other in stream.columns)
+
+
+def _ellipsoidal(column: Column) -> bool:
+    return "ellips" in column.name.lower()
 
 
 def _maps(native: NativeFile, stream: Stream, column: Column, found: Guess) -> bool:

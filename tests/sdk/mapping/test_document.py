@@ -104,7 +104,7 @@ def test_what_is_not_said_is_left_alone(save: Save) -> None:
     assert chart.channels == (ChannelEntry("laser", "height"),)
     entry = chart.channels[0]
     assert (entry.scale, entry.offset, entry.sign, entry.delay_s) == (1.0, 0.0, 1, 0.0)
-    assert (entry.unit, entry.wrap, entry.missing, entry.sparse) == (None, None, (), False)
+    assert (entry.unit, entry.wrap, entry.missing, entry.sparse) == (None, None, (), None)
     assert chart.clocks == ()
 
 

@@ -155,3 +155,16 @@ def test_streams_that_nothing_says_to_begin_together_get_a_word_on_clocks(
     held = [stream_of(f"s{k}", Column("x"), clock=clock) for k in range(streams)]
     text = draft_map(NativeFile(tuple(held)), Path("x"), "tdms")
     assert ("counted from zero" in text) is ("# [[clocks]]" in text) is hinted
+
+
+def gga(*names: str) -> NativeFile:
+    """Return what a receiver's log of heights holds."""
+    columns = tuple(Column(name, "m") for name in names)
+    return NativeFile((Stream("GGA", columns, 2, NativeClock(), lambda _: iter(())),))
+
+
+def test_the_height_over_the_ellipsoid_goes_before_that_over_a_geoid(tmp_path: Path) -> None:
+    for names in (("altitude", "ellipsoidal_height"), ("altitude",)):
+        lines = draft_map(gga(*names), tmp_path / "a.nmea", "nmea").splitlines()
+        active = [line for line in lines if line.startswith("native")]
+        assert active == [f'native = "GGA/{names[-1]}"']
