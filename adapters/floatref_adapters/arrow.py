@@ -6,6 +6,7 @@ the first of a temporal type: its integers are ticks. A time zone makes them UTC
 they are the logger's own unless the option `epoch` says what they count from.
 """
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -20,10 +21,10 @@ from floatref_adapters.arrow_schema import Table, is_temporal, tables_of, text_o
 from floatref_adapters.libraries import library
 from floatref_adapters.refusals import naming
 
-ROWS = 1 << 16
-"""Rows handled together."""
 CONTINUED = b"\xff\xff\xff\xff"
 """How an IPC stream begins."""
+ENCRYPTED = b"PARE"
+"""How a Parquet file begins whose footer is encrypted."""
 
 
 class Source(Protocol):
@@ -34,7 +35,7 @@ class Source(Protocol):
     told: tuple[str, ...]
 
     def arrays(self, places: Sequence[int]) -> Iterator[list[Any]]:
-        """Yield the columns at ``places``, at most `ROWS` rows of them at once."""
+        """Yield the columns at ``places``, as many rows at once as `rows_for` says."""
 
 
 class Parquet:
@@ -45,7 +46,7 @@ class Parquet:
 
     def recognises(self, source: Path) -> bool:
         """Tell whether ``source`` begins as a Parquet file does."""
-        return _start(source).startswith(b"PAR1")
+        return _start(source).startswith((b"PAR1", ENCRYPTED))
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the columns of each clock; InputError if the file cannot be used.
@@ -154,14 +155,25 @@ class _Reader:
 def _samples(array: Any) -> NDArray[np.float64]:
     """Return an Arrow array as float64, nulls as NaN."""
     pa = library("pyarrow", "reading Arrow")
+    array = _decoded(array)
     found: NDArray[np.float64] = array.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False)
     # What is read from a mapped file must outlive the map.
     return np.array(found)
 
 
+def _decoded(array: Any) -> Any:
+    """Return the numbers that are meant where an Arrow array holds places in a dictionary."""
+    if not library("pyarrow.types", "reading Arrow").is_dictionary(array.type):
+        return array
+    # A place beyond the dictionary would be read from where nothing is.
+    array.validate(full=True)
+    return array.dictionary_decode()
+
+
 def _ticks(array: Any, first: int) -> NDArray[np.int64] | NDArray[np.float64]:
     """Return the times in an Arrow array, integers where it has integers."""
     pa = library("pyarrow", "reading Arrow")
+    array = _decoded(array)
     if array.null_count:
         row = first + int(np.argmax(array.is_null().to_numpy(zero_copy_only=False)))
         raise InputError(f"row {row}: its time is missing; every row needs its time")
@@ -189,9 +201,9 @@ def _reading(kind: str) -> Iterator[None]:
         raise InputError("more than the memory holds; write smaller batches") from error
     except (pa.ArrowException, OSError, ValueError, TypeError, LookupError) as error:
         reason = " ".join(str(error).split()) or type(error).__name__
-        raise InputError(
-            f"no sound {kind} ({reason[:120]}); copy the complete file again"
-        ) from error
+        crypt = re.search("decrypt|encrypt", reason, re.IGNORECASE)
+        advice = "write it without encryption" if crypt else "copy the complete file again"
+        raise InputError(f"no sound {kind} ({reason[:120]}); {advice}") from error
 
 
-__all__ = ["ROWS", "ArrowIpc", "Parquet", "Source"]
+__all__ = ["ArrowIpc", "Parquet", "Source"]

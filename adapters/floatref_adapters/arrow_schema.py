@@ -100,8 +100,10 @@ def text_of(metadata: Mapping[bytes, bytes] | None) -> dict[str, str]:
 
 
 def is_numeric(kind: Any) -> bool:
-    """Tell whether an Arrow type holds numbers."""
+    """Tell whether an Arrow type holds numbers, be it as indices into a dictionary of them."""
     types = library("pyarrow.types", "reading Arrow")
+    if types.is_dictionary(kind):
+        return is_numeric(kind.value_type)
     return bool(
         types.is_integer(kind)
         or types.is_floating(kind)

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, NativeFile, Rows, Stream
-from floatref_adapters.hdf5_series import ROWS, Held, Series, chosen
+from floatref_adapters.hdf5_series import MOST_HELD, Held, Series, chosen
 from floatref_adapters.hdf5_streams import Table, tables_of
 from floatref_adapters.hdf5_tree import opened, text_of, tree_of
+from floatref_adapters.piece_rows import MOST_ROWS, rows_for
 
 
 def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
@@ -54,14 +55,15 @@ class _Reader:
                 raise InputError(f"{name}: no such column of numbers")
         wanted = {name: named[name] for name in names}
         with opened(self.path) as file:
-            held = _held(file, [*wanted.values(), *([self.table.time] if self.table.time else [])])
-            for first in range(0, self.table.count if held else 0, ROWS):
-                stop = min(first + ROWS, self.table.count)
+            time = self.table.time
+            held = _held(file, [*wanted.values(), *([time] if time else [])])
+            rows = min([MOST_ROWS, *(each.step for each in held.values())])
+            for first in range(0, self.table.count if held else 0, rows):
+                stop = min(first + rows, self.table.count)
                 values = {
                     name: _samples(series, held[series.dataset.path], first, stop)
                     for name, series in wanted.items()
                 }
-                time = self.table.time
                 yield Rows(
                     values,
                     _ticks(time, held[time.dataset.path], first, stop) if time else None,
@@ -69,11 +71,19 @@ class _Reader:
 
 
 def _held(file: Any, wanted: Sequence[Series]) -> dict[str, Held]:
-    """Return the opened datasets of the series ``wanted``, each once."""
+    """Return the opened datasets of the series ``wanted``, each once; InputError for too much."""
     by_dataset: dict[str, list[Series]] = {}
     for series in wanted:
         by_dataset.setdefault(series.dataset.path, []).append(series)
-    return {path: Held(file[path], several) for path, several in by_dataset.items()}
+    rows = rows_for(len(wanted))
+    held = {path: Held(file[path], several, rows) for path, several in by_dataset.items()}
+    together = sum(each.bytes for each in held.values())
+    if together > MOST_HELD:
+        raise InputError(
+            f"chunks of {together} bytes in {len(held)} datasets; repack them in smaller ones, "
+            "as by h5repack -l CHUNK=65536"
+        )
+    return held
 
 
 def _samples(series: Series, held: Held, first: int, stop: int) -> NDArray[np.float64]:

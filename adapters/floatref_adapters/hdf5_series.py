@@ -18,7 +18,8 @@ MOST_WIDE = 64
 """Columns of a table without names."""
 LARGEST_CHUNK = 1 << 27
 """Bytes of a chunk, which has to be unpacked as a whole."""
-ROWS = 1 << 16
+MOST_HELD = 1 << 29
+"""Bytes of all chunks that are unpacked at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,8 +123,11 @@ def _hindrance(dataset: Dataset, wide: int) -> str:
 class Held:
     """The rows of a dataset, read in whole chunks and given out in any pieces, in order."""
 
-    def __init__(self, item: Any, series: Sequence[Series]) -> None:
-        """Look at how ``item``, the opened dataset of ``series``, is stored."""
+    def __init__(self, item: Any, series: Sequence[Series], rows: int) -> None:
+        """Look at how ``item``, the opened dataset of ``series``, is stored.
+
+        Its rows are read ``rows`` at a time, if a chunk has no more.
+        """
         self._item, self._across = item, series[0].across
         self._parts = [s.part for s in series if s.part is not None]
         self._count = series[0].count
@@ -133,10 +137,16 @@ class Held:
                 f"{item.name}: chunks of {item.chunks} numbers; repack it in smaller ones, as by "
                 "h5repack -l CHUNK=65536"
             )
-        self._step = -(-ROWS // chunk) * chunk
+        self.step = max(rows // chunk, 1) * chunk
         self._first = 0
         self._block: NDArray[Any] | None = None
         self._written = _written(item, self._across)
+
+    @property
+    def bytes(self) -> int:
+        """How much of the memory the rows take that are read at a time."""
+        wide = prod(self._item.shape) // max(self._count, 1)
+        return int(min(self.step, self._count) * wide * self._item.dtype.itemsize)
 
     def rows(self, first: int, stop: int) -> NDArray[Any]:
         """Return rows ``first`` to ``stop``, along the first axis."""
@@ -144,14 +154,14 @@ class Held:
         while first < stop:
             block = self._block
             if block is None or first >= self._first + len(block):
-                block = self._load(first // self._step * self._step)
+                block = self._load(first // self.step * self.step)
             piece = block[first - self._first : stop - self._first]
             pieces.append(piece)
             first += len(piece)
         return pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
 
     def _load(self, first: int) -> NDArray[Any]:
-        stop = min(first + self._step, self._count)
+        stop = min(first + self.step, self._count)
         rows = slice(first, stop)
         source = self._item.fields(self._parts) if self._parts else self._item
         block = source[:, rows].T if self._across else source[rows]

@@ -8,9 +8,9 @@ from typing import Any
 from floatref_adapters.mdf4_channels import Field
 from floatref_adapters.mdf4_expansion import Part
 from floatref_adapters.mdf4_records import Bytes, parts_of, pieces_of, rows_of
+from floatref_adapters.piece_rows import MOST_ROWS
 
 PIECE_BYTES = 1 << 23
-MOST_ROWS = 1 << 16
 
 
 @dataclass(frozen=True, eq=False)

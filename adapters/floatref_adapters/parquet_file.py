@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from floatref_adapters.libraries import library
+from floatref_adapters.piece_rows import rows_for
 
-ROWS = 1 << 16
 BUFFER = 1 << 20
 """Bytes of a column chunk that are read at once, however long it is."""
 
@@ -24,13 +24,14 @@ class ParquetSource:
             self.rows = opened.metadata.num_rows
 
     def arrays(self, places: Sequence[int]) -> Iterator[list[Any]]:
-        """Yield the columns at ``places``, ascending, at most `ROWS` rows of them at once."""
+        """Yield the columns at ``places``, ascending, a piece of their rows at a time."""
         names = self.schema.names
         wanted = [names[place] for place in places]
         # A name can be that of several columns: all of them are read, in the order of the file.
         turns = [names[:place].count(names[place]) for place in places]
+        rows = rows_for(len(places))
         with self._opened() as opened:
-            for batch in opened.iter_batches(ROWS, columns=wanted, use_threads=False):
+            for batch in opened.iter_batches(rows, columns=wanted, use_threads=False):
                 found = batch.schema.get_all_field_indices
                 yield [
                     batch.column(found(name)[turn])

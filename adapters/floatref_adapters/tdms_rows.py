@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Rows
+from floatref_adapters.piece_rows import MOST_ROWS, rows_for
 from floatref_adapters.tdms_changes import Changes
 from floatref_adapters.tdms_channels import TdmsChannel
 from floatref_adapters.tdms_clock import ns_of
@@ -19,7 +20,6 @@ from floatref_adapters.tdms_values import Values, Window
 from floatref_adapters.tdms_waveforms import Waveforms
 
 PIECE_BYTES = 1 << 24
-MOST_ROWS = 1 << 16
 Numbers = NDArray[Any]
 
 
@@ -107,7 +107,8 @@ class Reader:
         extents = extents_of(self.source.segments, paths)
         lying = [Values(extents[path]) for path in paths]
         makers = [self._maker(channel) for channel in channels]
-        rows = min(max(PIECE_BYTES // max(v.row_bytes for v in lying), 1), MOST_ROWS)
+        widest = max(values.row_bytes for values in lying)
+        rows = min(max(PIECE_BYTES // widest, 1), rows_for(len(channels)))
         with self.source.path.open("rb") as file:
             window = Window(file)
             for first in range(0, self.count, rows):

@@ -72,6 +72,7 @@ def test_every_type_of_number_comes_as_float64_and_others_are_listed(form) -> No
             "f16": pa.array(np.array([0.5, 1.5, np.nan], np.float16)),
             "money": pa.array([Decimal("1.25"), None, Decimal("-0.75")], pa.decimal128(9, 2)),
             "flag": pa.array([True, False, None]),
+            "step": pa.array([2.5, None, 0.5]).dictionary_encode(),
             "text": ["a", "b", None],
             "kind": pa.array(["a", "b", "a"]).dictionary_encode(),
             "list": [[1.0], [2.0, 3.0], None],
@@ -87,6 +88,7 @@ def test_every_type_of_number_comes_as_float64_and_others_are_listed(form) -> No
         "f16": [0.5, 1.5, nan],
         "money": [1.25, nan, -0.75],
         "flag": [1, 0, nan],
+        "step": [2.5, nan, 0.5],
     }
     assert list(found) == list(expected)
     for name, values in expected.items():
@@ -94,6 +96,23 @@ def test_every_type_of_number_comes_as_float64_and_others_are_listed(form) -> No
     assert [c.name for c in native.streams[0].columns if not c.numeric] == ["text", "kind", "list"]
     assert "3 columns hold no numbers: not read" in native.told
     assert native.streams[0].clock.name == "unknown"
+
+
+@pytest.mark.parametrize("deltas", [True, False])
+@pytest.mark.parametrize("compression", [None, "zstd"])
+def test_a_dictionary_that_grows_or_is_replaced_gives_the_numbers_that_were_meant(
+    tmp_path: Path, deltas: bool, compression: str | None
+) -> None:
+    first = pa.array([1.0, 2.0, 1.0]).dictionary_encode()
+    later = pa.DictionaryArray.from_arrays(pa.array([2, 0, None], pa.int32()), [1.0, 2.0, 5.0])
+    batches = [pa.record_batch({"x": x}) for x in (first, later)]
+    options = pa.ipc.IpcWriteOptions(emit_dictionary_deltas=deltas, compression=compression)
+    path = tmp_path / "run.arrows"
+    with pa.ipc.new_stream(path, batches[0].schema, options=options) as writer:
+        for batch in batches:
+            writer.write_batch(batch)
+    found, _ = rows(ArrowIpc().streams(path, {}))
+    np.testing.assert_array_equal(found["x"], [1, 2, 1, 5, 1, np.nan])
 
 
 @few

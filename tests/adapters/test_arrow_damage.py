@@ -1,5 +1,6 @@
 """Parquet and Arrow IPC files that are damaged, cut short or swollen."""
 
+import base64
 import subprocess
 import sys
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+import pyarrow.parquet.encryption as encryption
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -123,6 +125,56 @@ def test_a_compressed_batch_that_swells_is_refused(tmp_path: Path) -> None:
     assert path.stat().st_size < 1 << 16
     with pytest.raises(InputError, match="compressed batch of 33554433 rows; write batches of"):
         ArrowIpc().streams(path, {})
+
+
+def test_a_compressed_dictionary_that_swells_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "run.arrow"
+    values = pa.array([b"\0" * (1 << 27)])
+    column = pa.DictionaryArray.from_arrays(pa.array([0], pa.int8()), values)
+    batch = pa.record_batch({"x": pa.array([1.0]), "text": column})
+    options = pa.ipc.IpcWriteOptions(compression="zstd")
+    with pa.ipc.new_file(path, batch.schema, options=options) as writer:
+        writer.write_batch(batch)
+    assert path.stat().st_size < 1 << 16
+    with pytest.raises(InputError, match=r"compressed dictionaries of 134217.*; write plain"):
+        ArrowIpc().streams(path, {})
+
+
+def test_compressed_batches_are_not_unpacked_for_many_columns_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "run.arrow"
+    long = pa.nulls(1 << 24, pa.null())
+    batch = pa.record_batch({"abcdef"[k]: long.cast(pa.bool_()) for k in range(5)})
+    options = pa.ipc.IpcWriteOptions(compression="zstd")
+    with pa.ipc.new_file(path, batch.schema, options=options) as writer:
+        writer.write_batch(batch)
+    (stream,) = ArrowIpc().streams(path, {}).streams
+    assert len(next(iter(stream.read(["a", "b", "c", "d"]))).values["a"]) == 1 << 16
+    with pytest.raises(InputError, match="16777216 rows for 5 columns at once; write batches of"):
+        next(iter(stream.read(list("abcde"))))
+
+
+class Keys(encryption.KmsClient):
+    """Wraps keys in nothing."""
+
+    def __init__(self, _: object) -> None:
+        super().__init__()
+
+    def wrap_key(self, key: bytes, _: str) -> bytes:
+        return base64.b64encode(key)
+
+
+@pytest.mark.parametrize("plain", [True, False])
+def test_an_encrypted_file_is_told_as_such(tmp_path: Path, plain: bool) -> None:
+    path = tmp_path / "run.parquet"
+    table = pa.table({"x": [1.0, 2.0]})
+    made = encryption.EncryptionConfiguration("k", column_keys={"c": ["x"]}, plaintext_footer=plain)
+    keys = encryption.CryptoFactory(Keys)
+    secret = keys.file_encryption_properties(encryption.KmsConnectionConfig(), made)
+    with pq.ParquetWriter(path, table.schema, encryption_properties=secret) as writer:
+        writer.write_table(table)
+    assert Parquet().recognises(path)
+    with pytest.raises(InputError, match=r"rypt.*; write it without encryption"):
+        list(Parquet().streams(path, {}).streams[0].read(["x"]))
 
 
 def test_other_files_are_not_recognised(tmp_path: Path) -> None:
