@@ -32,7 +32,7 @@ class Aligned:
         told: tuple[str, ...] = (),
     ) -> None:
         """Keep new stamps in ``spool``."""
-        self._taken, self._start, self._alignment = taken, start_s, alignment
+        self._taken, self._start, self.alignment = taken, start_s, alignment
         self._spool = spool
         self._clocks: dict[float, Clock] = {}
         self.report = report
@@ -86,7 +86,7 @@ class Aligned:
         return None if beyond is None else f"stream {self._taken.stream.name!r}: {beyond}"
 
     def _clock(self, delay_s: float) -> Clock:
-        alignment, rate = self._alignment, self._taken.rate
+        alignment, rate = self.alignment, self._taken.rate
         start = float(self._start) - delay_s
         if rate is not None and alignment is None:
             return UniformClock(rate, start)

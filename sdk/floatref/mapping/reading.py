@@ -19,6 +19,7 @@ from floatref.mapping.limits import check_limits
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.opening import Opened
 from floatref.mapping.ours import map_of_ours
+from floatref.mapping.shared_time import cut_to_shared
 from floatref.mapping.skews import skews_of
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Convert, Progress, Taken, Wanted, as_they_are, take
@@ -110,9 +111,12 @@ class _Mapping:
         extra = list(auxiliaries(self._chart.clocks, base.key[0], self._opened.file))
         taken, places = self._taken(plan, extra)
         clocks = aligned_clocks(taken, places, self._chart.clocks, base.key, self._spool)
-        channels = tuple(self._channel(p, taken, places, clocks) for p in plan)
+        whole = [self._channel(p, taken, places, clocks) for p in plan]
+        with naming(self._opened.paths[SOURCE]):
+            of = [clocks[p.key].alignment for p in plan]
+            channels, cut = cut_to_shared(whole, of, plan.index(base))
         told = [*self._opened.told(), *self._told]
-        told += [line for c in clocks.values() for line in c.told]
+        told += [line for c in clocks.values() for line in c.told] + list(cut)
         for planned in plan:
             planned.conversion.finish()
             told += [f"{self._where(planned)}: {line}" for line in planned.conversion.told]
