@@ -117,7 +117,7 @@ class TdmsChannel:
 
         def scale(raw: NDArray[Any]) -> NDArray[np.float64]:
             if scaling is None:
-                return raw.astype(np.float64)
+                return raw.astype(np.float64, copy=False)
             with np.errstate(all="ignore"):
                 chunk = RawChannelDataChunk.channel_data(raw)
                 return np.array(scaling.scale(chunk), np.float64)

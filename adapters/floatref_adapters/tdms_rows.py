@@ -126,7 +126,7 @@ class Reader:
             and scaling is None
             and channel.origin.data_type.nptype.kind in "iu"
         ):
-            return lambda raw: raw.astype(np.int64)
+            return lambda raw: raw.astype(np.int64, copy=False)
         return channel.scaled()
 
     def _buffered(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
