@@ -26,7 +26,7 @@ from floatref_adapters.text_lines import first_bytes
 HEAD = 1 << 16
 NAN = float("nan")
 BEGINS = re.compile(
-    rb"\xaaD\x12[\x1c-\x40][\s\S]{10}[\x14-\xf0]|\xaaD\x13"
+    rb"\xaaD\x12[\x1c-\x40][\s\S]{9}[\x14-\xf0]|\xaaD\x13"
     rb"|#[A-Z][A-Z0-9_]{2,31}A(?:_\d+)?,[A-Z0-9_]+,\d+,[\d.]+,[A-Z]+,\d+,[\d.]+,"
     rb"|%[A-Z][A-Z0-9_]{2,31}A,\d+,[\d.]+;"
 )

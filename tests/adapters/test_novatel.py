@@ -1,6 +1,7 @@
 """NovAtel logs: what is written is read, real logs give what they hold, faults are told."""
 
 import struct
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -257,3 +258,13 @@ def test_a_log_that_begins_in_one_block_and_ends_in_the_next_is_found(
     file = opened(tmp_path, b"." * (BLOCK - ahead) + log)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTVEL": 1}
     assert f"{BLOCK - ahead} bytes between logs" in file.told[0]
+
+
+def test_a_binary_log_of_any_week_and_status_is_recognised(tmp_path: Path) -> None:
+    path = tmp_path / "run.gps"
+    for week in range(2300, 2300 + 256):
+        path.write_bytes(binary_log(replace(ONE, ms=[week * WEEK_MS])))
+        assert NovAtel().recognises(path), week
+    for status in (20, 60, 180, 240):
+        path.write_bytes(long_log(42, NOW_MS, bytes(72), status))
+        assert NovAtel().recognises(path), status
