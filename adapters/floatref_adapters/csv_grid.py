@@ -85,9 +85,12 @@ class Grid:
     def plain(self, columns: Sequence[int]) -> bytes | None:
         """Return the fields of ``columns`` with decimal points, a comma behind each.
 
-        None if one of them holds another decimal mark.
+        None if one of them holds another decimal mark, or what is not ASCII.
         """
         text = self._only(columns)
+        # numpy takes some bytes beyond ASCII for spaces.
+        if not text.isascii():
+            return None
         if self.decimal == "." and self.delimiter != "," and b"," in text:
             return None
         if self.decimal == ",":

@@ -75,7 +75,8 @@ class Piece:
 
     def texts(self, column: int) -> Sequence[str]:
         """Return the fields of one column."""
-        grid = self.grid
+        # Bytes beyond ASCII mean what the encoding says, which the fields know.
+        grid = self.grid if self.text.isascii() else None
         return grid.texts(column) if grid else self.fields()[column]
 
 

@@ -154,6 +154,14 @@ def test_no_number_is_made_of_fields_that_hold_another(
             )
 
 
+def test_spaces_beyond_ascii_around_a_time_are_spaces(tmp_path: Path) -> None:
+    # 0x85 is a line end in Latin-1, which counts as a space.
+    content = b"a,b\n0,2\n" + 15 * b"\x85" + b"3,4\n"
+    (stream,) = read(tmp_path, content, time="a").streams
+    ticks = [rows.ticks for rows in stream.read(["b"])]
+    assert [t.tolist() for t in ticks if t is not None] == [[0, 3]]
+
+
 @pytest.mark.parametrize("delimiter", [",", ";", "\t", "|"])
 def test_rows_of_nothing_at_the_end_are_left_out(tmp_path: Path, delimiter: str) -> None:
     """As spreadsheets leave them; above another row such a row has no time."""
