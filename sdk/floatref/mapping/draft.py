@@ -30,6 +30,8 @@ SIGNS = {
     "roll_rate": "right-handed about +X (forward): left side up positive",
 }
 """What is easily the other way round."""
+NOSE_DOWN = ("gnss_pitch", "pitch_rate")
+"""What is the other way round where an adapter's note says so."""
 
 
 def draft_map(native: NativeFile, source: Path, adapter: str, dbc: str | None = None) -> str:
@@ -133,11 +135,14 @@ def _writable(text: str) -> bool:
 
 
 def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
+    note = f"  # {_comment(column.note)}" if column.note else ""
     lines = [
         "[[channels]]",
-        f"native = {_text(full_name(stream, column))}",
+        f"native = {_text(full_name(stream, column))}{note}",
         f"channel = {_text(found.channel)}{_remark(found.channel)}",
     ]
+    if found.channel in NOSE_DOWN and "nose up positive" in column.note:
+        lines.append("sign = -1")
     if found.track is not None:
         lines.append(f"track = {_text(found.track)}")
     doubt = "" if column.unit.strip() else "  # the file gives none: check it"

@@ -16,7 +16,7 @@ TRACKS = {
 AXIS = r"\b(a|w|acc(el)?|gyro?|om(ega)?)?"
 """What may stand before the letter of an axis, in one word with it."""
 GNSS = (
-    r"gps|gnss|gga|vtg|rmc|gll|nav\b|(best|psr|rtk|ppp)\w*(pos|vel|utm)"
+    r"gps|gnss|gga|\bgns\b|vtg|rmc|gll|pashr|nav\b|(best|psr|rtk|ppp)\w*(pos|vel|utm)"
     r"|\bins(pva|pos|vel|att)?[sx]?\b"
 )
 """Words for a receiver, in the name of a stream or of a channel."""
@@ -30,7 +30,7 @@ QUANTITIES = (
     ("gnss_latitude", "rad", r"\blat(itude)?\b|breite"),
     ("gnss_longitude", "rad", r"\blong?(itude)?\b|l.nge"),
     ("gnss_quality", "1", r"qual"),
-    ("gnss_vertical_velocity", "m/s", r"(vert|up|climb|\bd\b).*(vel|speed|spd)|vel.*(up|vert)"),
+    ("gnss_vertical_velocity", "m/s", r"(vert|up|climb|\bd\b).*(vel|speed|spd)|vel.*(up|vert)|^z$"),
     ("gnss_height", "m", r"\balt|ellips|height|\bhgt\b"),
     ("gnss_pitch", "rad", r"pitch"),
     ("gnss_roll", "rad", r"roll"),

@@ -107,6 +107,15 @@ def test_what_is_sure_is_active_and_the_rest_is_there_to_be_completed() -> None:
         assert line in text.splitlines()
 
 
+def test_a_pitch_that_its_note_has_nose_up_is_turned(tmp_path: Path) -> None:
+    up = Column("pitch", "deg", note="nose up positive")
+    for column, sign in ((up, -1), (Column("pitch", "deg"), 1)):
+        native = NativeFile((stream_of("INSPVA", column),))
+        (tmp_path / "map.toml").write_text(draft_map(native, Path("run.gps"), "x"))
+        (entry,) = read_map(tmp_path / "map.toml").channels
+        assert (entry.channel, entry.sign) == ("gnss_pitch", sign)
+
+
 def test_an_entry_that_stands_as_a_comment_is_toml_too() -> None:
     lines = drafted(Column("Laser L"), Column("Laser R", "volts"), Column("Acc z")).splitlines()
     at = lines.index("# [[channels]]")
