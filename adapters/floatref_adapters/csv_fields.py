@@ -9,8 +9,10 @@ import numpy as np
 
 from floatref import InputError
 
-MISSING = frozenset(("", "-", "--", "na", "n/a", "#n/a", "nan", "null", "none"))
-"""Fields of missing samples, in small letters."""
+MISSING = frozenset(
+    ("", "-", "--", "na", "n/a", "#n/a", "nan", "null", "none", "#div/0!", "#num!", "#value!")
+)
+"""Fields of missing samples, in small letters, those of spreadsheets' errors among them."""
 SPACES = " "
 """The delimiter of columns that runs of spaces or tabs part."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?inf(inity)?", re.ASCII | re.I)

@@ -1,8 +1,9 @@
 """How a table is laid out: its delimiter, its decimal mark, its header, and where rows begin."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from floatref import Column, InputError
@@ -13,6 +14,8 @@ from floatref_adapters.csv_text import read_sample
 
 BODY = 1000
 """Lines from which the columns are judged."""
+LONGEST_QUOTE = 4
+"""Lines that a quoted name may go over."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +54,11 @@ class _Lines:
 def layout_of(path: Path, options: Mapping[str, str]) -> Layout:
     """Return the layout of the table at ``path``.
 
-    ``options`` may state `delimiter` and `decimal`. InputError if the first 64 KiB are not those
+    ``options`` may state `delimiter` and `decimal`. InputError if the first lines are not those
     of a table, or could be read in two ways.
     """
     encoding, sample = read_sample(path)
-    filled = [(number, line) for number, line in enumerate(sample, 1) if line.strip()][:BODY]
+    filled = list(islice(_filled(sample), BODY))
     if not filled:
         raise InputError("holds no rows; copy the complete file")
     texts = [line for _, line in filled]
@@ -80,6 +83,20 @@ def layout_of(path: Path, options: Mapping[str, str]) -> Layout:
         trailing,
         tuple(tuple(row) for row in fields[first:] if len(row) == lines.width),
     )
+
+
+def _filled(sample: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """Yield the lines that hold anything with their numbers, one that a quote goes over as one."""
+    held: list[str] = []
+    for number, line in enumerate(sample, 1):
+        held.append(line)
+        closed = sum(text.count('"') for text in held) % 2 == 0
+        if not closed and number < len(sample) and len(held) < LONGEST_QUOTE:
+            continue
+        first = number - len(held) + 1
+        lines = [" ".join(held)] if closed else held
+        yield from ((first + k, text) for k, text in enumerate(lines) if text.strip())
+        held = []
 
 
 def _trailing(fields: Sequence[Sequence[str]]) -> bool:

@@ -12,6 +12,7 @@ from floatref import InputError
 from floatref_adapters.csv_fields import SPACES, numbers, split
 from floatref_adapters.csv_grid import Grid
 from floatref_adapters.csv_layout import Layout
+from floatref_adapters.csv_marks import COMMENTS
 from floatref_adapters.csv_text import Block, blocks
 
 
@@ -53,7 +54,7 @@ class Piece:
             if self.layout.trailing and len(row) > width and not row[-1]:
                 row.pop()
             if len(row) != width:
-                raise InputError(_other_width(number, len(row), width))
+                raise InputError(_other_width(number, line, len(row), width))
             rows.append(row)
         return list(zip(*rows, strict=True))
 
@@ -80,7 +81,9 @@ class Piece:
         return grid.texts(column) if grid else self.fields()[column]
 
 
-def _other_width(number: int, width: int, expected: int) -> str:
+def _other_width(number: int, line: str, width: int, expected: int) -> str:
+    if line.startswith(COMMENTS):
+        return f"row {number} is a remark, {line[:40]!r}; take it out"
     advice = "the file is truncated, or a line is empty"
     if width > expected:
         advice = "write decimal points, not decimal commas, and nothing behind the last field"

@@ -3,7 +3,7 @@
 Delimiter, decimal mark, header and units are found from the first lines, or stated by the options
 `delimiter` and `decimal`. The clock is a column that is named like time (`time_s`, `Time (ms)`,
 `Zeit [s]`, `timestamp`) or that the option `time` names: numbers as integer ticks of their last
-decimal, ISO 8601 in ns UTC, or the time of a day in ns.
+decimal, ISO 8601 or 22.11.2026 10:00:00 in ns UTC, or the time of a day in ns.
 """
 
 import re
@@ -153,7 +153,7 @@ def _times(layout: Layout, option: str | None) -> tuple[Times | None, tuple[str,
     if writing is None:
         if option is not None:
             raise InputError(f"time = {option!r}: holds {texts[0]!r}, no time; name another column")
-        return None, (UNKNOWN,)
+        return None, (f"{column.name}: {texts[0][:40]!r} is no time that is read", UNKNOWN)
     told = found.told(layout.columns)
     if writing is Writing.ISO and not has_zone(texts[0]):
         told += (f"{column.name}: states no time zone; taken as UTC",)

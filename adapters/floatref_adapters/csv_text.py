@@ -8,8 +8,9 @@ from floatref import InputError
 
 BLOCK = 1 << 20
 """Bytes read together."""
-SAMPLE = 1 << 16
-"""Bytes from which the layout is found."""
+SAMPLE, LARGEST_SAMPLE = 1 << 16, 1 << 20
+"""Bytes from which the layout is found, and up to how many where lines are long."""
+FEWEST_LINES = 20
 LONGEST_LINE = 1 << 24
 WHITE = b" \t\r\n\f\v"
 
@@ -39,6 +40,11 @@ def read_sample(path: Path) -> tuple[str, list[str]]:
     """Return the encoding of the file and its first lines, without ends, the last one whole."""
     with path.open("rb") as stream:
         start = stream.read(SAMPLE)
+        while len(start) < LARGEST_SAMPLE and _ends(start) < FEWEST_LINES:
+            more = stream.read(SAMPLE)
+            if not more:
+                break
+            start += more
         whole = not stream.read(1)
     encoding = encoding_of(start)
     text = codecs.getincrementaldecoder(encoding)("replace").decode(start)
@@ -46,6 +52,10 @@ def read_sample(path: Path) -> tuple[str, list[str]]:
     if not whole and len(lines) > 1:
         lines.pop()
     return encoding, lines
+
+
+def _ends(text: bytes) -> int:
+    return max(text.count(b"\n"), text.count(b"\r"))
 
 
 def blocks(path: Path, encoding: str, delimiter: str) -> Iterator[Block]:

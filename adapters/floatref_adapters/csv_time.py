@@ -19,7 +19,8 @@ LARGEST = 2.0**63
 EXACT_DIGITS = 15
 """Digits that a float64 holds, so that its product with a power of ten rounds to the tick."""
 _ISO = re.compile(
-    r"(?P<date>(?:19|2[01])\d\d-\d\d-\d\d)[T ](?P<clock>\d\d:\d\d(?::\d\d)?)"
+    r"(?:(?P<date>(?:19|2[01])\d\d-\d\d-\d\d)|(?P<day>\d\d?)\.(?P<month>\d\d?)\.(?P<year>\d{4}))"
+    r"[T ](?P<clock>\d\d:\d\d(?::\d\d)?)"
     r"(?:[.,](?P<part>\d{1,9})\d*)?(?P<zone> ?Z|[+-]\d\d:?\d\d)?"
 )
 _CLOCK = re.compile(r"(?P<clock>\d?\d:\d\d:\d\d)(?:[.,](?P<part>\d{1,9})\d*)?")
@@ -170,12 +171,16 @@ class Times:
 
 
 def iso_ns(text: str) -> int | None:
-    """Return the ns since 1970 UTC of an ISO 8601 time, or None; without a zone it is UTC."""
+    """Return the ns since 1970 UTC of an ISO 8601 time, or None; without a zone it is UTC.
+
+    A date may be written as 22.11.2026 too, which has a single meaning.
+    """
     match = _ISO.fullmatch(text)
     if not match:
         return None
+    date = match["date"] or f"{match['year']}-{match['month']:0>2}-{match['day']:0>2}"
     try:
-        seconds = int(np.datetime64(f"{match['date']}T{match['clock']}", "s").astype(np.int64))
+        seconds = int(np.datetime64(f"{date}T{match['clock']}", "s").astype(np.int64))
     except ValueError:
         return None
     zone = (match["zone"] or "Z").strip().replace(":", "")

@@ -9,11 +9,13 @@ def numbered(names: Sequence[str]) -> list[str]:
     All names returned differ, also where the file itself has a name such as `speed #2`.
     """
     given, taken, out = set(names), set[str](), []
+    last: dict[str, int] = {}
     for name in names:
-        unique, number = name, 1
+        unique, number = name, last.get(name, 1)
         while unique in taken or (number > 1 and unique in given):
             number += 1
             unique = f"{name} #{number}"
+        last[name] = number
         taken.add(unique)
         out.append(unique)
     return out

@@ -17,7 +17,7 @@ samples = st.none() | st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6)
 few = settings(deadline=None, max_examples=80)
 
 
-MISSING = ("", "nan", "NaN", "NA", "-", "n/a")
+MISSING = ("", "nan", "NaN", "NA", "-", "n/a", "#DIV/0!", "#NUM!")
 
 
 def read(folder: Path, text: str | bytes, name: str = "run.csv", **options: str) -> NativeFile:
@@ -169,6 +169,7 @@ def test_times_with_exponents_are_floats(tmp_path: Path) -> None:
         (["1970-01-01 02:00:00.25+02:00", "1970-01-01 02:00:01+02:00"], [250_000_000, 10**9]),
         (["1969-12-31T23:59:59,75Z", "1970-01-02T00:00Z"], [-250_000_000, 86_400 * 10**9]),
         (["2024-05-01T12:00:00.123456789Z"] * 2, [1714564800123456789] * 2),
+        (["1.5.2024 12:00:00,5Z", "01.05.2024 12:00Z"], [1714564800500000000, 1714564800 * 10**9]),
     ],
 )
 def test_iso_times_are_ns_utc(tmp_path: Path, texts: list[str], expected: list[int]) -> None:
@@ -177,6 +178,15 @@ def test_iso_times_are_ns_utc(tmp_path: Path, texts: list[str], expected: list[i
     clock = native.streams[0].clock
     assert (clock.epoch, clock.tick_s) == (Epoch.UTC, Fraction(1, 10**9))
     assert native.told == ()
+
+
+def test_a_column_of_times_that_are_not_read_is_told(tmp_path: Path) -> None:
+    """Whether the month comes first here, nobody can tell."""
+    native = read(tmp_path, "Time,x\n1/2/2024 10:00:00,1\n1/2/2024 10:00:01,2\n")
+    assert "Time: '1/2/2024 10:00:00' is no time that is read" in native.told
+    assert native.streams[0].clock.name == "unknown"
+    with pytest.raises(InputError, match=r"row 3: Time is '31.2.2024 10:00:00'; every row needs"):
+        ticks(read(tmp_path, "Time,x\n1.2.2024 10:00:00,1\n31.2.2024 10:00:00,2\n"))
 
 
 def test_iso_times_without_a_zone_and_times_of_a_day(tmp_path: Path) -> None:
@@ -240,6 +250,30 @@ def test_units_are_in_brackets_or_in_a_row_of_their_own(tmp_path: Path) -> None:
     native = read(tmp_path, "Time\tAz\tLaser\n[s]\t[g]\tmm\n0.5\t1\t300\n1.0\t1\t301\n")
     assert [(c.name, c.unit) for c in native.streams[0].columns] == [("Az", "g"), ("Laser", "mm")]
     assert ticks(native).tolist() == [5, 10]
+
+
+def test_quoted_names_go_over_lines_and_stray_quotes_do_not(tmp_path: Path) -> None:
+    native = read(tmp_path, '"time\n[s]",x,"height,\r\nleft (mm)"\n0,1,2\n1,2,3\n')
+    assert [(c.name, c.unit) for c in native.streams[0].columns] == [
+        ("x", ""),
+        ("height, left", "mm"),
+    ]
+    assert columns(native)["x"] == [1, 2]
+    above = 'run 5\n2" tape\nby hand\n'
+    native = read(tmp_path, above + "time_s,x,y\n" + "0,1,2\n" * 9)
+    assert [c.name for c in native.streams[0].columns] == ["x", "y"]
+    assert columns(native)["x"] == [1] * 9
+    assert native.told == ("3 lines above the table: skipped",)
+
+
+@pytest.mark.parametrize("count", [300, 6000])
+def test_tables_of_many_columns_have_long_lines(tmp_path: Path, count: int) -> None:
+    names = [f"acceleration {k} [m/s²]" for k in range(count)]
+    rows = (",".join([str(k), *["1.5"] * count]) for k in range(3))
+    native = read(tmp_path, "\n".join([",".join(["time_s", *names]), *rows]))
+    assert native.streams[0].count == 3
+    assert native.streams[0].columns[-1].name == f"acceleration {count - 1}"
+    assert ticks(native).tolist() == [0, 1, 2]
 
 
 def test_repeated_and_missing_names_are_told_apart(tmp_path: Path) -> None:

@@ -20,3 +20,11 @@ def test_all_differ_and_the_first_of_each_keeps_its_name(given_names: list[str])
 
 def test_repeated_names_count_up() -> None:
     assert numbered(["v", "v", "t", "v"]) == ["v", "v #2", "t", "v #3"]
+
+
+def test_one_name_of_very_many_columns_is_numbered_in_turn() -> None:
+    """Were every number tried again for each of them, this would take hours."""
+    out = numbered(["a"] * 200_000)
+    assert out[:2] == ["a", "a #2"]
+    assert out[-1] == "a #200000"
+    assert len(set(out)) == len(out)
