@@ -1,8 +1,10 @@
-"""Whether laser and accelerometer of each wheel path are on time with each other."""
+"""Whether laser and accelerometer of each wheel path are on time and at one with each other."""
 
 from collections.abc import Iterator, Mapping
+from math import isnan
 from typing import Any
 
+from floatref.measures.sensor_gain import gain_warning, sensor_gain
 from floatref.measures.sensor_skew import Skew, sensor_skew, skew_warning
 from floatref.values.recording import Channel, Recording
 
@@ -10,15 +12,17 @@ FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
 
 
 def skews_of(recording: Recording) -> tuple[tuple[Mapping[str, Any], ...], tuple[str, ...]]:
-    """Return the skew of every wheel path that has both sensors, and warnings about it."""
+    """Return the skew of every wheel path that has both sensors, and warnings about both."""
     reports, warnings = [], []
     for track, force, height in _pairs(recording):
-        skew = sensor_skew(force, height, recording.find(DISTANCE, track))
+        distance = recording.find(DISTANCE, track)
+        skew = sensor_skew(force, height, distance)
         reports.append(_report(track, skew))
-        warning = skew_warning(skew, force, height)
-        if warning is not None:
-            warnings.append(warning)
-    return tuple(reports), tuple(warnings)
+        warnings.append(skew_warning(skew, force, height))
+        # A skew is told of sensors alone that see the same motion.
+        if distance is not None and isnan(skew.sigma_s):
+            warnings.append(gain_warning(sensor_gain(force, height, distance), height))
+    return tuple(reports), tuple(line for line in warnings if line is not None)
 
 
 def _pairs(recording: Recording) -> Iterator[tuple[str, Channel, Channel]]:
