@@ -1,7 +1,6 @@
 """Messages of a CAN database (DBC, KCD, SYM, ARXML): what the bytes of a frame say."""
 
 import logging
-import math
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -31,10 +30,11 @@ class Message:
     def decoded(self, data: bytes) -> Mapping[str, Any] | None:
         """Return the values by signal, None if ``data`` is not of this message."""
         try:
-            return dict(self._message.decode(data, decode_choices=False, decode_containers=False))
+            decoded = self._message.decode(data, decode_choices=False, decode_containers=False)
         except Exception:
             # Any error of cantools here means bytes that its definition cannot hold.
             return None
+        return decoded if isinstance(decoded, dict) else None
 
     def fits(self, data: bytes) -> bool:
         """Tell whether ``data`` can be decoded."""
@@ -45,7 +45,7 @@ class Message:
     def values(self, data: bytes, names: Sequence[str]) -> list[float]:
         """Return the values of the signals ``names``; NaN where the message has none now."""
         found = self.decoded(data) if names else None
-        return [_as_number(found.get(name)) if found else NAN for name in names]
+        return [found.get(name, NAN) for name in names] if found else [NAN] * len(names)
 
 
 class Database:
@@ -96,12 +96,6 @@ def _column(signal: Any) -> Column:
         notes.append(f"while {signal.multiplexer_signal} is {signal.multiplexer_ids}")
     note = " ".join("; ".join(notes).split())
     return Column(str(signal.name), str(signal.unit or ""), note[:NOTE])
-
-
-def _as_number(value: Any) -> float:
-    if not isinstance(value, int | float):
-        return NAN
-    return float(value) if math.isfinite(value) else NAN
 
 
 __all__ = ["Database", "Message"]

@@ -14,7 +14,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from floatref import Epoch, InputError, NativeClock, NativeFile, Rows, Stream
-from floatref_adapters.nmea_fields import LAYOUTS, NotANumber, Quantity
+from floatref_adapters.nmea_fields import LAYOUTS, MOST, NotANumber, Quantity
 from floatref_adapters.nmea_sentences import MOST_KINDS, Sentence, Sentences
 from floatref_adapters.nmea_times import DAY_NS, DayCount, ordinal_of, time_of_day_ns
 from floatref_adapters.piled_rows import piled
@@ -25,6 +25,7 @@ HEAD = 1 << 13
 TALKED = re.compile(rb"[$!][A-Z]{2}(?:GGA|GNS|RMC|VTG|GLL|ZDA|GST|GSA|GSV|HDT|VDM),|\$PASHR,")
 NOVATEL = re.compile(rb"\xaaD[\x12\x13]|[#%][A-Z][A-Z0-9_]{2,31},[^;\r\n]{8,120};")
 NAN = float("nan")
+PADDING = ("",) * MOST
 COARSEST = 10**6
 """ns of a tick, unless the times have more decimals."""
 TOLD = {
@@ -94,9 +95,10 @@ class Survey:
     def _packed(self, sentence: Sentence) -> bytes:
         """Return the values of a sentence as float64, NaN where a field is no number."""
         values = array("d")
+        fields = [*sentence.fields, *PADDING]
         for quantity in _quantities(sentence.kind):
             try:
-                values.append(quantity.value(sentence.fields))
+                values.append(quantity.value(fields))
             except NotANumber:
                 values.append(NAN)
                 self._faults[f"text {sentence.kind}"] += 1

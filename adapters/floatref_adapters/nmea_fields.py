@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from floatref import Column
 
 Fields = Sequence[str]
+"""Of a sentence, behind its name, with empty ones behind them up to `MOST`."""
+MOST = 16
 NAN = float("nan")
 LARGEST = 1e15
 ANGLE = re.compile(r"(\d{1,3})([0-5]\d(?:\.\d*)?)$", re.ASCII)
@@ -50,18 +52,14 @@ def number(text: str) -> float:
 
 
 def _plain(name: str, unit: str, at: int, note: str = "") -> Quantity:
-    return Quantity(Column(name, unit, note), lambda fields: number(_field(fields, at)))
-
-
-def _field(fields: Fields, at: int) -> str:
-    return fields[at] if at < len(fields) else ""
+    return Quantity(Column(name, unit, note), lambda fields: number(fields[at]))
 
 
 def _angle(name: str, at: int, sides: str, limit: int) -> Quantity:
     """Return the angle `dddmm.mm` in the field ``at``, the second of ``sides`` being negative."""
 
     def value(fields: Fields) -> float:
-        text, side = _field(fields, at), _field(fields, at + 1).upper()
+        text, side = fields[at], fields[at + 1].upper()
         if not text:
             return NAN
         found = ANGLE.match(text)
@@ -81,26 +79,26 @@ def _place(at: int) -> tuple[Quantity, Quantity]:
 
 def _sum(name: str, unit: str, first: int, second: int, note: str) -> Quantity:
     def value(fields: Fields) -> float:
-        return number(_field(fields, first)) + number(_field(fields, second))
+        return number(fields[first]) + number(fields[second])
 
     return Quantity(Column(name, unit, note), value)
 
 
 def _flag(name: str, at: int, good: str) -> Quantity:
     def value(fields: Fields) -> float:
-        text = _field(fields, at)
+        text = fields[at]
         return NAN if not text else float(text == good)
 
     return Quantity(Column(name, "", f"1 where the sentence has {good}"), value)
 
 
 def _mode(fields: Fields) -> float:
-    return next((MODES[mode] for mode in MODES if mode in _field(fields, 5)), NAN)
+    return next((MODES[mode] for mode in MODES if mode in fields[5]), NAN)
 
 
 def _variation(fields: Fields) -> float:
-    size = number(_field(fields, 9))
-    return -size if _field(fields, 10).upper() == "W" else size
+    size = number(fields[9])
+    return -size if fields[10].upper() == "W" else size
 
 
 QUALITY = "0 none, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
@@ -200,4 +198,4 @@ LAYOUTS = {
 }
 """By the name of the sentence without its talker; fields are counted after that name."""
 
-__all__ = ["LAYOUTS", "Fields", "Layout", "NotANumber", "Quantity", "number"]
+__all__ = ["LAYOUTS", "MOST", "Fields", "Layout", "NotANumber", "Quantity", "number"]

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from math import isfinite
+from operator import attrgetter
 from typing import Any
 
 from floatref import Column
@@ -16,6 +16,9 @@ WIDTHS = {
     **dict.fromkeys(("DOUBLE", "LONGLONG", "ULONGLONG"), 8),
 }
 """Bytes of a field by its type; all others, enumerations too, have 4."""
+PLAIN = ("DOUBLE", "FLOAT", "LONG", "ULONG", "SHORT", "USHORT", "UCHAR")
+WRITTEN = tuple("cmTZ")
+"""Types that are numbers and need no look, unless they are written as characters or names."""
 FIXED = ("SIMPLE", "ENUM", "BITFIELD", "FIXED_LENGTH_ARRAY")
 TEXTS = ("%s", "%Z")
 """Arrays that are one field in ASCII."""
@@ -65,6 +68,11 @@ def _is_text(field: Any) -> bool:
     return field.type.name == "FIXED_LENGTH_ARRAY" and field.conversion in TEXTS
 
 
+def _is_plain(field: Any) -> bool:
+    plain = field.type.name == "SIMPLE" and field.data_type.name in PLAIN
+    return plain and not field.conversion.endswith(WRITTEN)
+
+
 def _width(field: Any) -> int:
     return _length(field) * WIDTHS.get(field.data_type.name, 4)
 
@@ -79,7 +87,8 @@ def _columns(log: str, field: Any) -> list[Pair]:
     unit = unit_of(log, name)
     note = f"number of {field.enum_def.name}" if field.type.name == "ENUM" else unit.note
     if field.type.name != "FIXED_LENGTH_ARRAY":
-        return [(name, (Column(name, unit.text, note), partial(_number, name)))]
+        value = attrgetter(name) if _is_plain(field) else partial(_number, name)
+        return [(name, (Column(name, unit.text, note), value))]
     elements = [f"{name}[{k}]" for k in range(_length(field))]
     return [
         (element, (Column(element, unit.text, note), partial(_element, name, k)))
@@ -106,7 +115,7 @@ def _derived(fields: Any) -> list[Pair]:
 def _as_number(value: Any) -> float:
     if getattr(value, "name", "") == UNKNOWN or not isinstance(value, int | float):
         return NAN
-    return float(value) if isfinite(value) else NAN
+    return float(value)
 
 
 def _number(name: str, message: Any) -> float:

@@ -12,11 +12,15 @@ ROWS = 1 << 16
 
 
 def piled(rows: Iterable[tuple[int, Sequence[float]]], names: Sequence[str]) -> Iterator[Rows]:
-    """Yield ``rows``, each a tick and the values of the columns ``names``, in pieces."""
+    """Yield ``rows``, each a tick and the values of the columns ``names``, in pieces.
+
+    Values that are not finite are missing.
+    """
     coming = iter(rows)
     while pile := list(islice(coming, ROWS)):
         ticks = np.array([tick for tick, _ in pile], dtype=np.int64)
         table = np.array([values for _, values in pile], dtype=np.float64)
+        table[~np.isfinite(table)] = np.nan
         columns = table.reshape(len(pile), len(names)).T
         yield Rows({n: np.ascontiguousarray(c) for n, c in zip(names, columns, strict=True)}, ticks)
 
