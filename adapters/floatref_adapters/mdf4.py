@@ -110,7 +110,7 @@ def _stream(group: Group, start: NativeClock, told: list[str]) -> Stream:
 
 
 def _column(field: Field, name: str, fault: str) -> Column:
-    notes = [fault] if fault else []
+    notes = list(filter(None, [fault or field.note()]))
     if name != field.origin.name:
         notes.append("a name given more than once")
     return Column(name, unit_of(field.origin), "; ".join(notes), numeric=not fault)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref_adapters.mdf4_records import Bytes
+from floatref_adapters.mdf4_tables import numbers_of, scales_of
 
 Numbers = NDArray[Any]
 VALUE, MASTER, VIRTUAL_MASTER, SYNC, VIRTUAL = 0, 2, 3, 4, 6
@@ -16,6 +17,7 @@ INTEGERS, SIGNED, FLOATS, BIG_ENDIAN = (0, 1, 2, 3), (2, 3), (4, 5), (1, 3, 5)
 """Types of data."""
 ALGEBRAIC, RANGES, FIRST_TEXT = 3, 6, 7
 """Types of conversion: a formula, a table by ranges, and the first of those that give text."""
+TEXT = "text by a table"
 ALL_INVALID, SOME_INVALID = 1, 2
 
 
@@ -52,6 +54,11 @@ class Field:
         if not self.virtual and not self._fits():
             return f"{channel.bit_count} bits that do not lie in a record as a number"
         return conversion_fault(channel.conversion)
+
+    def note(self) -> str:
+        """Return what is to be known of its numbers; "" if nothing."""
+        conversion = self.origin.conversion
+        return "texts are missing samples" if conversion and scales_of(conversion) else ""
 
     def _fits(self) -> bool:
         bits, offset = self.origin.bit_count, self.origin.bit_offset
@@ -105,7 +112,8 @@ def conversion_fault(conversion: Any) -> str:
     if conversion is None:
         return ""
     if conversion.conversion_type >= FIRST_TEXT:
-        return "text by a table"
+        scales = scales_of(conversion).values()
+        return next(filter(None, map(conversion_fault, scales)), "") if scales else TEXT
     try:
         converted(conversion, np.arange(2))
     except Exception:
@@ -118,6 +126,8 @@ def converted(conversion: Any, raw: Numbers) -> NDArray[np.float64]:
     if conversion is None:
         return raw.astype(np.float64)
     with np.errstate(all="ignore"):
+        if scales_of(conversion):
+            return numbers_of(conversion, raw, converted)
         if conversion.conversion_type == ALGEBRAIC:
             return _computed(conversion.formula, raw.astype(np.float64))
         exact = raw if conversion.conversion_type == RANGES else raw.astype(np.float64)
@@ -136,5 +146,8 @@ def _computed(formula: str, raw: NDArray[np.float64]) -> NDArray[np.float64]:
 def unit_of(channel: Any) -> str:
     """Return the unit of ``channel`` or of its conversion as the file has it; "" if none."""
     unit = channel.unit or getattr(channel.conversion, "unit", "") or ""
+    if not unit and channel.conversion:
+        units = {scale.unit or "" for scale in scales_of(channel.conversion).values()}
+        unit = units.pop() if len(units) == 1 else ""
     within = re.search(r"<TX[^>]*>(.*?)</TX>", unit, re.DOTALL)
     return (within[1] if within else unit).strip()
