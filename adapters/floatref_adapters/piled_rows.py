@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref import Rows
 
-ROWS = 1 << 16
+ROWS = 1 << 13
 """Rows handed on together."""
 
 

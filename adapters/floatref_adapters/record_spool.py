@@ -21,14 +21,14 @@ class Spool:
 
     def __init__(self) -> None:
         self._file = TemporaryFile()  # noqa: SIM115
-        self._held: defaultdict[Hashable, list[bytes]] = defaultdict(list)
+        self._held: defaultdict[Hashable, bytearray] = defaultdict(bytearray)
         self._size = 0
         self._parts: defaultdict[Hashable, list[tuple[int, int]]] = defaultdict(list)
         self._end = 0
 
     def add(self, key: Hashable, tick: int, content: bytes) -> None:
         """Add a record."""
-        self._held[key] += (HEAD.pack(tick, len(content)), content)
+        self._held[key] += HEAD.pack(tick, len(content)) + content
         self._size += HEAD.size + len(content)
         if self._size > HELD:
             self._flush()
@@ -59,8 +59,7 @@ class Spool:
     def _flush(self) -> None:
         try:
             self._file.seek(self._end)
-            for key, records in self._held.items():
-                part = b"".join(records)
+            for key, part in self._held.items():
                 self._file.write(part)
                 self._parts[key].append((self._end, len(part)))
                 self._end += len(part)
