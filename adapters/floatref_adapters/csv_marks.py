@@ -61,7 +61,9 @@ def tolerant(line: str, delimiter: str) -> list[str]:
 
 def has_number(row: Sequence[str]) -> bool:
     """Tell whether a field of ``row``, no comment, is a number, whatever its decimal mark."""
-    return not row[0].startswith(COMMENTS) and any(is_numeral(text) for text in row)
+    if not row or row[0].startswith(COMMENTS):
+        return False
+    return any(is_numeral(text) for text in row)
 
 
 def decimal_of(rows: Sequence[Sequence[str]], delimiter: str, stated: str | None) -> str:

@@ -155,6 +155,14 @@ def test_no_number_is_made_of_fields_that_hold_another(
             )
 
 
+def test_a_quote_over_lines_that_leaves_an_empty_one_is_no_fault(tmp_path: Path) -> None:
+    # Every line of a table's width ends in a delimiter here, so a line of "" alone has no field.
+    text = '"",""\n"1",2,""\n"3",4,""\n5,6,\n""\n'
+    with pytest.raises(InputError) as refusal:
+        columns(read(tmp_path, text))
+    assert "\n" not in str(refusal.value)
+
+
 def test_spaces_beyond_ascii_around_a_time_are_spaces(tmp_path: Path) -> None:
     # 0x85 is a line end in Latin-1, which counts as a space.
     content = b"a,b\n0,2\n" + 15 * b"\x85" + b"3,4\n"

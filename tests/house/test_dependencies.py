@@ -20,10 +20,15 @@ ALLOWED = {
         "h5py",
         "novatel_edie",
         "nptdms",
+        "numexpr",
         "pandas",
         "pyarrow",
         "pynmea2",
         "xarray",
+        # asammdf brings them along.
+        "isal",
+        "lz4",
+        "zstd",
     },
     "reference_impl": {"numpy"},
     "conformance": {
