@@ -73,6 +73,8 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
         if not gain > 0:
             return None
         skew_s = float(np.clip(skew_s + late / gain, -LARGEST * STEP_S, LARGEST * STEP_S))
+    if abs(skew_s) >= LARGEST * STEP_S:
+        return None
     rest = y - gain * z + late * v
     size = float(np.linalg.norm(y))
     return SkewWindow(

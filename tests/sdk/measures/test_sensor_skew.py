@@ -130,6 +130,20 @@ def test_where_the_road_moves_both_nothing_is_told(manoeuvre: str) -> None:
             assert skew_warning(found, force, height) is None
 
 
+@pytest.mark.parametrize("hz", [0.8, 1.36, 1.38, 1.4, 2.0])
+def test_a_road_of_one_wave_is_no_bounce_test(hz: float) -> None:
+    # A quarter car near its resonance: height and force agree there but for a quarter of a period.
+    s, c, k1, k2, mu = 2j * np.pi * hz, 6.0, 653.0, 63.3, 0.15
+    body_and_axle = [[s * s + c * s + k2, -c * s - k2], [-c * s - k2, mu * s * s + c * s + k1 + k2]]
+    gain = np.linalg.solve(np.array(body_and_axle), np.array([0, k1]))[0]
+    times, clock = np.arange(20_000) / 1000.0, UniformClock.of(1000.0)
+    road = 0.01 * np.exp(s * times)
+    force = Channel.of("vertical_specific_force", 9.8 + (s * s * gain * road).real, clock)
+    height = Channel.of("height", 0.3 + ((gain - 1) * road).real, clock)
+    skew = sensor_skew(force, height, Channel.of("distance", 20 * times, clock))
+    assert not skew.known
+
+
 def test_an_encoder_that_fails_makes_no_stop() -> None:
     force, height, distance = parts(driven("constant", "loaded-van", 6))
     failed = replace(distance, values=np.minimum(distance.values, distance.values[8000]))
