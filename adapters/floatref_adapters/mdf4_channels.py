@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref_adapters.mdf4_records import Bytes
-from floatref_adapters.mdf4_tables import numbers_of, scales_of
+from floatref_adapters.mdf4_tables import numbers_of, of_ranges, scales_of
 
 Numbers = NDArray[Any]
 VALUE, MASTER, VIRTUAL_MASTER, SYNC, VIRTUAL = 0, 2, 3, 4, 6
@@ -130,8 +130,9 @@ def converted(conversion: Any, raw: Numbers) -> NDArray[np.float64]:
             return numbers_of(conversion, raw, converted)
         if conversion.conversion_type == ALGEBRAIC:
             return _computed(conversion.formula, raw.astype(np.float64))
-        exact = raw if conversion.conversion_type == RANGES else raw.astype(np.float64)
-        return np.asarray(conversion.convert(exact), np.float64)
+        if conversion.conversion_type == RANGES:
+            return of_ranges(conversion, raw)
+        return np.asarray(conversion.convert(raw.astype(np.float64)), np.float64)
 
 
 def _computed(formula: str, raw: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Conversions of MDF 4 that give numbers for some raw values and text for others.
+"""Conversions of MDF 4 by tables of values and ranges, some of numbers and some of texts.
 
 Signals of buses are stored so: a line for what was measured, and texts such as `not available`
 for the values above it. The numbers are delivered; a sample with a text is a missing one.
@@ -43,28 +43,41 @@ def numbers_of(conversion: Any, raw: Numbers, converted: Converted) -> NDArray[n
     return found
 
 
+def of_ranges(conversion: Any, raw: Numbers) -> NDArray[np.float64]:
+    """Return ``raw`` by the table of ranges and numbers of ``conversion``.
+
+    asammdf 8.8 finds no range for an integer unless it is the upper limit of one.
+    """
+    keys = range((int(conversion.val_param_nr) - 1) // 3)
+    found = np.array([*(conversion[f"phys_{k}"] for k in keys), conversion.default], np.float64)
+    return found[_entries(conversion, raw, "lower", "upper", len(keys))]
+
+
 def _count(conversion: Any) -> int:
     values = int(conversion.val_param_nr)
     return values if conversion.conversion_type == BY_VALUE else values // 2
 
 
 def _by_value(conversion: Any, raw: Numbers) -> NDArray[np.int64]:
-    """Return which entry of the table each of ``raw`` is of, -1 for none.
+    """Return which entry of the table each of ``raw`` is of, -1 for none."""
+    names = ("val", "val") if conversion.conversion_type == BY_VALUE else ("lower", "upper")
+    return _entries(conversion, raw, *names, _count(conversion))
+
+
+def _entries(conversion: Any, raw: Numbers, low: str, high: str, count: int) -> NDArray[np.int64]:
+    """Return which of ``count`` ranges each of ``raw`` is in, -1 for none.
 
     A range holds its upper limit if the values are integers, as the standard has it.
     """
-    exact = conversion.conversion_type == BY_VALUE
-    names = ("val", "val") if exact else ("lower", "upper")
-    keys = range(_count(conversion))
-    lower, upper = (np.array([conversion[f"{name}_{k}"] for k in keys]) for name in names)
-    if not lower.size:
+    if not count:
         return np.full(raw.shape, -1)
+    lower, upper = (np.array([conversion[f"{n}_{k}"] for k in range(count)]) for n in (low, high))
     order = np.argsort(lower, kind="stable")
     place = np.searchsorted(lower[order], raw, "right") - 1
     entry = order[np.maximum(place, 0)]
-    closed = exact or raw.dtype.kind != "f"
+    closed = low == high or raw.dtype.kind != "f"
     inside = (raw <= upper[entry]) if closed else (raw < upper[entry])
     return np.where(inside & (place >= 0), entry, -1)
 
 
-__all__ = ["numbers_of", "scales_of"]
+__all__ = ["numbers_of", "of_ranges", "scales_of"]

@@ -155,6 +155,9 @@ def test_the_clock_is_a_column_named_like_time_or_stated(form) -> None:
     native = form(table, time="gps", epoch="gps")
     assert rows(native)[1].tolist() == [1.5, 2.5]
     assert native.streams[0].clock.epoch is Epoch.GPS
+    field = pa.field("x", pa.float64(), metadata={"rate_hz": "10", "count": "9"})
+    longer = form(pa.table([table["x"]], schema=pa.schema([field])))
+    assert longer.streams[0].count == len(rows(longer)[0]["x"]) == 2
     native = form(table.replace_schema_metadata({"rate_hz": "48000/7", "start_s": "0.1"}))
     clock = native.streams[0].clock
     assert (clock.rate, clock.first_tick * clock.tick_s) == (Fraction(48000, 7), Fraction(1, 10))

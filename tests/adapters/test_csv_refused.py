@@ -42,6 +42,7 @@ REFUSED = {
     'time_s,distance\n0,"0,5"\n1,"0,6"\n': "distance is '0,5'; write a decimal point, not a dec",
     "time_s,distance\n0,0\n0.1\n0.2,1\n": "row 3 has 1 fields, the header 2; the file is truncat",
     "time_s,distance\n0,0\n# pause\n1,2\n": "row 3 is a remark, '# pause'; take it",
+    "time,x\n10:59:59,1\n10:60:00,2\n": "row 3: time is '10:60:00'; every row needs its time",
     "time_s,distance\n0,0\n\n0.2,1\n": "row 3 has 0 fields, the header 2; the file is truncated",
     "time_s,distance\n0,0\n0.1,fast\n": "row 3: distance is 'fast'; write a number",
     "time_s,distance\n0,fast\n0.1,1\n0.2,2\n": "row 2: distance is 'fast'; write a number",

@@ -81,12 +81,13 @@ def test_packed_numbers_are_unpacked_as_cf_says(
     data: st.DataObject,
 ) -> None:
     lost = data.draw(st.sampled_from(raw))
+    word = data.draw(st.sampled_from(["_FillValue", "missing_value"]))
     path = tmp_path_factory.mktemp("run") / "run.nc"
     with h5py.File(path, "w") as file:
         file["x"] = np.array(raw, np.int16)
         file["x"].attrs["scale_factor"] = scale
         file["x"].attrs["add_offset"] = np.array([offset])
-        file["x"].attrs["_FillValue"] = np.array([lost], np.int16)
+        file["x"].attrs[word] = np.array([lost], np.int16)
     found = rows(native_file(path, {}))["root"]["x"]
     expected = [np.nan if k == lost else k * scale + offset for k in raw]
     np.testing.assert_allclose(found, expected, rtol=1e-15, atol=0)

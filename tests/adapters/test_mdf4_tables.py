@@ -84,3 +84,16 @@ def test_texts_of_single_values_are_missing_among_numbers(tmp_path: Path) -> Non
         table |= {f"val_{k}": value, f"text_{k}": b"error"}
     with written(tmp_path / "a.mf4", np.array([0, 3, 4, 5, 65535], np.uint16), table) as native:
         np.testing.assert_array_equal(samples(native), [1, np.nan, np.nan, 3.5, np.nan])
+
+
+@pytest.mark.parametrize("kind", ["u1", "f4"])
+def test_a_range_of_numbers_holds_its_upper_limit_where_values_are_integers(
+    tmp_path: Path, kind: str
+) -> None:
+    table: dict[str, Any] = {"default": -1.0}
+    for k, (lower, upper) in enumerate(((0, 9), (10, 19))):
+        table |= {f"lower_{k}": lower, f"upper_{k}": upper, f"phys_{k}": 100.0 + k}
+    with written(tmp_path / "a.mf4", np.array([0, 9, 10, 19, 20], kind), table) as native:
+        at_limit = kind == "u1"
+        expected = [100, 100 if at_limit else -1, 101, 101 if at_limit else -1, -1]
+        np.testing.assert_array_equal(samples(native), expected)
