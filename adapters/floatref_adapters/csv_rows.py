@@ -116,8 +116,10 @@ def is_cut_short(piece: Piece, before: bytes) -> bool:
     delimiter = piece.layout.delimiter
     mark = None if delimiter == SPACES else delimiter.encode()
     fields, expected = piece.text.split(mark), before.split(mark)
-    if len(fields) < len(expected):
-        return True
+    if not fields or len(fields) < len(expected):
+        return bool(expected)
+    if not expected:
+        return False
     decimals = [line[-1].partition(piece.layout.decimal.encode())[2] for line in (fields, expected)]
     return len(decimals[0].strip()) < len(decimals[1].strip())
 

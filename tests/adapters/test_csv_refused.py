@@ -164,6 +164,11 @@ def test_a_quote_over_lines_that_leaves_an_empty_one_is_no_fault(tmp_path: Path)
     assert "\n" not in str(refusal.value)
 
 
+def test_a_last_line_below_spaces_alone_is_not_cut_short(tmp_path: Path) -> None:
+    with pytest.raises(InputError):
+        columns(read(tmp_path, ' \n\n"0" a'))
+
+
 def test_spaces_beyond_ascii_around_a_time_are_spaces(tmp_path: Path) -> None:
     # 0x85 is a line end in Latin-1, which counts as a space.
     content = b"a,b\n0,2\n" + 15 * b"\x85" + b"3,4\n"
