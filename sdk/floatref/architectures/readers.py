@@ -7,7 +7,12 @@ from os.path import exists
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-from floatref.architectures.adapter import Adapter, NativeAdapter, RecordingAdapter
+from floatref.architectures.adapter import (
+    Adapter,
+    NativeAdapter,
+    RecordingAdapter,
+    RecordingDirectory,
+)
 from floatref.architectures.plugins import plugins
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.values.native import NativeFile
@@ -60,8 +65,9 @@ def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> Nati
     """Return what ``source`` holds; InputError if ``reader`` does not list files."""
     if not exists(source):
         raise InputError(f"{source}: not found")
-    if not is_native(reader):
-        raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
+    if not is_native(reader) or RecordingDirectory().recognises(source):
+        name = RecordingDirectory.name if is_native(reader) else reader.name
+        raise InputError(f"{source}: adapter {name} has our channels; it needs no map")
     with guarding(reader.name, source):
         found = cast(NativeAdapter, reader).streams(source, options)
     native = _checked(found, reader, source, NativeFile, "native file")

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from floatref.mapping.clock_keys import Key
+from floatref.mapping.entries import ClockEntry
 from floatref.mapping.spool import Spool
 from floatref.mapping.stamps import uniform_clock
 from floatref.mapping.taking import Taken
@@ -101,3 +103,17 @@ class Aligned:
             own = self.own_times(first, count) - delay_s
             times.append(own if alignment is None else alignment.to_base(own))
         return StampedClock(times.finish())
+
+
+def alignment_report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> Mapping[str, Any]:
+    """Return what there is to keep of the alignment of the stream ``key`` by ``entry``."""
+    return {
+        "file": key[0],
+        "stream": key[1],
+        "align": entry.align if entry is not None else "epoch",
+        "offset_s": alignment.offset_s,
+        "drift_ppm": 1e6 * alignment.drift,
+        "drift_sigma_ppm": 1e6 * alignment.drift_sigma,
+        "residual_s": alignment.residual_s,
+        "pairs": alignment.pairs,
+    }

@@ -4,11 +4,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import hypot, sqrt
-from typing import Any
 
 from floatref.errors import InputError
 from floatref.files.sources import naming
-from floatref.mapping.aligned import Aligned
+from floatref.mapping.aligned import Aligned, alignment_report
 from floatref.mapping.clock_keys import ClockKey, Key, absolute, beginning_told, clock_key, said
 from floatref.mapping.entries import ChannelEntry, ClockEntry
 from floatref.mapping.epochs import between_epochs
@@ -96,7 +95,7 @@ class _Aligning:
                 with naming(f"clock of {said(key)}"):
                     known[clock, entry] = alignment = self._alignment(key, entry)
                 if alignment is not None:
-                    report = _report(key, entry, alignment)
+                    report = alignment_report(key, entry, alignment)
                     told = tuple(f"clock of {said(key)}: {line}" for line in alignment.told)
             found[key] = Aligned(
                 stream, self._start(key), known[clock, entry], self._spool, report, told
@@ -138,11 +137,15 @@ class _Aligning:
             times, readings = self._signal(self._base[0], entry.base_time).readings()
             return align_by_time_readings(times, self._unrolled(readings, clock))
         if entry.base_pps is not None:
-            near = entry.offset_s
-            if absolute(clock) and absolute(base):
-                near += self._by_epochs(clock, base).offset_s
+            dated = absolute(clock) and absolute(base)
+            near = entry.offset_s + (self._by_epochs(clock, base).offset_s if dated else 0.0)
             seconds = self._signal(self._base[0], entry.base_pps)
             found = align_by_pps(seconds.pulses(), -near).inverse()
+            line = (
+                f"the pulses put it {found.offset_s - near:+.3f} s from where the absolute times "
+                "of both clocks do; check that those are not a whole second apart"
+            )
+            found = replace(found, told=(*found.told, line) if dated else found.told)
             return _no_surer(found, seconds.step_s)
         return self._by_epochs(clock, base)
 
@@ -202,16 +205,3 @@ def _no_surer(alignment: Alignment, step_s: float) -> Alignment:
 
 def _names(place: Key, column: str) -> tuple[str, str]:
     return column, f"{place[1]}/{column}"
-
-
-def _report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> dict[str, Any]:
-    return {
-        "file": key[0],
-        "stream": key[1],
-        "align": entry.align if entry is not None else "epoch",
-        "offset_s": alignment.offset_s,
-        "drift_ppm": 1e6 * alignment.drift,
-        "drift_sigma_ppm": 1e6 * alignment.drift_sigma,
-        "residual_s": alignment.residual_s,
-        "pairs": alignment.pairs,
-    }

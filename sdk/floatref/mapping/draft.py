@@ -13,7 +13,7 @@ from floatref.mapping.guesses import Guess, guess
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.taking import UNKNOWN
 from floatref.mapping.toml_document import MOST_PARTS
-from floatref.mapping.units import known_unit
+from floatref.mapping.units import MPS, known_unit
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, Epoch, NativeFile, Stream
 
@@ -99,13 +99,22 @@ def _entries(native: NativeFile, used: set[str]) -> Iterator[str]:
 
 
 def _lesser(native: NativeFile, column: Column, found: Guess) -> bool:
-    """Tell whether ``column`` is a height over a geoid model, whose steps no road has.
+    """Tell whether the file has something better than ``column`` for its channel.
 
-    Only where the file has the height over the ellipsoid as well.
+    A height over the ellipsoid rather than over a geoid model, whose steps no road has; a length
+    rather than a speed, which has to be integrated.
     """
+    others = [(s, c) for s in native.streams for c in s.columns]
+    if found.channel == "distance" and _si(column) == MPS:
+        return any(_si(c) == "m" and guess(s.name, c) == found for s, c in others)
     if found.channel != "gnss_height" or _ellipsoidal(column):
         return False
-    return any(_ellipsoidal(other) for stream in native.streams for other in stream.columns)
+    return any(_ellipsoidal(c) for _, c in others)
+
+
+def _si(column: Column) -> str | None:
+    unit = known_unit(column.unit)
+    return None if unit is None else unit.si
 
 
 def _ellipsoidal(column: Column) -> bool:
@@ -148,7 +157,12 @@ def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
     doubt = "" if column.unit.strip() else "  # the file gives none: check it"
     if column.unit.strip() and known_unit(column.unit) is None:
         doubt = "  # not known: state another, with a scale"
-    lines.append(f"unit = {_text(_unit(column, found))}{doubt}")
+    if _si(column) == "1" != CHANNELS[found.channel].unit:
+        si = CHANNELS[found.channel].unit
+        lines.append(f"scale = 0  # {si} per count: state it; and wrap, where counts start again")
+        lines.append(f'unit = "{si}"')
+    else:
+        lines.append(f"unit = {_text(_unit(column, found))}{doubt}")
     return "\n" + "\n".join(f"{mark}{line}" for line in lines)
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from difflib import get_close_matches
 
-from floatref.errors import InputError
+from floatref.errors import InputError, one_line
 from floatref.values.native import Column, NativeFile, Stream
 
 Place = tuple[Stream, Column]
@@ -26,7 +26,9 @@ def find(native: NativeFile, name: str) -> Place:
     found = [place for place in places if full_name(*place) == name]
     found = found or [place for place in places if place[1].name == name]
     if not found:
-        raise InputError(f"{name[:80]!r} is not in the file; {_hint(name, places)}")
+        raise InputError(
+            f"{name[:80]!r} is not in the file; {_hint(name, places)}{_faults(native)}"
+        )
     if len(found) > 1:
         both = list(dict.fromkeys(full_name(*place) for place in found[:4]))
         advice = f"write one of {', '.join(both)}" if len(both) > 1 else "rename one of them"
@@ -51,3 +53,8 @@ def _hint(name: str, places: Sequence[Place]) -> str:
     names = [full_name(*place) for place in places]
     own = [column.name for _, column in places]
     return similar(name, names, own) or "it has no columns"
+
+
+def _faults(native: NativeFile) -> str:
+    """Return what was lost of the file, which may be why a name is not there."""
+    return f" (of the file: {'; '.join(map(one_line, native.told[:3]))})" if native.told else ""

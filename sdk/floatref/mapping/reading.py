@@ -22,7 +22,7 @@ from floatref.mapping.ours import map_of_ours
 from floatref.mapping.shared_time import cut_to_shared
 from floatref.mapping.skews import skews_of
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import Convert, Progress, Taken, Wanted, as_they_are, take
+from floatref.mapping.taking import Convert, Shown, Taken, Wanted, as_they_are, take
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Stream
 from floatref.values.recording import Channel, Recording
@@ -159,11 +159,11 @@ class _Mapping:
             streams[key] = stream
             places[key, token] = len(wanted.setdefault(key, []))
             wanted[key].append(Wanted(column, convert))
-        shown = _Shown(self._progress, sum(s.count for s in streams.values()))
+        shown = Shown(self._progress, sum(s.count for s in streams.values()))
         taken = {key: self._take(key, streams[key], wanted[key], shown) for key in wanted}
         return taken, places
 
-    def _take(self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: "_Shown") -> Taken:
+    def _take(self, key: Key, stream: Stream, wanted: Sequence[Wanted], shown: Shown) -> Taken:
         stated = {(c.file, c.stream): c for c in self._chart.clocks if c.rate is not None}
         clock = stated.get(key) or stated.get((key[0], None))
         path = self._opened.paths[key[0]]
@@ -206,20 +206,6 @@ class _Mapping:
     def _where(self, planned: _Planned) -> str:
         track = f"{planned.entry.track}." if planned.entry.track else ""
         return f"{planned.name} as {track}{planned.entry.channel}"
-
-
-class _Shown:
-    """Progress over all streams together."""
-
-    def __init__(self, progress: Callable[[float], None] | None, total: int) -> None:
-        self._progress, self._total, self._before = progress, max(total, 1), 0
-
-    def of(self, count: int) -> Progress | None:
-        before, self._before = self._before, self._before + count
-        progress = self._progress
-        if progress is None:
-            return None
-        return lambda rows: progress(min((before + rows) / self._total, 1.0))
 
 
 __all__ = ["Reading", "read_native"]

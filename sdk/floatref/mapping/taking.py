@@ -25,6 +25,22 @@ Convert = Callable[[FloatArray, FloatArray], FloatArray]
 Progress = Callable[[int], None]
 
 
+class Shown:
+    """Progress over all streams together."""
+
+    def __init__(self, progress: Callable[[float], None] | None, total: int) -> None:
+        """Call ``progress`` with the part of ``total`` rows that was read."""
+        self._progress, self._total, self._before = progress, max(total, 1), 0
+
+    def of(self, count: int) -> Progress | None:
+        """Return what the next stream, of ``count`` rows, is to call."""
+        before, self._before = self._before, self._before + count
+        progress = self._progress
+        if progress is None:
+            return None
+        return lambda rows: progress(min((before + rows) / self._total, 1.0))
+
+
 @dataclass(frozen=True, eq=False)
 class Wanted:
     """A column to take: its name in the stream and its conversion."""

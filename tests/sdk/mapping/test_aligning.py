@@ -252,6 +252,9 @@ def test_pulses_per_second_make_a_rough_offset_sharp(
     # The receiver's own zero is the whole second before its first row.
     expected = 2.5 + late if known else 2.0 + late + 0.5
     assert times_of(reading, "gnss_height")[0] == pytest.approx(expected, abs=2e-3)
+    lines = [line for line in reading.told if "from where the absolute times" in line]
+    assert len(lines) == known
+    assert all(line.startswith("clock of gps, BESTPOS: the pulses put it +0.21") for line in lines)
 
 
 @pytest.mark.parametrize(

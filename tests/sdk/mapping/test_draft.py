@@ -177,3 +177,20 @@ def test_the_height_over_the_ellipsoid_goes_before_that_over_a_geoid(tmp_path: P
         lines = draft_map(gga(*names), tmp_path / "a.nmea", "nmea").splitlines()
         active = [line for line in lines if line.startswith("native")]
         assert active == [f'native = "GGA/{names[-1]}"']
+
+
+def test_counts_ask_for_their_scale() -> None:
+    native = NativeFile((stream_of("adc", Column("DMI", "counts")),))
+    text = draft_map(native, Path("x"), "mdf4")
+    entry = '# channel = "distance"\n# scale = 0  # m per count: state it; and wrap'
+    assert entry in text
+    assert '# unit = "m"' in text
+
+
+@pytest.mark.parametrize("speed", ["VehicleSpeed", "WheelSpd_RL", "spd"])
+def test_a_length_goes_before_a_speed_that_stands_before_it(speed: str) -> None:
+    odometer, wheel = Column("DMI", "m"), Column(speed, "km/h")
+    for held, active in (((wheel, odometer), "DMI"), ((wheel,), speed)):
+        text = draft_map(NativeFile((stream_of("adc", *held),)), Path("x"), "mdf4")
+        (entry,) = tomllib.loads(text)["channels"]
+        assert entry["native"] == f"adc/{active}"

@@ -28,6 +28,7 @@ SURE = [
     ("adc", "Laser position R", "mm", "height", "right"),
     ("adc", "Gocator center", "mm", "height", "center"),
     ("adc", "Hgt_L", "mm", "height", "left"),
+    ("adc", "las_l", "mm", "height", "left"),
     ("adc", "laser recorder", "mm", "height", None),
     ("", "DMI", "m", "distance", None),
     ("", "Odometer", "km", "distance", None),
