@@ -4,16 +4,16 @@ from collections.abc import Callable
 
 import pluggy
 
-from floatref_adapters.arrow import ArrowIpc, Parquet
-from floatref_adapters.can_log import CanLog
-from floatref_adapters.csv_table import CsvTable
-from floatref_adapters.erd import Erd
-from floatref_adapters.hdf5 import Hdf5
-from floatref_adapters.mdf4 import Mdf4
-from floatref_adapters.nmea import Nmea
-from floatref_adapters.novatel import NovAtel
+from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
+from floatref_adapters.can_log.adapter import CanLog
+from floatref_adapters.csv_table.adapter import CsvTable
+from floatref_adapters.erd.profile_format import Erd
+from floatref_adapters.hdf5.adapter import Hdf5
+from floatref_adapters.mdf4.adapter import Mdf4
+from floatref_adapters.nmea.adapter import Nmea
+from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.parquet_profile import ParquetProfile
-from floatref_adapters.tdms import Tdms
+from floatref_adapters.tdms.adapter import Tdms
 
 hookimpl = pluggy.HookimplMarker("floatref")
 

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.arrow import ArrowIpc, Parquet
+from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
 
 few = settings(deadline=None, max_examples=120)
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
 from floatref.architectures.plugins import plugins
-from floatref_adapters.arrow import ArrowIpc, Parquet
+from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
 from floatref_adapters.testing import WRITERS
 
 few = settings(deadline=None, max_examples=120)
@@ -89,7 +89,7 @@ def test_whole_batches_of_a_file_that_was_cut_short_are_read(tmp_path: Path, suf
 PEAK = """
 import sys
 from pathlib import Path
-from floatref_adapters.arrow import Parquet
+from floatref_adapters.arrow.adapter import Parquet
 (stream,) = Parquet().streams(Path(sys.argv[1]), {}).streams
 pieces = stream.read(["x"])
 sizes = {next(pieces).values["x"].size for _ in range(400)}

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.can_log import CanLog
-from floatref_adapters.csv_table import CsvTable
+from floatref_adapters.can_log.adapter import CanLog
+from floatref_adapters.csv_table.adapter import CsvTable
 from floatref_adapters.testing.can_log import (
     FAST_ID,
     WHEELS_DBC,

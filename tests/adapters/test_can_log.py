@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.can_log import CanLog
+from floatref_adapters.can_log.adapter import CanLog
 from floatref_adapters.testing.can_log import (
     FAST_ID,
     MULTIPLEXED_ID,

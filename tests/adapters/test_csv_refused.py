@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import floatref
 from floatref import InputError, NativeFile
 from floatref.architectures.plugins import plugins
-from floatref_adapters.csv_table import CsvTable
+from floatref_adapters.csv_table.adapter import CsvTable
 
 few = settings(deadline=None, max_examples=80)
 

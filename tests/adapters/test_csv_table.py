@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.csv_table import CsvTable
+from floatref_adapters.csv_table.adapter import CsvTable
 
 samples = st.none() | st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6)
 

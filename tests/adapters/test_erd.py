@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref import InputError, Profile, ProfileTrack
 from floatref_adapters.bridging import bridged, gaps_of
-from floatref_adapters.erd import Erd
+from floatref_adapters.erd.profile_format import Erd
 
 KEYWORDS = {
     "TITLE",

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from floatref import InputError
-from floatref_adapters.erd import Erd
-from floatref_adapters.erd_header import parse_header
+from floatref_adapters.erd.header import parse_header
+from floatref_adapters.erd.profile_format import Erd
 
 LTPP = """ERDFILEV2.00
       3,      4,     -1,      1,      5,       0.0250,     -1,

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import InputError
-from floatref_adapters.erd import Erd
+from floatref_adapters.erd.profile_format import Erd
 
 FOOT = 0.3048
 

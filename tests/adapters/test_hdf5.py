@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.hdf5 import Hdf5
-from floatref_adapters.hdf5_here import native_file
+from floatref_adapters.hdf5.adapter import Hdf5
+from floatref_adapters.hdf5.here import native_file
 
 
 @pytest.fixture

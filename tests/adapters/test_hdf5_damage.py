@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
 from floatref.architectures.plugins import plugins
-from floatref_adapters import hdf5_apart
-from floatref_adapters.hdf5 import Hdf5
-from floatref_adapters.hdf5_here import native_file
+from floatref_adapters.hdf5.adapter import Hdf5
+from floatref_adapters.hdf5.here import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5
 
 
@@ -147,8 +146,8 @@ def test_a_library_that_breaks_down_does_no_harm(
     with h5py.File(path, "w") as file:
         file["x"] = np.arange(3.0)
     (stream,) = Hdf5().streams(path, {}).streams
-    monkeypatch.setattr(hdf5_apart, "COMMAND", ill)
-    monkeypatch.setattr(hdf5_apart, "LONGEST_SILENCE_S", 0.5)
+    monkeypatch.setattr(apart, "COMMAND", ill)
+    monkeypatch.setattr(apart, "LONGEST_SILENCE_S", 0.5)
     with pytest.raises(InputError, match=r"run\.h5: no sound HDF5 .* copy the complete file again"):
         Hdf5().streams(path, {})
     with pytest.raises(InputError, match="no sound HDF5"):

@@ -29,7 +29,7 @@ from floatref import (
     UniformClock,
 )
 from floatref.architectures.plugins import plugins
-from floatref_adapters.mdf4 import Mdf4
+from floatref_adapters.mdf4.adapter import Mdf4
 from floatref_adapters.testing.mdf4 import write_mdf4
 from floatref_adapters.testing.mdf4_blocks import (
     MASTER,

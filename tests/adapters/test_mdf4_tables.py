@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import NativeFile
-from floatref_adapters.mdf4 import Mdf4
+from floatref_adapters.mdf4.adapter import Mdf4
 
 Line = tuple[float, float]
 LINES = st.tuples(st.floats(-9, 9), st.floats(-9, 9))

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from floatref import Epoch, InputError, NativeFile, Stream
-from floatref_adapters.nmea import Nmea
+from floatref_adapters.nmea.adapter import Nmea
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.nmea import (
     ANGLE_QUANTUM_DEG,

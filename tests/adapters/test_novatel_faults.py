@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import InputError, NativeFile
-from floatref_adapters.novatel import NovAtel
+from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import (
     ascii_log,

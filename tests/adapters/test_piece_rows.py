@@ -11,10 +11,10 @@ import pytest
 from nptdms import ChannelObject, TdmsWriter
 
 from floatref import InputError
-from floatref_adapters.arrow import ArrowIpc, Parquet
-from floatref_adapters.hdf5 import Hdf5
-from floatref_adapters.hdf5_here import native_file
-from floatref_adapters.tdms import Tdms
+from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
+from floatref_adapters.hdf5.adapter import Hdf5
+from floatref_adapters.hdf5.here import native_file
+from floatref_adapters.tdms.adapter import Tdms
 from floatref_adapters.testing.reading import Opener
 
 COLUMNS, ROWS, MOST_SAMPLES = 400, 30_000, 1 << 22

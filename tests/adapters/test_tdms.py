@@ -26,7 +26,7 @@ from floatref import (
     UniformClock,
 )
 from floatref.architectures.plugins import plugins
-from floatref_adapters.tdms import Tdms
+from floatref_adapters.tdms.adapter import Tdms
 from floatref_adapters.testing.tdms import write_tdms
 
 samples = st.none() | st.floats(-1e6, 1e6)

@@ -1,0 +1,1 @@
+"""ERD, out and in."""
