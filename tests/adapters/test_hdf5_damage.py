@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
 from floatref.architectures.plugins import plugins
+from floatref_adapters.hdf5 import apart
 from floatref_adapters.hdf5.adapter import Hdf5
 from floatref_adapters.hdf5.here import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5
