@@ -110,6 +110,13 @@ def test_fd_frames_and_extended_ids_are_read(tmp_path: Path) -> None:
         assert table_of(stream_of(file, "Multiplexed"))[0]["Pressure"].tolist() == [-39]
 
 
+def test_a_length_code_above_8_of_a_classic_frame_means_8_bytes(tmp_path: Path) -> None:
+    log = asc_log([(100, WHEELS_ID, wheels_data([1, 2, 3, 4]))]).replace(" d 8 ", " d f ")
+    assert " d f " in log
+    file = opened(tmp_path, log)
+    assert (stream_of(file, "WheelSpeeds").count, file.told) == (1, ())
+
+
 def test_without_a_database_every_id_is_listed_with_its_count(tmp_path: Path) -> None:
     frames = [(k, (0x64, 0x7FF, 0x800)[k % 3], bytes(k % 8)) for k in range(1, 12)]
     file = opened(tmp_path, asc_log(frames), dbc=None)

@@ -133,6 +133,15 @@ def test_published_sentences_say_what_their_descriptions_say(tmp_path: Path) -> 
     assert (stream_of(file, "VDM").count, stream_of(file, "VDM").columns) == (1, ())
 
 
+@pytest.mark.parametrize(("modes", "quality"), [("RA", 4), ("AF", 5), ("DN", 2), ("AA", 1)])
+def test_the_best_mode_of_gns_is_its_quality(tmp_path: Path, modes: str, quality: int) -> None:
+    body = f"GNGNS,014035.00,4332.69262,S,17235.48549,E,{modes},13,0.9,25.63,11.24,1.5,0042"
+    values, _ = rows(stream_of(opened(tmp_path, sentence(body)), "GNS"))
+    assert values["quality"].tolist() == [quality]
+    assert values["ellipsoidal_height"].tolist() == [25.63 + 11.24]
+    assert values["correction_age"].tolist() == [1.5]
+
+
 @pytest.mark.parametrize("side", ["N", "S"])
 def test_the_hemisphere_is_the_sign(tmp_path: Path, side: str) -> None:
     text = sentence(f"GNGGA,000000,3351.65,{side},15112.40,W,4,9,1,10.0,M,20.0,M,,")
@@ -140,47 +149,6 @@ def test_the_hemisphere_is_the_sign(tmp_path: Path, side: str) -> None:
     sign = {"N": 1, "S": -1}[side]
     assert values["latitude"][0] == pytest.approx(sign * (33 + 51.65 / 60))
     assert values["longitude"][0] == pytest.approx(-(151 + 12.4 / 60))
-
-
-def test_without_a_date_the_day_is_unknown_and_midnight_goes_on(tmp_path: Path) -> None:
-    times = ("235959.80", "235959.90", "000000.00", "000000.10")
-    log = "\n".join(sentence(f"GNGGA,{time},,,,,0,,,,M,,M,,") for time in times)
-    of = stream_of(opened(tmp_path, log), "GGA")
-    assert of.clock.epoch is Epoch.DAY
-    assert np.diff(rows(of)[1]).tolist() == [10**8] * 3
-    assert rows(of)[1][0] == 86_399_800 * 10**6
-
-
-def test_a_late_sentence_of_before_midnight_keeps_its_day(tmp_path: Path) -> None:
-    bodies = ("GNGGA,235959.9,,,,,0,,,,M,,M,,", "GNGGA,000000.0,,,,,0,,,,M,,M,,")
-    late = "GNGST,235959.9,1,1,1,0,1,1,1"
-    file = opened(tmp_path, "\n".join(map(sentence, (*bodies, late))))
-    assert rows(stream_of(file, "GST"))[1][0] == rows(stream_of(file, "GGA"))[1][0]
-    assert file.told == ()
-
-
-def test_a_date_that_comes_late_dates_what_was_before_it(tmp_path: Path) -> None:
-    log = [sentence("GNGGA,235959,,,,,0,,,,M,,M,,"), sentence("GNGGA,000001,,,,,0,,,,M,,M,,")]
-    log += [sentence("GNZDA,000001,01,03,2024,00,00")]
-    _, ns = rows(stream_of(opened(tmp_path, "\n".join(log)), "GGA"))
-    first = datetime(2024, 2, 29, 23, 59, 59, tzinfo=UTC).timestamp()
-    assert ns.tolist() == [first * 1e9, (first + 2) * 1e9]
-
-
-@pytest.mark.parametrize("date", ["01,01,9999", "01,01,4294967296", f"{10**20},01,24", "-1,1,24"])
-def test_a_date_that_cannot_be_is_none(tmp_path: Path, date: str) -> None:
-    log = [sentence(f"GNZDA,120000,{date},00,00"), sentence("GNZDA,120001,01,03,2024,00,00")]
-    of = stream_of(opened(tmp_path, "\n".join(log)), "ZDA")
-    noon = datetime(2024, 3, 1, 12, tzinfo=UTC).timestamp()
-    assert rows(of)[1].tolist() == [noon * 1e9, (noon + 1) * 1e9]
-
-
-def test_decimals_beyond_ms_are_kept_whole(tmp_path: Path) -> None:
-    times = ("120000.1234", "120000.123456")
-    log = "\n".join(sentence(f"GNGGA,{time},,,,,0,,,,M,,M,,") for time in times)
-    of = stream_of(opened(tmp_path, log), "GGA")
-    assert of.clock.tick_s.denominator == 10**6
-    assert np.diff(rows(of)[1]).tolist() == [56_000]
 
 
 def test_faults_are_told_with_their_counts(tmp_path: Path) -> None:

@@ -26,12 +26,27 @@ def binary_log(fixes: Fixes) -> bytes:
     return b"".join(log for k in range(len(fixes.ms)) for log in _logs(fixes, k))
 
 
-def long_log(number: int, gps_ms: int, body: bytes, status: int = FINESTEERING) -> bytes:
-    """Return a binary log with the long header."""
+def long_log(
+    number: int, gps_ms: int, body: bytes, status: int = FINESTEERING, kind: int = 0
+) -> bytes:
+    """Return a binary log with the long header; ``kind`` has antenna, format and answer in bits."""
     week, ms = divmod(gps_ms, WEEK_MS)
     definition = DEFINITIONS.get(number, 0)
     header = LONG_HEADER.pack(
-        SYNC, LONG_HEADER.size, number, 0, 32, len(body), 0, 90, status, week, ms, 0, definition, 0
+        SYNC,
+        LONG_HEADER.size,
+        number,
+        kind,
+        32,
+        len(body),
+        0,
+        90,
+        status,
+        week,
+        ms,
+        0,
+        definition,
+        0,
     )
     return _summed(header + body)
 

@@ -84,3 +84,14 @@ def test_days_go_up_and_the_list_is_told_when_it_is_old() -> None:
 def test_before_gps_time_is_refused(convert, time: float) -> None:
     with pytest.raises(InputError, match="1980-01-06"):
         convert(time)
+
+
+@pytest.mark.parametrize("day", leap_seconds.FIRST_DAYS)
+def test_around_every_leap_second_the_way_back_is_the_way_there(day: str) -> None:
+    midnight = datetime.fromisoformat(day).replace(tzinfo=UTC).timestamp()
+    for utc in [midnight + s for s in (-30, -1, -0.5, 0, 0.5, 1, 30)]:
+        assert utc_from_gps_s(gps_from_utc_s(utc)) == utc
+    last = gps_from_utc_s(midnight - 1)
+    assert gps_from_utc_s(midnight) == last + 2
+    # The leap second itself is told as the first one of the day.
+    assert utc_from_gps_s(last + 1) == midnight
