@@ -211,6 +211,9 @@ def test_a_recording_directory_needs_no_map(folder: Path) -> None:
     result = CliRunner().invoke(main, args)
     assert result.exit_code == 2
     assert "adapter recording has our channels; it needs no map" in result.stderr
+    named = MAP.replace("[source]", '[source]\nadapter = "logger"', 1)
+    (folder / "map.toml").write_text(named)
+    assert CliRunner().invoke(main, args).stderr == result.stderr
 
 
 def test_warnings_have_the_native_name(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
