@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from floatref import Epoch, Stream
-from floatref_adapters.nmea import Nmea
+from floatref_adapters.nmea.adapter import Nmea
 from floatref_adapters.testing.nmea import sentence
 from floatref_adapters.testing.reading import stream_of, table_of
 

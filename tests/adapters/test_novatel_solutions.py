@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from floatref import NativeFile
-from floatref_adapters.novatel import NovAtel
+from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, text_log
 from floatref_adapters.testing.reading import stream_of, table_of
