@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.arrow.schema import Table, is_temporal, tables_of, text_of
 from floatref_adapters.libraries import library
+from floatref_adapters.piece_rows import keep_freed_memory
 from floatref_adapters.refusals import naming
 
 CONTINUED = b"\xff\xff\xff\xff"
@@ -141,6 +142,7 @@ class _Reader:
         time = [] if self.table.time is None else [self.table.time]
         wanted = sorted({places[name] for name in names}.union(time))
         first = 0
+        keep_freed_memory()
         with _reading(self.kind):
             for arrays in self.source.arrays(wanted) if wanted else ():
                 count = min(len(arrays[0]), self.table.count - first)

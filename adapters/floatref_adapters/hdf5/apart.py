@@ -15,6 +15,7 @@ from threading import Timer
 from typing import Any, BinaryIO
 
 from floatref import InputError, NativeFile, Rows
+from floatref_adapters.piece_rows import keep_freed_memory
 
 LONGEST_SILENCE_S = 60.0
 MOST_MEMORY = 1 << 30
@@ -62,6 +63,7 @@ class _Reader:
 
     def __call__(self, names: Sequence[str]) -> Iterator[Rows]:
         """Yield the rows of the columns ``names``."""
+        keep_freed_memory()
         yield from _answers(replace(self.request, names=tuple(names)))
 
 

@@ -12,7 +12,7 @@ from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.hdf5.series import MOST_HELD, Held, Series, chosen
 from floatref_adapters.hdf5.streams import Table, tables_of
 from floatref_adapters.hdf5.tree import opened, text_of, tree_of
-from floatref_adapters.piece_rows import MOST_ROWS, rows_for
+from floatref_adapters.piece_rows import MOST_ROWS, keep_freed_memory, rows_for
 
 
 def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
@@ -54,6 +54,7 @@ class _Reader:
             if name not in named:
                 raise InputError(f"{name}: no such column of numbers")
         wanted = {name: named[name] for name in names}
+        keep_freed_memory()
         with opened(self.path) as file:
             time = self.table.time
             held = _held(file, [*wanted.values(), *([time] if time else [])])

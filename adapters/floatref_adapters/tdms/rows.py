@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Rows
-from floatref_adapters.piece_rows import MOST_ROWS, rows_for
+from floatref_adapters.piece_rows import MOST_ROWS, keep_freed_memory, rows_for
 from floatref_adapters.tdms.changes import Changes
 from floatref_adapters.tdms.channels import TdmsChannel
 from floatref_adapters.tdms.clock import ns_of
@@ -72,6 +72,7 @@ class Reader:
         through = self._buffered if any(c.daqmx for c in every) else self._direct
         pieces = through(every) if every else self._nothing()
         first = 0
+        keep_freed_memory()
         while True:
             with quiet():
                 values = self._next(pieces)
