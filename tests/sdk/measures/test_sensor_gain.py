@@ -91,3 +91,32 @@ def test_lasers_that_are_late_do_not_look_inverted() -> None:
     for late in (-0.3, -0.04, 0.005, 0.04, 0.3):
         shifted = replace(height, clock=replace(height.clock, start_s=late))
         assert not sensor_gain(force, shifted, distance) < 0
+
+
+def swinging(parts: list[tuple[float, float, float]], beside_m: float = 0.0) -> float:
+    """Return the gain of a height that stands: rms in m, gain and seconds of each part.
+
+    Beside its own swing at 1.5 Hz the height moves by ``beside_m`` at 3.3 Hz.
+    """
+    omega, force, height = 3 * np.pi, [], []
+    for motion_m, gain, seconds in parts:
+        times = np.arange(int(1000 * seconds)) / 1000
+        z = 2**0.5 * motion_m * np.sin(omega * times)
+        force.append(9.8 - omega**2 * z)
+        height.append(0.3 + gain * z + 2**0.5 * beside_m * np.sin(20.7 * times))
+    clock = UniformClock.of(1000.0)
+    series = np.concatenate(force), np.concatenate(height)
+    names = "vertical_specific_force", "height"
+    sensors = [Channel.of(n, x, clock) for n, x in zip(names, series, strict=True)]
+    return sensor_gain(*sensors, Channel.of("distance", 0 * series[0], clock))
+
+
+def test_what_moves_too_little_or_otherwise_tells_nothing() -> None:
+    assert swinging([(0.005, 3.0, 9.0)]) == pytest.approx(3.0, rel=0.02)
+    assert np.isnan(swinging([(0.00005, 3.0, 9.0)]))
+    assert np.isnan(swinging([(0.005, 3.0, 9.0)], beside_m=0.005))
+
+
+def test_the_window_with_the_most_motion_tells() -> None:
+    parts = [(0.001, 3.0, 6.0), (0.02, 1.0, 6.0), (0.001, 3.0, 6.0)]
+    assert swinging(parts) == pytest.approx(1.0, rel=0.02)
