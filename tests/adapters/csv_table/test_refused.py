@@ -13,25 +13,15 @@ import floatref
 from floatref import InputError, NativeFile
 from floatref.architectures.plugins import plugins
 from floatref_adapters.csv_table.adapter import CsvTable
+from floatref_adapters.testing.reading import columns_of as columns
+from floatref_adapters.testing.reading import opened
 
 few = settings(deadline=None, max_examples=80)
 
 
-def read(folder: Path, text: str | bytes, name: str = "run.csv", **options: str) -> NativeFile:
+def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     """Return what the adapter finds in a file that holds ``text``."""
-    path = folder / name
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return CsvTable().streams(path, options)
-
-
-def columns(native: NativeFile) -> dict[str, list[float]]:
-    """Return the samples of every column of numbers, by its name."""
-    (stream,) = native.streams
-    names = [column.name for column in stream.columns if column.numeric]
-    pieces = list(stream.read(names))
-    found = {n: np.concatenate([p.values[n] for p in pieces]).tolist() for n in names}
-    assert all(len(values) == stream.count for values in found.values())
-    return found
+    return opened(CsvTable(), folder / "run.csv", text, **options)
 
 
 REFUSED = {

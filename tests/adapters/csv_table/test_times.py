@@ -1,4 +1,4 @@
-"""Tables of text: what is written is read, what could be read in two ways is refused."""
+"""Times in tables of text: ticks of their last decimal, or dates."""
 
 from fractions import Fraction
 from pathlib import Path
@@ -10,96 +10,15 @@ from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.csv_table.adapter import CsvTable
-
-samples = st.none() | st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6)
-
+from floatref_adapters.testing.reading import opened
+from floatref_adapters.testing.reading import ticks_of as ticks
 
 few = settings(deadline=None, max_examples=80)
 
 
-MISSING = ("", "nan", "NaN", "NA", "-", "n/a", "#DIV/0!", "#NUM!")
-
-
-def read(folder: Path, text: str | bytes, name: str = "run.csv", **options: str) -> NativeFile:
+def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     """Return what the adapter finds in a file that holds ``text``."""
-    path = folder / name
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return CsvTable().streams(path, options)
-
-
-def columns(native: NativeFile) -> dict[str, list[float]]:
-    """Return the samples of every column of numbers, by its name."""
-    (stream,) = native.streams
-    names = [column.name for column in stream.columns if column.numeric]
-    pieces = list(stream.read(names))
-    found = {n: np.concatenate([p.values[n] for p in pieces]).tolist() for n in names}
-    assert all(len(values) == stream.count for values in found.values())
-    return found
-
-
-def ticks(native: NativeFile) -> np.ndarray:
-    """Return the ticks of every row."""
-    return np.concatenate([rows.ticks for rows in native.streams[0].read([])])
-
-
-@few
-@given(
-    rows=st.lists(st.tuples(samples, samples, samples), min_size=2, max_size=12),
-    delimiter=st.sampled_from([",", ";", "\t", "|", " ", "   "]),
-    comma=st.booleans(),
-    ending=st.sampled_from(["\n", "\r\n", "\r"]),
-    encoding=st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "latin-1"]),
-    quoted=st.booleans(),
-    above=st.integers(0, 3),
-    missing=st.sampled_from(MISSING),
-)
-def test_every_sample_comes_back_whatever_the_writing(
-    tmp_path_factory: pytest.TempPathFactory,
-    rows: list[tuple[float | None, ...]],
-    delimiter: str,
-    comma: bool,
-    ending: str,
-    encoding: str,
-    quoted: bool,
-    above: int,
-    missing: str,
-) -> None:
-    mark = "," if comma and delimiter != "," else "."
-    missing = missing if delimiter.strip() else "NaN"
-
-    def field(value: float | None) -> str:
-        text = missing if value is None else repr(value).replace(".", mark)
-        return f'"{text}"' if quoted else text
-
-    lines = [f"# made by a logger {k}" for k in range(above)]
-    lines.append(delimiter.join(["time_s", "a", "µ°b", "c"]))
-    for k, row in enumerate(rows):
-        time = f"{k / 8:.4f}".replace(".", mark)
-        lines.append(delimiter.join([time, *map(field, row)]))
-    text = "".join(line + ending for line in lines)
-    native = read(tmp_path_factory.mktemp("csv"), text.encode(encoding))
-    expected = [[np.nan if x is None else x for x in values] for values in zip(*rows, strict=True)]
-    found = columns(native)
-    assert list(found) == ["a", "µ°b", "c"]
-    for values, wanted in zip(found.values(), expected, strict=True):
-        np.testing.assert_array_equal(values, wanted)
-    np.testing.assert_array_equal(ticks(native), 1250 * np.arange(len(rows)))
-    assert native.streams[0].clock.tick_s == Fraction(1, 10_000)
-    assert native.told == ((f"{above} lines above the table: skipped",) if above else ())
-
-
-@few
-@given(
-    values=st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=2, max_size=40),
-    shape=st.sampled_from(["{!r}", "{:.17e}", "{:.3f}", "{:+.6g}", " {!r} "]),
-)
-def test_numbers_are_read_as_python_reads_them(
-    tmp_path_factory: pytest.TempPathFactory, values: list[float], shape: str
-) -> None:
-    texts = [shape.format(value) for value in values]
-    text = "a,b\n" + "".join(f"{t},1\n" for t in texts)
-    native = read(tmp_path_factory.mktemp("csv"), text)
-    assert columns(native)["a"] == [float(t) for t in texts]
+    return opened(CsvTable(), folder / "run.csv", text, **options)
 
 
 @few
@@ -234,82 +153,3 @@ def test_the_option_time_names_the_column(tmp_path: Path) -> None:
     for option, said in ({"time": "gps"}, "no such column"), ({"epoch": "gsp"}, "epoch = 'gsp'"):
         with pytest.raises(InputError, match=said):
             read(tmp_path, text, **option)
-
-
-def test_units_are_in_brackets_or_in_a_row_of_their_own(tmp_path: Path) -> None:
-    native = read(
-        tmp_path, "time_s,height [mm],force (m/s²),height (left),left.height\n0,1,2,3,4\n"
-    )
-    named = [(c.name, c.unit) for c in native.streams[0].columns]
-    assert named == [
-        ("height", "mm"),
-        ("force", "m/s²"),
-        ("height (left)", ""),
-        ("left.height", ""),
-    ]
-    native = read(tmp_path, "Time\tAz\tLaser\n[s]\t[g]\tmm\n0.5\t1\t300\n1.0\t1\t301\n")
-    assert [(c.name, c.unit) for c in native.streams[0].columns] == [("Az", "g"), ("Laser", "mm")]
-    assert ticks(native).tolist() == [5, 10]
-
-
-def test_quoted_names_go_over_lines_and_stray_quotes_do_not(tmp_path: Path) -> None:
-    native = read(tmp_path, '"time\n[s]",x,"height,\r\nleft (mm)"\n0,1,2\n1,2,3\n')
-    assert [(c.name, c.unit) for c in native.streams[0].columns] == [
-        ("x", ""),
-        ("height, left", "mm"),
-    ]
-    assert columns(native)["x"] == [1, 2]
-    above = 'run 5\n2" tape\nby hand\n'
-    native = read(tmp_path, above + "time_s,x,y\n" + "0,1,2\n" * 9)
-    assert [c.name for c in native.streams[0].columns] == ["x", "y"]
-    assert columns(native)["x"] == [1] * 9
-    assert native.told == ("3 lines above the table: skipped",)
-
-
-@pytest.mark.parametrize("count", [300, 6000])
-def test_tables_of_many_columns_have_long_lines(tmp_path: Path, count: int) -> None:
-    names = [f"acceleration {k} [m/s²]" for k in range(count)]
-    rows = (",".join([str(k), *["1.5"] * count]) for k in range(3))
-    native = read(tmp_path, "\n".join([",".join(["time_s", *names]), *rows]))
-    assert native.streams[0].count == 3
-    assert native.streams[0].columns[-1].name == f"acceleration {count - 1}"
-    assert ticks(native).tolist() == [0, 1, 2]
-
-
-def test_repeated_and_missing_names_are_told_apart(tmp_path: Path) -> None:
-    native = read(tmp_path, "time,a,a,,a #2\n0,1,2,3,4\n1,1,2,3,4\n")
-    found = native.streams[0].columns
-    assert [c.name for c in found] == ["a", "a #3", "column 4", "a #2"]
-    assert found[1].note == "another column a"
-
-
-def test_columns_of_text_are_listed_and_not_read(tmp_path: Path) -> None:
-    native = read(tmp_path, "time,state,x,lost\n0,ok,1,\n1,bad,2,\n")
-    assert [(c.name, c.numeric) for c in native.streams[0].columns] == [
-        ("state", False), ("x", True), ("lost", True)
-    ]  # fmt: skip
-    np.testing.assert_array_equal(columns(native)["x"], [1, 2])
-    assert native.told == ("1 columns of text: not read",)
-
-
-def test_tables_without_a_header_or_with_delimiters_at_the_end(tmp_path: Path) -> None:
-    assert columns(read(tmp_path, "1.0 2.5\n3.0   4.5\n  5.0 6.5 \n")) == {
-        "column 1": [1, 3, 5], "column 2": [2.5, 4.5, 6.5]
-    }  # fmt: skip
-    assert columns(read(tmp_path, "a;b;\n1;2;\n3;4;\n")) == {"a": [1, 3], "b": [2, 4]}
-    assert columns(read(tmp_path, "1,2\n3,4\n", delimiter="comma")) == {
-        "column 1": [1, 3], "column 2": [2, 4]
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize("size", [1 << 16, (1 << 16) + 1, 1 << 20])
-def test_rows_over_the_edges_of_blocks_are_whole(tmp_path: Path, size: int) -> None:
-    rng = np.random.default_rng(size)
-    wanted = rng.normal(size=(60_000, 2))
-    rows = "".join(f"{k / 1000:.3f},{a!r},{b!r}\r\n" for k, (a, b) in enumerate(wanted.tolist()))
-    head = "time,a,b\r\n"
-    pad = "# " + "x" * (size - len(head) - 5 - rows.find("\n")) + "\r\n"
-    native = read(tmp_path, pad[: 1 << 15].rstrip() + "\r\n" + head + rows)
-    found = columns(native)
-    np.testing.assert_array_equal(np.column_stack([found["a"], found["b"]]), wanted)
-    np.testing.assert_array_equal(ticks(native), np.arange(60_000))

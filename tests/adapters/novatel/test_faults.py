@@ -10,13 +10,8 @@ from hypothesis import strategies as st
 from floatref import InputError, NativeFile
 from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
-from floatref_adapters.testing.novatel import (
-    ascii_log,
-    binary_log,
-    long_log,
-    short_log,
-    text_log,
-)
+from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, short_log, text_log
+from floatref_adapters.testing.reading import opened as opened_by
 from floatref_adapters.testing.reading import read_or_refused, stream_of, table_of
 
 WEEK_MS = 604_800_000
@@ -26,9 +21,7 @@ ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [
 
 def opened(folder: Path, content: bytes) -> NativeFile:
     """Return what the adapter finds in a file that holds ``content``."""
-    path = folder / "run.gps"
-    path.write_bytes(content)
-    return NovAtel().streams(path, {})
+    return opened_by(NovAtel(), folder / "run.gps", content)
 
 
 def test_a_wrong_checksum_drops_a_log_and_is_told(tmp_path: Path) -> None:

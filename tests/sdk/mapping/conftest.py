@@ -1,14 +1,16 @@
 """A logger whose files hold what a test says, and a run that can be given to it."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.errors import InputError
-from floatref.mapping import read_map
+from floatref.mapping import Reading, read_map, read_native
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 
 Content = Callable[[Mapping[str, str]], NativeFile]
@@ -102,6 +104,47 @@ def drive(seconds: float = 8.0, rate: int = 1000) -> dict[str, np.ndarray]:
 def make_stream() -> Callable[..., Stream]:
     """Make a stream: its name, its columns, then what `stream` takes."""
     return stream
+
+
+@pytest.fixture
+def adc(make_stream: Callable[..., Stream]) -> Callable[..., Stream]:
+    """Make a minute of an accelerometer at 500 Hz, which is the time base.
+
+    ``columns`` are further ones, each a function of the time.
+    """
+
+    def make(columns: Mapping[str, Callable[[Any], Any]] | None = None, **more: Any) -> Stream:
+        t = np.arange(30_000) / 500
+        values = {"force": 9.8 + 0.1 * np.sin(t)}
+        values |= {name: of(t) for name, of in (columns or {}).items()}
+        return make_stream("adc", values, rate=Fraction(500), **more)
+
+    return make
+
+
+@pytest.fixture
+def pulsed() -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    """Make a voltage at some times: 5 V for 50 ms from each of others on, noise on it."""
+
+    def of(times: np.ndarray, at: np.ndarray) -> np.ndarray:
+        since = times - at[np.clip(np.searchsorted(at, times, "right") - 1, 0, None)]
+        noise = np.random.default_rng(3).normal(size=times.size)
+        return 5.0 * ((since >= 0) & (since < 0.05)) + 0.02 * noise
+
+    return of
+
+
+@pytest.fixture
+def read(put: Callable[..., Path], tmp_path: Path) -> Callable[..., Reading]:
+    """Read files of streams by a map without its first line."""
+
+    def of(chart: str, *streams: Stream, **others: Stream) -> Reading:
+        for name, stream in others.items():
+            put(stream, name=f"{name}.log")
+        (tmp_path / "map.toml").write_text('format = "floatref-map/1"\n' + chart)
+        return read_native(put(*streams), tmp_path / "map.toml")
+
+    return of
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ from floatref import NativeFile
 from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, text_log
+from floatref_adapters.testing.reading import opened as opened_by
 from floatref_adapters.testing.reading import stream_of, table_of
 
 NOW_MS = 2300 * 604_800_000
@@ -18,9 +19,7 @@ ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [
 
 def opened(folder: Path, content: bytes) -> NativeFile:
     """Return what the adapter finds in a file that holds ``content``."""
-    path = folder / "run.gps"
-    path.write_bytes(content)
-    return NovAtel().streams(path, {})
+    return opened_by(NovAtel(), folder / "run.gps", content)
 
 
 KINDS = {0: 0, 1: 7, 2: 7, 8: 1, 16: 1, 17: 2, 18: 2, 19: 6, 20: 2, 32: 5, 33: 5, 34: 5}
