@@ -14,6 +14,7 @@ from floatref.mapping.epochs import between_epochs
 from floatref.mapping.naming import find
 from floatref.mapping.spool import Spool
 from floatref.mapping.taking import Taken
+from floatref.mapping.time_of_day import since_zero
 from floatref.mapping.timed import Timed
 from floatref.measures.clock_alignment import (
     Alignment,
@@ -21,14 +22,12 @@ from floatref.measures.clock_alignment import (
     align_by_pulses,
     align_by_time_readings,
 )
-from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch, NativeFile, Stream
 
 Token = ChannelEntry | str
 """What a column was taken for: an entry of the map, or an alignment, by its own name."""
 Places = Mapping[tuple[Key, Token], int]
 """Where in what was taken of a stream the samples for a token are."""
-DAY_S, WEEK_S = 86_400, 604_800
 OWN, BASE = ("pulses",), ("base_pulses", "base_time", "base_pps")
 
 
@@ -135,7 +134,9 @@ class _Aligning:
             return _no_surer(found, hypot(own.step_s, common.step_s))
         if entry.base_time is not None:
             times, readings = self._signal(self._base[0], entry.base_time).readings()
-            return align_by_time_readings(times, self._unrolled(readings, clock))
+            since, said = since_zero(readings, float(self._zeros[clock]), clock[2])
+            found = align_by_time_readings(times, since)
+            return replace(found, told=(*said, *found.told))
         if entry.base_pps is not None:
             dated = absolute(clock) and absolute(base)
             near = entry.offset_s + (self._by_epochs(clock, base).offset_s if dated else 0.0)
@@ -178,17 +179,6 @@ class _Aligning:
             raise InputError(f"{name} is not on the clock of the accelerometer; map one that is")
         if of is not None and (not fits or place == self._base):
             raise InputError(f"{name} is not on this clock; give the pulses that it timed")
-
-    def _unrolled(self, readings: FloatArray, clock: ClockKey) -> FloatArray:
-        """Return time readings as s after the zero of ``clock``: of the day, the week, or whole."""
-        if clock[2] is Epoch.LOCAL:
-            return readings
-        zero = float(self._zeros[clock])
-        period = WEEK_S if clock[2] is Epoch.GPS else DAY_S
-        if not readings.size or abs(readings[0] - zero) <= WEEK_S / 2:
-            return readings - zero
-        turns = round((zero - float(readings[0])) / period)
-        return readings + turns * period - zero
 
 
 def _no_surer(alignment: Alignment, step_s: float) -> Alignment:
