@@ -33,7 +33,7 @@ SUFFIXES = {
 }
 RATE_HZ, SPEED_MPS = 16_000.0, 20.0
 SHARED = ("longitudinal_specific_force", "lateral_specific_force", "roll_rate", "pitch_rate")
-CSV_GIGABYTES = 0.5
+CSV_GIGABYTES = 0.1
 """Text is read so much slower that less of it tells the rate."""
 CHUNK = 1 << 18
 
