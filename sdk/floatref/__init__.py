@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from floatref.values.recording import Recording as Recording
     from floatref.values.recording import Setup as Setup
     from floatref.values.recording import TrackSetup as TrackSetup
+    from floatref.values.vehicle import VehicleSetup as VehicleSetup
 
 __version__ = "0.1.0"
 
@@ -86,6 +87,7 @@ _PUBLIC = {
     "TrackSetup": "values.recording",
     "TravelSpeed": "retrofit",
     "UniformClock": "values.clock",
+    "VehicleSetup": "values.vehicle",
     "pipeline_capabilities": "architectures.processing",
     "pipelines": "architectures.processing",
     "process": "architectures.processing",

@@ -13,7 +13,7 @@ from floatref.files.sources import document_path, naming
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording, Setup, TrackSetup
+from floatref.values.recording import Channel, Recording, Setup, TrackSetup, VehicleSetup
 
 DOCUMENT = "recording.json"
 """Name of the JSON file of a recording directory."""
@@ -108,7 +108,14 @@ def setup_of(entry: Mapping[str, Any]) -> Setup:
         name: TrackSetup(**_known(track, "reference_point_m", "laser_offset_m"))
         for name, track in entry.get("tracks", {}).items()
     }
-    return Setup(**_known(entry, "profile_interval_m", "gnss_antenna_offset_m"), tracks=tracks)
+    known = _known(entry, "profile_interval_m", "gnss_antenna_offset_m")
+    return Setup(**known, tracks=tracks, vehicle=_vehicle(entry.get("vehicle")))
+
+
+def _vehicle(entry: Mapping[str, Any] | None) -> VehicleSetup | None:
+    if entry is None:
+        return None
+    return VehicleSetup(entry["model"], entry["parameters"], float(entry.get("x_m", 0.0)))
 
 
 def _known(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
@@ -132,10 +139,18 @@ def _described(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArr
             "profile_interval_m": setup.profile_interval_m,
             "gnss_antenna_offset_m": setup.gnss_antenna_offset_m,
             "tracks": {name: vars(track) for name, track in setup.tracks.items()},
+            **_described_vehicle(setup.vehicle),
         },
         "channels": entries,
     }
     return plain(document, "recording"), samples
+
+
+def _described_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:
+    if vehicle is None:
+        return {}
+    numbers = {"x_m": vehicle.x_m, "parameters": dict(vehicle.parameters)}
+    return {"vehicle": {"model": vehicle.model, **numbers}}
 
 
 def _entries(recording: Recording, samples: dict[str, FloatArray]) -> list[dict[str, Any]]:

@@ -54,10 +54,30 @@ CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
         ),
         "gnss_latitude": ChannelSpec("rad", "geodetic latitude"),
         "gnss_longitude": ChannelSpec("rad", "geodetic longitude"),
+        "unsprung_specific_force": ChannelSpec("m/s^2", "wheel carrier, vertical, +9.8 at rest"),
+        "rear_unsprung_specific_force": ChannelSpec("m/s^2", "rear wheel carrier, likewise"),
+        "sprung_specific_force": ChannelSpec("m/s^2", "body above that wheel, +9.8 at rest"),
+        "equipment_specific_force": ChannelSpec("m/s^2", "equipment carried, +9.8 at rest"),
+        "suspension_deflection": ChannelSpec("m", "body minus wheel height, against rest"),
+        "rear_suspension_deflection": ChannelSpec("m", "the same at the rear wheel"),
+        "unsprung_displacement": ChannelSpec("m", "wheel height against rest, up"),
+        "rear_unsprung_displacement": ChannelSpec("m", "rear wheel height against rest, up"),
+        "sprung_displacement": ChannelSpec("m", "body height against rest, up"),
+        "equipment_displacement": ChannelSpec("m", "height of equipment against rest, up"),
+        "unsprung_velocity": ChannelSpec("m/s", "wheel, up"),
+        "rear_unsprung_velocity": ChannelSpec("m/s", "rear wheel, up"),
+        "sprung_velocity": ChannelSpec("m/s", "body, up"),
+        "equipment_velocity": ChannelSpec("m/s", "equipment carried, up"),
+        "pitch_angle": ChannelSpec("rad", "body against rest, nose down positive"),
+        "roll_angle": ChannelSpec("rad", "body against rest, left side up positive"),
+        "pitch_acceleration": ChannelSpec("rad/s^2", "second derivative of pitch_angle"),
+        "roll_acceleration": ChannelSpec("rad/s^2", "second derivative of roll_angle"),
     }
 )
 
-SPELLINGS: Mapping[str, str] = MappingProxyType({"m/s²": "m/s^2", "-": "1", "–": "1", "": "1"})
+SPELLINGS: Mapping[str, str] = MappingProxyType(
+    {"m/s²": "m/s^2", "rad/s²": "rad/s^2", "-": "1", "–": "1", "": "1"}
+)
 """Other ways to write the units of the channels."""
 
 FACTORS: Mapping[tuple[str, str], str] = MappingProxyType(
@@ -70,6 +90,7 @@ FACTORS: Mapping[tuple[str, str], str] = MappingProxyType(
         ("ft", "m"): "0.3048",
         ("deg", "rad"): "0.017453292519943295",
         ("deg/s", "rad/s"): "0.017453292519943295",
+        ("deg/s^2", "rad/s^2"): "0.017453292519943295",
         ("km/h", "m/s"): "1/3.6",
     }
 )

@@ -12,6 +12,7 @@ from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.scanning import first_where
+from floatref.values.vehicle import VehicleSetup
 
 Vector = tuple[float, float, float]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
@@ -39,11 +40,12 @@ class TrackSetup:
 
 @dataclass(frozen=True)
 class Setup:
-    """Geometry of the installation and the profile interval, in m."""
+    """Geometry of the installation and the profile interval, in m, and the vehicle if known."""
 
     profile_interval_m: float = 0.00508
     gnss_antenna_offset_m: Vector = ORIGIN
     tracks: Mapping[str, TrackSetup] = field(default_factory=dict)
+    vehicle: VehicleSetup | None = None
 
     def __post_init__(self) -> None:
         """Refuse an interval that cannot be one; freeze the tracks."""
@@ -169,5 +171,6 @@ __all__ = [
     "StampedClock",
     "TrackSetup",
     "UniformClock",
+    "VehicleSetup",
     "check_interval",
 ]

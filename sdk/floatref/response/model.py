@@ -1,0 +1,140 @@
+"""A linear model of a vehicle on its tyres: M·q'' + C·q' + K·q = S·F, (7) of Zhu and of Imine.
+
+F holds the forces F = k·u + c·u' in N that the road u, in m, exerts through the tyres of
+stiffness k and damping c; these are also part of K and C.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+
+ASYMMETRIC = 1e-9
+"""Of the largest element, how far two that must be equal may differ: rounding."""
+
+
+@dataclass(frozen=True)
+class Freedom:
+    """One coordinate of a model.
+
+    Attributes:
+        name: in messages, in the field's words: "body", "front wheel".
+        symbol: of the paper.
+        quantity: how its channels begin: "sprung", "unsprung", "pitch".
+        angular: whether it is an angle in rad, else a height in m.
+        sign: of the recording's channel for a positive coordinate, 1 or -1.
+        track: wheel path that its channels belong to; "" is that which is estimated, or none.
+    """
+
+    name: str
+    symbol: str
+    quantity: str
+    angular: bool = False
+    sign: float = 1.0
+    track: str = ""
+
+
+@dataclass(frozen=True)
+class Tyre:
+    """A tyre between the road and one freedom.
+
+    Attributes:
+        freedom: name of the wheel's freedom.
+        stiffness: in N/m.
+        damping: in N·s/m.
+        x_m: position ahead of the model's own point, in m.
+        track: wheel path of the road under it; "" is that which is estimated.
+    """
+
+    freedom: str
+    stiffness: float
+    damping: float = 0.0
+    x_m: float = 0.0
+    track: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class VehicleModel:
+    """Freedoms, tyres and the matrices of n freedoms on p tyres.
+
+    Attributes:
+        name: of the model, in messages.
+        freedoms: the coordinates q, n of them.
+        tyres: p of them, in the order of F.
+        mass: M, shape (n, n), in kg and kg·m².
+        damping: C with the tyres' part, shape (n, n), in N·s/m, N·s and N·m·s.
+        stiffness: K with the tyres' part, shape (n, n), in N/m, N and N·m.
+    """
+
+    name: str
+    freedoms: tuple[Freedom, ...]
+    tyres: tuple[Tyre, ...]
+    mass: FloatArray
+    damping: FloatArray
+    stiffness: FloatArray
+
+    def __post_init__(self) -> None:
+        """Refuse what is no vehicle; InputError names matrix, value and what to do."""
+        for name in ("mass", "damping", "stiffness"):
+            matrix = np.asarray(getattr(self, name), dtype=np.float64)
+            self._check_shape(name, matrix)
+            self._check_energy(name, matrix)
+            object.__setattr__(self, name, _frozen_matrix(matrix))
+        for tyre in self.tyres:
+            self.index(tyre.freedom)
+            if not tyre.stiffness > 0 or not tyre.damping >= 0:
+                raise InputError(
+                    f"model {self.name}: the tyre of {tyre.freedom} has stiffness "
+                    f"{tyre.stiffness:g} N/m and damping {tyre.damping:g} N·s/m; give a stiffness "
+                    "above zero and a damping not below"
+                )
+
+    @property
+    def selection(self) -> FloatArray:
+        """S, shape (n, p): 1 where a tyre pushes a freedom."""
+        matrix = np.zeros((len(self.freedoms), len(self.tyres)))
+        for column, tyre in enumerate(self.tyres):
+            matrix[self.index(tyre.freedom), column] = 1.0
+        return matrix
+
+    def index(self, freedom: str) -> int:
+        """Return the place of ``freedom``, by name, in q; InputError if there is none."""
+        names = [f.name for f in self.freedoms]
+        if freedom not in names:
+            known = ", ".join(names)
+            raise InputError(f"model {self.name}: no freedom {freedom!r}; it has {known}")
+        return names.index(freedom)
+
+    def _check_shape(self, name: str, matrix: FloatArray) -> None:
+        size = len(self.freedoms)
+        if matrix.shape != (size, size):
+            raise InputError(
+                f"model {self.name}: {name} has the shape {matrix.shape}; "
+                f"{size} freedoms need ({size}, {size})"
+            )
+        if not np.isfinite(matrix).all():
+            raise InputError(f"model {self.name}: {name} holds what is no finite number; check it")
+
+    def _check_energy(self, name: str, matrix: FloatArray) -> None:
+        """Raise InputError unless ``matrix`` is symmetric and stores or takes energy."""
+        largest = float(np.abs(matrix).max())
+        if float(np.abs(matrix - matrix.T).max()) > ASYMMETRIC * largest:
+            raise InputError(
+                f"model {self.name}: {name} is not symmetric, so it would make energy; "
+                "check its signs"
+            )
+        least = float(np.linalg.eigvalsh(matrix)[0])
+        if least < -ASYMMETRIC * largest or (name == "mass" and least <= 0):
+            raise InputError(
+                f"model {self.name}: {name} has the eigenvalue {least:.3g}; "
+                f"it must {'be above' if name == 'mass' else 'not be below'} zero, "
+                "check signs and values of the parameters"
+            )
+
+
+def _frozen_matrix(matrix: FloatArray) -> FloatArray:
+    copy = np.array(matrix)
+    copy.flags.writeable = False
+    return copy
