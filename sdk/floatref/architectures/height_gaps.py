@@ -1,0 +1,72 @@
+"""Where a height sensor dropped out, in time and along the road."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from floatref.architectures.aligned import BRIDGE_S, GAP
+from floatref.stages.signals import DISTANCE, HEIGHT
+from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.clock import StampedClock
+from floatref.values.recording import Channel, Recording
+from floatref.values.scanning import chunks, median_step
+
+
+def height_gaps(recording: Recording, track: str, gone: IndexArray) -> FloatArray:
+    """Return where along the encoder's distance the height of ``track`` is missing, shape (k, 2).
+
+    Begin and end in m, in order: the last and the first sample that measure. Missing samples
+    count, those ``gone`` for damage, first index and the one behind, shape (d, 2), and holes
+    between time stamps; gaps of up to `BRIDGE_S`, which a line bridges well, do not. A gap at an
+    end of the channel ends at infinity.
+    """
+    height = recording.channel(HEIGHT, track)
+    distance = recording.channel(DISTANCE, track)
+    spans = _merged(np.concatenate([*_missing(height.values), gone]))
+    times = np.array([_around(height, *span) for span in spans] + _holes(height))
+    times = times.reshape(-1, 2)
+    long = times[times[:, 1] - times[:, 0] > BRIDGE_S + 2.0 / height.mean_rate_hz]
+    return _at(distance, long[np.argsort(long[:, 0])])
+
+
+def _missing(values: FloatArray) -> Iterator[IndexArray]:
+    """Yield first indices of stretches of NaN and those behind, cut where chunks are."""
+    for first, chunk in chunks(values):
+        edges = np.flatnonzero(np.diff(np.isnan(chunk), prepend=False, append=False))
+        yield edges.reshape(-1, 2) + first
+
+
+def _merged(spans: IndexArray) -> IndexArray:
+    """Return ``spans`` in order, those that touch or overlap as one, shape (k, 2)."""
+    merged: list[list[int]] = []
+    for begin, end in sorted(spans.tolist()):
+        if merged and begin <= merged[-1][1]:
+            merged[-1][1] = max(merged[-1][1], end)
+        else:
+            merged.append([begin, end])
+    return np.array(merged, dtype=np.int64).reshape(-1, 2)
+
+
+def _around(channel: Channel, first: int, behind: int) -> tuple[float, float]:
+    """Return the times of the sound samples on either side; infinite where there is none."""
+    begin = -np.inf if first == 0 else _time(channel, first - 1)
+    return begin, np.inf if behind >= channel.values.size else _time(channel, behind)
+
+
+def _holes(channel: Channel) -> list[tuple[float, float]]:
+    if not isinstance(channel.clock, StampedClock):
+        return []
+    times = channel.clock.times_s
+    wide = np.flatnonzero(np.diff(times) > GAP * median_step(times))
+    return [(float(times[k]), float(times[k + 1])) for k in wide]
+
+
+def _time(channel: Channel, index: int) -> float:
+    return float(channel.clock.times(1, index)[0])
+
+
+def _at(distance: Channel, times: FloatArray) -> FloatArray:
+    known = np.flatnonzero(np.isfinite(distance.values))
+    along = np.maximum.accumulate(distance.values[known])
+    places = np.interp(times, distance.times_s[known], along)
+    return np.where(np.isfinite(times), places, times)
