@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
 
 SCHEMAS = ("floatref-recording-1", "floatref-profile-1", "floatref-map-1")
+SHOWN = 16
+"""Names that an error lists of those that there are."""
 """Names of the schemas in the package."""
 
 
@@ -94,4 +96,5 @@ def _expected(error: "ValidationError") -> str:
 
 def _similar(name: str, known: list[str]) -> str:
     near = get_close_matches(name[:64], known, n=1)
-    return f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+    more = f" and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
+    return f"did you mean {near[0]}?" if near else f"known: {', '.join(known[:SHOWN])}{more}"

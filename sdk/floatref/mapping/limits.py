@@ -5,6 +5,7 @@ from math import pi
 from typing import NamedTuple
 
 from floatref.errors import InputError
+from floatref.mapping.gravity import TOLERANCES, check_gravity
 from floatref.values.recording import Channel
 from floatref.values.scanning import Summary, every
 
@@ -15,19 +16,28 @@ SAMPLED = 1 << 16
 class Limit(NamedTuple):
     """No sample is beyond ``most``, nor is the median size beyond ``usual``; what may explain it.
 
-    ``other`` is a unit in which it would be, and how many of it one SI unit is.
+    ``other`` is a unit in which it would be, and how many of it one SI unit is; ``cure`` is what
+    to do if it is not.
     """
 
     most: float
     usual: float
     other: str
     per_unit: float
+    cure: str = "correct it"
 
 
 DEGREE = 180 / pi
+AGAINST_REST = "take off its value at rest by an offset"
 ANGLE = Limit(pi / 2, 0.5, "deg", DEGREE)
+BODY_ANGLE = Limit(0.6, 0.2, "deg", DEGREE, AGAINST_REST)
 RATE = Limit(50.0, 1.0, "deg/s", DEGREE)
+ANGULAR = Limit(1e3, 10.0, "deg/s^2", DEGREE)
 FORCE = Limit(1e4, 5.0, "mg", 1000 / 9.80665)
+CARRIER = Limit(1e4, 500.0, "mg", 1000 / 9.80665)
+DEFLECTION = Limit(0.5, 0.25, "mm", 1000.0, AGAINST_REST)
+DISPLACEMENT = Limit(100.0, 5.0, "mm", 1000.0, AGAINST_REST)
+VELOCITY = Limit(100.0, 5.0, "mm/s", 1000.0)
 LIMITS: Mapping[str, Limit] = {
     "gnss_latitude": Limit(pi / 2 + 1e-9, pi / 2, "deg", DEGREE),
     "gnss_longitude": Limit(2 * pi + 1e-9, 2 * pi, "deg", DEGREE),
@@ -41,12 +51,27 @@ LIMITS: Mapping[str, Limit] = {
     "yaw_rate": RATE,
     "longitudinal_specific_force": FORCE,
     "lateral_specific_force": FORCE,
+    **dict.fromkeys(TOLERANCES, CARRIER),
+    "suspension_deflection": DEFLECTION,
+    "rear_suspension_deflection": DEFLECTION,
+    "unsprung_displacement": DISPLACEMENT,
+    "rear_unsprung_displacement": DISPLACEMENT,
+    "sprung_displacement": DISPLACEMENT,
+    "equipment_displacement": DISPLACEMENT,
+    "unsprung_velocity": VELOCITY,
+    "rear_unsprung_velocity": VELOCITY,
+    "sprung_velocity": VELOCITY,
+    "equipment_velocity": VELOCITY,
+    "pitch_angle": BODY_ANGLE,
+    "roll_angle": BODY_ANGLE,
+    "pitch_acceleration": ANGULAR,
+    "roll_acceleration": ANGULAR,
 }
 """Those of channels that the processing does not look at itself."""
 
 
 def check_limits(channel: Channel) -> None:
-    """Raise InputError if samples of ``channel`` cannot be in its unit."""
+    """Raise InputError if samples of ``channel`` cannot be in its unit, or lack gravity."""
     limit = LIMITS.get(channel.id.name)
     if limit is None:
         return
@@ -61,6 +86,7 @@ def check_limits(channel: Channel) -> None:
         usual = float(few[few.size // 2])
         if usual > limit.usual:
             raise InputError(_said("the median size", usual, channel.unit, limit))
+    check_gravity(channel.id.name, summary.mean)
 
 
 def _said(what: str, size: float, unit: str, limit: Limit) -> str:
@@ -68,4 +94,4 @@ def _said(what: str, size: float, unit: str, limit: Limit) -> str:
     line = f"{what} is {size:.4g}{said}, which no vehicle reaches"
     if limit.per_unit == 1:
         return f"{line}; it is from {limit.other}, so map one that is in NMEA's"
-    return f"{line}; if the file has {limit.other}, state unit = {limit.other!r}, or correct it"
+    return f"{line}; if the file has {limit.other}, state unit = {limit.other!r}, or {limit.cure}"

@@ -72,6 +72,11 @@ SIZES: Mapping[str, Mapping[str, Fraction | float | int]] = {
         "deg/h °/h deg/hr": pi / 648000,
         "rpm 1/min r/min": pi / 30,
     },
+    "rad/s^2": {
+        "rad/s^2 rad/s² rad/s2 rad/s/s rad/sec^2": 1,
+        "mrad/s^2 mrad/s² mrad/s2": Fraction(1, 1000),
+        "deg/s^2 deg/s² deg/s2 deg/s/s deg/sec^2 °/s^2 °/s² °/s2": pi / 180,
+    },
     "1": {"1 - – none count counts cnt pulse pulses": 1, "%": Fraction(1, 100)},
 }
 """Spellings by SI unit, each with how many SI units it is."""

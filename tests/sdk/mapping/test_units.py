@@ -46,6 +46,8 @@ DEFINED = {
     "mrad": ("rad", Fraction(1, 1000)),
     "rad/s": ("rad/s", Fraction(1)),
     "mrad/s": ("rad/s", Fraction(1, 1000)),
+    "rad/s^2": ("rad/s^2", Fraction(1)),
+    "mrad/s^2": ("rad/s^2", Fraction(1, 1000)),
     "1": ("1", Fraction(1)),
     "%": ("1", Fraction(1, 100)),
 }
@@ -57,8 +59,9 @@ TURNS = {
     "mdeg/s": ("rad/s", 360_000),
     "deg/h": ("rad/s", 360 * 3600),
     "rpm": ("rad/s", 60),
+    "deg/s^2": ("rad/s^2", 360),
 }
-"""Units by how many of them are a full turn, or a turn per second."""
+"""Units by how many of them are a full turn, or a turn per second, once or in each second."""
 SPELLINGS = {
     "m": ["metre", "meters", " [m] ", "(m)"],
     "mm": ["MM", "Mm", "[mm]", "millimeter"],
@@ -83,6 +86,8 @@ SPELLINGS = {
     "kn": ["knots", "kt"],
     "deg": ["\u00b0", "degrees", "DEG"],
     "deg/s": ["\u00b0/s", "dps", "deg/sec", "Deg/s"],
+    "deg/s^2": ["\u00b0/s\u00b2", "deg/s2", "\u00b0/s^2", "Deg/sec^2"],
+    "rad/s^2": ["rad/s\u00b2", "RAD/S2"],
     "1": ["-", "\u2013", "counts", "none"],
 }
 
