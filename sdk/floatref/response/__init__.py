@@ -4,7 +4,35 @@ Arrays in, arrays out. A model has the coordinates q of its freedoms and M·q'' 
 where F holds the forces k·u + c·u' of the tyres in N over the road u in m. States are x = (q, q').
 """
 
+from floatref.response.connections import Connection, connected
+from floatref.response.half_car import ZHU_HALF_CAR, HalfCar
 from floatref.response.model import Freedom, Tyre, VehicleModel
+from floatref.response.named import MODELS, model_of, parameters_of
+from floatref.response.output import output_matrices
+from floatref.response.quarter_car import QuarterCar
 from floatref.response.reading import Kind, Reading
+from floatref.response.state_space import Discrete, Hold, discretized, state_space
+from floatref.response.trailer import IMINE_TRAILER, Trailer
 
-__all__ = ["Freedom", "Kind", "Reading", "Tyre", "VehicleModel"]
+__all__ = [
+    "IMINE_TRAILER",
+    "MODELS",
+    "ZHU_HALF_CAR",
+    "Connection",
+    "Discrete",
+    "Freedom",
+    "HalfCar",
+    "Hold",
+    "Kind",
+    "QuarterCar",
+    "Reading",
+    "Trailer",
+    "Tyre",
+    "VehicleModel",
+    "connected",
+    "discretized",
+    "model_of",
+    "output_matrices",
+    "parameters_of",
+    "state_space",
+]

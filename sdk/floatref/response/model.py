@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 
 ASYMMETRIC = 1e-9
-"""Of the largest element, how far two that must be equal may differ: rounding."""
+"""Of the largest element, what may differ from symmetry, or lie below zero: rounding."""
 
 
 @dataclass(frozen=True)
@@ -77,19 +77,17 @@ class VehicleModel:
 
     def __post_init__(self) -> None:
         """Refuse what is no vehicle; InputError names matrix, value and what to do."""
+        self._check_names()
         for name in ("mass", "damping", "stiffness"):
             matrix = np.asarray(getattr(self, name), dtype=np.float64)
             self._check_shape(name, matrix)
-            self._check_energy(name, matrix)
+            self._check_symmetry(name, matrix)
             object.__setattr__(self, name, _frozen_matrix(matrix))
         for tyre in self.tyres:
-            self.index(tyre.freedom)
-            if not tyre.stiffness > 0 or not tyre.damping >= 0:
-                raise InputError(
-                    f"model {self.name}: the tyre of {tyre.freedom} has stiffness "
-                    f"{tyre.stiffness:g} N/m and damping {tyre.damping:g} N·s/m; give a stiffness "
-                    "above zero and a damping not below"
-                )
+            self._check_tyre(tyre)
+        self._check_mass()
+        for name in ("damping", "stiffness"):
+            self._check_energy(name)
 
     @property
     def selection(self) -> FloatArray:
@@ -117,20 +115,48 @@ class VehicleModel:
         if not np.isfinite(matrix).all():
             raise InputError(f"model {self.name}: {name} holds what is no finite number; check it")
 
-    def _check_energy(self, name: str, matrix: FloatArray) -> None:
-        """Raise InputError unless ``matrix`` is symmetric and stores or takes energy."""
-        largest = float(np.abs(matrix).max())
-        if float(np.abs(matrix - matrix.T).max()) > ASYMMETRIC * largest:
+    def _check_symmetry(self, name: str, matrix: FloatArray) -> None:
+        if float(np.abs(matrix - matrix.T).max()) > ASYMMETRIC * float(np.abs(matrix).max()):
             raise InputError(
                 f"model {self.name}: {name} is not symmetric, so it would make energy; "
                 "check its signs"
             )
-        least = float(np.linalg.eigvalsh(matrix)[0])
-        if least < -ASYMMETRIC * largest or (name == "mass" and least <= 0):
+
+    def _check_names(self) -> None:
+        names = [freedom.name for freedom in self.freedoms]
+        if not self.tyres or len(set(names)) != len(names):
             raise InputError(
-                f"model {self.name}: {name} has the eigenvalue {least:.3g}; "
-                f"it must {'be above' if name == 'mass' else 'not be below'} zero, "
-                "check signs and values of the parameters"
+                f"model {self.name}: {len(self.tyres)} tyres and the freedoms {', '.join(names)}; "
+                "give a tyre or more, and every freedom a name of its own"
+            )
+
+    def _check_tyre(self, tyre: Tyre) -> None:
+        self.index(tyre.freedom)
+        right = tyre.stiffness > 0 and tyre.damping >= 0
+        if not (right and np.isfinite([tyre.stiffness, tyre.damping, tyre.x_m]).all()):
+            raise InputError(
+                f"model {self.name}: the tyre of the {tyre.freedom} has stiffness "
+                f"{tyre.stiffness:g} N/m, damping {tyre.damping:g} N·s/m, x_m {tyre.x_m:g}; give "
+                "finite numbers, the stiffness above zero and the damping not below"
+            )
+
+    def _check_mass(self) -> None:
+        least = float(np.linalg.eigvalsh(self.mass)[0])
+        if least <= 0:
+            raise InputError(
+                f"model {self.name}: mass has the eigenvalue {least:.3g}; it must be above zero, "
+                "check every mass"
+            )
+
+    def _check_energy(self, name: str) -> None:
+        """Raise InputError if the matrix without the tyres' part gives energy: no vehicle does."""
+        matrix, tyres = getattr(self, name), [getattr(tyre, name) for tyre in self.tyres]
+        rest = matrix - self.selection * tyres @ self.selection.T
+        least = float(np.linalg.eigvalsh(rest)[0])
+        if least < -ASYMMETRIC * float(np.abs(matrix).max()):
+            raise InputError(
+                f"model {self.name}: {name} without the tyres has the eigenvalue {least:.3g}, so "
+                "it would make energy; check its signs, and that it holds the tyres' part"
             )
 
 
