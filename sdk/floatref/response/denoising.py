@@ -1,0 +1,121 @@
+"""Noise taken out of a channel by singular spectrum analysis, as in section 5 of Zhu.
+
+The channel is laid out in lagged windows of L samples; of the principal components of these, some
+are kept, and the windows are laid back over each other: the form of Broomhead and King, in which
+the lag-covariance matrix need not be Toeplitz.
+"""
+
+from math import isfinite, log, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+
+
+def denoised(
+    samples: ArrayLike,
+    window: int,
+    *,
+    components: int | None = None,
+    share: float | None = None,
+    noise: float | None = None,
+) -> FloatArray:
+    """Return ``samples``, shape (N,), without the components of the least variance.
+
+    ``window`` is L in samples, from 2 to N/2. What is kept is told in one of three ways: the
+    number of ``components``, their least ``share`` of the mean square, above 0 and up to 1, or the
+    standard deviation of white ``noise``, in the unit of the samples, above whose variance they
+    stand. Memory is that of a few copies of the samples. Raises InputError for a missing (NaN)
+    sample, another shape or window, or unless one of the three is given and in its range.
+    """
+    channel = _checked(samples, window)
+    variances, vectors = singular_spectrum(channel, window)
+    kept = _kept(variances, channel.size - window + 1, components, share, noise)
+    return reconstructed(channel, vectors[:, :kept])
+
+
+def singular_spectrum(samples: ArrayLike, window: int) -> tuple[FloatArray, FloatArray]:
+    """Return variances (L,), from the largest, and vectors (L, L) in columns, of lagged windows.
+
+    The mean is not taken off. Raises InputError as `denoised` does.
+    """
+    import scipy.linalg
+
+    channel = _checked(samples, window)
+    rows = channel.size - window + 1
+    lagged = np.lib.stride_tricks.sliding_window_view(channel, rows)
+    covariance = np.zeros((window, window))
+    for lag in range(window):
+        # Along a diagonal the sum of products loses one at its begin and gains one at its end.
+        product = channel[: channel.size - lag] * channel[lag:]
+        change = product[rows : rows + window - 1 - lag] - product[: window - 1 - lag]
+        first = float(lagged[0] @ lagged[lag])
+        diagonal = np.concatenate(([first], first + np.cumsum(change)))
+        covariance[np.arange(window - lag), np.arange(lag, window)] = diagonal
+    variances, vectors = scipy.linalg.eigh(covariance, lower=False)
+    return np.maximum(variances[::-1], 0.0) / rows, np.ascontiguousarray(vectors[:, ::-1])
+
+
+def reconstructed(samples: ArrayLike, vectors: FloatArray) -> FloatArray:
+    """Return the part of ``samples`` (N,) that lies along orthonormal ``vectors`` (L, r).
+
+    Every window is projected, and each sample is the mean over the windows that hold it. Raises
+    InputError as `denoised` does.
+    """
+    from scipy.signal import oaconvolve
+
+    window = vectors.shape[0]
+    channel = _checked(samples, window)
+    total = np.zeros(channel.size)
+    for vector in vectors.T:
+        component = oaconvolve(channel, vector[::-1], mode="valid")
+        total += oaconvolve(component, vector)
+    place = np.arange(1, channel.size + 1)
+    holding = np.minimum(np.minimum(place, place[::-1]), window)
+    return np.asarray(total / holding)
+
+
+def _kept(
+    variances: FloatArray,
+    rows: int,
+    components: int | None,
+    share: float | None,
+    noise: float | None,
+) -> int:
+    """Return how many components stay."""
+    if [components, share, noise].count(None) != 2:
+        raise InputError("denoising: give one of components, share and noise, not two and not none")
+    if components is not None:
+        if not 1 <= components <= variances.size:
+            raise InputError(f"denoising: {components} components; give 1 to {variances.size}")
+        return components
+    if share is not None:
+        if not 0 < share <= 1:
+            raise InputError(f"denoising: a share of {share:g}; give one above 0 and up to 1")
+        reached = np.cumsum(variances)
+        return int(np.searchsorted(reached, share * reached[-1] * (1 - 1e-12))) + 1
+    return _above(variances, rows, noise)
+
+
+def _above(variances: FloatArray, rows: int, noise: float | None) -> int:
+    """Return how many variances are more than those of white noise in so many windows."""
+    if noise is None or not (isfinite(noise) and noise >= 0):
+        raise InputError(f"denoising: the noise is {noise}; give its standard deviation")
+    size = variances.size
+    return int(np.count_nonzero(variances > noise**2 * (1 + sqrt(2 * size * log(size) / rows))))
+
+
+def _checked(samples: ArrayLike, window: int) -> FloatArray:
+    channel = np.asarray(samples, dtype=np.float64)
+    if channel.ndim != 1:
+        raise InputError(f"denoising: samples of the shape {channel.shape}; give one channel")
+    if not 2 <= window <= channel.size // 2:
+        raise InputError(
+            f"denoising: a window of {window} of {channel.size} samples; give 2 to half of them"
+        )
+    if not np.isfinite(channel).all():
+        where = int(np.flatnonzero(~np.isfinite(channel))[0])
+        raise InputError(f"denoising: sample {where} is {channel[where]}; bridge gaps before")
+    return channel
