@@ -1,5 +1,6 @@
 """What goes beyond the dissertation, in its symbols and on its equations.
 
 - `matched_high_pass`: the adaptive high-pass filter of section 5.7 as an observer.
+- `quarter_car_response`: a quarter car with masses, for the estimators of the road from response.
 - `state_variable`: its backward stages over distance, with the cut-off inside the integrals.
 """
