@@ -5,9 +5,12 @@ where F holds the forces k·u + c·u' of the tyres in N over the road u in m. St
 """
 
 from floatref.response.connections import Connection, connected
+from floatref.response.estimate import Estimate
+from floatref.response.gains import default_gains
 from floatref.response.half_car import ZHU_HALF_CAR, HalfCar
 from floatref.response.model import Freedom, Tyre, VehicleModel
 from floatref.response.named import MODELS, model_of, parameters_of
+from floatref.response.observer import UnknownInputObserver
 from floatref.response.output import output_matrices
 from floatref.response.quarter_car import QuarterCar
 from floatref.response.reading import Kind, Reading
@@ -20,6 +23,7 @@ __all__ = [
     "ZHU_HALF_CAR",
     "Connection",
     "Discrete",
+    "Estimate",
     "Freedom",
     "HalfCar",
     "Hold",
@@ -28,8 +32,10 @@ __all__ = [
     "Reading",
     "Trailer",
     "Tyre",
+    "UnknownInputObserver",
     "VehicleModel",
     "connected",
+    "default_gains",
     "discretized",
     "model_of",
     "output_matrices",

@@ -1,0 +1,90 @@
+"""The road as an unknown input: the equations (8)-(15) of Imine for any model.
+
+Put into (8), the tyre equation (9) takes the road out of the states: with it, every wheel has the
+acceleration that is measured. Both are here without a division by the tyre's damping c, so that
+the limit c = 0 is exact; there (9) is u = (m·z'' + …)/k and the road no state.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.response.model import VehicleModel
+from floatref.response.state_space import state_space
+from floatref.values.arrays import BoolArray, FloatArray
+
+
+class ObserverEquations(NamedTuple):
+    """(10) and (11) as one system: state (x, u of damped tyres), s of them; inputs (y, z'').
+
+    Attributes:
+        error: L of (14), shape (s, s), in 1/s with the units of the states.
+        inputs: of y and z'' into the rate of the state, shape (s, k + p).
+        road_of_state: shape (p, s).
+        road_of_input: shape (p, k + p).
+    """
+
+    error: FloatArray
+    inputs: FloatArray
+    road_of_state: FloatArray
+    road_of_input: FloatArray
+
+
+def observer_equations(
+    model: VehicleModel, gain: FloatArray, outputs: FloatArray
+) -> ObserverEquations:
+    """Return the observer's equations for G, shape (2n, k), and C' of y = C'x, shape (k, 2n).
+
+    Raises InputError for a model in which the force of a tyre does not move its wheel alone.
+    """
+    forces, masses = wheel_equations(model)
+    rates, pushed = state_space(model)
+    damped = damped_tyres(model)
+    states, measured, damping = 2 * len(model.freedoms), outputs.shape[0], _tyres(model)[1][damped]
+    size = states + damping.size
+    error, inputs = np.zeros((size, size)), np.zeros((size, measured + masses.size))
+    error[:states, :states] = rates + pushed @ forces - gain @ outputs
+    error[states:, :states] = forces[damped] / damping[:, None]
+    error[states:, states:] = -np.diag(_tyres(model)[0][damped] / damping)
+    inputs[:states, :measured] = gain
+    inputs[:states, measured:] = pushed * masses
+    inputs[states:, measured:] = np.diag(masses)[damped] / damping[:, None]
+    return ObserverEquations(error, inputs, *_road(model, forces, masses, measured))
+
+
+def wheel_equations(model: VehicleModel) -> tuple[FloatArray, FloatArray]:
+    """Return W, shape (p, 2n), and m, shape (p,), of c·u' + k·u = m·z'' + W·x: (9) times c.
+
+    Raises InputError if two tyres carry one freedom, or a wheel's mass is coupled to another's.
+    """
+    wheels = [model.index(tyre.freedom) for tyre in model.tyres]
+    rows = model.mass[wheels]
+    for tyre, wheel, row in zip(model.tyres, wheels, rows, strict=True):
+        if wheels.count(wheel) > 1 or np.count_nonzero(row) > 1:
+            raise InputError(
+                f"model {model.name}: the {tyre.freedom} has more than one tyre, or shares its "
+                "mass with another freedom, so its acceleration tells no road; give it a "
+                "coordinate and a mass of its own"
+            )
+    return np.hstack([model.stiffness[wheels], model.damping[wheels]]), rows.sum(axis=1)
+
+
+def damped_tyres(model: VehicleModel) -> BoolArray:
+    """Return which tyres have damping, so that the road under them is a state; shape (p,)."""
+    return _tyres(model)[1] > 0
+
+
+def _tyres(model: VehicleModel) -> tuple[FloatArray, FloatArray]:
+    stiffness = np.array([tyre.stiffness for tyre in model.tyres])
+    return stiffness, np.array([tyre.damping for tyre in model.tyres])
+
+
+def _road(
+    model: VehicleModel, forces: FloatArray, masses: FloatArray, measured: int
+) -> tuple[FloatArray, FloatArray]:
+    stiffness, damped = _tyres(model)[0], damped_tyres(model)
+    still = ~damped / stiffness
+    of_state = np.hstack([forces * still[:, None], np.eye(masses.size)[:, damped]])
+    of_input = np.hstack([np.zeros((masses.size, measured)), np.diag(masses * still)])
+    return of_state, of_input
