@@ -10,12 +10,20 @@ from floatref.response.gains import default_gains
 from floatref.response.half_car import ZHU_HALF_CAR, HalfCar
 from floatref.response.model import Freedom, Tyre, VehicleModel
 from floatref.response.named import MODELS, model_of, parameters_of
+from floatref.response.observability import (
+    check_readings,
+    missing_displacements,
+    unfelt_tyres,
+    unseen_freedoms,
+)
 from floatref.response.observer import UnknownInputObserver
 from floatref.response.output import output_matrices
 from floatref.response.quarter_car import QuarterCar
 from floatref.response.reading import Kind, Reading
 from floatref.response.state_space import Discrete, Hold, discretized, state_space
 from floatref.response.trailer import IMINE_TRAILER, Trailer
+from floatref.response.tyre import TyreRoad
+from floatref.response.wheelbase import joined, joined_at_speed, shifted
 
 __all__ = [
     "IMINE_TRAILER",
@@ -32,13 +40,21 @@ __all__ = [
     "Reading",
     "Trailer",
     "Tyre",
+    "TyreRoad",
     "UnknownInputObserver",
     "VehicleModel",
+    "check_readings",
     "connected",
     "default_gains",
     "discretized",
+    "joined",
+    "joined_at_speed",
+    "missing_displacements",
     "model_of",
     "output_matrices",
     "parameters_of",
+    "shifted",
     "state_space",
+    "unfelt_tyres",
+    "unseen_freedoms",
 ]

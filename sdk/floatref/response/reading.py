@@ -33,9 +33,11 @@ class Reading:
     minus: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse a standard deviation that is none."""
+        """Refuse a standard deviation that is none, and what is measured against itself."""
         if not (isfinite(self.sigma) and self.sigma > 0):
             raise InputError(f"{self}: sigma is {self.sigma:g}; give a number above zero")
+        if self.minus == self.freedom:
+            raise InputError(f"{self}: a freedom against itself tells nothing; name another")
 
     def __str__(self) -> str:
         """Return it in words, as in "acceleration of the front wheel"."""
