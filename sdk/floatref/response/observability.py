@@ -113,6 +113,6 @@ def _check_heights(model: VehicleModel, missing: tuple[str, ...]) -> None:
     if missing:
         sensors = " and the ".join(f"displacement of the {name}" for name in missing)
         raise InputError(
-            f"model {model.name}: the readings do not tell every height and angle at rest, and from "
-            f"accelerations and velocities the estimate would drift; add the {sensors}"
+            f"model {model.name}: the readings do not tell all heights and angles at rest, so "
+            f"the estimate would drift; add the {sensors}"
         )
