@@ -1,16 +1,18 @@
 """A channel map to begin with: what can be guessed is filled in, all else stands as a comment."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from floatref.errors import InputError, one_line
+from floatref.mapping.candidates import Candidate, candidates
 from floatref.mapping.clock_keys import unstarted
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import FORMAT
 from floatref.mapping.entries import ChannelEntry
-from floatref.mapping.guesses import Guess, guess
+from floatref.mapping.guesses import Guess
 from floatref.mapping.naming import find, full_name
+from floatref.mapping.remarks import remark, turned, vehicle
 from floatref.mapping.taking import UNKNOWN
 from floatref.mapping.toml_document import MOST_PARTS
 from floatref.mapping.units import MPS, known_unit
@@ -20,18 +22,6 @@ from floatref.values.native import Column, Epoch, NativeFile, Stream
 MOST_CHANNELS = 256
 LONGEST_TEXT = 256
 """What the schema of maps allows."""
-SIGNS = {
-    "vertical_specific_force": "+9.8 at rest",
-    "height": "range down to the road, positive",
-    "gnss_pitch": "nose down positive: sign = -1 if the receiver reports nose up",
-    "gnss_roll": "left side up positive",
-    "pitch_rate": "right-handed about +Y (left): nose down positive",
-    "yaw_rate": "right-handed about +Z (up): left turn positive",
-    "roll_rate": "right-handed about +X (forward): left side up positive",
-}
-"""What is easily the other way round."""
-NOSE_DOWN = ("gnss_pitch", "pitch_rate")
-"""What is the other way round where an adapter's note says so."""
 
 
 def draft_map(native: NativeFile, source: Path, adapter: str, dbc: str | None = None) -> str:
@@ -41,8 +31,10 @@ def draft_map(native: NativeFile, source: Path, adapter: str, dbc: str | None = 
     that are unlike any channel are comments.
     """
     used: set[str] = set()
-    entries = list(_entries(native, used))
-    return "\n".join([*_head(source, adapter, dbc), *_clocks(native, used), *entries]) + "\n"
+    known = candidates(native)
+    entries = list(_entries(native, known, used))
+    setup = [*_head(source, adapter, dbc), *vehicle(c.guess for c in known)]
+    return "\n".join([*setup, *_clocks(native, used), *entries]) + "\n"
 
 
 def _head(source: Path, adapter: str, dbc: str | None) -> Iterator[str]:
@@ -80,36 +72,33 @@ def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
     yield "# offset_s = 0.0"
 
 
-def _entries(native: NativeFile, used: set[str]) -> Iterator[str]:
+def _entries(native: NativeFile, known: Sequence[Candidate], used: set[str]) -> Iterator[str]:
     """Write an entry for every column; note in ``used`` the streams of those that count."""
     seen: set[tuple[str, str | None]] = set()
-    for stream in native.streams:
-        for column in stream.columns:
-            found = guess(stream.name, column)
-            if found is None:
-                yield _unlike(stream, column)
-                continue
-            active = found.sure and found[:2] not in seen and len(seen) < MOST_CHANNELS
-            active = active and not _lesser(native, column, found)
-            active = active and _maps(native, stream, column, found)
-            if active:
-                seen.add(found[:2])
-                used.add(stream.name)
-            yield _entry(stream, column, found, "" if active else "# ")
+    for stream, column, found in known:
+        if found is None:
+            yield _unlike(stream, column)
+            continue
+        active = found.sure and found[:2] not in seen and len(seen) < MOST_CHANNELS
+        active = active and not _lesser(known, column, found)
+        active = active and _maps(native, stream, column, found)
+        if active:
+            seen.add(found[:2])
+            used.add(stream.name)
+        yield _entry(stream, column, found, "" if active else "# ")
 
 
-def _lesser(native: NativeFile, column: Column, found: Guess) -> bool:
+def _lesser(known: Sequence[Candidate], column: Column, found: Guess) -> bool:
     """Tell whether the file has something better than ``column`` for its channel.
 
     A height over the ellipsoid rather than over a geoid model, whose steps no road has; a length
     rather than a speed, which has to be integrated.
     """
-    others = [(s, c) for s in native.streams for c in s.columns]
     if found.channel == "distance" and _si(column) == MPS:
-        return any(_si(c) == "m" and guess(s.name, c) == found for s, c in others)
+        return any(_si(other.column) == "m" and other.guess == found for other in known)
     if found.channel != "gnss_height" or _ellipsoidal(column):
         return False
-    return any(_ellipsoidal(c) for _, c in others)
+    return any(_ellipsoidal(other.column) for other in known)
 
 
 def _si(column: Column) -> str | None:
@@ -148,9 +137,9 @@ def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
     lines = [
         "[[channels]]",
         f"native = {_text(full_name(stream, column))}{note}",
-        f"channel = {_text(found.channel)}{_remark(found.channel)}",
+        f"channel = {_text(found.channel)}{remark(found)}",
     ]
-    if found.channel in NOSE_DOWN and "nose up positive" in column.note:
+    if turned(found, column.note):
         lines.append("sign = -1")
     if found.track is not None:
         lines.append(f"track = {_text(found.track)}")
@@ -170,10 +159,6 @@ def _unlike(stream: Stream, column: Column) -> str:
     unit = f", in {_comment(column.unit)}" if column.unit else ""
     note = f" ({_comment(column.note)})" if column.note else ""
     return f"\n# not mapped: {_comment(full_name(stream, column))}{unit}{note}"
-
-
-def _remark(channel: str) -> str:
-    return f"  # {SIGNS[channel]}" if channel in SIGNS else ""
 
 
 def _text(text: str) -> str:

@@ -4,17 +4,11 @@ import re
 from typing import NamedTuple
 
 from floatref.mapping.ours import channel_of
+from floatref.mapping.response_guesses import Response, response
 from floatref.mapping.units import known_unit
+from floatref.mapping.words import AXIS, LATERAL, LONGITUDINAL, track_of, words_of
 from floatref.values.native import Column
 
-TRACKS = {
-    "left": r"left|links|lwp|gauche|izq|\bl\b|\bli\b|\blh\b",
-    "right": r"right|rechts|rwp|droite|derech|\br\b|\bre\b|\brh\b",
-    "center": r"cent(er|re)|mid(dle)?|mitte|\bc\b",
-}
-"""Words for the wheel paths."""
-AXIS = r"\b(a|w|acc(el)?|gyro?|om(ega)?)?"
-"""What may stand before the letter of an axis, in one word with it."""
 GNSS = (
     r"gps|gnss|gga|\bgns\b|vtg|rmc|gll|pashr|nav\b|(best|psr|rtk|ppp)\w*(pos|vel|utm)"
     r"|\bins(pva|pos|vel|att)?[sx]?\b"
@@ -26,6 +20,8 @@ ABOUT = r"geoid|undulation|std|stdev|sigma|\bsd\b|variance|accuracy|dop\b|\bage\
 """Words for what is known about a channel, rather than the channel."""
 TURNING = r"gyr|rate|omega"
 """Words for an angular rate where there is no unit."""
+EITHER = r"\bride\b|\blevel"
+"""Words for a height over the road or over the axle, where the name says height."""
 QUANTITIES = (
     ("gnss_latitude", "rad", r"\blat(itude)?\b|breite"),
     ("gnss_longitude", "rad", r"\blong?(itude)?\b|l.nge"),
@@ -41,9 +37,9 @@ QUANTITIES = (
     ),
     ("distance", "m", r"dist|dmi|odo|encoder|station|chain|weg\b|position"),
     ("distance", "m/s", r"speed|\bspd\b|\bvel|geschw|\bv\b"),
-    ("distance", "1", r"dmi|odo|encoder|pulse.?count|counts"),
-    ("longitudinal_specific_force", "m/s^2", rf"\blong|{AXIS}x\b|fwd|forward|surge"),
-    ("lateral_specific_force", "m/s^2", rf"\blat(eral)?\b|{AXIS}y\b|sway"),
+    ("distance", "1", r"dmi|odo|encoder|pulse.?count|counts|wheel ?(pulse|tick)"),
+    ("longitudinal_specific_force", "m/s^2", LONGITUDINAL),
+    ("lateral_specific_force", "m/s^2", LATERAL),
     ("vertical_specific_force", "m/s^2", rf"acc|vert|{AXIS}z\b|heave|beschl"),
     ("roll_rate", "rad/s", rf"roll|{AXIS}x\b"),
     ("pitch_rate", "rad/s", rf"pitch|nick|{AXIS}y\b"),
@@ -64,32 +60,33 @@ def guess(stream: str, column: Column) -> Guess | None:
     """Return what ``column`` of ``stream`` may be, None if nothing speaks for a channel."""
     if not column.numeric:
         return None
-    ours, receiver = channel_of(column), bool(re.search(GNSS, _words(stream)))
+    ours, receiver = channel_of(column), bool(re.search(GNSS, words_of(stream)))
     # What a receiver calls height is no range to the road.
     if ours is not None and (ours[0].startswith("gnss_") or not receiver):
         return Guess(*ours, sure=True)
-    words = _words(column.name)
+    words = words_of(column.name)
     if re.search(ABOUT, words):
         return None
     unit = known_unit(column.unit)
     si = unit.si if unit is not None else "rad/s" if re.search(TURNING, words) else None
     gnss = receiver or bool(re.search(GNSS, words))
     gnss = gnss or (si in (None, "rad", "m") and bool(re.search(PLACE, words)))
+    if not gnss and (found := response(words_of(stream), words, si)) is not None:
+        return _responding(found, stream, words, known=unit is not None)
     for channel, usual, pattern in QUANTITIES:
         if channel.startswith("gnss_") != gnss or si not in (None, usual):
             continue
         if re.search(pattern, words):
-            track = None if channel.startswith(("gnss_", "distance")) else _track(words)
+            track = None if channel.startswith(("gnss_", "distance")) else track_of(words)
             alone = usual == "1" and gnss and not column.unit.strip()
-            return Guess(channel, track, sure=unit is not None or alone)
+            either = channel == "height" and bool(re.search(EITHER, words))
+            return Guess(channel, track, sure=(unit is not None or alone) and not either)
     return None
 
 
-def _words(name: str) -> str:
-    """Return ``name`` in lower case, its words apart."""
-    apart = re.sub(r"(?<=[a-z])(?=[A-Z])|[_./\\\-\[\]()0-9]+", " ", name)
-    return apart.lower()
-
-
-def _track(words: str) -> str | None:
-    return next((name for name, pattern in TRACKS.items() if re.search(pattern, words)), None)
+def _responding(found: Response, stream: str, words: str, known: bool) -> Guess | None:
+    if found.channel is None:
+        return None
+    shared = found.channel.startswith(("pitch", "roll"))
+    track = None if shared else track_of(words) or track_of(words_of(stream))
+    return Guess(found.channel, track, sure=known and not found.doubtful)

@@ -1,6 +1,7 @@
 """Which channel an entry of a map means, and with which sign: names and axes."""
 
 from floatref.errors import InputError
+from floatref.mapping.gravity import TOLERANCES
 from floatref.values.channels import channel_spec
 
 ON_AXES = {
@@ -13,6 +14,8 @@ ON_AXES = {
 }
 """Channels of a sensor by the body axis that it points along."""
 AXES = {name: axis for axes in ON_AXES.values() for axis, name in axes.items()}
+AXES |= dict.fromkeys(TOLERANCES, "z")
+"""The axis of every channel that has one; wheels and body are measured along Z alone."""
 
 
 def quantity_of(channel: str, axis: str | None) -> tuple[str, int]:

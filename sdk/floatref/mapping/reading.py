@@ -15,6 +15,7 @@ from floatref.mapping.clock_keys import Key
 from floatref.mapping.conversion import Conversion
 from floatref.mapping.document import read_map
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
+from floatref.mapping.gravity import TOLERANCES
 from floatref.mapping.limits import check_limits
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.opening import Opened
@@ -26,6 +27,9 @@ from floatref.mapping.taking import Convert, Shown, Taken, Wanted, as_they_are, 
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Stream
 from floatref.values.recording import Channel, Recording
+
+BASES = ("vertical_specific_force", *TOLERANCES)
+"""Accelerometers whose clock is the time base, the first that is mapped."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +111,7 @@ class _Mapping:
         plan = [self._planned(entry) for entry in self._chart.channels]
         for entry in self._chart.clocks:
             self._opened.check_clock(entry)
-        base = next((p for p in plan if p.entry.channel == "vertical_specific_force"), plan[0])
+        base = next((p for name in BASES for p in plan if p.entry.channel == name), plan[0])
         extra = list(auxiliaries(self._chart.clocks, base.key[0], self._opened.file))
         taken, places = self._taken(plan, extra)
         clocks = aligned_clocks(taken, places, self._chart.clocks, base.key, self._spool)

@@ -17,6 +17,13 @@ from floatref.files import fingerprint, read_recording
 Edit = Callable[[Path, Callable[[Any], Any]], None]
 Change = Callable[[Any], Any]
 
+
+def vehicle(document: Any) -> Any:
+    """Return the vehicle that is put into ``document``."""
+    stated = {"model": "quarter-car", "x_m": 1.7, "parameters": {"sprung_kg": 700.0}}
+    return document["setup"].setdefault("vehicle", stated)
+
+
 DOCUMENTS: list[tuple[str, Change, str]] = [
     ("unknown format", lambda d: d.update(format="floatref-recording/2"),
      r'format is "floatref-recording/2"; expected "floatref-recording/1"'),
@@ -73,6 +80,18 @@ DOCUMENTS: list[tuple[str, Change, str]] = [
      'setup.tracks holds the name "a/b"; expected the name of a wheel path'),
     ("many tracks", lambda d: d["setup"].update(tracks={str(k): {} for k in range(65)}),
      "at most 64 wheel paths"),
+    ("vehicle a name", lambda d: d["setup"].update(vehicle="truck"),
+     'setup.vehicle is "truck"; expected an object with model, parameters and optionally x_m'),
+    ("vehicle without a model", lambda d: vehicle(d).pop("model"), "setup.vehicle lacks model"),
+    ("vehicle without parameters", lambda d: vehicle(d).pop("parameters"), "lacks parameters"),
+    ("model empty", lambda d: vehicle(d).update(model=""), 'model is ""; expected the name'),
+    ("wheel too far", lambda d: vehicle(d).update(x_m=1720),
+     "setup.vehicle.x_m is 1720; expected the model's own point .* in m, within 100 m"),
+    ("parameter a text", lambda d: vehicle(d)["parameters"].update(sprung_kg="700 kg"),
+     'setup.vehicle.parameters.sprung_kg is "700 kg"; expected a number'),
+    ("parameter missing", lambda d: vehicle(d)["parameters"].update(sprung_kg=None),
+     "setup.vehicle.parameters.sprung_kg is null; expected a number"),
+    ("parameter true", lambda d: vehicle(d)["parameters"].update(sprung_kg=True), "is true; ex"),
     ("vendor a number", lambda d: d["device"].update(vendor=3), "device.vendor is 3; expected"),
 ]  # fmt: skip
 

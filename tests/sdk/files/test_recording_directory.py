@@ -15,7 +15,7 @@ from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native, read_recording, write_recording
 from floatref.values.channels import CHANNELS
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording, Setup, TrackSetup
+from floatref.values.recording import Channel, Recording, Setup, TrackSetup, VehicleSetup
 
 METRES = st.floats(-100, 100)
 OFFSET = st.tuples(METRES, METRES, METRES)
@@ -28,6 +28,15 @@ VALUES = npst.arrays(
     np.float64,
     st.integers(1, 9),
     elements=st.floats(allow_infinity=False),
+)
+
+VEHICLES = st.builds(
+    VehicleSetup,
+    st.text(min_size=1, max_size=64),
+    st.dictionaries(
+        st.text(max_size=20), st.floats(allow_nan=False, allow_infinity=False), max_size=6
+    ),
+    METRES,
 )
 
 
@@ -54,6 +63,7 @@ def recordings(draw: st.DrawFn) -> Recording:
         draw(st.floats(1e-5, 10)),
         draw(OFFSET),
         draw(st.dictionaries(TRACKS, st.builds(TrackSetup, OFFSET, OFFSET), max_size=3)),
+        draw(st.none() | VEHICLES),
     )
     return Recording(tuple(channels), setup, draw(st.text()), draw(st.text()))
 
@@ -146,6 +156,20 @@ def test_geometry_far_outside_a_vehicle_is_refused_on_writing(tmp_path: Path) ->
     setup = Setup(gnss_antenna_offset_m=(0.0, 0.0, np.inf))
     with pytest.raises(InputError, match=r"gnss_antenna_offset_m\[2\] is inf"):
         write_recording(Recording((channel,), setup), tmp_path / "run")
+
+
+def test_a_vehicle_that_a_document_cannot_hold_is_refused_on_writing(tmp_path: Path) -> None:
+    channel = Channel.of("height", [0.3], UniformClock.of(1.0))
+    for vehicle, said in (
+        (
+            VehicleSetup("m" * 65, {}),
+            r"setup\.vehicle\.model is .*; expected the name of a vehicle",
+        ),
+        (VehicleSetup("m", {str(k): 1.0 for k in range(65)}), "an object of at most 64 numbers"),
+    ):
+        with pytest.raises(InputError, match=said):
+            write_recording(Recording((channel,), Setup(vehicle=vehicle)), tmp_path / "run")
+        assert list(tmp_path.iterdir()) == []
 
 
 def test_the_fingerprint_is_the_sha256_of_every_file(folder: Path) -> None:

@@ -9,6 +9,7 @@ from floatref.mapping import read_map
 from floatref.mapping.toml_document import MOST_PARTS
 
 HEAD = 'format = "floatref-map/1"\n'
+VEHICLE = HEAD + "[setup.vehicle]\nmodel = 'quarter-car'\nparameters.sprung_kg = 700\n"
 LASER = '[[channels]]\nnative = "laser"\nchannel = "height"\n'
 
 Save = Callable[[str | bytes], Path]
@@ -62,6 +63,10 @@ Refusal = Callable[[Path], str]
         (HEAD + LASER + 'axis = "z"', "axis is z, but height has none"),
         (HEAD + LASER + 'file = "gps"', 'file "gps": not in the map\'s files (none)'),
         (HEAD + "[setup]\nprofile_interval_m = 0\n" + LASER, "profile_interval_m is 0; expected"),
+        (HEAD + "[setup.vehicle]\nmodel = 'car'\n" + LASER, "setup.vehicle lacks parameters"),
+        (VEHICLE + "x = 1.7\n" + LASER, 'setup.vehicle has the unknown key "x"; known: model, x_m'),
+        (VEHICLE + "x_m = 1720\n" + LASER, "setup.vehicle.x_m is 1720; expected the model's own"),
+        (VEHICLE + "parameters.a = 'b'\n" + LASER, 'parameters.a is "b"; expected a number'),
         (HEAD + "[source]\noptions = { dbc = '/etc/x' }\n" + LASER, "dbc is no option"),
     ],
 )

