@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from floatref.files import read_profile, read_recording
+from floatref.files.recording import setup_of
 from floatref.mapping.reading import read_native
 from floatref.values.channels import CHANNELS
 
@@ -27,6 +28,13 @@ def test_the_recording_is_read(tmp_path: Path) -> None:
                 np.arange(5.0).astype("<f8").tofile(tmp_path / channel[key])
     recording = read_recording(tmp_path)
     assert [c.id.name for c in recording.channels] == [c["name"] for c in RECORDING["channels"]]
+
+
+def test_the_vehicle_is_read() -> None:
+    (table,) = re.findall(r'^```text\n"vehicle": (.*?)^```$', PAGE, re.M | re.S)
+    vehicle = setup_of({"vehicle": json.loads(table)}).vehicle
+    assert vehicle is not None
+    assert (vehicle.model, vehicle.x_m, len(vehicle.parameters)) == ("quarter-car", 1.72, 6)
 
 
 def test_the_profile_is_read(tmp_path: Path) -> None:
