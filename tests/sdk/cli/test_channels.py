@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.cli.main import main
 from floatref.files import write_recording
 from floatref.values.clock import UniformClock
@@ -60,19 +59,10 @@ class Logger:
 
 
 @pytest.fixture
-def logger(monkeypatch: pytest.MonkeyPatch) -> Logger:
+def logger(know: Callable[[object], None]) -> Logger:
     """The adapter, known to all commands."""
     adapter = Logger()
-
-    class Plugin:
-        @hookspecs.hookimpl
-        def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
-            register(adapter)
-
-    loaded = plugins.Plugins()
-    loaded.add(Plugin(), "logger")
-    for module in (readers, processing):
-        monkeypatch.setattr(module, "plugins", lambda: loaded)
+    know(adapter)
     return adapter
 
 

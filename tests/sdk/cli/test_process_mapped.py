@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.cli.main import main
 from floatref.files import read_profile, write_recording
 from floatref.mapping import spool as spools
@@ -78,19 +77,10 @@ class Logger:
 
 
 @pytest.fixture
-def logger(monkeypatch: pytest.MonkeyPatch) -> Logger:
+def logger(know: Callable[[object], None]) -> Logger:
     """The adapter, known to all commands."""
     adapter = Logger()
-
-    class Plugin:
-        @hookspecs.hookimpl
-        def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
-            register(adapter)
-
-    loaded = plugins.Plugins()
-    loaded.add(Plugin(), "logger")
-    for module in (readers, processing):
-        monkeypatch.setattr(module, "plugins", lambda: loaded)
+    know(adapter)
     return adapter
 
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.cli.main import main
 from floatref.files import read_profile, read_recording, write_recording
 from floatref.values.clock import UniformClock
@@ -51,25 +50,9 @@ class Vendor:
         return self._recording
 
 
-@pytest.fixture
-def with_adapter(monkeypatch):
-    def use(adapter):
-        class Plugin:
-            @hookspecs.hookimpl
-            def floatref_register_adapters(self, register):
-                register(adapter)
-
-        loaded = plugins.Plugins()
-        loaded.add(Plugin(), "vendor")
-        for module in (readers, processing):
-            monkeypatch.setattr(module, "plugins", lambda: loaded)
-
-    return use
-
-
-def test_a_native_folder_is_read_by_its_adapter_and_fingerprinted(folder, with_adapter):
+def test_a_native_folder_is_read_by_its_adapter_and_fingerprinted(folder, know):
     recording = read_recording(folder / "run")
-    with_adapter(Vendor(recording=recording))
+    know(Vendor(recording=recording))
     native = folder / "native"
     native.mkdir()
     (native / "run.bin").write_bytes(b"abc")
@@ -88,8 +71,8 @@ def test_a_native_folder_is_read_by_its_adapter_and_fingerprinted(folder, with_a
         (Vendor(ValueError("odd"), None), "Warning: adapter vendor: "),
     ],
 )
-def test_who_recognises_a_source(folder, with_adapter, adapter, message):
-    with_adapter(adapter)
+def test_who_recognises_a_source(folder, know, adapter, message):
+    know(adapter)
     result = invoke("process", folder / "run", "--out", folder / "o")
     assert result.exit_code == (2 if message and "both" in message else 0)
     assert message is None or message in result.stderr
@@ -99,8 +82,8 @@ def test_who_recognises_a_source(folder, with_adapter, adapter, message):
     ("given", "message"),
     [(KeyError("x"), "adapter vendor: .*: KeyError: 'x'"), (None, "gave no recording")],
 )
-def test_an_adapter_that_fails_is_named(folder, with_adapter, given, message):
-    with_adapter(Vendor(False, given))
+def test_an_adapter_that_fails_is_named(folder, know, given, message):
+    know(Vendor(False, given))
     result = invoke("process", folder / "run", "--out", folder / "o", "--adapter", "vendor")
     assert result.exit_code == 2
     assert re.search(message, result.stderr)

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from floatref.architectures import hookspecs, plugins, processing, readers
 from floatref.errors import InputError
 from floatref.mapping import Reading, read_map, read_native
+from floatref.mapping.entries import ClockEntry
+from floatref.mapping.spool import Spool
+from floatref.mapping.taking import Taken, Wanted, as_they_are, take
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 
 Content = Callable[[Mapping[str, str]], NativeFile]
@@ -61,20 +63,57 @@ def stream(
     return Stream(title, named, size if count is None else count, made, read)
 
 
+@pytest.fixture(scope="session")
+def reading() -> Callable[..., Stream]:
+    """Make a stream whose column "row" counts its rows, which are read in pieces between cuts."""
+
+    def make(
+        ticks: np.ndarray | None, cuts: Sequence[int] = (), count: int | None = None, **clock: Any
+    ) -> Stream:
+        size = len(ticks) if ticks is not None else clock.pop("size")
+        rows = np.arange(size, dtype=np.float64)
+
+        def read(names: Sequence[str]) -> Iterator[Rows]:
+            for part in np.split(np.arange(size), sorted(cuts)):
+                yield Rows(dict.fromkeys(names, rows[part]), None if ticks is None else ticks[part])
+
+        made = NativeClock(**clock)
+        return Stream("s", (Column("row"),), size if count is None else count, made, read)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def taken() -> Callable[..., Taken]:
+    """Take the column "row" of a stream, as often as is said, by a stated clock if there is one."""
+
+    def of(stream: Stream, *stated: ClockEntry, columns: int = 1) -> Taken:
+        with Spool() as spool:
+            return take(stream, [Wanted("row", as_they_are)] * columns, spool, *stated)
+
+    return of
+
+
+@pytest.fixture(scope="session")
+def times() -> Callable[[Taken], np.ndarray]:
+    """Tell when every row was taken, in s after the zero of the epoch."""
+
+    def of(found: Taken) -> np.ndarray:
+        start, size = float(found.start_s), found.columns[0].size
+        if found.rate is not None:
+            return start + np.arange(size) / float(found.rate)
+        assert found.times_s is not None
+        assert found.times_s.size == size
+        return start + found.times_s
+
+    return of
+
+
 @pytest.fixture
-def logger(monkeypatch: pytest.MonkeyPatch) -> Logger:
+def logger(know: Callable[[object], None]) -> Logger:
     """The adapter, known to all commands."""
     adapter = Logger()
-
-    class Plugin:
-        @hookspecs.hookimpl
-        def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
-            register(adapter)
-
-    loaded = plugins.Plugins()
-    loaded.add(Plugin(), "logger")
-    for module in (readers, processing):
-        monkeypatch.setattr(module, "plugins", lambda: loaded)
+    know(adapter)
     return adapter
 
 
@@ -88,16 +127,6 @@ def put(logger: Logger, tmp_path: Path) -> Callable[..., Path]:
         return tmp_path / name
 
     return make
-
-
-def drive(seconds: float = 8.0, rate: int = 1000) -> dict[str, np.ndarray]:
-    """Return the nominal channels of a run at 20 m/s in SI units."""
-    times = np.arange(int(seconds * rate)) / rate
-    return {
-        "distance": 20.0 * times,
-        "height": 0.3 + 0.005 * np.sin(15.0 * times),
-        "vertical_specific_force": 9.80665 + 1e-3 * np.sin(15.0 * times),
-    }
 
 
 @pytest.fixture
@@ -149,7 +178,16 @@ def read(put: Callable[..., Path], tmp_path: Path) -> Callable[..., Reading]:
 
 @pytest.fixture
 def a_drive() -> Callable[..., dict[str, np.ndarray]]:
-    """Make a run: seconds and rate."""
+    """Make the nominal channels of a run at 20 m/s in SI units: seconds and rate."""
+
+    def drive(seconds: float = 8.0, rate: int = 1000) -> dict[str, np.ndarray]:
+        times = np.arange(int(seconds * rate)) / rate
+        return {
+            "distance": 20.0 * times,
+            "height": 0.3 + 0.005 * np.sin(15.0 * times),
+            "vertical_specific_force": 9.80665 + 1e-3 * np.sin(15.0 * times),
+        }
+
     return drive
 
 

@@ -4,6 +4,7 @@ import tracemalloc
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,44 +13,13 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.mapping import spool as spools
-from floatref.mapping.entries import ClockEntry
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import Taken, Wanted, as_they_are, take
+from floatref.mapping.taking import Wanted, as_they_are, take
 from floatref.values.native import Column, Epoch, NativeClock, Rows, Stream
 
 few = settings(deadline=None, max_examples=50)
 
-
-def reading(
-    ticks: np.ndarray | None, cuts: Sequence[int] = (), count: int | None = None, **clock
-) -> Stream:
-    """Return a stream whose column "row" counts its rows, cut into pieces."""
-    size = len(ticks) if ticks is not None else clock.pop("size")
-    rows = np.arange(size, dtype=np.float64)
-
-    def read(names: Sequence[str]) -> Iterator[Rows]:
-        for part in np.split(np.arange(size), sorted(cuts)):
-            yield Rows(dict.fromkeys(names, rows[part]), None if ticks is None else ticks[part])
-
-    made = NativeClock(**clock)
-    return Stream("s", (Column("row"),), size if count is None else count, made, read)
-
-
-def taken(stream: Stream, *stated: ClockEntry, columns: int = 1) -> Taken:
-    with Spool() as spool:
-        return take(stream, [Wanted("row", as_they_are)] * columns, spool, *stated)
-
-
-def times(found: Taken) -> np.ndarray:
-    """Return when every row was taken, in s after the zero of the epoch."""
-    start, size = float(found.start_s), found.columns[0].size
-    if found.rate is not None:
-        return start + np.arange(size) / float(found.rate)
-    assert found.times_s is not None
-    assert found.times_s.size == size
-    return start + found.times_s
-
-
+Make = Callable[..., Any]
 cuts = st.lists(st.integers(0, 200), max_size=5)
 
 
@@ -78,6 +48,9 @@ def test_every_row_has_its_own_time_whatever_the_pieces(
     floats: bool,
     epoch: Epoch,
     origin: int,
+    reading: Make,
+    taken: Make,
+    times: Make,
 ) -> None:
     ticks = start + np.cumsum(np.array(steps, np.int64))
     kind = ticks.astype(np.float64) if floats else ticks
@@ -100,7 +73,9 @@ def test_every_row_has_its_own_time_whatever_the_pieces(
         assert np.array_equal(np.unique(ticks), ticks[rows])
 
 
-def test_rows_that_go_back_take_their_samples_with_them() -> None:
+def test_rows_that_go_back_take_their_samples_with_them(
+    reading: Make, taken: Make, times: Make
+) -> None:
     ticks = np.arange(0, 3000, 3)
     ticks[[500, 800]] = 7
     found = taken(reading(ticks, [500, 501]), columns=2)
@@ -112,7 +87,9 @@ def test_rows_that_go_back_take_their_samples_with_them() -> None:
     )
 
 
-def test_rows_without_a_time_take_their_samples_with_them() -> None:
+def test_rows_without_a_time_take_their_samples_with_them(
+    reading: Make, taken: Make, times: Make
+) -> None:
     ticks = np.arange(1000.0)
     ticks[[0, 1, 400]] = np.nan
     found = taken(reading(ticks, [1]))
@@ -121,7 +98,7 @@ def test_rows_without_a_time_take_their_samples_with_them() -> None:
     assert found.told == ("3 rows have no time; they are dropped",)
 
 
-def test_repeated_stamps_keep_the_first_of_each() -> None:
+def test_repeated_stamps_keep_the_first_of_each(reading: Make, taken: Make) -> None:
     ticks = np.arange(100)
     ticks[50] = 49
     found = taken(reading(ticks, [49, 50]), columns=2)
@@ -129,14 +106,14 @@ def test_repeated_stamps_keep_the_first_of_each() -> None:
     assert found.told == ("1 rows repeat the time of another; the first of each is kept",)
 
 
-def test_a_clock_that_stands_still_is_refused() -> None:
+def test_a_clock_that_stands_still_is_refused(reading: Make, taken: Make) -> None:
     ticks = np.repeat([0, 5, 11, 19], 25)
     with pytest.raises(InputError, match="96 of 100 rows repeat the time of the one before"):
         taken(reading(ticks))
 
 
 @pytest.mark.parametrize("more", [1, 10**6])
-def test_a_stream_that_ends_early_is_told(more: int) -> None:
+def test_a_stream_that_ends_early_is_told(more: int, reading: Make, taken: Make) -> None:
     lines = taken(reading(np.arange(100), count=100 + more)).told
     assert lines == (f"says {100 + more} rows and holds 100; the file is truncated",)
     uniform = reading(None, size=100, count=100 + more, rate=Fraction(10))
@@ -144,12 +121,12 @@ def test_a_stream_that_ends_early_is_told(more: int) -> None:
 
 
 @pytest.mark.parametrize("ticks", [np.empty(0), np.empty(0, np.int64)])
-def test_a_stream_without_rows_is_refused(ticks: np.ndarray) -> None:
+def test_a_stream_without_rows_is_refused(ticks: np.ndarray, reading: Make, taken: Make) -> None:
     with pytest.raises(InputError, match="stream 's' holds no rows; copy the complete file"):
         taken(reading(ticks))
 
 
-def test_a_stream_that_yields_nothing_is_refused() -> None:
+def test_a_stream_that_yields_nothing_is_refused(taken: Make) -> None:
     stream = Stream("s", (Column("row"),), 5, NativeClock(), lambda names: iter(()))
     with pytest.raises(InputError, match="holds no rows"):
         taken(stream)
@@ -165,7 +142,7 @@ def test_a_stream_that_yields_nothing_is_refused() -> None:
         Rows({"row": np.zeros((2, 2))}, np.zeros((2, 2))),
     ],
 )
-def test_rows_that_do_not_fit_together_are_refused(rows: Rows) -> None:
+def test_rows_that_do_not_fit_together_are_refused(rows: Rows, taken: Make) -> None:
     stream = Stream("s", (Column("row"),), 4, NativeClock(), lambda names: iter([rows]))
     with pytest.raises(ValueError, match=r"differ in shape|do not fit"):
         taken(stream)
@@ -179,7 +156,7 @@ def test_columns_of_different_length_are_refused_where_a_rate_counts() -> None:
         take(stream, [Wanted("row", as_they_are), Wanted("b", as_they_are)], spool)
 
 
-def test_a_column_wanted_twice_is_read_once() -> None:
+def test_a_column_wanted_twice_is_read_once(taken: Make) -> None:
     asked: list[Sequence[str]] = []
 
     def read(names: Sequence[str]) -> Iterator[Rows]:
@@ -191,7 +168,7 @@ def test_a_column_wanted_twice_is_read_once() -> None:
     assert asked == [["row"]]
 
 
-def test_progress_goes_up_to_the_number_of_rows() -> None:
+def test_progress_goes_up_to_the_number_of_rows(reading: Make) -> None:
     seen: list[int] = []
     with Spool() as spool:
         stream = reading(np.arange(100), [10, 40])
@@ -199,7 +176,7 @@ def test_progress_goes_up_to_the_number_of_rows() -> None:
     assert seen == [10, 40, 100]
 
 
-def test_memory_does_not_grow_with_the_file() -> None:
+def test_memory_does_not_grow_with_the_file(taken: Make) -> None:
     peaks = []
     for pieces in (8, 64):
         stream = Stream(
@@ -215,7 +192,7 @@ def test_memory_does_not_grow_with_the_file() -> None:
 
 
 def test_a_declared_size_beyond_the_disk_is_refused_before_reading(
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: pytest.MonkeyPatch, reading: Make, taken: Make
 ) -> None:
     monkeypatch.setattr(spools.shutil, "disk_usage", lambda path: SimpleNamespace(free=10**10))
     with pytest.raises(InputError, match=r"needs 16\.0 GB on disk .* set TMPDIR"):

@@ -1,52 +1,22 @@
 """Rows are timed by their ticks, their rate, or what a map states; no other time comes out."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
 
 from floatref.errors import InputError
 from floatref.mapping.entries import ClockEntry
-from floatref.mapping.spool import Spool
-from floatref.mapping.taking import UNKNOWN, Taken, Wanted, as_they_are, take
-from floatref.values.native import Column, Epoch, NativeClock, Rows, Stream
+from floatref.mapping.taking import UNKNOWN
+from floatref.values.native import Epoch
 
-
-def reading(
-    ticks: np.ndarray | None, cuts: Sequence[int] = (), count: int | None = None, **clock
-) -> Stream:
-    """Return a stream whose column "row" counts its rows, cut into pieces."""
-    size = len(ticks) if ticks is not None else clock.pop("size")
-    rows = np.arange(size, dtype=np.float64)
-
-    def read(names: Sequence[str]) -> Iterator[Rows]:
-        for part in np.split(np.arange(size), sorted(cuts)):
-            yield Rows(dict.fromkeys(names, rows[part]), None if ticks is None else ticks[part])
-
-    made = NativeClock(**clock)
-    return Stream("s", (Column("row"),), size if count is None else count, made, read)
-
-
-def taken(stream: Stream, *stated: ClockEntry, columns: int = 1) -> Taken:
-    with Spool() as spool:
-        return take(stream, [Wanted("row", as_they_are)] * columns, spool, *stated)
-
-
-def times(found: Taken) -> np.ndarray:
-    """Return when every row was taken, in s after the zero of the epoch."""
-    start, size = float(found.start_s), found.columns[0].size
-    if found.rate is not None:
-        return start + np.arange(size) / float(found.rate)
-    assert found.times_s is not None
-    assert found.times_s.size == size
-    return start + found.times_s
-
-
+Make = Callable[..., Any]
 STATED = Fraction(48_000, 7)
 
 
-def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row() -> None:
+def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row(reading: Make, taken: Make) -> None:
     ticks = np.round(np.arange(32_000) / 16.0).astype(np.int64)
     found = taken(reading(ticks, [5000], tick_s=Fraction(1, 1000)))
     assert found.rate == 16_000
@@ -54,7 +24,7 @@ def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row() -> None:
     assert found.told == ()
 
 
-def test_a_stream_without_any_time_says_so() -> None:
+def test_a_stream_without_any_time_says_so(reading: Make, taken: Make) -> None:
     with pytest.raises(InputError, match="none of its 5 rows has a time; state rate_hz"):
         taken(reading(np.full(5, np.nan)))
     with pytest.raises(InputError, match="its adapter gives none"):
@@ -75,7 +45,12 @@ def test_a_stream_without_any_time_says_so() -> None:
     ],
 )
 def test_a_stated_rate_replaces_the_clock_of_the_stream(
-    ticks: np.ndarray | None, clock: dict, begin: float, start_s: float | None
+    ticks: np.ndarray | None,
+    clock: dict,
+    begin: float,
+    start_s: float | None,
+    reading: Make,
+    taken: Make,
 ) -> None:
     stream = reading(ticks, [1], **clock, **({"size": 3} if ticks is None else {}))
     found = taken(stream, ClockEntry(rate=STATED, start_s=start_s))
@@ -85,13 +60,17 @@ def test_a_stated_rate_replaces_the_clock_of_the_stream(
     assert found.start_s == (begin if start_s is None else origin + start_s)
 
 
-def test_a_stated_rate_counts_back_from_the_first_row_that_has_a_time() -> None:
+def test_a_stated_rate_counts_back_from_the_first_row_that_has_a_time(
+    reading: Make, taken: Make
+) -> None:
     ticks = np.array([np.nan, np.nan, 10.0, 11.0])
     found = taken(reading(ticks, [1]), ClockEntry(rate=Fraction(2)))
     assert found.start_s == 9
 
 
-def test_an_alignment_without_a_rate_leaves_the_clock_alone() -> None:
+def test_an_alignment_without_a_rate_leaves_the_clock_alone(
+    reading: Make, taken: Make, times: Make
+) -> None:
     found = taken(reading(np.array([0, 30, 50])), ClockEntry(align="offset"))
     assert times(found).tolist() == [0, 30, 50]
 
@@ -108,12 +87,14 @@ def test_an_alignment_without_a_rate_leaves_the_clock_alone() -> None:
         (np.array([1.7e308, 1.7e308]), {"tick_s": Fraction(10**300)}),
     ],
 )
-def test_a_time_that_no_epoch_explains_is_refused(ticks: np.ndarray, clock: dict) -> None:
+def test_a_time_that_no_epoch_explains_is_refused(
+    ticks: np.ndarray, clock: dict, reading: Make, taken: Make
+) -> None:
     with pytest.raises(InputError, match=r"time of row \d+ is more than 1e\+12 s from zero"):
         taken(reading(ticks, **clock))
 
 
-def test_large_integers_lose_nothing() -> None:
+def test_large_integers_lose_nothing(reading: Make, taken: Make) -> None:
     ticks = 2**62 + np.array([0, 1, 5, 6])
     found = taken(reading(ticks, tick_s=Fraction(1, 10**9)))
     assert found.times_s is not None
@@ -121,7 +102,7 @@ def test_large_integers_lose_nothing() -> None:
     assert found.start_s == Fraction(2**62, 10**9)
 
 
-def test_integers_may_go_from_end_to_end() -> None:
+def test_integers_may_go_from_end_to_end(reading: Make, taken: Make, times: Make) -> None:
     found = taken(reading(np.array([-(2**63), 0, 2**63 - 1]), tick_s=Fraction(1, 10**9)))
     assert found.start_s == Fraction(-(2**63), 10**9)
     np.testing.assert_allclose(times(found), [-(2**63) / 1e9, 0, 2**63 / 1e9], atol=1e-5)
