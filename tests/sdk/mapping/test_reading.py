@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from floatref.mapping import read_native
+from floatref.mapping.entries import ChannelEntry, ChannelMap, ClockEntry
 from floatref.values.clock import UniformClock
 
 Put = Callable[..., Path]
@@ -100,3 +101,21 @@ def test_rows_between_the_samples_of_a_slower_channel_are_none(
     channel = read_native(source, chart).recording.channel(name)
     np.testing.assert_array_equal(channel.values, 1e-3 * np.arange(channel.values.size))
     assert channel.clock == UniformClock(Fraction(100), 0.003)
+
+
+@pytest.mark.parametrize("place", ["unsprung", "rear_unsprung", "sprung", "equipment"])
+def test_without_a_profiler_the_clock_of_an_accelerometer_of_the_vehicle_is_the_base(
+    put: Put, make_stream, place: str
+) -> None:
+    slow = make_stream("can", {"distance": np.arange(50.0)}, rate=Fraction(10), name="can")
+    name = f"{place}_specific_force"
+    fast = make_stream("adc", {name: 9.8 + 0.1 * np.sin(np.arange(500.0))}, rate=Fraction(100))
+    offset = ClockEntry(stream="can", align="offset", offset_s=0.25)
+    entries = (
+        ChannelEntry("distance", "distance", unit="m"),
+        ChannelEntry(name, name, unit="m/s^2"),
+    )
+    chart = ChannelMap(entries, clocks=(offset,))
+    found = read_native(put(slow, fast), chart).recording
+    assert found.channel("distance").times_s[0] == 0.25
+    assert found.channel(name).times_s[0] == 0.0
