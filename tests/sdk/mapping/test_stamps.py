@@ -1,5 +1,7 @@
 """The clock behind rounded time stamps, and the rows that come too late."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -109,7 +111,7 @@ def test_the_rate_of_a_clock_that_is_found_is_one_that_a_recording_may_have(
     step: float, count: int, unit: float
 ) -> None:
     clock = uniform_clock(step * np.arange(count), unit)
-    assert clock is None or 0.001 <= clock.rate <= 10_000_000
+    assert clock is None or Fraction(1, 1000) <= clock.rate <= 10_000_000
 
 
 def kept_by_a_loop(ticks: list[float]) -> tuple[list[bool], int, int]:
