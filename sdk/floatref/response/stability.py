@@ -1,5 +1,7 @@
 """Whether the error of an observer decays: the eigenvalues of its composite error matrix (14)."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from floatref.errors import InputError
@@ -14,10 +16,12 @@ TIME_CONSTANTS = 10.0
 double pole."""
 
 
-def decay_rate(model: VehicleModel, measured: tuple[Reading, ...], error: FloatArray) -> float:
+def decay_rate(
+    model: VehicleModel, measured: Sequence[Reading], gain: FloatArray, error: FloatArray
+) -> float:
     """Return -max Re eig(L) of (14) in 1/s, that with which the slowest part of an error decays.
 
-    ``error`` is L. Raises InputError if it does not decay, naming the eigenvalue, the freedom
+    ``gain`` is G, shape (2n, k), and ``error`` L. Raises InputError if it does not decay, naming the eigenvalue, the freedom
     that it belongs to and what to do there.
     """
     values = np.linalg.eigvals(error)
@@ -29,7 +33,8 @@ def decay_rate(model: VehicleModel, measured: tuple[Reading, ...], error: FloatA
     freedom = model.freedoms[int(np.argmax(share))].name
     raise InputError(
         f"model {model.name}: the observer's error does not decay, eigenvalue {_printed(worst)} "
-        f"1/s in the motion of the {freedom}; {_advice(freedom, measured, worst)}"
+        f"1/s in the motion of the {freedom}; "
+        + _advice(model, freedom, measured, gain, worst.imag)
     )
 
 
@@ -45,15 +50,22 @@ def _moved(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
     return np.asarray(amounts[:n] + amounts[n:])
 
 
-def _advice(freedom: str, measured: tuple[Reading, ...], eigenvalue: complex) -> str:
-    """Return which sensor or gain is missing: a motion that swings lacks damping, else a spring."""
+def _advice(
+    model: VehicleModel, freedom: str, measured: Sequence[Reading], gain: FloatArray, swing: float
+) -> str:
+    """Return which sensor or gain is missing.
+
+    What does not swing, ``swing`` in 1/s, and has no gain on its velocity lacks a spring; all
+    else that is measured lacks damping.
+    """
     names = [reading.freedom for reading in measured]
     if freedom not in names:
         return f"neither springs nor a reading hold it: measure the displacement of the {freedom}"
-    place, on = names.index(freedom) + 1, "displacement"
-    if abs(eigenvalue.imag) <= SLOWEST_PER_S:
-        place, on = place + len(names), "velocity"
-    return f"raise g{place}, the gain of its displacement on its {on}"
+    column, n = names.index(freedom), len(model.freedoms)
+    held = gain[n + model.index(freedom), column] > 0
+    if held or abs(swing) > SLOWEST_PER_S:
+        return f"raise g{column + 1}, the gain of its displacement on its displacement"
+    return f"raise g{column + len(names) + 1}, the gain of its displacement on its velocity"
 
 
 def _printed(value: complex) -> str:
