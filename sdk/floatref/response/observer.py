@@ -77,7 +77,7 @@ class UnknownInputObserver:
         gain = gain_matrix(model, measured, gains)
         closed = observer_equations(model, gain, outputs)
         free = observer_equations(model, np.zeros_like(gain), outputs)
-        rate = decay_rate(model, measured, gain, closed.error)
+        rate = decay_rate(model, measured, outputs, closed.error)
         steps = [sampled(each.error, each.inputs, step_s, degree) for each in (closed, free)]
         noise = np.array([r.sigma for r in measured] + [acceleration_sigma] * len(model.tyres))
         return cls(

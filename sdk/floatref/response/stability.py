@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.response.gains import default_gains
 from floatref.response.model import VehicleModel
 from floatref.response.reading import Reading
 from floatref.values.arrays import FloatArray
@@ -17,12 +18,13 @@ double pole."""
 
 
 def decay_rate(
-    model: VehicleModel, measured: Sequence[Reading], gain: FloatArray, error: FloatArray
+    model: VehicleModel, measured: Sequence[Reading], outputs: FloatArray, error: FloatArray
 ) -> float:
     """Return -max Re eig(L) of (14) in 1/s, that with which the slowest part of an error decays.
 
-    ``gain`` is G, shape (2n, k), and ``error`` L. Raises InputError if it does not decay, naming the eigenvalue, the freedom
-    that it belongs to and what to do there.
+    ``outputs`` is C' of the readings ``measured``, shape (k, 2n), and ``error`` is L. Raises
+    InputError if an error does not decay, naming the eigenvalue, the freedom that it belongs to,
+    and the gain to raise or the sensor to add.
     """
     values = np.linalg.eigvals(error)
     worst = complex(values[np.argmax(values.real)])
@@ -31,10 +33,13 @@ def decay_rate(
     n = len(model.freedoms)
     share = _moved(error, worst, n) * _moved(error.T, worst, n)
     freedom = model.freedoms[int(np.argmax(share))].name
+    if freedom in [reading.freedom for reading in measured]:
+        advice = _gain_to_raise(model, freedom, measured, outputs, error)
+    else:
+        advice = "neither springs nor a reading hold it: measure its displacement"
     raise InputError(
         f"model {model.name}: the observer's error does not decay, eigenvalue {_printed(worst)} "
-        f"1/s in the motion of the {freedom}; "
-        + _advice(model, freedom, measured, gain, worst.imag)
+        f"1/s in the motion of the {freedom}; {advice}"
     )
 
 
@@ -50,22 +55,31 @@ def _moved(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
     return np.asarray(amounts[:n] + amounts[n:])
 
 
-def _advice(
-    model: VehicleModel, freedom: str, measured: Sequence[Reading], gain: FloatArray, swing: float
+def _gain_to_raise(
+    model: VehicleModel,
+    freedom: str,
+    measured: Sequence[Reading],
+    outputs: FloatArray,
+    error: FloatArray,
 ) -> str:
-    """Return which sensor or gain is missing.
+    """Return which of g1 to g2k, more by its default, leaves least of what does not decay.
 
-    What does not swing, ``swing`` in 1/s, and has no gain on its velocity lacks a spring; all
-    else that is measured lacks damping.
+    Of equals, one of ``freedom``.
     """
-    names = [reading.freedom for reading in measured]
-    if freedom not in names:
-        return f"neither springs nor a reading hold it: measure the displacement of the {freedom}"
-    column, n = names.index(freedom), len(model.freedoms)
-    held = gain[n + model.index(freedom), column] > 0
-    if held or abs(swing) > SLOWEST_PER_S:
-        return f"raise g{column + 1}, the gain of its displacement on its displacement"
-    return f"raise g{column + len(names) + 1}, the gain of its displacement on its velocity"
+    ways, n = [], len(model.freedoms)
+    for number, more in enumerate(default_gains(model, measured)):
+        on, column = divmod(number, len(measured))
+        raised = error.copy()
+        raised[on * n + model.index(measured[column].freedom), : 2 * n] -= more * outputs[column]
+        growth = np.linalg.eigvals(raised).real + SLOWEST_PER_S
+        another = measured[column].freedom != freedom
+        ways.append((np.count_nonzero(growth > 0), another, growth[growth > 0].sum(), number))
+    best = min(ways)[-1]
+    on, column = divmod(best, len(measured))
+    return (
+        f"raise g{best + 1}, by which the {measured[column]} corrects "
+        f"{('that displacement', 'its velocity')[on]}"
+    )
 
 
 def _printed(value: complex) -> str:
