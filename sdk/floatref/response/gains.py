@@ -12,8 +12,12 @@ from floatref.response.output import output_matrices
 from floatref.response.reading import Kind, Reading
 from floatref.values.arrays import FloatArray
 
-POSITION_HZ, RATE_HZ = 5.0, 0.5
-"""By default, below which frequency a height follows its sensor, and a velocity the height's."""
+POSITION_HZ, RATE_HZ = 10.0, 2.0
+"""By default, below which frequency a height follows its sensor, and a velocity the height's.
+
+Lower ones let noise and bias of accelerometers through, higher ones the noise of displacements;
+for noise of 10 µm and 0.02 m/s² at 128 Hz, the sum is flat around these.
+"""
 
 
 def default_gains(
