@@ -9,7 +9,7 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from imine_cases import BENCH, FIELD, IDEAL, TIMES, Case, chirps, drive, left_road, observed
+from imine_cases import BENCH, FIELD, TIMES, Case, chirps, drive, left_road, observed
 from rich.console import Console
 from rich.table import Table
 
@@ -31,13 +31,14 @@ def row(case: str, sensors: str, cases: list[Case], printed: str, wheel: int) ->
     return [case, sensors, f"{1e6 * error:.1f} {MICRO}", share, f"{1e6 * rms:.1f} {MICRO}", printed]
 
 
-def table(chirp: Case, bench: list[Case], field: list[Case]) -> Table:
+def table(chirp: Case, lines: Case, bench: list[Case], field: list[Case]) -> Table:
     """Return the figures beside those in print."""
     made = Table(title="Road by the observer with unknown inputs")
     for column in ("case", "sensors", "largest error", "of the height", "RMS", "print"):
         made.add_column(column)
     made.add_row(*row("V.A chirp, left", "ideal", [chirp], f"5 {MICRO}, 0.5 %", 0))
     made.add_row(*row("V.A chirp, right", "ideal", [chirp], "–", 1))
+    made.add_row(*row("V.A chirp, left, straight lines", "ideal", [lines], "–", 0))
     made.add_row(*row("V.B.1 left wheel", "bench", bench, "0.4 %", 0))
     made.add_row(*row("V.B.1 left wheel", "field", field, "–", 0))
     made.add_row(*row("V.B.2 right wheel stands", "bench", bench, "–", 1))
@@ -84,11 +85,12 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--plot", type=Path)
     asked = parser.parse_args()
-    chirp, drove = observed(drive(chirps), IDEAL), drive(left_road())
+    swept, drove = drive(chirps), drive(left_road())
+    chirp, lines = observed(swept), observed(swept, degree=1)
     seeds = range(1, asked.seeds + 1)
     bench = [observed(drove, BENCH, seed) for seed in seeds]
     field = [observed(drove, FIELD, seed) for seed in seeds]
-    Console().print(table(chirp, bench, field))
+    Console().print(table(chirp, lines, bench, field))
     if asked.plot:
         draw(asked.plot, chirp, bench[0], field[0])
 

@@ -131,9 +131,15 @@ def read(
 
 
 def observed(
-    drove: tuple[FloatArray, FloatArray, FloatArray], sensors: Sensors = IDEAL, seed: int = 1
+    drove: tuple[FloatArray, FloatArray, FloatArray],
+    sensors: Sensors = IDEAL,
+    seed: int = 1,
+    degree: int = 3,
 ) -> Case:
-    """Return a drive with these sensors, and the estimate with the default gains."""
+    """Return a drive with these sensors, and the estimate with the default gains.
+
+    ``degree`` is that of the polynomial between two samples.
+    """
     road, displacements, accelerations = drove
     y, z = read(displacements, accelerations, sensors, seed)
     model = IMINE_TRAILER.model()
@@ -145,5 +151,6 @@ def observed(
         default_gains(model, measured),
         measured,
         max(sensors.acceleration_sigma, 1e-6),
+        degree,
     )
     return Case(road, y, z, watch.estimate(y, z))
