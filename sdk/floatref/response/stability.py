@@ -84,4 +84,5 @@ def _gain_to_raise(
 
 def _printed(value: complex) -> str:
     imaginary = f" ± {abs(value.imag):.3g}j" if abs(value.imag) > SLOWEST_PER_S else ""
-    return f"{value.real:.3g}{imaginary}"
+    # Rounding leaves next to nothing of a zero; adding one takes its sign.
+    return f"{round(value.real, 3) + 0.0:.3g}{imaginary}"

@@ -150,6 +150,15 @@ def test_what_is_absent_is_told_until_its_error_has_decayed(which):
     assert np.abs(found.road - road)[~silent].max() <= 0.005 * np.abs(road).max()
 
 
+def test_while_displacements_are_absent_the_accelerations_carry_the_states_on():
+    model = MODELS["quarter car"]
+    _, states, accelerations = driven(model, 6.0)
+    y = states[:, :2].copy()
+    y[600:640] = np.nan
+    error = np.abs(observer(model).estimate(y, accelerations).states - states)[600:640]
+    assert (error.max(axis=0) <= 0.02 * np.abs(states).max(axis=0)).all()
+
+
 def test_nothing_is_told_before_the_first_whole_sample():
     model = MODELS["quarter car"]
     y = np.full((5, 2), np.nan)
