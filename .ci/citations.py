@@ -1,7 +1,9 @@
-"""What sources and tests cite of the dissertation, read without importing them.
+"""What sources and tests cite of the dissertation and of two papers, read without importing them.
 
 A docstring cites "(2.9)", "(2.12) to (2.16)" or "Tables 2.4 to 2.6"; a test cites the same in
-`@pytest.mark.cites("(2.9)")`, or for its whole file in `pytestmark`.
+`@pytest.mark.cites("(2.9)")`, or for its whole file in `pytestmark`. Of the papers it cites
+"(7) of Zhu", "step (a) of Zhu", "Table 1 of Zhu" or "section 4.3 of Zhu"; their own packages in the
+reference leave out the "of Zhu".
 """
 
 import ast
@@ -19,7 +21,14 @@ ROOMS = {
 }
 EQUATION = re.compile(r"\(([\dAC])\.(\d+)\)(?:(?: to |[-–])\([\dAC]\.(\d+)\))?")
 TABLE = re.compile(r"Tables? ([\dA])\.(\d+)(?:( to | and )[\dA]\.(\d+))?")
-SECTION = re.compile(r"[Ss]ection (\d(?:\.\d+)+)")
+SECTION = re.compile(r"[Ss]ection (\d(?:\.\d+)+)\b(?!\.\d| of (?:Zhu|Imine))")
+PAPERS = {"floatref_reference.zhu_2021": "Zhu", "floatref_reference.imine": "Imine"}
+NUMBERED = re.compile(r"\((\d+|[a-c])\)(?: to \((\d+)\))?")
+NUMBERED_OF = re.compile(
+    r"((?:\((?:\d+|[a-c])\)(?:,\s| and | to )?)+)\s+of\s+(Zhu|Imine)(?: and of (Zhu|Imine))?"
+)
+PART = re.compile(r"([Ss]ection|Table) (\d(?:\.\d+)*)\b")
+PART_OF = re.compile(r"((?:[Ss]ection|Table) \d(?:\.\d+)*)\s+of\s+(Zhu|Imine)")
 
 
 class Test(NamedTuple):
@@ -30,8 +39,13 @@ class Test(NamedTuple):
     packages: frozenset[str]
 
 
-def cited(text: str) -> set[str]:
-    """Return all that ``text`` cites, ranges filled in: "(2.9)", "Table 2.4", "section 5.4"."""
+def cited(text: str, paper: str = "") -> set[str]:
+    """Return all that ``text`` cites, ranges filled in: "(2.9)", "Table 2.4", "section 5.4".
+
+    What a text of ``paper`` cites without saying of whom is of that paper: "(7) of Zhu".
+    """
+    if paper:
+        return _cited_of(text, paper)
     found = {f"section {number}" for number in SECTION.findall(text)}
     for chapter, first, last in EQUATION.findall(text):
         found |= {f"({chapter}.{n})" for n in range(int(first), int(last or first) + 1)}
@@ -40,7 +54,24 @@ def cited(text: str) -> set[str]:
         if joint == " to ":
             numbers = set(range(int(first), int(last) + 1))
         found |= {f"Table {chapter}.{n}" for n in numbers}
+    for listed, *papers in [*NUMBERED_OF.findall(text), *PART_OF.findall(text)]:
+        for of in filter(None, papers):
+            found |= _cited_of(listed, of)
     return found
+
+
+def paper_of(name: str) -> str:
+    """Return the paper whose package in the reference holds ``name``; "" if none does."""
+    homes = (paper for home, paper in PAPERS.items() if f"{name}.".startswith(f"{home}."))
+    return next(homes, "")
+
+
+def _cited_of(text: str, paper: str) -> set[str]:
+    found = {f"{part.lower()} {n} of {paper}" for part, n in PART.findall(text)}
+    for first, last in NUMBERED.findall(text):
+        whole = range(int(first), int(last or first) + 1) if first.isdigit() else [first]
+        found |= {f"({n}) of {paper}" for n in whole}
+    return {where.replace("table", "Table") for where in found}
 
 
 def parted(name: str) -> tuple[str, str]:

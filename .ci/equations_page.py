@@ -17,7 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from citations import ROOT, Test, cited, documentation, functions, parted, tests
+from citations import ROOT, Test, cited, documentation, functions, paper_of, parted, tests
 
 REFERENCE = "floatref_reference"
 SHOWN = re.compile(r"^::: ([\w.]+)$", re.MULTILINE)
@@ -77,7 +77,7 @@ def faults(row: Row) -> Iterator[str]:
             text = documentation(name)
             if text is None:
                 yield f"{name} does not exist"
-            elif not where <= cited(text):
+            elif not where <= cited(text, paper_of(name)):
                 yield f"the docstring of {name} does not cite it"
     yield from untested(where, {REFERENCE, *(name.partition(".")[0] for name in used(row))})
     yield from no_such_slip(row)
@@ -155,17 +155,22 @@ def alone(groups: list[Row]) -> str:
     listed = set().union(*(cited(row["cites"]) for group in groups for row in group["rows"]))
     found = {
         where
-        for _, text in functions(REFERENCE)
-        for where in cited(text.partition("Equation:")[2].strip().partition("\n")[0])
+        for name, text in functions(REFERENCE)
+        for where in cited(_first_of_equation(text), paper_of(name))
         if where.startswith("(")
     }
     return ", ".join(sorted(found - listed, key=in_print))
 
 
-def in_print(where: str) -> tuple[str, int]:
-    """Return what sorts equations as they are printed, the appendices last."""
-    chapter, number = where.strip("()").split(".")
-    return chapter, int(number)
+def _first_of_equation(text: str) -> str:
+    return text.partition("Equation:")[2].strip().partition("\n")[0]
+
+
+def in_print(where: str) -> tuple[str, str, int]:
+    """Return what sorts equations as they are printed: the appendices late, the papers last."""
+    number, _, paper = where.partition(" of ")
+    chapter, _, last = number.strip("()").rpartition(".")
+    return paper, chapter, int(last) if last.isdigit() else 1000 + ord(last)
 
 
 def page(rows: Row) -> str:

@@ -74,6 +74,31 @@ def test_a_function_has_to_cite_it_itself(generator):
     assert "(A.2)" not in generator.cited(generator.documentation(f"{module}.high_pass_21"))
 
 
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("as (7) of Zhu has it", {"(7) of Zhu"}),
+        ("(2) to (4) of Imine", {"(2) of Imine", "(3) of Imine", "(4) of Imine"}),
+        ("(10), (11) and (13) of Zhu", {"(10) of Zhu", "(11) of Zhu", "(13) of Zhu"}),
+        ("(7) of Zhu and of Imine", {"(7) of Zhu", "(7) of Imine"}),
+        ("steps (a) and (b) of Zhu", {"(a) of Zhu", "(b) of Zhu"}),
+        ("section 4.3 of Zhu, Table 1 of Zhu", {"section 4.3 of Zhu", "Table 1 of Zhu"}),
+        ("section 4.3, and (7)", {"section 4.3"}),
+    ],
+)
+def test_a_paper_is_cited_by_its_name(generator, text, found):
+    assert generator.cited(text) == found
+
+
+def test_in_the_home_of_a_paper_its_name_is_left_out(generator):
+    name = "floatref_reference.zhu_2021.section_4_3_speed.calculation_rate"
+    assert generator.paper_of(name) == "Zhu"
+    assert generator.paper_of("floatref_reference.zhu_2021s") == ""
+    text = generator.documentation(name)
+    assert generator.cited(text, "Zhu") == {"section 4.3 of Zhu"}
+    assert generator.cited("Step (a): as in (3)", "Imine") == {"(a) of Imine", "(3) of Imine"}
+
+
 def test_a_file_can_cite_for_all_its_tests(generator):
     names = {test.name for test in generator.tests()["Table 5.12"] if "findings" in test.path}
     path = ROOT / "tests" / "conformance" / "table" / "test_findings.py"

@@ -11,9 +11,9 @@ def error_matrix(form: StateForm, G: Matrix, C_prime: Matrix) -> Matrix:
     """Compute the composite error matrix.
 
     Equation:
-        (12) ė_1 = (A - G C' + D_1 A_2) e_1, (13) ė_2 = A_2 e_1 + C_2 e_2, with e_1 = x̄_1 - x_1 and
-        e_2 = ū - u, together (14): L = [A_3 0; A_2 C_2], A_3 = A + D_1 A_2 - G C'. The zero is
-        right: C_1 + D_1 C_2, through which e_2 would act on e_1, vanishes.
+        (12) to (14): ė_1 = (A - G C' + D_1 A_2) e_1 and ė_2 = A_2 e_1 + C_2 e_2, together
+        L = [A_3 0; A_2 C_2] with A_3 = A + D_1 A_2 - G C', e_1 = x̄_1 - x_1 and e_2 = ū - u. The
+        zero is right: C_1 + D_1 C_2, through which e_2 would act on e_1, vanishes.
 
     Args:
         form: matrices of (8) and (9).
