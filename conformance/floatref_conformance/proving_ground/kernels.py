@@ -5,19 +5,18 @@ from math import asin, atan2, cos, sin
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 
 Vector = tuple[float, float, float]
 Frame = tuple[Vector, Vector, Vector]
 
 STATES, INPUTS = 16, 6
-"""Fourteen states padded to whole vector lanes; four wheels' roads and two accelerations."""
+"""Of seven freedoms, padded to whole vector lanes; four wheels' roads and two accelerations."""
 BODY_ROWS = 9
 """Heave, pitch, roll; their first derivatives; their second derivatives."""
 F_X, F_Y, F_Z, RANGE, R_Z, V_Z, A_Z, ROAD = range(8)
-TRACK_ROWS = 8
 RATE_X, RATE_Y, RATE_Z, PITCH_ANGLE, ROLL_ANGLE = range(5)
-SHARED_ROWS = 5
+TRACK_ROWS, SHARED_ROWS = 8, 5
 
 
 @compiled
@@ -55,7 +54,10 @@ def respond(
     wheel_x: FloatArray,
     distance: FloatArray,
     ground: FloatArray,
+    pose: IndexArray,
     body: FloatArray,
+    steps: IndexArray,
+    states: FloatArray,
 ) -> None:
     """Advance the vehicle over a stretch and write the motion of its body.
 
@@ -67,12 +69,14 @@ def respond(
         grid: start in m and points per m of ``lanes``, shape (2,).
         wheel_x: position of each wheel ahead of the vehicle point, shape (4,), in m.
         distance: true distance, shape (n,), in m.
-        ground: longitudinal and lateral specific force of the ground on the body, shape
-            (2, n), in m/s².
+        ground: its longitudinal and lateral specific force, shape (2, n), in m/s².
+        pose: places of heave, pitch, roll and their rates in ``vector``, shape (6,).
         body: written, shape (9, n), in m, rad and s.
+        steps: rising samples after which ``vector`` is kept, shape (m,).
+        states: written, shape (m, 22).
     """
-    sums = np.empty(STATES + INPUTS)
-    fresh, second = np.empty(STATES), np.empty(4)
+    sums, fresh, second = np.empty(STATES + INPUTS), np.empty(STATES), np.empty(4)
+    kept = 0
     for k in range(distance.size):
         for i in range(STATES):
             sums[i] = vector[i]
@@ -87,9 +91,12 @@ def respond(
             vector[i] = fresh[i]
         combine(outputs, vector, second)
         for i in range(3):
-            body[i, k] = vector[i]
-            body[3 + i, k] = vector[7 + i]
+            body[i, k] = vector[pose[i]]
+            body[3 + i, k] = vector[pose[3 + i]]
             body[6 + i, k] = second[i]
+        if kept < steps.size and steps[kept] == k:
+            states[kept, :] = vector
+            kept += 1
 
 
 @compiled
@@ -113,10 +120,8 @@ def footprint(
         right = elevation_at(paths[int(pair[0])], position)
         left = elevation_at(paths[int(pair[1])], position)
         weight = (y - guess * beam[1] - pair[2]) * pair[3]
-        better = (z - right - weight * (left - right)) / beam[2]
-        change = abs(better - guess)
-        guess = better
-        if change < 1e-11:
+        last, guess = guess, (z - right - weight * (left - right)) / beam[2]
+        if abs(guess - last) < 1e-11:
             break
     return guess
 

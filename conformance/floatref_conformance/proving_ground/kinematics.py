@@ -44,6 +44,12 @@ class Course:
         along = acceleration + STANDARD_GRAVITY * up[0]
         return np.stack([along, self.curvature_per_m * up[2] * speed**2 + STANDARD_GRAVITY * up[1]])
 
+    def lane_force(self, speed: FloatArray, acceleration: FloatArray) -> FloatArray:
+        """Return `ground_force` and the specific force normal to the lane, shape (3, n)."""
+        up = self.up
+        normal = STANDARD_GRAVITY * up[2] - self.curvature_per_m * up[1] * speed**2
+        return np.stack([*self.ground_force(speed, acceleration), normal])
+
 
 @dataclass(frozen=True, eq=False)
 class Sighted:

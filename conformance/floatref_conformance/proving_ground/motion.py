@@ -12,7 +12,8 @@ from floatref_conformance.proving_ground.drive import Longitudinal
 from floatref_conformance.proving_ground.kinematics import Course, Sighted
 from floatref_conformance.proving_ground.response import Response, oversampling
 from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.vehicle import Vehicle
+from floatref_conformance.proving_ground.suspended import Suspended
+from floatref_conformance.proving_ground.suspension import SuspensionMotion, Watch
 
 STRETCH = 32768
 """Samples carried at once, so that a stretch stays in the processor's cache."""
@@ -53,6 +54,7 @@ class BodyMotion:
         rates: angular rate of the body in body axes, shape (3, n), in rad/s.
         pitch, roll: Euler angles against the vertical, nose down and left up, in rad (6.23).
         tracks: the reference points by wheel path.
+        suspension: the freedoms of the vehicle, if they were asked for.
     """
 
     clock: UniformClock
@@ -63,6 +65,7 @@ class BodyMotion:
     pitch: FloatArray
     roll: FloatArray
     tracks: Mapping[str, TrackMotion]
+    suspension: SuspensionMotion | None = None
 
     @property
     def times_s(self) -> FloatArray:
@@ -76,6 +79,7 @@ class BodyMotion:
         travel: FloatArray,
         shared: FloatArray,
         tracks: Mapping[str, FloatArray],
+        suspension: SuspensionMotion | None = None,
     ) -> "BodyMotion":
         """Return the motion in the rows of `kernels.at_points`, made read-only."""
         for rows in (travel, shared, *tracks.values()):
@@ -83,28 +87,30 @@ class BodyMotion:
         named = {name: TrackMotion(*rows) for name, rows in tracks.items()}
         distance, speed, acceleration = travel
         pitch, roll = shared[3:]
-        return cls(clock, distance, speed, acceleration, shared[:3], pitch, roll, named)
+        return cls(clock, distance, speed, acceleration, shared[:3], pitch, roll, named, suspension)
 
 
 def drive_over(
-    vehicle: Vehicle,
+    vehicle: Suspended,
     road: Road,
     course: Course,
     drive: Longitudinal,
     duration_s: float,
     rate_hz: float,
     setup: Setup,
+    response_rate_hz: float | None = None,
 ) -> BodyMotion:
     """Return the motion of ``vehicle`` on ``drive``, from static equilibrium on the first points.
 
     Args:
-        vehicle: parameters of the seven-freedom model.
+        vehicle: parameters of the model.
         road: under wheels and lasers; its grid has to reach behind distance 0.
         course: slopes and curvature of the lane.
         drive: distance, speed and acceleration of the vehicle point.
         duration_s: how long to drive, in s.
         rate_hz: rate of the result, in Hz.
         setup: where the reference points and lasers of each wheel path sit.
+        response_rate_hz: rate in Hz at which the freedoms are kept; None: not at all.
     """
     clock = UniformClock.of(rate_hz)
     every = oversampling(rate_hz)
@@ -115,17 +121,21 @@ def drive_over(
     start = drive.motion(np.zeros(1))
     ground = course.ground_force(start.speed, start.acceleration)[:, 0]
     response = Response.of(vehicle, road, 1.0 / float(inner.rate), ground)
+    watch = Watch(response_rate_hz, inner, count) if response_rate_hz else None
     for first, last in stretches(count):
         part = slice(first, last)
         motion = drive.motion(inner.times(last - first, first))
         travel[:, part] = motion.distance, motion.speed, motion.acceleration
         ground = course.ground_force(motion.speed, motion.acceleration)
-        body = response.advance(motion.distance, ground)
+        wanted = watch.within(first, last) if watch else ()
+        body = response.advance(motion.distance, ground, *wanted)
         seen.carry(body, travel[:, part], tracks[:, :, part], shared[:, part])
     if every > 1:
         tracks = _decimated(tracks, every)
         travel, shared = travel[:, ::every].copy(), shared[:, ::every].copy()
-    return BodyMotion.of(clock, travel, shared, dict(zip(setup.tracks, tracks, strict=True)))
+    named = dict(zip(setup.tracks, tracks, strict=True))
+    suspension = watch.motion(vehicle, course, drive) if watch else None
+    return BodyMotion.of(clock, travel, shared, named, suspension)
 
 
 def _decimated(tracks: FloatArray, every: int) -> FloatArray:

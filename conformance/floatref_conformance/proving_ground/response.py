@@ -1,23 +1,27 @@
 """The vehicle's response to the road and to acceleration, sampled by the trapezoidal rule.
 
-M·q'' + C·q' + K·q = F·u, with the inputs u of `Vehicle.forcing`. For a constant linear system
-the trapezoidal rule is the bilinear transform x⁺ = (I − hA/2)⁻¹((I + hA/2)·x + (h/2)·B·(u + u⁺));
-position, velocity and acceleration then obey the rule exactly, sample by sample.
+M·q'' + C·q' + K·q = F·u + D·u', with the inputs u of `Suspended.forcing`. The states are q and
+w = q' − M⁻¹·D·u: they need no derivative of the road, and w is q' where no tyre has a damper. For a
+constant linear system the trapezoidal rule is the bilinear transform
+x⁺ = (I − hA/2)⁻¹((I + hA/2)·x + (h/2)·B·(u + u⁺)); position, velocity and acceleration then obey
+the rule exactly, sample by sample.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.vehicle import FREEDOMS, Vehicle
+from floatref_conformance.proving_ground.suspended import TYRES, Suspended
 
 LOWEST_RATE_HZ = 8000.0
 """The model is stepped at least this often, at a whole multiple of the recording's rate."""
 ENVELOPE_M = 0.25
 """Length over which a tyre averages the road, in m."""
 STATES, INPUTS = 16, 6
+NONE: IndexArray = np.empty(0, dtype=np.int64)
+NOWHERE: FloatArray = np.empty((0, STATES + INPUTS))
 
 
 def oversampling(rate_hz: float) -> int:
@@ -36,6 +40,7 @@ class Response:
         lanes: enveloped road under each wheel, shape (4, m), in m.
         grid: start of ``lanes`` in m and their points per m.
         wheel_x: wheels ahead of the vehicle point, shape (4,), in m.
+        pose: places of heave, pitch, roll and their rates in ``vector``, shape (6,).
     """
 
     update: FloatArray
@@ -44,32 +49,44 @@ class Response:
     lanes: FloatArray
     grid: FloatArray
     wheel_x: FloatArray
+    pose: IndexArray
 
     @classmethod
-    def of(cls, vehicle: Vehicle, road: Road, step_s: float, ground: FloatArray) -> "Response":
+    def of(cls, vehicle: Suspended, road: Road, step_s: float, ground: FloatArray) -> "Response":
         """Return ``vehicle`` at rest on its springs at distance 0 of ``road``.
 
         ``step_s`` is the model's step in s, ``ground`` the longitudinal and lateral specific
         force at the start, shape (2,), in m/s².
         """
         lanes = under_wheels(vehicle, road)
-        wheel_x = np.array([axle.x_m for axle, _ in vehicle.wheels()])
+        wheel_x = np.zeros(TYRES)
+        wheel_x[: len(vehicle.contacts())] = [x for x, _ in vehicle.contacts()]
         index = (wheel_x - road.start_m) / road.spacing_m
         points = np.arange(road.points, dtype=np.float64)
         start = [np.interp(i, points, lane) for i, lane in zip(index, lanes, strict=True)]
         inputs = np.array([*start, *ground])
         update, outputs = bilinear(vehicle, step_s)
         vector = np.zeros(STATES + INPUTS)
-        vector[:FREEDOMS] = equilibrium(vehicle, inputs)
+        at_rest = equilibrium(vehicle, inputs)
+        vector[: at_rest.size] = at_rest
+        vector[at_rest.size : 2 * at_rest.size] = -struck(vehicle) @ inputs[:TYRES]
         vector[STATES:] = inputs
-        return cls(update, outputs, vector, lanes, grid_of(road), wheel_x)
+        return cls(update, outputs, vector, lanes, grid_of(road), wheel_x, places(vehicle))
 
-    def advance(self, distance: FloatArray, ground: FloatArray) -> FloatArray:
+    def advance(
+        self,
+        distance: FloatArray,
+        ground: FloatArray,
+        steps: IndexArray = NONE,
+        states: FloatArray = NOWHERE,
+    ) -> FloatArray:
         """Return the body's motion at every step of the next stretch.
 
         Args:
             distance: at every step, shape (n,), in m.
             ground: specific force of the ground, shape (2, n), in m/s².
+            steps: rising steps of the stretch whose states are kept, shape (m,).
+            states: written, states and inputs after these steps, shape (m, 22).
 
         Returns:
             Heave, pitch, roll and their first and second derivatives, shape (9, n).
@@ -86,29 +103,50 @@ class Response:
             self.wheel_x,
             distance,
             ground,
+            self.pose,
             body,
+            steps,
+            states,
         )
         return body
 
 
-def equilibrium(vehicle: Vehicle, inputs: FloatArray) -> FloatArray:
-    """Return the seven displacements at rest under constant inputs of shape (6,)."""
-    return np.asarray(np.linalg.solve(vehicle.stiffness(), vehicle.forcing() @ inputs))
+def equilibrium(vehicle: Suspended, inputs: FloatArray) -> FloatArray:
+    """Return the freedoms at rest under constant inputs of shape (6,), shape (n,)."""
+    return vehicle.at_rest(vehicle.forcing() @ inputs)
 
 
-def state_space(vehicle: Vehicle) -> tuple[FloatArray, FloatArray]:
-    """Return A, shape (14, 14), and B, shape (14, 6), of x' = A·x + B·u, x = (q, q')."""
+def struck(vehicle: Suspended) -> FloatArray:
+    """Return M⁻¹·D, by which a step of the road changes the freedoms' rates, shape (n, 4)."""
+    return vehicle.tyre_damping() / vehicle.masses()[:, None]
+
+
+def places(vehicle: Suspended) -> IndexArray:
+    """Return where heave, pitch, roll and their rates stand among the kernel's states.
+
+    What the body does not do stands at the last state, which a model of seven freedoms leaves 0.
+    """
+    size = vehicle.masses().size
+    known = [*vehicle.pose, *(None if p is None else size + p for p in vehicle.pose)]
+    return np.array([STATES - 1 if p is None else p for p in known], dtype=np.int64)
+
+
+def state_space(vehicle: Suspended) -> tuple[FloatArray, FloatArray]:
+    """Return A, shape (2n, 2n), and B, shape (2n, 6), of x' = A·x + B·u, x = (q, w)."""
     inverse = 1.0 / vehicle.masses()[:, None]
-    a = np.zeros((2 * FREEDOMS, 2 * FREEDOMS))
-    a[:FREEDOMS, FREEDOMS:] = np.eye(FREEDOMS)
-    a[FREEDOMS:, :FREEDOMS] = -inverse * vehicle.stiffness()
-    a[FREEDOMS:, FREEDOMS:] = -inverse * vehicle.damping()
-    b = np.zeros((2 * FREEDOMS, INPUTS))
-    b[FREEDOMS:] = inverse * vehicle.forcing()
+    size = inverse.size
+    a = np.zeros((2 * size, 2 * size))
+    a[:size, size:] = np.eye(size)
+    a[size:, :size] = -inverse * vehicle.stiffness()
+    a[size:, size:] = -inverse * vehicle.damping()
+    b = np.zeros((2 * size, INPUTS))
+    b[:size, :TYRES] = struck(vehicle)
+    b[size:] = inverse * vehicle.forcing()
+    b[size:, :TYRES] += a[size:, size:] @ b[:size, :TYRES]
     return a, b
 
 
-def bilinear(vehicle: Vehicle, step_s: float) -> tuple[FloatArray, FloatArray]:
+def bilinear(vehicle: Suspended, step_s: float) -> tuple[FloatArray, FloatArray]:
     """Return the kernel's matrices ``update``, (22, 16), and ``outputs``, (22, 4), for a step."""
     a, b = state_space(vehicle)
     half = step_s / 2 * a
@@ -118,19 +156,23 @@ def bilinear(vehicle: Vehicle, step_s: float) -> tuple[FloatArray, FloatArray]:
     update[:size, :size] = np.linalg.solve(implicit, np.eye(size) + half).T
     update[STATES:, :size] = np.linalg.solve(implicit, step_s / 2 * b).T
     outputs = np.zeros((STATES + INPUTS, 4))
-    outputs[:size, :3] = a[FREEDOMS : FREEDOMS + 3].T
-    outputs[STATES:, :3] = b[FREEDOMS : FREEDOMS + 3].T
+    for column, freedom in enumerate(vehicle.pose):
+        if freedom is not None:
+            outputs[:size, column] = a[size // 2 + freedom]
+            outputs[STATES:, column] = b[size // 2 + freedom]
     return update, outputs
 
 
-def under_wheels(vehicle: Vehicle, road: Road) -> FloatArray:
-    """Return the road as each tyre feels it, shape (4, m), in m.
+def under_wheels(vehicle: Suspended, road: Road) -> FloatArray:
+    """Return the road as each tyre feels it, shape (4, m), in m; zeros without a tyre.
 
     Linear in y between the wheel paths, averaged over the tyre's envelope.
     """
     x = road.distance_m
-    rows = [road.across(x, np.full(x.size, y)) for _, y in vehicle.wheels()]
-    return np.stack([enveloped(row, road.spacing_m) for row in rows])
+    lanes = np.zeros((TYRES, x.size))
+    for lane, (_, y) in zip(lanes, vehicle.contacts(), strict=False):
+        lane[:] = enveloped(road.across(x, np.full(x.size, y)), road.spacing_m)
+    return lanes
 
 
 def enveloped(elevation: FloatArray, spacing_m: float) -> FloatArray:

@@ -91,7 +91,7 @@ class Scenario:
         sensors: factor on all errors of `SensorSuite`; 0 is ideal.
         encoder_error_percent: scale error of the encoder beside the one that is drawn.
         slip_percent_per_g: of the encoder's wheel, at the factor ``sensors`` of 1.
-        imu, gnss: whether those channels are recorded.
+        imu, gnss, response: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
         gyro_rate_hz: of the gyros.
@@ -123,6 +123,7 @@ class Scenario:
     slip_percent_per_g: float = 0.3
     imu: bool = True
     gnss: bool = True
+    response: bool = True
     tracks: tuple[str, ...] = ("left", "right")
     rate_hz: float = 16000.0
     gyro_rate_hz: float = 100.0

@@ -7,6 +7,11 @@ on the rate. 6·10⁻⁴ g of a 16-kHz accelerometer sample and 0.0077 °/s of a
 gyros' is K_A of (6.55) and the accelerometers' 1 µg after one second: with much more, the mean
 of the 400-s run at 5 km/h could not be removed as Table 5.4 shows it. The accelerometers' bias
 is near the 1.15 mg of section 5.3; their axes are level to within 0.25 to 0.75 degrees, as drawn.
+
+A wheel carrier bears tens of g of impacts, and so a sensor of ±50 g that is made for them: a
+micromachined one, with twice the bias and ten times the noise density of the accelerometers on
+the body. The suspension's travel is read by a potentiometer or a level sensor of a few tenths
+of a millimetre. These are our round numbers; no paper states its own.
 """
 
 from dataclasses import dataclass, replace
@@ -14,7 +19,7 @@ from math import radians
 
 from floatref.values.channels import STANDARD_GRAVITY
 
-RATES = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz"})
+RATES = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz", "response_rate_hz"})
 UNSCALED = RATES | {"gnss_drift_s", "idle_hz", "revving_hz_per_mps"}
 """Fields that are rates and times, not errors."""
 
@@ -51,6 +56,16 @@ class SensorSuite:
         gnss_velocity_noise: in m/s.
         gnss_pitch_noise, gnss_pitch_drift, gnss_roll_noise, gnss_roll_drift: in rad.
         gnss_position_drift_m: of latitude and longitude, in m.
+        response_rate_hz: of the response channels' own clock.
+        carrier_noise: accelerometers on wheel carriers, in m/s²/√Hz.
+        carrier_bias: their bias in m/s²; drawn as the other accelerometers' is.
+        carrier_walk: random walk of that bias, in m/s²/√s.
+        carrier_resolution: in m/s² (±50 g in 16 bits).
+        carrier_windup: tilt of the carrier by its brake, nose down, in rad per g of braking.
+        deflection_noise_m: of a sample of the suspension's travel, in m.
+        deflection_resolution_m: in m.
+        deflection_scale: scale error, relative; a run draws up to it, of either sign.
+        vehicle_error: of each parameter in ``setup.vehicle``, relative; drawn up to it.
     """
 
     force_noise: float = 6e-4 * STANDARD_GRAVITY / 16000**0.5
@@ -84,6 +99,16 @@ class SensorSuite:
     gnss_roll_noise: float = radians(0.1)
     gnss_roll_drift: float = radians(0.17)
     gnss_position_drift_m: float = 0.01
+    response_rate_hz: float = 1000.0
+    carrier_noise: float = 6e-3 * STANDARD_GRAVITY / 16000**0.5
+    carrier_bias: float = 2e-3 * STANDARD_GRAVITY
+    carrier_walk: float = 2e-6 * STANDARD_GRAVITY
+    carrier_resolution: float = 100 * STANDARD_GRAVITY / 2**16
+    carrier_windup: float = radians(1.0)
+    deflection_noise_m: float = 0.1e-3
+    deflection_resolution_m: float = 0.05e-3
+    deflection_scale: float = 5e-3
+    vehicle_error: float = 0.03
 
     @classmethod
     def ideal(cls) -> "SensorSuite":

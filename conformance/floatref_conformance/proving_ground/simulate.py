@@ -1,7 +1,7 @@
 """From a scenario to a recording and the truth behind it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 
 import numpy as np
@@ -10,6 +10,7 @@ from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, Setup
 from floatref_conformance.proving_ground.chain import Chain, VerticalError
+from floatref_conformance.proving_ground.gauging import as_installed, response_channels
 from floatref_conformance.proving_ground.motion import BodyMotion, drive_over
 from floatref_conformance.proving_ground.parked import parked
 from floatref_conformance.proving_ground.road import Road
@@ -60,8 +61,12 @@ def simulate(
     vehicle = vehicle_called(scenario.vehicle)
     road = road_of(scenario, drive.length_m) if road is None else road
     _check_road(scenario, road, drive.length_m)
-    setup = setup_of(scenario, vehicle, road.lateral_m)
-    motion = drive_over(vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup)
+    known = as_installed(vehicle.known(), suite.vehicle_error, scenario.seed)
+    setup = replace(setup_of(scenario, vehicle, road.lateral_m), vehicle=known)
+    kept = suite.response_rate_hz if scenario.response else None
+    motion = drive_over(
+        vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup, kept
+    )
     return _recorded(scenario, suite, motion, setup)
 
 
@@ -116,6 +121,8 @@ def _recorded(
     if scenario.gnss:
         standing = scenario.manoeuvre in STATIONARY
         channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing)
+    if motion.suspension is not None:
+        channels += response_channels(suite, scenario.seed, motion.suspension, setup)
     model = f"proving ground {version('floatref')}"
     recording = Recording(tuple(channels), setup, "floatref", model)
     return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)

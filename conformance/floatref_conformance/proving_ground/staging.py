@@ -26,7 +26,7 @@ from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors import SensorSuite
 from floatref_conformance.proving_ground.shaping import scaled_to, with_bump
 from floatref_conformance.proving_ground.sines import sines_road
-from floatref_conformance.proving_ground.vehicle import Vehicle
+from floatref_conformance.proving_ground.suspended import Suspended
 
 BUMP_LENGTH_M = 3.0
 SCALED_OVER_M = 100.0
@@ -95,7 +95,7 @@ def suite_of(scenario: Scenario) -> SensorSuite:
     )
 
 
-def setup_of(scenario: Scenario, vehicle: Vehicle, lateral_m: Mapping[str, float]) -> Setup:
+def setup_of(scenario: Scenario, vehicle: Suspended, lateral_m: Mapping[str, float]) -> Setup:
     """Return where the sensors sit: above the wheel paths, from the point below the CG."""
     tracks = {
         name: TrackSetup((vehicle.sensor_x_m, lateral_m[name], vehicle.sensor_z_m))

@@ -15,10 +15,15 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
+from floatref.values.vehicle import VehicleSetup
+from floatref_conformance.proving_ground.suspended import TYRES, Gauges
 
 HEAVE, PITCH, ROLL = 0, 1, 2
 FREEDOMS = 7
 """Heave, pitch, roll, then the wheels: front left, front right, rear left, rear right."""
+BAR_SHARE = 1 / 3
+"""Of the anti-roll bar in one corner's spring: over the roads of the proving ground, the travels
+of the two front corners correlate at 0.6 to 0.7, so a bar acts on a third of a corner's travel."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +129,15 @@ class Vehicle:
         """Return axle and lateral position in m of every wheel, in the order of the freedoms."""
         return [(axle, side * axle.half_track_m) for axle in self.axles for side in (1, -1)]
 
+    @property
+    def pose(self) -> tuple[int, int, int]:
+        """Places of heave, pitch and roll among the freedoms."""
+        return HEAVE, PITCH, ROLL
+
+    def contacts(self) -> list[tuple[float, float]]:
+        """Return where every wheel stands, ahead of and to the left of the CG, in m."""
+        return [(axle.x_m, y) for axle, y in self.wheels()]
+
     def masses(self) -> FloatArray:
         """Return the diagonal of the mass matrix, shape (7,), in kg and kg·m²."""
         wheels = [axle.wheel_kg for axle, _ in self.wheels()]
@@ -160,6 +174,48 @@ class Vehicle:
             matrix[3 + wheel, 4] = ahead * self.anti_dive * transfer / (2 * self.wheelbase_m)
             matrix[3 + wheel, 5] = self.roll_links * transfer * shares[wheel // 2] / (2 * y)
         return matrix
+
+    def tyre_damping(self) -> FloatArray:
+        """Return zeros, shape (7, 4): these tyres are springs alone."""
+        return np.zeros((FREEDOMS, TYRES))
+
+    def at_rest(self, force: FloatArray) -> FloatArray:
+        """Return the freedoms under a constant force, shapes (7,)."""
+        return np.asarray(np.linalg.solve(self.stiffness(), force))
+
+    def gauges(self, lateral_m: float) -> Gauges:
+        """Return what is measured at the front wheel nearest to ``lateral_m``.
+
+        The body's height above it is the springs' own, z − x·θ + y·φ; in the middle, the left
+        wheel counts.
+        """
+        wheel = int(
+            abs(lateral_m + self.front.half_track_m) < abs(lateral_m - self.front.half_track_m)
+        )
+        travel = self._travel()[wheel]
+        unsprung = np.eye(FREEDOMS)[3 + wheel]
+        forces = {
+            "unsprung_specific_force": unsprung,
+            "sprung_specific_force": travel + unsprung,
+        }
+        return Gauges(forces, {"suspension_deflection": travel})
+
+    def shared_gauges(self) -> Gauges:
+        """Return nothing: all of this vehicle's response channels belong to a wheel path."""
+        return Gauges()
+
+    def known(self) -> VehicleSetup:
+        """Return the quarter car of a front corner: its share of the body on its own wheel."""
+        front = self.front
+        parameters = {
+            "sprung_kg": self.sprung_kg * self.load_shares()[0] / 2,
+            "unsprung_kg": front.wheel_kg,
+            "suspension_n_per_m": front.spring + BAR_SHARE * front.anti_roll,
+            "suspension_ns_per_m": front.damper,
+            "tyre_n_per_m": front.tyre,
+            "tyre_ns_per_m": 0.0,
+        }
+        return VehicleSetup("quarter-car", parameters, front.x_m)
 
     def _travel(self) -> FloatArray:
         """Return each corner's suspension travel per unit of freedom, shape (4, 7)."""
