@@ -1,4 +1,4 @@
-"""The sensors of the vehicle's response: accelerometers at a wheel, and the suspension's travel.
+"""The sensors of the vehicle's response: at a wheel, in its suspension, and on a test rig.
 
 The engine's shake is left out: its mounts and the springs keep it from these places.
 """
@@ -28,10 +28,13 @@ def response_channels(
 
 
 def as_installed(known: VehicleSetup, error: float, seed: int) -> VehicleSetup:
-    """Return the vehicle as an installer knows it: each parameter wrong by up to ``error``."""
+    """Return the vehicle as an installer knows it: each parameter wrong by up to ``error``.
+
+    A parameter is multiplied or divided by up to 1 + ``error``, so that its sign stays.
+    """
     rng = stream(seed, "setup.vehicle")
     parameters = {
-        name: value * (1.0 + error * rng.uniform(-1.0, 1.0))
+        name: value * (1.0 + error) ** rng.uniform(-1.0, 1.0)
         for name, value in known.parameters.items()
     }
     return VehicleSetup(known.model, parameters, known.x_m)
@@ -55,6 +58,9 @@ class ResponseSensors:
             yield self._channel(name, self._force(name, row, self._stream(name, track)), track)
         for name, row in gauges.deflections.items():
             values = self._deflection(row, self._stream(name, track))
+            yield self._channel(name, values, track)
+        for name, row in gauges.test_rig.items():
+            values = self._on_the_rig(name, row, self._stream(name, track))
             yield self._channel(name, values, track)
 
     def _stream(self, name: str, track: str | None) -> np.random.Generator:
@@ -108,3 +114,14 @@ class ResponseSensors:
         if self.suite.deflection_noise_m > 0:
             travel += self.suite.deflection_noise_m * rng.standard_normal(self.count)
         return quantize(travel, self.suite.deflection_resolution_m)
+
+    def _on_the_rig(self, name: str, row: FloatArray, rng: np.random.Generator) -> FloatArray:
+        """Return what a test rig reads: the truth and white noise."""
+        suite, motion = self.suite, self.motion
+        rows, noise = {
+            "displacement": (motion.position, suite.rig_height_noise_m),
+            "velocity": (motion.velocity, suite.rig_velocity_noise),
+            "angle": (motion.position, suite.rig_angle_noise),
+            "acceleration": (motion.acceleration, suite.rig_turn_noise),
+        }[name.rpartition("_")[2]]
+        return np.asarray(row @ rows + noise * rng.standard_normal(self.count))

@@ -74,7 +74,7 @@ class Scenario:
             ISO 8608 class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
         bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
-        vehicle: a name of `vehicles.VEHICLES`.
+        vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
         manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
         speed_kmh: initial speed; simulated speed of a stationary test.
         event_speed_kmh: at the end of a brake; the fastest of a creep.

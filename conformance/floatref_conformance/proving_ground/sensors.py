@@ -65,6 +65,9 @@ class SensorSuite:
         deflection_noise_m: of a sample of the suspension's travel, in m.
         deflection_resolution_m: in m.
         deflection_scale: scale error, relative; a run draws up to it, of either sign.
+        rig_height_noise_m, rig_velocity_noise, rig_angle_noise, rig_turn_noise: standard
+            deviations of a test rig's heights in m, their rates in m/s, angles in rad and their
+            second derivatives in rad/s².
         vehicle_error: of each parameter in ``setup.vehicle``, relative; drawn up to it.
     """
 
@@ -108,6 +111,10 @@ class SensorSuite:
     deflection_noise_m: float = 0.1e-3
     deflection_resolution_m: float = 0.05e-3
     deflection_scale: float = 5e-3
+    rig_height_noise_m: float = 0.05e-3
+    rig_velocity_noise: float = 1e-3
+    rig_angle_noise: float = 1e-5
+    rig_turn_noise: float = 2e-3
     vehicle_error: float = 0.03
 
     @classmethod

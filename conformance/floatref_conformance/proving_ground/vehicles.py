@@ -3,7 +3,8 @@
 Wheelbase, track width, weight and sensor position of the loaded van are those of the system
 vehicle of Karamihas 2021, section 4.2; what the text lacks, and the other sets, are round
 numbers of the vehicle's kind. Pitch under braking is 2 to 5 degrees per g; the body bounces,
-pitches and rolls at 1.0 to 2.3 Hz, the wheels hop at 8 to 13 Hz.
+pitches and rolls at 1.0 to 2.3 Hz, the wheels hop at 8 to 13 Hz. Beside them stand the linear
+models of papers.
 """
 
 from collections.abc import Mapping
@@ -11,6 +12,13 @@ from difflib import get_close_matches
 from types import MappingProxyType
 
 from floatref.errors import InputError
+from floatref_conformance.proving_ground.linear_models import (
+    IMINE_TRAILER,
+    QUARTER_CAR,
+    ZHU_HALF_CAR,
+)
+from floatref_conformance.proving_ground.plain_model import PlainModel
+from floatref_conformance.proving_ground.suspended import Suspended
 from floatref_conformance.proving_ground.vehicle import Axle, Vehicle
 
 LOADED_VAN = Vehicle(
@@ -93,13 +101,19 @@ SOFT_VAN = Vehicle(
 VEHICLES: Mapping[str, Vehicle] = MappingProxyType(
     {v.name: v for v in (LOADED_VAN, MINIVAN, PICKUP, TRAILER, SOFT_VAN)}
 )
-"""All sets by name."""
+"""The whole vehicles by name: all that a check or a table drives."""
+
+LINEAR_MODELS: Mapping[str, PlainModel] = MappingProxyType(
+    {model.name: model for model in (ZHU_HALF_CAR, IMINE_TRAILER, QUARTER_CAR)}
+)
+"""The models of papers by name: they answer to the road alone, and neither brake nor corner."""
 
 
-def vehicle_called(name: str) -> Vehicle:
-    """Return the parameter set ``name``; InputError if there is none."""
-    if name in VEHICLES:
-        return VEHICLES[name]
-    near = get_close_matches(name, VEHICLES, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(VEHICLES)}"
+def vehicle_called(name: str) -> Suspended:
+    """Return the parameter set ``name``, a vehicle's or a model's; InputError if there is none."""
+    known: dict[str, Suspended] = {**VEHICLES, **LINEAR_MODELS}
+    if name in known:
+        return known[name]
+    near = get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
     raise InputError(f"vehicle {name}: unknown; {hint}")

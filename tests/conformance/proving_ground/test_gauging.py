@@ -30,7 +30,7 @@ def freedoms(simulation: Simulation) -> SuspensionMotion:
     return simulation.motion.suspension
 
 
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=5)
 @given(
     seed=st.integers(0, 2**63 - 1),
     vehicle=st.sampled_from(["loaded-van", "pickup", "trailer"]),
