@@ -107,7 +107,6 @@ def test_tracks_are_measured_at_their_own_front_wheel() -> None:
         assert read == pytest.approx(travel, abs=1e-12)
 
 
-@pytest.mark.cites("(2.17)")
 def test_a_body_accelerometer_feels_gravity_and_braking_through_its_tilt() -> None:
     """(2.17) at small angles, which the recording's own vertical accelerometer shows too."""
     scenario = replace(

@@ -251,6 +251,17 @@ def test_the_trailers_wheel_paths_have_their_own_wheels() -> None:
         assert np.array_equal(height, motion.position[row])
 
 
+@pytest.mark.parametrize(("track", "half"), [("left", 0.75), ("right", -0.75)])
+def test_a_trailers_deflection_is_its_own_corners(track: str, half: float) -> None:
+    """Against the chassis above that wheel: 0.6 m behind the centre, half a track aside."""
+    simulation, _ = driven("imine-trailer", road="iso-C", tracks=("left", "right"))
+    above = read(simulation, "sprung_displacement") + 0.6 * read(simulation, "pitch_angle")
+    above += half * read(simulation, "roll_angle")
+    travel = above - read(simulation, "unsprung_displacement", track)
+    assert np.abs(half * read(simulation, "roll_angle")).max() > 1e-3
+    assert read(simulation, "suspension_deflection", track) == pytest.approx(travel, abs=1e-12)
+
+
 def test_a_test_rig_is_noisy_as_the_suite_says() -> None:
     (_, true), (noisy, _) = driven("zhu-half-car"), driven("zhu-half-car", sensors=1.0)
     for name, row, sigma in (
