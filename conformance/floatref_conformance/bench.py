@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from floatref.values.profile import Profile
+from floatref_conformance.checks.case import CHANNELS_BY_NEED
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.exercise import exercise
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
@@ -51,8 +52,9 @@ class DeviceBench:
     passes: list[Pass] = field(default_factory=list)
 
     def simulate(self, scenario: Scenario) -> Taken:
-        """Return the recording of ``scenario`` with the channels of the device's capabilities."""
-        return self.make(seen_by(self.description, scenario))
+        """Return the recording of ``scenario`` with the channels that the device may have."""
+        taken = self.make(seen_by(self.description, scenario))
+        return replace(taken, recording=visible(taken.recording, self.description.channels))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return what the device makes of ``taken.recording``, and keep it."""
@@ -104,8 +106,8 @@ def _aged(path: Path) -> tuple[int, int, int]:
 
 def seen_by(description: Description, scenario: Scenario) -> Scenario:
     """Return ``scenario`` recording the channels that the device declares, and no more."""
-    has = description.capabilities
-    return replace(scenario, imu="imu" in has, gnss="gnss" in has)
+    recorded: dict[str, Any] = {n: n in description.capabilities for n in CHANNELS_BY_NEED}
+    return replace(scenario, **recorded)
 
 
 def flagged_m(profile: Profile, truth: Profile) -> float:

@@ -47,7 +47,7 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
         try:
             _asked(lambda: device.run(folder / "recording" / "recording.json", target))
             profile = _read(target)
-            _check_tracks(profile, given)
+            _check_tracks(profile, given, description.owes)
             _check_axis(profile, given)
         except (DeviceError, DeviceSkipped) as fault:
             raise type(fault)(str(fault).replace(str(folder), "…")) from fault
@@ -85,14 +85,14 @@ def _read(target: Path) -> Profile:
     return Profile(profile.interval_m, tracks, profile.start_m)
 
 
-def _check_tracks(profile: Profile, recording: Recording) -> None:
-    """Raise DeviceError unless every wheel path with a height came back, within reason."""
+def _check_tracks(profile: Profile, recording: Recording, owed: str) -> None:
+    """Raise DeviceError unless every wheel path with channel ``owed`` came back, within reason."""
     here = {track.name: track for track in profile.tracks}
     for name in recording.tracks:
-        if recording.find("height", name) is None:
+        if recording.find(owed, name) is None:
             continue
         if name not in here:
-            raise DeviceError(f"track {name}: not delivered, though it has a height")
+            raise DeviceError(f"track {name}: not delivered, though it has a channel {owed}")
         finite = here[name].elevation[np.isfinite(here[name].elevation)]
         if finite.size and float(np.abs(finite).max()) > MAX_ELEVATION_M:
             raise DeviceError(f"track {name}: an elevation beyond {MAX_ELEVATION_M:g} m")

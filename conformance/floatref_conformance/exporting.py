@@ -3,7 +3,7 @@
 import shutil
 import tempfile
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 
@@ -33,7 +33,8 @@ class ExportBench:
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels of the capabilities."""
-        return taken_of(seen_by(self.description, scenario))
+        taken = taken_of(seen_by(self.description, scenario))
+        return replace(taken, recording=visible(taken.recording, self.description.channels))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Write ``taken.recording`` into the folder unless it is there, and return its truth."""
@@ -68,14 +69,14 @@ def export(
     """Write every recording that the seeded cases of ``checks`` need, and return how many.
 
     ``told`` is given each check's id and how many recordings there are by then. Checks whose
-    needs the capabilities of ``description`` do not meet are left out. Raises InputError if
+    needs ``description`` does not meet are left out. Raises InputError if
     ``folder`` cannot be made or is there.
     """
     _make(folder)
     bench = ExportBench(folder, description)
     for check in checks:
-        if check.needs <= set(description.capabilities):
-            for case in fitted(check, description.capabilities).cases(seed, effort):
+        if check.needs <= description.meets:
+            for case in fitted(check, description.meets).cases(seed, effort):
                 _record(check, case, bench)
         told(check.id, len(bench.written))
     return len(bench.written)

@@ -10,6 +10,7 @@ from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, lowest
+from floatref_conformance.devices.interface import HEIGHT, NEEDS, RESPONSE
 from floatref_conformance.verdict import CaseResult, CheckResult, Measurement, Outcome
 
 
@@ -83,13 +84,17 @@ def why(case: CaseResult, device_class: DeviceClass) -> str:
 
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
-    """Return the result of a check that needs capabilities ``missing`` from the device."""
+    """Return the result of a check that needs ``missing`` of `NEEDS` from the device."""
     return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, lacking(missing))
 
 
 def lacking(missing: frozenset[str]) -> str:
-    """Return in words that a device lacks capabilities ``missing``."""
-    return f"needs {', '.join(sorted(missing))}, which the device does not declare"
+    """Return in words that a device lacks ``missing`` of what a check needs."""
+    undeclared = ", ".join(sorted(missing - {HEIGHT}))
+    parts = [f"needs {undeclared}, which the device does not declare"] if undeclared else []
+    if HEIGHT in missing:
+        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does without")
+    return "; ".join(parts)
 
 
 def left_out_result(left_out: LeftOut) -> CheckResult:

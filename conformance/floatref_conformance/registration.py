@@ -7,7 +7,7 @@ from typing import Any
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.devices.interface import CAPABILITIES, DeviceEntry, DeviceKind
+from floatref_conformance.devices.interface import NEEDS, DeviceEntry, DeviceKind
 
 
 def sound_check(check: Check) -> Check:
@@ -20,8 +20,8 @@ def sound_check(check: Check) -> Check:
     if not isinstance(_member(check, "simplest", what), Case):
         raise TypeError(f"{what}: simplest is {check.simplest!r}, not a Case")
     needs = _member(check, "needs", what)
-    if not isinstance(needs, AbstractSet) or not needs <= set(CAPABILITIES):
-        raise TypeError(f"{what}: needs is {needs!r}, not a set of {', '.join(CAPABILITIES)}")
+    if not isinstance(needs, AbstractSet) or not needs <= set(NEEDS):
+        raise TypeError(f"{what}: needs is {needs!r}, not a set of {', '.join(NEEDS)}")
     limits = _member(check, "limits", what)
     if not isinstance(limits, Mapping) or not all(map(_is_per_class, limits.values())):
         raise TypeError(f"{what}: limits do not give a text for each class of each quantity")

@@ -47,7 +47,7 @@ def refuse_foreign(check: Check, case: Case) -> None:
 def replay(device: Device, check: Check, case: Case) -> CaseResult:
     """Return what ``device`` makes of ``case`` outside any run, and close the device.
 
-    It is skipped for a device without the capabilities that ``check`` needs. Raises InputError
+    It is skipped for a device without what ``check`` needs. Raises InputError
     for numbers that make no case of it.
     """
     try:
@@ -67,7 +67,7 @@ def _outside_a_run(device: Device, check: Check, case: Case) -> CaseResult:
         description = describe(device)
     except DeviceError as fault:
         return CaseResult(case.name, case.parameters, fault=str(fault))
-    missing = check.needs - set(description.capabilities)
+    missing = check.needs - description.meets
     if missing:
         return CaseResult(case.name, case.parameters, skipped=lacking(missing))
     return judged(check, case, DeviceBench(device, description))

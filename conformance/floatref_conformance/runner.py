@@ -127,12 +127,12 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
         yield lambda check: None
         return
     ahead = trial.make = Ahead(trial.description)
-    capable = set(trial.description.capabilities)
+    meets = trial.description.meets
     try:
         yield (
             lambda check: (
-                ahead.announce(fitted(check, capable).cases(plan.seed, plan.effort))
-                if check.needs <= capable
+                ahead.announce(fitted(check, meets).cases(plan.seed, plan.effort))
+                if check.needs <= meets
                 else None
             )
         )
@@ -149,12 +149,12 @@ def _ended(result: CheckResult, fault: str) -> CheckResult:
 
 
 def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
-    missing = check.needs - set(trial.description.capabilities)
+    missing = check.needs - trial.description.meets
     if missing:
         return not_applicable_result(check, missing)
     if trial.given_up:
         return given_up_result(check, trial.given_up)
-    check = fitted(check, trial.description.capabilities)
+    check = fitted(check, trial.description.meets)
     return trial.check(check, plan.seed, plan.effort, plan.searching)
 
 

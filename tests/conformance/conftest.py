@@ -10,6 +10,7 @@ from floatref.files import read_recording, write_profile
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
+from floatref.values.vehicle import VehicleSetup
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Taken
@@ -27,8 +28,11 @@ CHANNELS = {
     "longitudinal_specific_force": "left right",
     "pitch_rate": "",
     "gnss_height": "",
+    "unsprung_specific_force": "left right",
+    "unsprung_displacement": "left right",
     "distance": "",
 }
+VEHICLE = VehicleSetup("quarter-car", {"unsprung_kg": 40.0})
 
 
 def road(distance, scenario):
@@ -38,15 +42,23 @@ def road(distance, scenario):
 
 
 def drive(scenario):
-    """Return a recording whose height sensor sees the road: the body hangs still at 1 m."""
+    """Return a recording whose height sensor sees the road: the body hangs still at 1 m.
+
+    The wheel is as stiff as the road, on which it moves up and down.
+    """
     times = np.arange(int(RATE * SECONDS)) / RATE
-    samples = {"distance": SPEED * times, "height": 1.0 - road(SPEED * times, scenario)}
+    rolled = road(SPEED * times, scenario)
+    samples = {
+        "distance": SPEED * times,
+        "height": 1.0 - rolled,
+        "unsprung_displacement": rolled,
+    }
     channels = [
         Channel.of(name, samples.get(name, np.zeros(times.size)), UniformClock.of(RATE), track)
         for name, tracks in CHANNELS.items()
         for track in (tracks.split() or [None])
     ]
-    recording = Recording(tuple(channels), Setup(INTERVAL), "telling", "names")
+    recording = Recording(tuple(channels), Setup(INTERVAL, vehicle=VEHICLE), "telling", "names")
     points = np.arange(int(SPEED * times[-1] / INTERVAL) + 1) * INTERVAL
     tracks = tuple(ProfileTrack.of(t, road(points, scenario)) for t in recording.tracks)
     return Taken(recording, Profile(INTERVAL, tracks), scenario)
@@ -111,12 +123,16 @@ class ToyCheck:
 
 @dataclass
 class FakeDevice:
-    """Delivers 1 m minus the height on every point, changed by ``spoil``; keeps what it saw."""
+    """Delivers 1 m minus the height on every point, changed by ``spoil``; keeps what it saw.
+
+    One of ``architecture`` response delivers the height of its wheels.
+    """
 
     spoil: Callable = lambda tracks: tracks
     capabilities: tuple = ()
     said: object = None
     interval_m: float = INTERVAL
+    architecture: str = "temporal"
     seen: list = field(default_factory=list)
     closed: int = 0
 
@@ -126,7 +142,7 @@ class FakeDevice:
         return {
             "name": "fake",
             "version": "1",
-            "architecture": "temporal",
+            "architecture": self.architecture,
             "capabilities": list(self.capabilities),
         }
 
@@ -135,12 +151,14 @@ class FakeDevice:
         self.seen.append((recording, profile, profile.exists(), given))
         distance = given.channel("distance").values
         points = np.arange(int(distance[-1] / self.interval_m + 1e-9) + 1) * self.interval_m
-        tracks = {
-            t: 1.0 - np.interp(points, distance, given.channel("height", t).values)
-            for t in given.tracks
-        }
+        tracks = {t: np.interp(points, distance, self._road(given, t)) for t in given.tracks}
         made = tuple(ProfileTrack.of(t, z) for t, z in self.spoil(tracks).items())
         write_profile(Profile(self.interval_m, made), profile)
+
+    def _road(self, given, track):
+        if self.architecture == "response":
+            return given.channel("unsprung_displacement", track).values
+        return 1.0 - given.channel("height", track).values
 
     def close(self):
         self.closed += 1

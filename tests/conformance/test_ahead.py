@@ -12,7 +12,7 @@ from floatref_conformance.devices.interface import Description
 from floatref_conformance.proving_ground.scenario import Scenario
 
 DEVICE = Description("d", "1", "temporal", ())
-SCENARIOS = [Scenario(seed=n, imu=False, gnss=False) for n in range(6)]
+SCENARIOS = [Scenario(seed=n, imu=False, gnss=False, response=False) for n in range(6)]
 
 
 @pytest.fixture
@@ -67,7 +67,7 @@ def test_what_waits_for_its_turn_is_made_by_the_one_who_asks(worker, made):
 @pytest.mark.parametrize("asked", [0, 1, 7])
 def test_few_wait_to_be_asked_for_and_the_next_follow(worker, made, asked):
     """One task at a time is done, so that after another one all that was begun is made."""
-    many = [Scenario(seed=10 + n, imu=False, gnss=False) for n in range(12)]
+    many = [Scenario(seed=10 + n, imu=False, gnss=False, response=False) for n in range(12)]
     worker.announce(Case("toy", scenario) for scenario in many)
     for scenario in many[:asked]:
         assert worker(scenario).scenario == scenario
@@ -76,7 +76,7 @@ def test_few_wait_to_be_asked_for_and_the_next_follow(worker, made, asked):
 
 
 def test_what_is_never_asked_for_makes_room(worker, made):
-    many = [Scenario(seed=10 + n, imu=False, gnss=False) for n in range(12)]
+    many = [Scenario(seed=10 + n, imu=False, gnss=False, response=False) for n in range(12)]
     worker.announce(Case("toy", scenario) for scenario in many)
     assert worker(many[5]).scenario == many[5]
     worker._worker.submit(int).result()

@@ -23,13 +23,20 @@ def described(*capabilities):
     return Description("fake", "1", "temporal", capabilities)
 
 
-@pytest.mark.parametrize("capabilities", [(), ("imu",), ("gnss",), ("imu", "gnss")])
-def test_the_device_decides_which_channels_are_simulated(fake_device, capabilities):
+@pytest.mark.parametrize(
+    "capabilities", [(), ("imu",), ("gnss",), ("response",), ("imu", "gnss", "response")]
+)
+def test_the_device_decides_which_channels_are_simulated(fake_device, taken, capabilities):
     asked = []
-    bench = DeviceBench(fake_device(), described(*capabilities), asked.append)
+
+    def make(scenario):
+        asked.append(scenario)
+        return taken
+
+    bench = DeviceBench(fake_device(), described(*capabilities), make)
     for scenario in (Scenario(seed=2), Scenario(seed=2, imu=False, gnss=False)):
         bench.simulate(scenario)
-    given = {"imu": "imu" in capabilities, "gnss": "gnss" in capabilities}
+    given = {name: name in capabilities for name in ("imu", "gnss", "response")}
     assert asked == 2 * [Scenario(seed=2, **given)]
 
 

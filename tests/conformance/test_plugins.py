@@ -103,7 +103,7 @@ def test_what_is_no_check_or_kind_is_reported(kind):
         ({"floor": None}, "floor is None"),
         ({"id": None}, "id is None"),
         ({"needs": ("imu",)}, "needs is ('imu',), not a set"),
-        ({"needs": frozenset({"radar"})}, "not a set of imu, gnss"),
+        ({"needs": frozenset({"radar"})}, "not a set of height, imu, gnss"),
         ({"limits": None}, "limits do not give"),
         ({"limits": {"IRI": {"nominal": "1"}}}, "limits do not give"),
     ],

@@ -129,11 +129,6 @@ AUGMENTED: Mapping[str, Injury] = MappingProxyType(
 """Injuries of sensors that a device has by a capability, which their names begin with."""
 
 
-def needed_by(fault: str) -> frozenset[str]:
-    """Return the capability without which ``fault`` says nothing of a device, if there is one."""
-    return frozenset({fault.partition("-")[0]}).intersection(CAPABILITIES)
-
-
 def _to(quality: float) -> Spoil:
     def worsen(values: FloatArray, where: slice) -> None:
         values[where] = quality

@@ -13,7 +13,7 @@ from floatref.errors import InputError
 from floatref_conformance.proving_ground.scenario import Scenario
 
 Number = float | int | str | bool
-CHANNELS_BY_NEED = ("imu", "gnss")
+CHANNELS_BY_NEED = ("imu", "gnss", "response")
 """Fields of a scenario that follow from the device's capabilities, and are no part of a case."""
 DEFAULT = Scenario()
 LARGEST = 2**64

@@ -9,7 +9,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.case import Number
-from floatref_conformance.devices.interface import CAPABILITIES
+from floatref_conformance.devices.interface import CAPABILITIES, NEEDS
 from floatref_conformance.proving_ground.scenario import LIMITS, Scenario
 
 Numbers = Mapping[str, Number]
@@ -48,7 +48,7 @@ class Change:
         recording: the changed recording.
         truth: where the road lies on the changed axis of distance.
         profile: the result as it should have been without the change.
-        needs: capabilities without which it is no change to a device.
+        needs: of `NEEDS`, without which it is no change to a device.
     """
 
     says: str
@@ -71,11 +71,11 @@ def number(numbers: Numbers, name: str) -> float:
 
 
 def check_equipped(recording: Recording, needs: frozenset[str], what: str) -> None:
-    """Raise InputError if ``recording`` has no channel of a capability that ``what`` needs."""
+    """Raise InputError if ``recording`` has no channel of a sensor that ``what`` needs."""
     names = {channel.id.name for channel in recording.channels}
-    for capability in sorted(needs):
-        if not names & CAPABILITIES[capability]:
-            raise InputError(f"variation {what}: needs {capability}, which the device lacks")
+    for need in sorted(needs):
+        if names.isdisjoint(CAPABILITIES.get(need, (need,))):
+            raise InputError(f"variation {what}: needs {NEEDS[need]}, which the device lacks")
 
 
 def each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:

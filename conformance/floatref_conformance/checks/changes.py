@@ -13,9 +13,13 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.augmented_changes import AUGMENTED_CHANGES
 from floatref_conformance.checks.change import Change, Numbers, each, number, raised
+from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.scenario import Scenario
 
 LATER = "later-start"
+VERTICAL_FORCES = frozenset(
+    {"vertical_specific_force", *(c for c in CAPABILITIES["response"] if c.endswith("_force"))}
+)
 EARLY = 1e-6
 """A sample so much before a time, in steps, was taken at that time: times are rounded."""
 
@@ -39,7 +43,7 @@ def other_bias(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``bias`` in m/s² added to the vertical accelerometers."""
 
     def biased(channel: Channel) -> Channel:
-        if channel.id.name != "vertical_specific_force":
+        if channel.id.name not in VERTICAL_FORCES:
             return channel
         return raised(channel, number(numbers, "bias"))
 

@@ -34,6 +34,7 @@ FLAGGED_LIMITS: Mapping[str, Limits] = MappingProxyType(
         "encoder": EVENT_LIMITS,
         "gnss": {NOMINAL: 250.0, ADEQUATE: 106.0, REFERENCE: 53.0},
         "imu": {NOMINAL: 250.0, ADEQUATE: 106.0, REFERENCE: 53.0},
+        "response": {NOMINAL: 250.0, ADEQUATE: 106.0, REFERENCE: 53.0},
     }
 )
 """What may be flagged beyond the fault's own length, in m, by what is injured."""

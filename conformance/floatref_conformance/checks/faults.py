@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks import injured_drives
-from floatref_conformance.checks.augmented_injuries import needed_by
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.change import check_equipped
 from floatref_conformance.checks.fault_scores import (
@@ -18,14 +17,14 @@ from floatref_conformance.checks.fault_scores import (
     fault_measurements,
 )
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
-from floatref_conformance.checks.injuries import INJURIES, injury_of
+from floatref_conformance.checks.injuries import INJURIES, injury_of, needed_by
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rule import ELSEWHERE
 from floatref_conformance.checks.rules import UNPROVOKED
 from floatref_conformance.checks.scoring import Compared, compare
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
-from floatref_conformance.devices.interface import CAPABILITIES
+from floatref_conformance.devices.interface import HEIGHT, NEEDS
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.verdict import Measurement
 
@@ -41,8 +40,8 @@ class FaultsCheck:
     title: str = "missing and damaged samples are flagged and stay local"
     clause: str = "derived: right or flagged; the high-pass' reach; the limits of an event"
     needs: frozenset[str] = frozenset()
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
-    """Those of the device: faults of sensors that it lacks are no cases."""
+    meets: frozenset[str] = frozenset(NEEDS)
+    """What the device has of what may be needed: faults of sensors that it lacks are no cases."""
 
     @property
     def derivation(self) -> str:
@@ -72,9 +71,10 @@ class FaultsCheck:
 
     @property
     def simplest(self) -> Case:
-        """Half a second without a laser at constant speed."""
+        """Half a second at constant speed without what sees the road: a laser, or a wheel."""
         scenario = Scenario(rate_hz=4000.0, length_m=injured_drives.LENGTH_M)
-        return Case(self.id, scenario, {"fault": "laser-dropout", "at_m": 280.0, "length_s": 0.5})
+        fault = "laser-dropout" if HEIGHT in self.meets else "response-wheel-dropout"
+        return Case(self.id, scenario, {"fault": fault, "at_m": 280.0, "length_s": 0.5})
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every fault once, in a certification three times; ``seed`` draws the roads."""
@@ -85,13 +85,13 @@ class FaultsCheck:
         """Return any fault of any length, size and place in any drive."""
         return injured_drives.drawn(self._faults)
 
-    def fitted(self, capabilities: Iterable[str]) -> "FaultsCheck":
-        """Return the check without the faults of sensors that no one of ``capabilities`` gives."""
-        return replace(self, capabilities=frozenset(capabilities))
+    def fitted(self, meets: Iterable[str]) -> "FaultsCheck":
+        """Return the check without the faults of sensors that are not among ``meets``."""
+        return replace(self, meets=frozenset(meets))
 
     @property
     def _faults(self) -> tuple[str, ...]:
-        return tuple(f for f in INJURIES if needed_by(f) <= self.capabilities)
+        return tuple(f for f in INJURIES if needed_by(f) <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
         """Return all of the drive: every point counts that the device vouches for."""
@@ -149,7 +149,10 @@ DERIVATION = (
     "stop, is 0.3 to 3 m too high and says so, wanders by up to 1 m without fixed ambiguities, "
     "jumps by 0.3 to 3 m for good and says nothing, repeats one height for 2 to 10 s on a slope, "
     "or is never fixed at all; an inertial unit loses its rates for up to 1 s while the vehicle "
-    "brakes for a stop, or up to 60 single samples. "
+    "brakes for a stop, or up to 60 single samples; of the sensors of a vehicle's response the "
+    "wheel's accelerometer loses samples (one to 1 s), sticks (0.1 to 1 s) or is driven to a full "
+    "scale of 8, 10 or 16 g (2 to 20 ms), the body's loses samples, and the deflection of the "
+    "suspension is missing or sticks. A laser's faults are no cases of a device without one. "
     "Every case has a road of its own. "
     "Each is normal life in the field: an error in place of a profile is a failure. Metres that "
     "the encoder told too many or too few are taken out of the axis before the comparison. "
@@ -163,9 +166,9 @@ DERIVATION = (
     "that stricter classes may flag at an event. An accelerometer's is integrated twice and "
     "spread to either side by the high-pass (105.91 m): each side may have the length of an "
     "event, 125 m; class adequate has half a cut-off wavelength on each side, reference a "
-    "quarter; the same for gaps, inertial units and receivers. For a receiver that jumps or is "
-    "never fixed nothing but that may be flagged: a profiler without one profiles the road as "
-    "well. An encoder's fault looks like an event, and has its limits."
+    "quarter; the same for gaps, inertial units, receivers and the sensors of a response. For a "
+    "receiver that jumps or is never fixed nothing but that may be flagged: a profiler without "
+    "one profiles the road as well. An encoder's fault looks like an event, and has its limits."
 )
 """What is done to the recordings, and why the limits are what they are."""
 FLOOR = (

@@ -12,40 +12,35 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
-from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.augmented_injuries import AUGMENTED
 from floatref_conformance.checks.change import Numbers, number
+from floatref_conformance.checks.response_injuries import RESPONSE
 from floatref_conformance.checks.spoiling import (
     DISTANCE,
     Injured,
     Injury,
+    dropout,
     hold,
     injured_until,
     lose,
+    saturation,
     spoilt,
     spoilt_locally,
+    stuck,
     times_of,
     with_values,
 )
+from floatref_conformance.devices.interface import HEIGHT, NEEDS
 
-FORCE, HEIGHT = "vertical_specific_force", "height"
+FORCE = "vertical_specific_force"
 BEYOND_M = 0.05
 """The laser's range ends so far beyond all that it measured, in m."""
 COUNTS_APART_M = 0.5
 """Counts that go back are so far apart, in m."""
 ROLLING = 0.8
 """Share of a standstill in which the vehicle rolls back and forth."""
-
-
-def dropout(name: str) -> Injury:
-    """Return the injury of a channel that is missing for ``length_s``, for one sample at least."""
-
-    def injure(recording: Recording, numbers: Numbers) -> Injured:
-        return spoilt_locally(recording, numbers, name, lose)
-
-    return injure
 
 
 def flicker(recording: Recording, numbers: Numbers) -> Injured:
@@ -59,11 +54,6 @@ def flicker(recording: Recording, numbers: Numbers) -> Injured:
     return Injured(hurt, span_m, at_m)
 
 
-def stuck(recording: Recording, numbers: Numbers) -> Injured:
-    """Hold the laser's reading for ``length_s``."""
-    return spoilt_locally(recording, numbers, HEIGHT, hold)
-
-
 def out_of_range(recording: Recording, numbers: Numbers) -> Injured:
     """Pin the laser to the far (``side`` 1) or near (-1) end of its range for ``length_s``."""
     side = number(numbers, "side")
@@ -73,16 +63,6 @@ def out_of_range(recording: Recording, numbers: Numbers) -> Injured:
         values[where] = end + side * BEYOND_M
 
     return spoilt_locally(recording, numbers, HEIGHT, pin)
-
-
-def saturation(recording: Recording, numbers: Numbers) -> Injured:
-    """Drive the accelerometer to its ``full_scale_g``, of either sign, for ``length_s``."""
-    end = number(numbers, "full_scale_g") * STANDARD_GRAVITY
-
-    def pin(values: FloatArray, where: slice) -> None:
-        values[where] = end
-
-    return spoilt_locally(recording, numbers, FORCE, pin)
 
 
 def gap(recording: Recording, numbers: Numbers) -> Injured:
@@ -161,10 +141,10 @@ INJURIES: Mapping[str, Injury] = MappingProxyType(
     {
         "laser-dropout": dropout(HEIGHT),
         "laser-flicker": flicker,
-        "laser-stuck": stuck,
+        "laser-stuck": stuck(HEIGHT),
         "laser-out-of-range": out_of_range,
         "accelerometer-dropout": dropout(FORCE),
-        "accelerometer-saturation": saturation,
+        "accelerometer-saturation": saturation(FORCE),
         "gap": gap,
         "gap-in-time": gap_in_time,
         "encoder-dropout": dropout(DISTANCE),
@@ -174,6 +154,7 @@ INJURIES: Mapping[str, Injury] = MappingProxyType(
         "encoder-counts-back": counts_back,
         "encoder-rolling-back": rolling_back,
         **AUGMENTED,
+        **RESPONSE,
     }
 )
 """All injuries by the name that a case's variation gives under ``fault``."""
@@ -185,3 +166,9 @@ def injury_of(numbers: Numbers) -> Injury:
     if name not in INJURIES:
         raise InputError(f"variation fault {name!r}: unknown; known: {', '.join(INJURIES)}")
     return INJURIES[str(name)]
+
+
+def needed_by(fault: str) -> frozenset[str]:
+    """Return what of `NEEDS` the injured sensor is; empty for what every device has."""
+    part = fault.partition("-")[0]
+    return frozenset({HEIGHT if part == "laser" else part}).intersection(NEEDS)

@@ -74,7 +74,7 @@ class Check(Protocol):
 
     @property
     def needs(self) -> frozenset[str]:
-        """Capabilities without which the check is not applicable."""
+        """What of `devices.interface.NEEDS` a device must have for the check to apply to it."""
 
     @property
     def simplest(self) -> Case:
@@ -98,12 +98,12 @@ class Check(Protocol):
 
 @runtime_checkable
 class Fitting(Protocol):
-    """A check with cases that say nothing of a device without some capability."""
+    """A check with cases that say nothing of a device without some sensor."""
 
-    def fitted(self, capabilities: Iterable[str]) -> Check:
-        """Return the check without such cases for a device of ``capabilities``."""
+    def fitted(self, meets: Iterable[str]) -> Check:
+        """Return the check without such cases for a device that has ``meets`` of `NEEDS`."""
 
 
-def fitted(check: Check, capabilities: Iterable[str]) -> Check:
-    """Return ``check`` with the cases for a device of ``capabilities``: most have one kind."""
-    return check.fitted(capabilities) if isinstance(check, Fitting) else check
+def fitted(check: Check, meets: Iterable[str]) -> Check:
+    """Return ``check`` with the cases for a device that ``meets`` so much: most have one kind."""
+    return check.fitted(meets) if isinstance(check, Fitting) else check

@@ -22,7 +22,7 @@ from floatref_conformance.checks.interface import Bench, Taken
 from floatref_conformance.checks.scoring import Compared, compare, correlation
 from floatref_conformance.checks.stretches import Stretches, fitting
 from floatref_conformance.classes import DeviceClass, Effort, Limits
-from floatref_conformance.devices.interface import CAPABILITIES
+from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.verdict import Measurement
@@ -47,8 +47,8 @@ class InvarianceCheck:
     title: str = "what must not matter does not matter"
     clause: str = "derived: a tenth of the class's limits at constant speed; 10 % more at a stop"
     needs: frozenset[str] = frozenset()
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
-    """Those of the device: changes of sensors that it lacks are no cases."""
+    meets: frozenset[str] = frozenset(NEEDS)
+    """What the device has of what may be needed: changes of sensors that it lacks are no cases."""
 
     @property
     def derivation(self) -> str:
@@ -87,13 +87,13 @@ class InvarianceCheck:
         """Return any change of any drive."""
         return changed_drives.drawn(self._changes)
 
-    def fitted(self, capabilities: Iterable[str]) -> "InvarianceCheck":
-        """Return the check without changes of what no one of ``capabilities`` gives."""
-        return replace(self, capabilities=frozenset(capabilities))
+    def fitted(self, meets: Iterable[str]) -> "InvarianceCheck":
+        """Return the check without changes of what is not among ``meets``."""
+        return replace(self, meets=frozenset(meets))
 
     @property
     def _changes(self) -> tuple[str, ...]:
-        return tuple(name for name, c in CHANGES.items() if c.needs <= self.capabilities)
+        return tuple(name for name, c in CHANGES.items() if c.needs <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
         """Return what is compared; of a stop, what is compared and where the road shows.

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.change import Numbers, number
 
@@ -43,6 +44,33 @@ def lose(values: FloatArray, where: slice) -> None:
 def hold(values: FloatArray, where: slice) -> None:
     """Repeat the first sample."""
     values[where] = values[where.start]
+
+
+def dropout(name: str) -> Injury:
+    """Return the injury of a channel that is missing for ``length_s``, for one sample at least."""
+    return lambda recording, numbers: spoilt_locally(recording, numbers, name, lose)
+
+
+def stuck(name: str) -> Injury:
+    """Return the injury of a channel that repeats one reading for ``length_s``."""
+    return lambda recording, numbers: spoilt_locally(recording, numbers, name, hold)
+
+
+def saturation(name: str) -> Injury:
+    """Return the injury of an accelerometer at its ``full_scale_g``, of either sign.
+
+    It is driven there for ``length_s``.
+    """
+
+    def injure(recording: Recording, numbers: Numbers) -> Injured:
+        end = number(numbers, "full_scale_g") * STANDARD_GRAVITY
+
+        def pin(values: FloatArray, where: slice) -> None:
+            values[where] = end
+
+        return spoilt_locally(recording, numbers, name, pin)
+
+    return injure
 
 
 def times_of(recording: Recording, numbers: Numbers) -> tuple[float, float]:

@@ -15,6 +15,7 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stretches import END_M, Stretches, fitting, stretch
 from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.devices.interface import HEIGHT
 from floatref_conformance.evidence import Roughness
 from floatref_conformance.proving_ground.artificial import artificial_drive
 from floatref_conformance.proving_ground.runs import KMH
@@ -41,7 +42,8 @@ class StationaryCheck:
     iri_limits: Limits
     start_m: float
     end_m: float
-    needs: frozenset[str] = frozenset()
+    needs: frozenset[str] = frozenset({HEIGHT})
+    """The plate lies under the laser, and the wheels do not turn."""
 
     @property
     def floor(self) -> str:

@@ -6,6 +6,7 @@ import click
 
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.judging import scored_by
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.drawing import drawing
@@ -31,7 +32,7 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
     cases = ", ".join(f"{len(check.cases(0, effort))} at effort {effort}" for effort in Effort)
     lines += ["", f"Cases: {cases}"]
     if check.needs:
-        lines.append(f"Needs: {', '.join(sorted(check.needs))}")
+        lines.append(f"Needs: {', '.join(NEEDS[need] for need in sorted(check.needs))}")
     return [*lines, f"Must fail: {', '.join(killers) or 'no device yet'}"]
 
 

@@ -6,8 +6,14 @@ from pathlib import Path
 
 import click
 
+from floatref.errors import InputError
 from floatref_conformance.classes import Effort
-from floatref_conformance.devices.interface import ARCHITECTURES, CAPABILITIES, Description
+from floatref_conformance.devices.interface import (
+    ARCHITECTURES,
+    CAPABILITIES,
+    RESPONSE,
+    Description,
+)
 from floatref_conformance.plugins import load_registry
 
 DESCRIPTION = "device.json"
@@ -56,6 +62,8 @@ def export(
     `conformance run --device files:OUT` with the same seed and effort. OUT/golden holds input
     and output of single stages. Quick effort takes several GB.
     """
+    if architecture == RESPONSE and RESPONSE not in capabilities:
+        raise InputError(f"--architecture {RESPONSE}: add --capability {RESPONSE}")
     from floatref_conformance import golden
     from floatref_conformance.exporting import export as write
 

@@ -11,6 +11,7 @@ import click
 
 from floatref_conformance import EDITION
 from floatref_conformance.checks.catalogue import IDS, not_built
+from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 
@@ -65,12 +66,20 @@ def _devices(registry: Registry) -> list[dict[str, Any]]:
 def _in_words(listing: dict[str, Any]) -> str:
     checks, devices = listing["checks"], listing["devices"]
     built = [check["id"] for check in checks if check["built"]]
-    told = [(c["id"], c["title"], c["clause"] if c["built"] else "not built yet") for c in checks]
+    told = [(c["id"], c["title"], _details(c)) for c in checks]
     lines = ["Checks", *_aligned(told)]
     for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
         rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]
         lines += ["", f"Devices, {kind}", *_aligned(rows)]
     return "\n".join(lines)
+
+
+def _details(check: dict[str, Any]) -> str:
+    """Return the clause of a check, and what a device needs for it, if not every one has it."""
+    if not check["built"]:
+        return "not built yet"
+    needs = ", ".join(NEEDS[need] for need in check["needs"])
+    return f"{check['clause']}; needs {needs}" if needs else str(check["clause"])
 
 
 def _fails(fails: Sequence[str], built: Sequence[str]) -> str:

@@ -1,7 +1,7 @@
 """The device interface: a device says what it is, and turns a recording into a profile."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -31,8 +31,38 @@ CAPABILITIES: Mapping[str, frozenset[str]] = {
             "gnss_longitude",
         }
     ),
+    "response": frozenset(
+        {
+            "unsprung_specific_force",
+            "rear_unsprung_specific_force",
+            "sprung_specific_force",
+            "equipment_specific_force",
+            "suspension_deflection",
+            "rear_suspension_deflection",
+            "unsprung_displacement",
+            "rear_unsprung_displacement",
+            "sprung_displacement",
+            "equipment_displacement",
+            "unsprung_velocity",
+            "rear_unsprung_velocity",
+            "sprung_velocity",
+            "equipment_velocity",
+            "pitch_angle",
+            "roll_angle",
+            "pitch_acceleration",
+            "roll_acceleration",
+        }
+    ),
 }
 """The channels that each capability gives a device beside the nominal ones."""
+RESPONSE = "response"
+"""The architecture without a height sensor, and the capability that it has to declare."""
+HEIGHT = "height"
+"""The height sensor: its channel, and what a check needs that asks for it."""
+WHEEL = "unsprung_specific_force"
+"""The channel of every wheel path whose profile is owed without a height sensor."""
+NEEDS: Mapping[str, str] = {HEIGHT: "a height sensor", **{c: c for c in CAPABILITIES}}
+"""What a check may need of a device, and in words."""
 
 
 class Device(Protocol):
@@ -67,12 +97,38 @@ class Description:
                 f"architecture {said['architecture']!r}; known: {', '.join(ARCHITECTURES)}"
             )
         capabilities = _capabilities(said.get("capabilities"))
+        check_response(said["architecture"], capabilities)
         return cls(said["name"], said["version"], said["architecture"], capabilities)
+
+    @property
+    def has_height(self) -> bool:
+        """Whether the device has a height sensor: one of architecture response has none."""
+        return self.architecture != RESPONSE
 
     @property
     def channels(self) -> frozenset[str]:
         """Names of the channels that the device may have."""
-        return NOMINAL_CHANNELS.union(*(CAPABILITIES[c] for c in self.capabilities))
+        channels = NOMINAL_CHANNELS.union(*(CAPABILITIES[c] for c in self.capabilities))
+        return channels if self.has_height else channels - {HEIGHT}
+
+    @property
+    def meets(self) -> frozenset[str]:
+        """What of `NEEDS` the device has: its capabilities, and most have a height sensor."""
+        return frozenset(self.capabilities).union((HEIGHT,) if self.has_height else ())
+
+    @property
+    def owes(self) -> str:
+        """The channel whose wheel paths the device has to deliver."""
+        return HEIGHT if self.has_height else WHEEL
+
+
+def check_response(architecture: str, capabilities: Collection[str]) -> None:
+    """Raise DeviceError for a device of architecture response without its channels."""
+    if architecture == RESPONSE and RESPONSE not in capabilities:
+        raise DeviceError(
+            f"architecture {RESPONSE} without capability {RESPONSE}; declare it, the road is "
+            "estimated from its channels"
+        )
 
 
 def _capabilities(said: object) -> tuple[str, ...]:
@@ -85,9 +141,15 @@ def _capabilities(said: object) -> tuple[str, ...]:
 
 
 def visible(recording: Recording, channels: frozenset[str]) -> Recording:
-    """Return what a device may see of ``recording``: its channels, and no telling name."""
+    """Return what a device may see of ``recording``: its channels, and no telling name.
+
+    What is known of the vehicle goes with the channels of its response.
+    """
     seen = tuple(c for c in recording.channels if c.id.name in channels)
-    return Recording(seen, recording.setup)
+    setup = recording.setup
+    if channels.isdisjoint(CAPABILITIES[RESPONSE]):
+        setup = replace(setup, vehicle=None)
+    return Recording(seen, setup)
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,6 @@ def _urgency(check: CheckResult, device_class: DeviceClass) -> tuple[int, float]
 
 def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
     device = result.device
-    capabilities = ", ".join(device["capabilities"]) or "nominal sensors alone"
     return (
         ("Class judged", result.device_class.value),
         ("Class reached", result.class_reached or "none"),
@@ -118,7 +117,7 @@ def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
         ("Seed", str(result.seed)),
         ("Device", f"{device['name']} {device['version']}"),
         ("Architecture", str(device["architecture"])),
-        ("Capabilities", capabilities),
+        ("Capabilities", wording.sensors(device["architecture"], device["capabilities"])),
     )
 
 

@@ -75,8 +75,8 @@ class TerminalRenderer:
 
     def _start(self, event: RunStarted) -> None:
         said = event.description
-        capabilities = ", ".join(said.capabilities) or "nominal sensors alone"
-        self._print(f"device {event.spec}: {said.architecture}, {capabilities}")
+        sensors = wording.sensors(said.architecture, said.capabilities)
+        self._print(f"device {event.spec}: {said.architecture}, {sensors}")
         if self.console.is_terminal:
             self._progress = Progress(
                 console=self.console, transient=True, redirect_stdout=False, redirect_stderr=False

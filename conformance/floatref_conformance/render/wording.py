@@ -1,13 +1,14 @@
 """What is said of a result in words, the same in the terminal and in every report."""
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import isfinite, isnan
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from floatref_conformance.case_files import FOLDER
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import RESPONSE
 from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
 
 FAILED = (Outcome.FAIL, Outcome.ERROR)
@@ -15,6 +16,12 @@ WHERE = "this case alone, where the run was started"
 """Where a command to run a case again is to be given."""
 UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
 """Outcomes that say nothing of what the device can do."""
+
+
+def sensors(architecture: str, capabilities: Sequence[str]) -> str:
+    """Return what a device of ``architecture`` with ``capabilities`` senses by."""
+    named = ", ".join(capabilities) or "nominal sensors alone"
+    return f"{named}, no height sensor" if architecture == RESPONSE else named
 
 
 def margin(worst: Measurement, device_class: DeviceClass) -> float | None:

@@ -71,7 +71,7 @@ def _why(check: Check, device: Device, wanted: Try) -> str:
     except DeviceError as fault:
         return str(fault)
 
-    check = fitted(check, description.capabilities)
+    check = fitted(check, description.meets)
 
     def ratio(case: Case) -> float:
         if found:

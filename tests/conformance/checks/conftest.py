@@ -29,7 +29,8 @@ class RightBench:
     """Delivers the truth, filtered alike, on the axis that the encoder tells.
 
     ``spoil`` gets the label of every run and its profile, and returns what is delivered. An
-    ``augmented`` device has an inertial unit and a receiver, of channels that only fill a place.
+    ``augmented`` device has an inertial unit, a receiver and a
+    response, of channels that only fill a place.
     """
 
     def __init__(self, spoil=lambda label, profile: profile, augmented=False):
@@ -86,6 +87,10 @@ class RightBench:
 
     @staticmethod
     def _augmented(last_s, scenario, rng):
+        clock, count = UniformClock.of(1000.0), int(last_s * 1000.0) + 1
+        for name in ("unsprung_specific_force", "sprung_specific_force", "suspension_deflection"):
+            for track in scenario.tracks:
+                yield Channel.of(name, rng.random(count), clock, track)
         rates = {"imu": scenario.gyro_rate_hz, "gnss": 20.0}
         for capability, rate_hz in rates.items():
             clock, count = UniformClock.of(rate_hz), int(last_s * rate_hz) + 1

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.checks.augmented_injuries import AUGMENTED, needed_by
+from floatref_conformance.checks.augmented_injuries import AUGMENTED
 from floatref_conformance.checks.faults import FAULTS
 from floatref_conformance.checks.injuries import INJURIES
 from floatref_conformance.classes import Effort
@@ -137,8 +137,3 @@ def test_without_the_sensor_nothing_changes(right_bench, fault):
     numbers = {"length_s": 3.0, "size_m": 1.0, "count": 3, "span_m": 10.0}
     plain = right_bench().simulate(STEADY).recording
     assert injured(plain, fault, **numbers).recording is plain
-
-
-def test_faults_need_the_sensor_that_they_are_named_after():
-    assert {needed_by(fault) for fault in AUGMENTED} == {frozenset({"imu"}), frozenset({"gnss"})}
-    assert {needed_by(f) for f in INJURIES if f not in AUGMENTED} == {frozenset()}

@@ -14,7 +14,7 @@ from floatref.values.profile import ProfileTrack
 from floatref_conformance import oracle
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults import FAULTS
-from floatref_conformance.checks.injuries import INJURIES
+from floatref_conformance.checks.injuries import INJURIES, needed_by
 from floatref_conformance.checks.interface import fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -170,7 +170,10 @@ def test_the_fault_comes_first(right_bench):
     assert bench.labels == ["with the fault", "without the fault"]
 
 
-@pytest.mark.parametrize(("fault", "needed"), [("gnss-outage", "gnss"), ("imu-flicker", "imu")])
+@pytest.mark.parametrize(
+    ("fault", "needed"),
+    [("gnss-outage", "gnss"), ("imu-flicker", "imu"), ("response-wheel-stuck", "response")],
+)
 def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
     without = right_bench()
     with pytest.raises(InputError, match=f"variation fault {fault}: needs {needed}, which"):
@@ -179,20 +182,36 @@ def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
 
 
 @pytest.mark.parametrize("effort", list(Effort))
-@pytest.mark.parametrize("having", [(), ("imu",), ("gnss",), ("imu", "gnss")])
+@pytest.mark.parametrize(
+    "having",
+    [
+        ("height",),
+        ("height", "imu"),
+        ("height", "imu", "gnss"),
+        ("height", "response"),
+        ("response",),
+        ("response", "gnss"),
+    ],
+)
 def test_faults_of_sensors_that_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
-    lacking = {"imu", "gnss"} - set(having)
+    lacking = {"imu", "gnss", "response", "height"} - set(having)
     assert fitted(FAULTS, having).cases(1, effort) == tuple(
         case
         for case in FAULTS.cases(1, effort)
-        if case.variation["fault"].split("-")[0] not in lacking
+        if case.variation["fault"].split("-")[0].replace("laser", "height") not in lacking
     )
 
 
 @settings(deadline=None, max_examples=60)
-@given(case=fitted(FAULTS, ("imu",)).strategy())
-def test_without_a_receiver_its_faults_are_not_searched_for(case):
-    assert "gnss" not in case.variation["fault"]
+@given(case=fitted(FAULTS, ("imu", "response")).strategy())
+def test_what_a_device_lacks_is_not_searched_for(case):
+    assert not case.variation["fault"].startswith(("gnss", "laser"))
+
+
+@pytest.mark.parametrize("having", [("height",), ("response",), ("height", "response")])
+def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
+    check = fitted(FAULTS, having)
+    assert needed_by(check.simplest.variation["fault"]) <= set(having)
 
 
 @pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.checks.augmented_injuries import AUGMENTED
 from floatref_conformance.checks.faults import FAULTS
-from floatref_conformance.checks.injuries import INJURIES, injury_of
+from floatref_conformance.checks.injuries import INJURIES, injury_of, needed_by
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -16,7 +16,15 @@ STEADY = Scenario(length_m=560.0, rate_hz=1000.0)
 STOP = Scenario(length_m=560.0, rate_hz=1000.0, manoeuvre="stop", event_at_m=320.0)
 SPEED, RATE = 20.0, 1000.0
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
-INJURED = {"laser": {HEIGHT}, "accelerometer": {FORCE}, "encoder": {DISTANCE}}
+INJURED = {
+    "laser": HEIGHT,
+    "accelerometer": FORCE,
+    "encoder": DISTANCE,
+    "response-wheel": "unsprung_specific_force",
+    "response-body": "sprung_specific_force",
+    "response-deflection": "suspension_deflection",
+}
+NEEDED = {"laser": "height", "gnss": "gnss", "imu": "imu", "response": "response"}
 NOMINAL = [c for c in FAULTS.cases(0, Effort.QUICK) if c.variation["fault"] not in AUGMENTED]
 few = settings(
     deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture]
@@ -40,14 +48,12 @@ def test_only_what_is_named_is_injured_and_only_there(right_bench, case):
     fault = case.variation["fault"]
     before = recording_of(right_bench, case.scenario, augmented=True)
     hurt = injury_of(case.variation)(before, case.variation)
-    part = fault.split("-")[0]
     if fault == "gap-in-time":
         return
+    named = [name for part, name in INJURED.items() if fault.startswith(part)]
     for one, other in zip(before.channels, hurt.recording.channels, strict=True):
         same = (one.values == other.values).all()
-        touched = part == "gap" or (
-            one.id.name in INJURED.get(part, ()) and one.id.track in (None, "left")
-        )
+        touched = fault == "gap" or (one.id.name in named and one.id.track in (None, "left"))
         assert same != touched
         assert other.clock is one.clock
 
@@ -165,3 +171,22 @@ def test_a_variation_names_a_fault_and_its_numbers(right_bench):
         injury_of({"fault": "fire"})
     with pytest.raises(InputError, match="variation length_s is None; give a number"):
         injured(recording_of(right_bench), "laser-dropout")
+
+
+@pytest.mark.parametrize("fault", INJURIES)
+def test_faults_need_the_sensor_that_they_are_named_after_unless_every_device_has_it(fault):
+    part = fault.partition("-")[0]
+    assert needed_by(fault) == ({NEEDED[part]} if part in NEEDED else set())
+
+
+@few
+@given(length_s=st.floats(0.1, 1.0))
+def test_a_stuck_wheel_repeats_itself_and_the_other_one_goes_on(right_bench, length_s):
+    name = INJURED["response-wheel"]
+    before = recording_of(right_bench, augmented=True)
+    hurt = injured(before, "response-wheel-stuck", length_s=length_s).recording
+    told = samples(hurt, name, "left")
+    changed = np.flatnonzero(told != samples(before, name, "left"))
+    assert set(told[changed]) == {told[changed[0] - 1]}
+    assert changed.size == pytest.approx(RATE * length_s, abs=2)
+    np.testing.assert_array_equal(samples(hurt, name, "right"), samples(before, name, "right"))

@@ -114,7 +114,8 @@ def simulated():
     """Return a maker of short recordings of nominal channels."""
 
     def make(**changes):
-        nominal = {"imu": False, "gnss": False, "rate_hz": 4000.0, "length_m": 300.0, "seed": 3}
+        nominal = {"imu": False, "gnss": False, "response": False}
+        nominal |= {"rate_hz": 4000.0, "length_m": 300.0, "seed": 3}
         return simulate(Scenario(**{**nominal, **changes})).recording
 
     return make

@@ -9,11 +9,12 @@ from floatref.files import write_recording
 from floatref.measures import iri_trace
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.injured_drives import NUMBERS, ROLLING
+from floatref_conformance.checks.fault_numbers import NUMBERS
+from floatref_conformance.checks.injured_drives import ROLLING
 from floatref_conformance.checks.injuries import INJURIES
 
 STOP = {"manoeuvre": "stop", "length_m": 300.0, "event_at_m": 150.0, "speed_kmh": 50.0}
-FAULTS = [name for name in INJURIES if not name.startswith(("gnss", "imu"))]
+FAULTS = [name for name in INJURIES if not name.startswith(("gnss", "imu", "response"))]
 REPAIRED = (ROLLING, "encoder-counts-back")
 AT_M = 140.0
 CASES = [(name, n) for name in FAULTS for n in range(len(NUMBERS[name]))]

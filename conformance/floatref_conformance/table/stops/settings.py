@@ -103,4 +103,5 @@ def stop_drawn(
         length_m=LENGTH_M,
         imu="imu" in capabilities,
         gnss="gnss" in capabilities,
+        response="response" in capabilities,
     )
