@@ -24,6 +24,8 @@ def recorded():
         (
             Channel.of("distance", np.arange(4000) * 0.02, UniformClock.of(1000.0)),
             Channel.of("vertical_specific_force", rng.random(4000), UniformClock.of(1000.0, 0.2)),
+            Channel.of("unsprung_specific_force", rng.random(4000), UniformClock.of(1000.0)),
+            Channel.of("suspension_deflection", rng.random(4000), UniformClock.of(1000.0)),
             Channel.of("pitch_rate", rng.random(400), UniformClock.of(100.0)),
             Channel.of("lateral_specific_force", rng.random(4000), UniformClock.of(1000.0)),
             Channel.of("gnss_height", rng.random(80), fixes),
@@ -62,14 +64,14 @@ def test_other_storage_keeps_samples_and_times():
 @laws
 @given(bias=st.floats(-1.0, 1.0), shift_s=st.floats(-1e6, 1e6), shift_m=st.floats(-1e5, 1e5))
 def test_bias_time_and_place_move_what_they_name_alone(bias, shift_s, shift_m):
-    moved = {"vertical_specific_force": bias, "distance": shift_m}
-    for name, numbers in (
-        ("accelerometer-bias", {"bias": bias}),
-        ("distance-origin", {"shift_m": shift_m}),
+    forces = ("vertical_specific_force", "unsprung_specific_force")
+    for name, numbers, named in (
+        ("accelerometer-bias", {"bias": bias}, forces),
+        ("distance-origin", {"shift_m": shift_m}, ("distance",)),
     ):
-        target = "distance" if name == "distance-origin" else "vertical_specific_force"
+        (moved,) = numbers.values()
         for before, after in pairs(changed(name, **numbers)):
-            by = moved[target] if after.id.name == target else 0.0
+            by = moved if after.id.name in named else 0.0
             np.testing.assert_array_equal(after.values, before.values + by)
             np.testing.assert_array_equal(after.times_s, before.times_s)
     for before, after in pairs(changed("clock-origin", shift_s=shift_s)):
