@@ -25,7 +25,7 @@ from floatref.architectures.kinematic_timing import (
     delay_told,
     on_time,
 )
-from floatref.values.plausibility import profiled_tracks
+from floatref.values.needs import profiled_tracks
 from floatref.values.recording import Recording
 
 __all__ = ["check_kinematics", "gnss_faults"]

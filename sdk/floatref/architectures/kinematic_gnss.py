@@ -9,7 +9,7 @@ from floatref.architectures.kinematic_channels import STEPS, told_spans
 from floatref.architectures.kinematic_readings import RTK_FIXED, fixed_readings, usual_step
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import StampedClock
-from floatref.values.plausibility import profiled_tracks
+from floatref.values.needs import profiled_tracks
 from floatref.values.recording import Channel, Recording
 
 UNFIXED_S = 1.0

@@ -22,7 +22,8 @@ from floatref.stages.protocol import Stage
 from floatref.stages.signals import SIGMA
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
-from floatref.values.plausibility import examine, profiled_tracks
+from floatref.values.needs import profiled_tracks
+from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, check_interval
 

@@ -23,42 +23,47 @@ from floatref.architectures.saturation import damaged_force
 from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
 from floatref.errors import InputError
-from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import Flag, FlagArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
-from floatref.values.plausibility import profiled_tracks
+from floatref.values.needs import VERTICAL_FORCES, Needs, nominal_needs
 from floatref.values.recording import Channel, Recording
 
 BLOCK = 65_536
 """Samples per block: 4 s at 16 kHz, small enough for the cache."""
+RANGES = HEIGHT, "suspension_deflection", "rear_suspension_deflection"
+"""Sensors that get stuck while the accelerometer beside them goes on."""
 
 
 class Source:
-    """The nominal channels of a recording as a stream of blocks.
+    """The channels of a recording that a pipeline needs, as a stream of blocks.
 
     `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
     is travelled from there to the last; `length` the number of samples that all channels cover;
     `warnings` one line for each channel and kind of damage.
     """
 
-    def __init__(self, recording: Recording, more: Sequence[str] = ()) -> None:
-        """Find the wheel paths that have a height, and the time that all channels cover.
+    def __init__(
+        self, recording: Recording, more: Sequence[str] = (), needs: Needs | None = None
+    ) -> None:
+        """Find the channels of ``needs``, and the time that all of them cover.
 
-        Channels called one of ``more`` are taken beside the nominal ones. Raises InputError if a
+        Without ``needs`` they are the nominal ones of every wheel path that has a height. Channels
+        called one of ``more`` are taken beside them. Raises InputError if a
         channel is missing.
         """
-        self._tracks = profiled_tracks(recording)
-        found = dict(_nominal(recording, self._tracks))
-        clock = steady_clock(found[ChannelId(SPECIFIC_FORCE, self._tracks[0])])
+        needs = nominal_needs(recording) if needs is None else needs
+        self._tracks = needs.tracks
+        found = dict(_needed(recording, needs))
+        clock = steady_clock(found[ChannelId(needs.force, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
         begin_s, end_s = clock.times(2, first, self.length - 1).tolist()
         for channel in (recording.channel(name, t) for name in more for t in self._tracks):
             if channel.id not in found:
                 found[channel.id] = covering(channel, begin_s, end_s)
-        damage = {name: _damage(name, found) for name in found}
+        damage = {name: _damage(name, found, needs.force) for name in found}
         holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
         self._aligned = {
@@ -102,26 +107,30 @@ class Source:
         return self.header.origin + index * self.header.step
 
 
-def _nominal(recording: Recording, tracks: tuple[str, ...]) -> Iterator[tuple[ChannelId, Channel]]:
-    yield ChannelId(DISTANCE), recording.channel(DISTANCE, tracks[0])
-    for track in tracks:
-        for name in (SPECIFIC_FORCE, HEIGHT):
-            yield ChannelId(name, track), recording.channel(name, track)
+def _needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
+    """Yield the channels of ``needs``; one that is shared is one of every wheel path."""
+    yield ChannelId(DISTANCE), recording.channel(DISTANCE, needs.tracks[0])
+    for track in needs.tracks:
+        yield ChannelId(needs.force, track), recording.channel(needs.force, track)
+        for name in needs.others:
+            channel = recording.find(name, track)
+            if channel is not None:
+                yield ChannelId(name, track), channel
 
 
-def _damage(name: ChannelId, found: Mapping[ChannelId, Channel]) -> Damage:
+def _damage(name: ChannelId, found: Mapping[ChannelId, Channel], force: str) -> Damage:
     if name.name == DISTANCE:
         return encoder_damage(found[name])
     if _is_force(name):
         return damaged_force(found[name])
-    if name.name != HEIGHT:
+    if name.name not in RANGES:
         return Damage()
-    force = found[ChannelId(SPECIFIC_FORCE, name.track)]
-    return damaged_height(found[name], force, found[ChannelId(DISTANCE)])
+    beside = found[ChannelId(force, name.track)]
+    return damaged_height(found[name], beside, found[ChannelId(DISTANCE)])
 
 
 def _is_force(name: ChannelId) -> bool:
-    return name.name == SPECIFIC_FORCE
+    return name.name in VERTICAL_FORCES
 
 
 def _common_span(channels: list[Channel], clock: UniformClock) -> tuple[int, int]:
@@ -141,7 +150,7 @@ def _flags(name: ChannelId, stretch: Stretch) -> FlagArray | None:
     if stretch.missing is None:
         return None
     flags = np.where(stretch.missing, np.uint8(Flag.MISSING), np.uint8(0))
-    lasting = {SPECIFIC_FORCE: Flag.DRIFT, DISTANCE: Flag.SLOW}.get(name.name)
-    if lasting is not None and stretch.lost is not None:
+    lasting = Flag.SLOW if name.name == DISTANCE else Flag.DRIFT
+    if stretch.lost is not None and (name.name == DISTANCE or _is_force(name)):
         flags |= np.where(stretch.lost, np.uint8(lasting), np.uint8(0))
     return flags

@@ -1,4 +1,4 @@
-"""Samples of a height sensor that is stuck, or out of its range."""
+"""Samples of a height sensor, or one of the suspension's deflection, stuck or out of range."""
 
 from dataclasses import dataclass
 
@@ -61,7 +61,7 @@ def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damag
     if 2 * runs.length[open_to_doubt & ~chosen].sum() > channel.values.size:
         warnings.append(
             f"channel {channel.id}: repeats itself for most of the run; if that was not over a "
-            "flat floor, the sensor is stuck and the profile is that of the accelerometer alone"
+            "flat floor, the sensor is stuck and the profile is that of the accelerometers alone"
         )
     return Damage(runs.spans[chosen], warnings=tuple(warnings))
 

@@ -8,6 +8,8 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.encoder import check_distance
+from floatref.values.needs import DISTANCE, HEIGHT, VERTICAL_FORCES, Needs, nominal_needs
+from floatref.values.plausible_motion import check_motion
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import Summary, every, first_where, longest_gap
 
@@ -35,48 +37,38 @@ MISREADINGS = (
 """Mean of a vertical accelerometer, how near it has to be, and what that means."""
 
 
-def examine(recording: Recording) -> tuple[str, ...]:
+def examine(recording: Recording, needs: Needs | None = None) -> tuple[str, ...]:
     """Return warnings about ``recording``, one line each, for what can be processed all the same.
 
-    Every wheel path that has a height needs an accelerometer and the distance. Raises
-    InputError with one line naming the channel, the value and what to do for missing channels,
-    channels without samples or with more than half of them missing, implausible units and
-    signs, samples that no sensor gives, an accelerometer that never moves, a distance that goes
-    backwards, jumps or stands still, and truncated channels.
+    Without ``needs``, every wheel path that has a height needs an accelerometer and the distance.
+    Raises InputError with one line naming the channel, the value and what to do for missing
+    channels, channels without samples or with more than half of them missing, implausible units
+    and signs, samples that no sensor gives, an accelerometer that never moves, a distance that
+    goes backwards, jumps or stands still, and truncated channels.
     """
+    needed = (nominal_needs(recording) if needs is None else needs).channels(recording)
     with np.errstate(over="ignore", invalid="ignore"):
         warnings = [
             warning
-            for channel in _needed(recording)
+            for channel in needed
             for warning in _examined(channel, recording.setup.profile_interval_m)
         ]
     _check_spans(recording)
     return (*warnings, *_unused_setup(recording))
 
 
-def profiled_tracks(recording: Recording) -> tuple[str, ...]:
-    """Return the wheel paths that have a height, in order; InputError if there is none."""
-    tracks = tuple(t for t in recording.tracks if recording.find("height", t) is not None)
-    if not tracks:
-        recording.channel("height")
-    return tracks
-
-
-def _needed(recording: Recording) -> tuple[Channel, ...]:
-    names = ("vertical_specific_force", "height", "distance")
-    found = [recording.channel(name, t) for t in profiled_tracks(recording) for name in names]
-    return tuple({channel.id: channel for channel in found}.values())
-
-
 def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
     summary = Summary.of(channel.values)
     yield from _missing(channel, summary)
-    if channel.id.name == "vertical_specific_force":
+    name = channel.id.name
+    if name in VERTICAL_FORCES:
         _check_accelerometer(channel, summary)
-    elif channel.id.name == "height":
+    elif name == HEIGHT:
         _check_height(channel, summary)
-    else:
+    elif name == DISTANCE:
         yield from check_distance(channel, summary, interval_m)
+    else:
+        check_motion(channel, summary)
 
 
 def _missing(channel: Channel, summary: Summary) -> Iterator[str]:

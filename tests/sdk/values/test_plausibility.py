@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.values import scanning
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.plausibility import examine, profiled_tracks
+from floatref.values.needs import profiled_tracks
+from floatref.values.plausibility import examine
 from floatref.values.recording import Channel, Recording, Setup, TrackSetup
 
 SECONDS = 20
