@@ -21,7 +21,7 @@ standstill from 28 km/h; the brakes behind that figure were released at 24 and 3
 
 
 class MarkDrive(Stage):
-    """Flags `vertical_acceleration` of every track where the vehicle crawls, stands or brakes.
+    """Flags an acceleration of every track where the vehicle crawls, stands or brakes.
 
     `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a
     basic algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI
@@ -40,11 +40,18 @@ class MarkDrive(Stage):
     declared = Declared(shift_invariant=True)
 
     def __init__(
-        self, slow_mps: float = SLOW_MPS, stopping_time_s: float = STOPPING_TIME_S
+        self,
+        slow_mps: float = SLOW_MPS,
+        stopping_time_s: float = STOPPING_TIME_S,
+        channel: str = ACCELERATION,
     ) -> None:
-        """Mark travel below ``slow_mps``, else braking within ``stopping_time_s`` of a stand."""
+        """Mark travel below ``slow_mps``, else braking within ``stopping_time_s`` of a stand.
+
+        The marks are flags of ``channel``.
+        """
         super().__init__()
         self.slow_mps, self.stopping_time_s = slow_mps, stopping_time_s
+        self.channel = channel
         self._window, self._slow, self._windows = 1, 0.0, 0.0
 
     def open(self, header: Header) -> Header:
@@ -52,7 +59,7 @@ class MarkDrive(Stage):
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         header.require(self.name, ChannelId(DISTANCE))
-        header.require(self.name, *(ChannelId(ACCELERATION, t) for t in header.tracks))
+        header.require(self.name, *(ChannelId(self.channel, t) for t in header.tracks))
         self._tracks = header.tracks
         self._window = max(1, round(WINDOW_S * float(header.rate)))
         window_s = self._window / float(header.rate)
@@ -68,7 +75,7 @@ class MarkDrive(Stage):
             return block
         flags = {}
         for track in self._tracks:
-            channel = ChannelId(ACCELERATION, track)
+            channel = ChannelId(self.channel, track)
             own = flags_of(block, channel)
             flags[channel] = marks if own is None else own | marks
         return block.setting({}, flags)

@@ -16,16 +16,19 @@ class Integrate(Stage):
     On the time axis the step is constant; on the distance axis it is the channel `time_step`,
     as in (5.5) and (5.6) with the factor ½ of the trapezoidal rule. The integral starts at
     zero, or at the first value of channel ``starts_at`` of the same track. ``source`` is
-    dropped. A missing sample is bridged by the one before it and flagged; it shifts all that
+    dropped unless it is kept. A missing sample is bridged by the one before it and flagged; it shifts all that
     follows by what the bridge was wrong.
     """
 
     declared = Declared()
 
-    def __init__(self, source: str, target: str, starts_at: str | None = None) -> None:
+    def __init__(
+        self, source: str, target: str, starts_at: str | None = None, keeps_source: bool = False
+    ) -> None:
         """Integrate ``source`` into ``target``."""
         super().__init__()
         self.source, self.target, self.starts_at = source, target, starts_at
+        self.keeps_source = keeps_source
         self._half_step = 0.0
 
     def open(self, header: Header) -> Header:
@@ -37,6 +40,8 @@ class Integrate(Stage):
         for name in filter(None, (self.source, self.starts_at)):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
         self.memory = {track: np.zeros(3) for track in header.tracks}
+        if self.keeps_source:
+            return header.adding(*(ChannelId(self.target, track) for track in header.tracks))
         return header.replacing(self.source, self.target)
 
     def advance(self, block: Block) -> Block:
@@ -49,7 +54,8 @@ class Integrate(Stage):
             marks = flags_of(block, source)
             if marks is not None:
                 flags[target] = marks
-        return block.setting(values, flags).without(self.source)
+        made = block.setting(values, flags)
+        return made if self.keeps_source else made.without(self.source)
 
     def _begin(self, block: Block, track: str, memory: FloatArray) -> None:
         if self.starts_at is None or memory[0] != 0.0 or len(block) == 0:
