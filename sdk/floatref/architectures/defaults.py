@@ -13,6 +13,7 @@ from floatref.architectures.profile_format import (
 )
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
+from floatref.architectures.response_pipelines import RESPONSE
 from floatref.architectures.road_prior_imu import ROAD_PRIOR_IMU
 from floatref.architectures.road_prior_pipeline import ROAD_PRIOR
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
@@ -74,7 +75,7 @@ STAGES: tuple[type[Stage], ...] = (
 
 
 class Defaults:
-    """Registers what is built in, and answers every point of both architectures."""
+    """Registers what is built in, and answers every point of all architectures."""
 
     def __init__(self) -> None:
         """Answer each point with the pipeline's own stages, else the architecture's."""
@@ -103,7 +104,8 @@ class Defaults:
     @hookimpl
     def floatref_register_pipelines(self, register: Callable[[Pipeline], None]) -> None:
         """Register the pipelines."""
-        for pipeline in (*PIPELINES, *KALMAN, *ROAD_PRIOR, *ROAD_PRIOR_IMU, *ROAD_PRIOR_SPATIAL):
+        road_prior = *ROAD_PRIOR, *ROAD_PRIOR_IMU, *ROAD_PRIOR_SPATIAL
+        for pipeline in (*PIPELINES, *KALMAN, *road_prior, *RESPONSE):
             register(pipeline)
 
 

@@ -111,5 +111,35 @@ def spatial_combine(context: Question) -> Answer:
 
 
 @spec
+def response_condition(context: Question) -> Answer:
+    """From raw channels in time to accelerations, speed and cut-off."""
+
+
+@spec
+def response_first_integration(context: Question) -> Answer:
+    """From accelerations to velocities, where no displacement is measured."""
+
+
+@spec
+def response_second_integration(context: Question) -> Answer:
+    """From velocities to displacements; what is measured is filtered as they are."""
+
+
+@spec
+def response_estimate(context: Question) -> Answer:
+    """From readings to the road under every tyre, with its 1-σ, at a rate of its own."""
+
+
+@spec
+def response_project(context: Question) -> Answer:
+    """From the time axis to the distance axis."""
+
+
+@spec
+def response_finish(context: Question) -> Answer:
+    """From the roads under the tyres to `elevation` and `elevation_sigma` where a laser looks."""
+
+
+@spec
 def spatial_finish(context: Question) -> Answer:
     """What is done to `elevation` at the end of the run."""

@@ -14,7 +14,7 @@ from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
-from floatref.architectures.registration import SIGNAL_FLOWS
+from floatref.architectures.registration import NEEDS, SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
@@ -65,7 +65,7 @@ def pipelines() -> tuple[str, ...]:
 
 
 def pipeline_capabilities(name: str) -> tuple[str, ...]:
-    """Return what pipeline ``name`` needs beside nominal sensors: "imu", "gnss", both or none.
+    """Return what pipeline ``name`` needs beside nominal sensors, of "imu", "gnss", "response".
 
     Raises InputError for a name that `process` does not know.
     """
@@ -83,8 +83,9 @@ def run(
     chosen = loaded.pipeline(pipeline)
     resolved = chosen.resolve(settings or {})
     recording = _at_interval(recording, resolved)
-    cautions = (*examine(recording), *_kinematic_cautions(recording, chosen))
-    source = Source(recording, chosen.channels)
+    needs = NEEDS[chosen.architecture](recording)
+    cautions = (*examine(recording, needs), *_kinematic_cautions(recording, chosen))
+    source = Source(recording, chosen.channels, needs)
     stages = _stages(loaded, chosen, resolved, source)
     header, blocks = flow.run(stages, source.header, _counted(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
@@ -122,6 +123,7 @@ def _stages(
         settings=resolved,
         header=source.header,
         origin_m=source.origin_m,
+        fastest_mps=source.fastest_mps,
     )
     return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(question(point=point)))
 

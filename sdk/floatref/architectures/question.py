@@ -60,7 +60,7 @@ class Question:
     """What a point of the signal flow needs to know to choose its stages.
 
     ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
-    encoder distance of its first sample.
+    encoder distance of its first sample, ``fastest_mps`` the fastest speed over a second.
     """
 
     point: str
@@ -68,6 +68,7 @@ class Question:
     settings: Mapping[str, float | None]
     header: Header
     origin_m: float
+    fastest_mps: float = 0.0
 
     def setting(self, name: str) -> float:
         """Return setting ``name``; InputError if nothing has decided it."""

@@ -4,13 +4,20 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from floatref.architectures import spatial, temporal
+from floatref.architectures import response, spatial, temporal
 from floatref.architectures.profile_format import ProfileDirectory
 from floatref.architectures.question import Pipeline
+from floatref.architectures.response_needs import response_needs
 from floatref.errors import PluginError
+from floatref.values.needs import nominal_needs
 
-SIGNAL_FLOWS = {"temporal": temporal.signal_flow, "spatial": spatial.signal_flow}
-POINTS = {**temporal.DEFAULTS, **spatial.DEFAULTS}
+SIGNAL_FLOWS = {
+    "temporal": temporal.signal_flow,
+    "spatial": spatial.signal_flow,
+    "response": response.signal_flow,
+}
+POINTS = {**temporal.DEFAULTS, **spatial.DEFAULTS, **response.DEFAULTS}
+NEEDS = {"temporal": nominal_needs, "spatial": nominal_needs, "response": response_needs}
 
 
 def check_pipeline(pipeline: Any) -> str:

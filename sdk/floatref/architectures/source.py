@@ -22,6 +22,7 @@ from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.architectures.saturation import damaged_force
 from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
+from floatref.architectures.travel import fastest_speed
 from floatref.errors import InputError
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import Flag, FlagArray
@@ -41,7 +42,8 @@ class Source:
     """The channels of a recording that a pipeline needs, as a stream of blocks.
 
     `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
-    is travelled from there to the last; `length` the number of samples that all channels cover;
+    is travelled from there to the last; `fastest_mps` the fastest speed over a second of the
+    recording; `length` the number of samples that all channels cover;
     `warnings` one line for each channel and kind of damage.
     """
 
@@ -82,6 +84,7 @@ class Source:
         self._events = GnssEvents(recording, gnss_faults(recording))
         self.origin_m = self._distance(0)
         self.distance_m = np.fmax(self._distance(self.length - 1) - self.origin_m, 0.0)
+        self.fastest_mps = fastest_speed(recording)
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
         """Yield the run in blocks of ``size`` samples, each let go of before the next."""

@@ -29,6 +29,16 @@ def travel_speed(recording: Recording) -> tuple[FloatArray, FloatArray]:
     return distance[1:], np.diff(distance) / PROGRESS_S
 
 
+def fastest_speed(recording: Recording) -> float:
+    """Return the fastest mean speed over a second, in m/s; over the run if that is shorter."""
+    speeds = travel_speed(recording)[1]
+    if not speeds.size:
+        return 0.0
+    window = min(round(1.0 / PROGRESS_S), speeds.size)
+    sums = np.convolve(speeds, np.ones(window), "valid")
+    return max(0.0, float(sums.max()) / window)
+
+
 def _stride(channel: Channel) -> int:
     if isinstance(channel.clock, StampedClock):
         return 1

@@ -16,8 +16,8 @@ class Integrate(Stage):
     On the time axis the step is constant; on the distance axis it is the channel `time_step`,
     as in (5.5) and (5.6) with the factor ½ of the trapezoidal rule. The integral starts at
     zero, or at the first value of channel ``starts_at`` of the same track. ``source`` is
-    dropped unless it is kept. A missing sample is bridged by the one before it and flagged; it shifts all that
-    follows by what the bridge was wrong.
+    dropped unless it is kept. A missing sample is bridged by the one before it and flagged; it
+    shifts all that follows by what the bridge was wrong.
     """
 
     declared = Declared()

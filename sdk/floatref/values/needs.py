@@ -1,4 +1,4 @@
-"""What a pipeline takes of a recording: wheel paths, the accelerometer that keeps time, channels."""
+"""What a pipeline takes of a recording: wheel paths, the clock of its blocks, and channels."""
 
 from dataclasses import dataclass
 

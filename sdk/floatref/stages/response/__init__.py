@@ -1,0 +1,18 @@
+"""Stages of the response architecture: calculation rate, estimator, and the way to the profile."""
+
+from floatref.stages.response.along import ShiftAlong
+from floatref.stages.response.denoising import Denoise
+from floatref.stages.response.estimation import EstimateRoad
+from floatref.stages.response.estimators import Group, WithPlaces
+from floatref.stages.response.joining import JoinTyres
+from floatref.stages.response.rate import ToRate
+
+__all__ = [
+    "Denoise",
+    "EstimateRoad",
+    "Group",
+    "JoinTyres",
+    "ShiftAlong",
+    "ToRate",
+    "WithPlaces",
+]
