@@ -26,7 +26,7 @@ class ShiftAlong(Stage):
     both. Blocks wait for a shift backwards.
     """
 
-    declared: ClassVar[Declared] = Declared(zero_in_zero_out=False, delay=1 << 62)
+    declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=1 << 62)
 
     def __init__(self, shifts_m: Mapping[ChannelId, float]) -> None:
         """Shift each channel of ``shifts_m`` by so much, ahead if above zero."""

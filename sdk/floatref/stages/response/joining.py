@@ -21,8 +21,8 @@ class JoinTyres(Stage):
 
     Each counts by its variance, as front and rear of (8) of Zhu do once both lie at one place; one
     that is NaN, or whose 1-σ is, does not count. Sensors' noise is each tyre's own, but the
-    parameters are common: the joint 1-σ is that of the better one. Flags are those of the estimates
-    that count. The estimates under the tyres are dropped.
+    parameters are common: the joint 1-σ is that of the better one. Flags are those of all, and
+    the estimates under the tyres are dropped.
     """
 
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False)
@@ -66,7 +66,7 @@ def _found(block: Block, track: str, number: int) -> Found:
 
 
 def _joined(found: Sequence[Found]) -> Found:
-    """Return the mean by variance, the least 1-σ, and the flags of what counts."""
+    """Return the mean by variance, the least 1-σ, and the flags of all."""
     elevations, sigmas = (np.stack([row[k] for row in found]) for k in (0, 1))
     marks = np.stack([row[2] for row in found])
     there = ~np.isnan(elevations + sigmas)
@@ -76,6 +76,4 @@ def _joined(found: Sequence[Found]) -> Found:
     summed = (weights * np.where(there, elevations, 0.0)).sum(axis=0)
     elevation = np.where(known, summed / np.where(known, total, 1.0), np.nan)
     sigma = np.where(known, np.where(there, sigmas, np.inf).min(axis=0), np.nan)
-    counting = np.bitwise_or.reduce(np.where(there, marks, np.uint8(0)), axis=0)
-    every = np.bitwise_or.reduce(marks, axis=0)
-    return elevation, sigma, np.where(known, counting, every)
+    return elevation, sigma, np.bitwise_or.reduce(marks, axis=0)
