@@ -9,7 +9,7 @@ from typing import Any
 
 from floatref import __version__
 from floatref.architectures import flow
-from floatref.architectures.axis_error import add_axis_error
+from floatref.architectures.axis_error import add_axis_error, add_contact_error
 from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
@@ -147,9 +147,8 @@ def _collect(
     known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
     found = collected(blocks, header.tracks, room, known)
     reach = Reach.of(resolved)
-    scale = resolved.get("distance_scale_sigma") or 0.0
     tracks = tuple(
-        _track(name, found.pop(name), header.step, reach, scale) for name in header.tracks
+        _track(name, found.pop(name), header.step, reach, resolved) for name in header.tracks
     )
     return Profile(
         interval_m=header.step,
@@ -166,9 +165,12 @@ def _collect(
 
 
 def _track(
-    name: str, found: Gathered, interval_m: float, reach: Reach, scale: float
+    name: str, found: Gathered, interval_m: float, reach: Reach, resolved: Mapping[str, Any]
 ) -> ProfileTrack:
     valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
     if sigma is not None:
+        scale = resolved.get("distance_scale_sigma") or 0.0
         add_axis_error(sigma, found.elevation, interval_m, scale)
+        if contact_m := resolved.get("contact_m"):
+            add_contact_error(sigma, found.elevation, interval_m, contact_m)
     return ProfileTrack.of(name, found.elevation, valid, sigma)

@@ -6,7 +6,9 @@ from floatref.architectures.response_steps import estimate_observing
 
 SETTINGS: dict[str, float | None] = {
     **{name: value for name, value in ADAPTIVE.items() if name != "anti_alias_hz"},
+    "distance_scale_sigma": 2e-4,
     "points_per_m": 20.0,
+    "contact_m": 0.25,
     "parameter_sigma": 0.03,
     "acceleration_density": 1e-3,
     "angular_acceleration_density": 1e-3,
