@@ -117,5 +117,5 @@ def _sigma(question: Question, motion: Motion, kind: Kind) -> float:
         return question.setting(f"{prefix}velocity_sigma")
     if motion.integrated_twice:
         cutoff_hz = question.fastest_mps / question.setting("cutoff_wavelength_m")
-        return drift_sigma(density, cutoff_hz).item()
+        return float(drift_sigma(density, cutoff_hz)[()])
     return question.setting(f"{prefix}displacement_sigma")

@@ -67,8 +67,9 @@ def _found(block: Block, track: str, number: int) -> Found:
 
 def _joined(found: Sequence[Found]) -> Found:
     """Return the mean by variance, the least 1-σ, and the flags of all."""
-    elevations, sigmas = (np.stack([row[k] for row in found]) for k in (0, 1))
-    marks = np.stack([row[2] for row in found])
+    elevations = np.stack([elevation for elevation, _, _ in found])
+    sigmas = np.stack([sigma for _, sigma, _ in found])
+    marks = np.stack([flags for _, _, flags in found])
     there = ~np.isnan(elevations + sigmas)
     weights = np.where(there, 1.0 / np.fmax(np.where(there, sigmas, 1.0), 1e-12) ** 2, 0.0)
     total = weights.sum(axis=0)

@@ -1,6 +1,7 @@
 """The laws of the stage protocol, for the stages of the response architecture."""
 
 from fractions import Fraction
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -80,17 +81,17 @@ class TestDenoise(StageLaws):
 
 class TestJoinTyres(StageLaws):
     reads = UNDER, SIGMA, REAR, REAR_SIGMA
-    ranges = {SIGMA: (1e-4, 1e-2), REAR_SIGMA: (1e-4, 1e-2)}
+    ranges = MappingProxyType({SIGMA: (1e-4, 1e-2), REAR_SIGMA: (1e-4, 1e-2)})
     axis = Axis.DISTANCE
 
     def make(self) -> JoinTyres:
-        return JoinTyres({track: (0, 1) for track in TRACKS})
+        return JoinTyres(dict.fromkeys(TRACKS, (0, 1)))
 
 
 class TestEstimateRoad(StageLaws):
     reads = "sprung_displacement", "unsprung_displacement", "unsprung_acceleration"
     shared = ("high_pass_cutoff",)
-    ranges = {"high_pass_cutoff": (0.05, 0.5)}
+    ranges = MappingProxyType({"high_pass_cutoff": (0.05, 0.5)})
     reach = None
 
     def make(self) -> EstimateRoad:
