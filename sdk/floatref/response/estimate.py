@@ -15,6 +15,7 @@ class Estimate:
         states: x = (q, q'), shape (N, 2n), in m, rad, m/s and rad/s.
         states_sigma: their standard deviations, shape (N, 2n), in the same units.
         force: F of each tyre, shape (N, p), in N; None from an estimator that has no forces.
+        force_sigma: its standard deviation, shape (N, p), in N; None likewise.
     """
 
     road: FloatArray
@@ -22,3 +23,4 @@ class Estimate:
     states: FloatArray
     states_sigma: FloatArray
     force: FloatArray | None = None
+    force_sigma: FloatArray | None = None

@@ -1,0 +1,54 @@
+"""What the joint input-state filter is given, keeps and tells; nothing compiled."""
+
+from typing import NamedTuple
+
+from floatref.values.arrays import FloatArray
+
+
+class System(NamedTuple):
+    """s states, p inputs and m readings, (12)-(13) of Zhu, for states less `after` times inputs."""
+
+    transition: FloatArray
+    """A_c, (s, s)."""
+    influence: FloatArray
+    """B_c, (s, p)."""
+    output: FloatArray
+    """G, (m, s)."""
+    direct: FloatArray
+    """J, (m, p)."""
+    feedthrough: FloatArray
+    """J + G·after, (m, p): what stands for J in steps (a) and (b)."""
+    variance: FloatArray
+    """The diagonal of R, (m,)."""
+    disturbance: FloatArray
+    """Q, (s, s)."""
+    after: FloatArray
+    """Influence of the inputs on states at the same time, (s, p)."""
+    unknown: FloatArray
+    """Variance about their last value of inputs that no reading tells, (p,)."""
+    stays: float
+    """What of their error is the same one sample later."""
+
+
+class Memory(NamedTuple):
+    """What goes from sample to sample, written in place."""
+
+    state: FloatArray
+    """X, (s,)."""
+    covariance: FloatArray
+    """P, (s, s)."""
+    force: FloatArray
+    """F, (p,)."""
+    spread: FloatArray
+    """P_F, (p, p)."""
+    crossed: FloatArray
+    """P_XF, (s, p)."""
+
+
+class Told(NamedTuple):
+    """What comes out for N samples: inputs (N, p), states (N, s) and their variances."""
+
+    forces: FloatArray
+    force_variance: FloatArray
+    states: FloatArray
+    states_variance: FloatArray
