@@ -23,7 +23,7 @@ FREEDOMS = 7
 """Heave, pitch, roll, then the wheels: front left, front right, rear left, rear right."""
 BAR_SHARE = 1 / 3
 """Of the anti-roll bar in one corner's spring: over the roads of the proving ground, the travels
-of the two front corners correlate at 0.6 to 0.7, so a bar acts on a third of a corner's travel."""
+of the two front corners correlate at 0.5 to 0.7, so a bar acts on a third of a corner's travel."""
 
 
 @dataclass(frozen=True)
