@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import sqrt
 
 import numpy as np
 
@@ -112,7 +113,7 @@ def _sigma(question: Question, motion: Motion, kind: Kind) -> float:
     prefix = "angular_" if motion.angular else ""
     density = question.setting(f"{prefix}acceleration_density")
     if kind is Kind.ACCELERATION:
-        return density * float(calculation_rate_of(question)) ** 0.5
+        return density * sqrt(calculation_rate_of(question))
     if kind is Kind.VELOCITY:
         return question.setting(f"{prefix}velocity_sigma")
     if motion.integrated_twice:
