@@ -3,8 +3,9 @@
 from floatref_conformance.devices.mistakes.in_drives import IN_DRIVES
 from floatref_conformance.devices.mistakes.in_fusion import IN_FUSION
 from floatref_conformance.devices.mistakes.in_processing import IN_PROCESSING
+from floatref_conformance.devices.mistakes.in_response import IN_RESPONSE
 from floatref_conformance.devices.mistakes.in_results import IN_RESULTS
 from floatref_conformance.devices.mistakes.in_sensors import IN_SENSORS
 
-MISTAKES = (*IN_SENSORS, *IN_PROCESSING, *IN_RESULTS, *IN_DRIVES, *IN_FUSION)
+MISTAKES = (*IN_SENSORS, *IN_PROCESSING, *IN_RESULTS, *IN_DRIVES, *IN_FUSION, *IN_RESPONSE)
 """All mistakes in the order in which they are listed."""

@@ -11,6 +11,7 @@ from floatref_conformance.checks.catalogue import IDS
 RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
 SPATIAL = "spatial-hpf-timer-distortion-reflection"
 AUGMENTED = "kalman-smoother-reflection"
+RESPONSE = "response-observer"
 
 Before = Callable[[Recording], Recording]
 """Spoils a recording."""
