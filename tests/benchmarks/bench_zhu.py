@@ -30,6 +30,8 @@ COLUMNS = (
 BANDS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.5)
 """Edges in cycles/m of the bands that spectra are compared in."""
 BAND_COLUMNS = ("speed", "rate", *(f"{low:g}-{high:g}" for low, high in pairwise(BANDS)))
+PART_M = 51.2
+"""Length of the parts of a road whose spectra are averaged."""
 SPEED, RATE, LENGTH_M = 10.0, 200.0, 100.0
 SPEEDS = ((SPEED, RATE), (20.0, 400.0), (20.0, RATE))
 """Speed in m/s and rate in Hz: twice tied by 20 samples per metre, and once not."""
@@ -75,8 +77,10 @@ def at_speed(speed: float, rate_hz: float, length_m: float = 400.0) -> tuple[zhu
     spacing_m = 0.005
     drive = zhu.driven(zhu.random_road(7, spacing_m, length_m), spacing_m, speed, rate_hz)
     _, both = zhu.estimated(drive, *zhu.measured(drive, 7), Hold.FIRST_ORDER)
-    waves, found = welch(both, rate_hz / speed, nperseg=1024)
-    return waves, found, welch(drive.road[:, 1], rate_hz / speed, nperseg=1024)[1]
+    points = rate_hz / speed
+    part = round(PART_M * points)
+    waves, found = welch(both, points, nperseg=part)
+    return waves, found, welch(drive.road[:, 1], points, nperseg=part)[1]
 
 
 def band_ratios(waves: zhu.Array, density: zhu.Array, other: zhu.Array) -> list[float]:
@@ -125,22 +129,26 @@ def draw(path: Path) -> None:
         axis.set(title=title, xlabel="distance, m", ylabel="elevation, mm")
     axes[0, 0].set_xlim(20.0, 60.0)
     axes[0, 1].set_xlim(4.0, 24.0)
-    for axis, cases in ((axes[1, 0], SPEEDS[:1]), (axes[1, 1], SPEEDS)):
-        _draw_spectra(axis, cases)
+    _draw_spectra(axes[1, 0], axes[1, 1])
     for axis in axes.flat:
         axis.grid(alpha=0.3)
         axis.legend()
     figure.savefig(path, dpi=110)
 
 
-def _draw_spectra(axis: "Axes", cases: tuple[tuple[float, float], ...]) -> None:
-    for number, (speed, rate_hz) in enumerate(cases):
+def _draw_spectra(density: "Axes", ratio: "Axes") -> None:
+    edges = np.geomspace(BANDS[0], 10.0, 28)
+    for number, (speed, rate_hz) in enumerate(SPEEDS):
         waves, found, road = at_speed(speed, rate_hz)
+        label, colour = f"{speed:g} m/s at {rate_hz:g} Hz", f"C{3 - number}"
         if number == 0:
-            axis.loglog(waves[1:], road[1:], color="0.3", linewidth=1.6, label="road")
-        label = f"{speed:g} m/s at {rate_hz:g} Hz"
-        axis.loglog(waves[1:], found[1:], color=f"C{3 - number}", linewidth=0.9, label=label)
-    axis.set(title="Spectra, 400 m", xlabel="wave number, cycles/m", ylabel="density, m³")
+            density.loglog(waves[1:], road[1:], color="0.3", linewidth=1.6, label="road")
+        density.loglog(waves[1:], found[1:], color=colour, linewidth=0.8, label=label)
+        inside = [(waves >= low) & (waves < high) for low, high in pairwise(edges)]
+        rows = [(waves[i].mean(), found[i].sum() / road[i].sum()) for i in inside if i.any()]
+        ratio.semilogx(*np.transpose(rows), color=colour, label=label)
+    density.set(title="One road, 400 m", xlabel="wave number, cycles/m", ylabel="density, m³")
+    ratio.set(title="Estimate over road", xlabel="wave number, cycles/m", ylabel="ratio of power")
 
 
 def arguments() -> argparse.Namespace:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.catalogue import PIPELINES as PIPELINES
+from floatref.architectures.fall_back import DropOut
 from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.kalman_pipelines import KALMAN
 from floatref.architectures.profile_format import (
@@ -13,6 +14,7 @@ from floatref.architectures.profile_format import (
 )
 from floatref.architectures.question import Answer, Pipeline, Question
 from floatref.architectures.registration import POINTS
+from floatref.architectures.response_fall_back import road_from_response
 from floatref.architectures.response_pipelines import RESPONSE
 from floatref.architectures.road_prior_imu import ROAD_PRIOR_IMU
 from floatref.architectures.road_prior_pipeline import ROAD_PRIOR
@@ -37,6 +39,7 @@ from floatref.stages import (
     varying,
 )
 from floatref.stages.protocol import Stage
+from floatref.values.profile import Profile
 
 STAGES: tuple[type[Stage], ...] = (
     butterworth.HighPassB3S1,
@@ -81,6 +84,11 @@ class Defaults:
         """Answer each point with the pipeline's own stages, else the architecture's."""
         for point, answer in POINTS.items():
             setattr(self, point, _answering(point, answer))
+
+    @hookimpl
+    def temporal_fall_back(self, context: DropOut) -> Profile | None:
+        """Estimate the road from the vehicle's response, where that was recorded."""
+        return road_from_response(context)
 
     @hookimpl
     def floatref_register_adapters(self, register: Callable[[Adapter], None]) -> None:

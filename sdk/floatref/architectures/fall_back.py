@@ -11,8 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from floatref.architectures.height_gaps import height_gaps
 from floatref.measures import high_pass
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.stages.signals import HEIGHT
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
+from floatref.values.channels import ChannelId
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -35,6 +38,15 @@ class DropOut:
     recording: Recording
     profile: Profile
     gaps: Mapping[str, FloatArray]
+
+    @classmethod
+    def of(
+        cls, recording: Recording, profile: Profile, gone: Mapping[ChannelId, IndexArray]
+    ) -> "DropOut":
+        """Return the question about a profile; ``gone`` are damaged stretches of channels."""
+        names = [track.name for track in profile.tracks]
+        found = {t: height_gaps(recording, t, gone[ChannelId(HEIGHT, t)]) for t in names}
+        return cls(recording, profile, {t: gaps for t, gaps in found.items() if len(gaps)})
 
 
 def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:

@@ -10,9 +10,11 @@ from collections.abc import Callable, Sequence
 import pluggy
 
 from floatref.architectures.adapter import Adapter
+from floatref.architectures.fall_back import DropOut
 from floatref.architectures.profile_format import ProfileFormat
 from floatref.architectures.question import Pipeline, Question
 from floatref.stages.protocol import Stage
+from floatref.values.profile import Profile
 
 PROJECT = "floatref"
 spec = pluggy.HookspecMarker(PROJECT)
@@ -73,6 +75,11 @@ def temporal_project(context: Question) -> Answer:
 @spec
 def temporal_finish(context: Question) -> Answer:
     """What is done to `elevation` over distance at the end of the run."""
+
+
+@spec
+def temporal_fall_back(context: DropOut) -> Profile | None:
+    """Another profile of the recording, for where its height sensor dropped out."""
 
 
 @spec

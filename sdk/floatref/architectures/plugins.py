@@ -3,12 +3,13 @@
 from collections.abc import Callable, Sequence
 from functools import cache, partial
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import Any, TypeVar
 
 import pluggy
 
 from floatref.architectures import hookspecs
 from floatref.architectures.adapter import Adapter
+from floatref.architectures.fall_back import DropOut
 from floatref.architectures.profile_format import ProfileFormat
 from floatref.architectures.question import Pipeline, Question
 from floatref.architectures.registration import (
@@ -20,7 +21,9 @@ from floatref.architectures.registration import (
 )
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.stages.protocol import Stage
+from floatref.values.profile import Profile
 
+T = TypeVar("T")
 BUILT_IN = "floatref"
 """Name of the plug-in that holds the defaults."""
 
@@ -101,15 +104,23 @@ class Plugins:
 
         Raises PluginError, with both names, if two third parties answer.
         """
-        answers: dict[str, Sequence[Stage]] = {}
-        for plugin, call in self._callers(question.point):
-            answer = self._guarded(plugin, partial(call, context=question))
+        answer = self._answer(question.point, question, partial(_stages, question=question))
+        return () if answer is None else answer
+
+    def fall_back(self, asked: DropOut) -> Profile | None:
+        """Return another profile of a recording whose heights have gaps, or None; as `ask`."""
+        return self._answer("temporal_fall_back", asked, _profile)
+
+    def _answer(self, hook: str, context: object, checked: Callable[[Any, str], T]) -> T | None:
+        answers: dict[str, T] = {}
+        for plugin, call in self._callers(hook):
+            answer = self._guarded(plugin, partial(call, context=context))
             if answer:
-                answers[plugin] = _stages(answer[0], plugin, question)
-        default = answers.pop(BUILT_IN, ())
+                answers[plugin] = checked(answer[0], plugin)
+        default = answers.pop(BUILT_IN, None)
         if len(answers) > 1:
             both = " and ".join(answers)
-            raise PluginError(f"plug-ins {both} both answer {question.point}; remove one")
+            raise PluginError(f"plug-ins {both} both answer {hook}; remove one")
         return next(iter(answers.values()), default)
 
     def _callers(self, hook: str) -> list[tuple[str, pluggy.HookCaller]]:
@@ -138,6 +149,13 @@ class Plugins:
         line = f"plug-in {name} skipped: {type(error).__name__}: {' '.join(str(error).split())}"
         if line not in self.reports:
             self.reports.append(line)
+
+
+def _profile(answer: Any, plugin: str) -> Profile:
+    if isinstance(answer, Profile):
+        return answer
+    kind = type(answer).__name__
+    raise PluginError(f"plug-in {plugin}: answered temporal_fall_back with {kind}, no profile")
 
 
 def _stages(answer: Any, plugin: str, question: Question) -> Sequence[Stage]:

@@ -11,6 +11,7 @@ from floatref import __version__
 from floatref.architectures import flow
 from floatref.architectures.axis_error import add_axis_error, add_contact_error
 from floatref.architectures.collecting import Gathered, collected
+from floatref.architectures.fall_back import DropOut, bridged
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.question import Pipeline, Question
@@ -92,7 +93,22 @@ def run(
     profile = _collect(header, blocks, chosen, resolved, room)
     if learned := flow.learned(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
-    return Result(profile, (*cautions, *source.warnings, *flow.told(stages), *loaded.reports))
+    told = (*cautions, *source.warnings, *flow.told(stages))
+    if chosen.architecture == "temporal":
+        profile, lines = _fallen_back(loaded, DropOut.of(recording, profile, source.gone))
+        told = (*told, *lines)
+    return Result(profile, (*told, *loaded.reports))
+
+
+def _fallen_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
+    """Return the profile with the gaps of its heights bridged, if a plug-in can tell the road."""
+    if not asked.gaps:
+        return asked.profile, ()
+    try:
+        estimate = loaded.fall_back(asked)
+    except InputError as error:
+        return asked.profile, (f"the height's gaps are bridged by lines alone: {error}",)
+    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)
 
 
 def _kinematic_cautions(recording: Recording, chosen: Pipeline) -> Iterator[str]:

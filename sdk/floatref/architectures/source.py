@@ -44,6 +44,7 @@ class Source:
     `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
     is travelled from there to the last; `fastest_mps` the fastest speed over a second of the
     recording; `length` the number of samples that all channels cover;
+    `gone` the damaged stretches of every channel, first index and the one behind, shape (k, 2);
     `warnings` one line for each channel and kind of damage.
     """
 
@@ -67,6 +68,7 @@ class Source:
                 found[channel.id] = covering(channel, begin_s, end_s)
         damage = {name: _damage(name, found, needs.force) for name in found}
         holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
+        self.gone = {name: each.gone for name, each in damage.items()}
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
         self._aligned = {
             name: AlignedChannel(channel, clock, first, damage[name])

@@ -1,0 +1,182 @@
+"""What the road from the vehicle's response is good for, beside a laser on the same drives.
+
+Vans drive over simulated roads with all sensors. What each pipeline makes of a drive is compared
+with the road, and with what laser and accelerometer of the same drive give, over 160.9 m, after the
+IRI filter: at several speeds, and with every parameter of the vehicle off by so much.
+
+    python tests/benchmarks/bench_response.py [--draws N] [--page FILE] [--plot FILE]
+"""
+
+import argparse
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from bench_road_prior_limits import write_page
+from rich.console import Console
+from rich.progress import track as shown
+from rich.table import Table
+from road_prior_measuring import compared, quietly, stretch
+
+import floatref
+from floatref.measures import cross_correlation, iri_trace
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.simulate import Simulation, simulate
+
+JOINT, OBSERVER = "response-joint-input-state", "response-observer"
+LASER = "road-prior-smoother"
+SPEEDS_KMH = (16.1, 24.0, 40.0, 56.0, 72.0, 97.0)
+ERRORS_PERCENT = (0.0, 5.0, 10.0, 20.0)
+SPEED_KMH = 72.0
+"""That of the drives with parameter errors."""
+VEHICLES = ("loaded-van", "minivan", "pickup", "soft-van")
+MIDDLE_M, LENGTH_M = 250.0, 500.0
+COLUMNS = ("drives", "pipeline", "road: r", "lowest", "IRI, %", "most", "laser: r", "IRI, % ")
+
+
+@dataclass(frozen=True)
+class Score:
+    """One wheel path: cross correlation and IRI error in %, to the road and to the laser's."""
+
+    road: float
+    road_iri: float
+    laser: float
+    laser_iri: float
+
+
+def drive(speed_kmh: float, draw: int) -> Simulation:
+    """Return a drive at constant speed; ``draw`` gives road, errors and vehicle."""
+    scenario = Scenario(
+        seed=draw,
+        vehicle=VEHICLES[draw % len(VEHICLES)],
+        speed_kmh=speed_kmh,
+        length_m=LENGTH_M,
+        imu=False,
+        gnss=False,
+        rate_hz=4000.0,
+        profile_interval_m=0.025,
+    )
+    return simulate(scenario)
+
+
+def misjudged(made: Simulation, percent: float, draw: int) -> floatref.Recording:
+    """Return the recording with each parameter of the true vehicle off by ``percent``.
+
+    Signs are drawn, and what the installer got wrong is taken out by averaging over draws.
+    """
+    setup = made.recording.setup
+    assert setup.vehicle is not None
+    signs = np.random.default_rng([draw, 8]).choice([-1.0, 1.0], len(setup.vehicle.parameters))
+    changed = {
+        name: value * (1 + percent / 100 * sign)
+        for (name, value), sign in zip(setup.vehicle.parameters.items(), signs, strict=True)
+    }
+    vehicle = replace(setup.vehicle, parameters=changed)
+    return replace(made.recording, setup=replace(setup, vehicle=vehicle))
+
+
+def scores(made: Simulation, profile: floatref.Profile, laser: floatref.Profile) -> list[Score]:
+    """Return how each wheel path compares with the road and with the laser's profile."""
+    found = []
+    inside = stretch(made, MIDDLE_M, laser.interval_m)
+    for true, track in zip(compared(made, profile, MIDDLE_M), profile.tracks, strict=True):
+        mine = iri_trace(track.elevation, profile.interval_m)[inside]
+        other = iri_trace(laser.track(track.name).elevation, laser.interval_m)[inside]
+        agreed = cross_correlation(other, mine, laser.interval_m, 1.0).cross_correlation
+        error = 100.0 * float(np.abs(mine).mean() / np.abs(other).mean() - 1.0)
+        found.append(Score(true.cross_correlation, true.iri_error_percent, agreed, error))
+    return found
+
+
+def line(drives: str, pipeline: str, found: list[Score]) -> list[str]:
+    """Return one line of the table: means, the lowest correlation and the largest error."""
+    columns = np.array([(s.road, s.road_iri, s.laser, s.laser_iri) for s in found]).T
+    most = columns[1][np.argmax(np.abs(columns[1]))]
+    cells = [f"{columns[0].mean():.3f}", f"{columns[0].min():.3f}"]
+    cells += [f"{columns[1].mean():+.1f}", f"{most:+.1f}"]
+    cells += [f"{columns[2].mean():.3f}", f"{columns[3].mean():+.1f}"]
+    return [drives, pipeline, *cells]
+
+
+def by_speed(draws: int) -> list[list[str]]:
+    """Return lines of every speed and pipeline, with what the installer knows of the vehicle."""
+    lines = []
+    for speed in shown(SPEEDS_KMH, "speeds"):
+        found: dict[str, list[Score]] = {name: [] for name in (JOINT, OBSERVER, LASER)}
+        for draw in range(draws):
+            made = drive(speed, draw)
+            laser = quietly(made.recording, LASER, {})
+            for name, rows in found.items():
+                profile = laser if name == LASER else quietly(made.recording, name, {})
+                rows += scores(made, profile, laser)
+        lines += [line(f"{speed:g} km/h", name, rows) for name, rows in found.items()]
+    return lines
+
+
+def by_error(draws: int) -> list[list[str]]:
+    """Return lines of every parameter error at 72 km/h."""
+    lines = []
+    for percent in shown(ERRORS_PERCENT, "parameter errors"):
+        found: dict[str, list[Score]] = {name: [] for name in (JOINT, OBSERVER)}
+        for draw in range(draws):
+            made = drive(SPEED_KMH, draw)
+            laser = quietly(made.recording, LASER, {})
+            recording = misjudged(made, percent, draw)
+            for name, rows in found.items():
+                rows += scores(made, quietly(recording, name, {}), laser)
+        lines += [line(f"{percent:g} % off", name, rows) for name, rows in found.items()]
+    return lines
+
+
+def draw_figure(lines: list[list[str]], path: Path) -> None:
+    """Draw correlation and IRI error against speed and against parameter error."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(2, 2, figsize=(9.0, 6.0), sharex="col", layout="constrained")
+    for column, (unit, label) in enumerate(
+        (("km/h", "speed, km/h"), ("% off", "parameters off by, %"))
+    ):
+        for colour, name in enumerate((JOINT, OBSERVER, LASER)):
+            rows = [row for row in lines if row[1] == name and row[0].endswith(unit)]
+            x = [float(row[0].split()[0]) for row in rows]
+            for axis, mean, worst in ((axes[0, column], 2, 3), (axes[1, column], 4, 5)):
+                axis.plot(
+                    x, [float(row[mean]) for row in rows], "o-", color=f"C{colour}", label=name
+                )
+                axis.plot(
+                    x, [float(row[worst]) for row in rows], "v", color=f"C{colour}", alpha=0.4
+                )
+        axes[1, column].set_xlabel(label)
+    axes[0, 0].set_ylabel("cross correlation with the road")
+    axes[1, 0].set_ylabel("error of the IRI, %")
+    axes[0, 0].legend(fontsize=8, title="mean; triangles: worst wheel path", title_fontsize=8)
+    for axis in axes.flat:
+        axis.grid(alpha=0.3)
+    figure.savefig(path, dpi=110)
+
+
+def main() -> None:
+    """Print the table, and write and draw what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--draws", type=int, default=8, help="drives of each line")
+    parser.add_argument("--page", type=Path, help="Markdown page whose table is replaced")
+    parser.add_argument("--plot", type=Path, help="figure to draw")
+    asked = parser.parse_args()
+    lines = [*by_speed(asked.draws), *by_error(asked.draws)]
+    table = Table(title="Road from the vehicle's response")
+    for name in COLUMNS:
+        table.add_column(name, justify="right")
+    for cells in lines:
+        table.add_row(*cells)
+    Console(width=120).print(table)
+    if asked.page:
+        write_page(asked.page, lines, COLUMNS)
+    if asked.plot:
+        draw_figure(lines, asked.plot)
+
+
+if __name__ == "__main__":
+    main()
