@@ -114,13 +114,13 @@ class Drive:
         result = run(self.recording(**replaced), pipeline, settings)
         profile = result.profile
         road = self.road(profile.distance_m + self.laser_m)
-        wave_number = float(AdaptiveCutOff().wave_number(self.mps, self.interval_m))
-        return profile.tracks[0], high_passed(road, wave_number * self.interval_m)
+        return profile.tracks[0], high_passed(road, self.mps, self.interval_m)
 
 
-def high_passed(z: np.ndarray, cutoff: float) -> np.ndarray:
+def high_passed(z: np.ndarray, mps: float, interval_m: float) -> np.ndarray:
     """Return ``z`` through HPF_B3 forward and backward, which start as those of a profile do."""
-    tangent = np.tan(np.pi * cutoff)
+    wave_number = float(AdaptiveCutOff().wave_number(mps, interval_m))
+    tangent = np.tan(np.pi * wave_number * interval_m)
     for kernel, backward in SECTIONS:
         out = np.empty_like(z)
         kernel(z, out, np.zeros(MEMORY), tangent, backward)
@@ -138,3 +138,9 @@ def drive():
 def quarter_car():
     """Return the parameters of the car that is driven."""
     return dict(CAR)
+
+
+@pytest.fixture
+def high_passed_road():
+    """Return what filters a road as a profile of (5.7) is at a constant speed."""
+    return high_passed
