@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from floatref.architectures.aligned import BRIDGE_S, GAP
+from floatref.architectures.aligned import BRIDGE_S, GAP, bridged
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import StampedClock
@@ -66,7 +66,19 @@ def _time(channel: Channel, index: int) -> float:
 
 
 def _at(distance: Channel, times: FloatArray) -> FloatArray:
-    known = np.flatnonzero(np.isfinite(distance.values))
-    along = np.maximum.accumulate(distance.values[known])
-    places = np.interp(times, distance.times_s[known], along)
-    return np.where(np.isfinite(times), places, times)
+    """Return the encoder's distance at ``times``, shape (k, 2), infinite where these are."""
+    return np.array([[_place(distance, t) for t in pair] for pair in times.tolist()]).reshape(-1, 2)
+
+
+def _place(distance: Channel, time_s: float) -> float:
+    """Return the distance at one time, on a line between the known samples about it."""
+    if not np.isfinite(time_s):
+        return time_s
+    clock, size = distance.clock, distance.values.size
+    if isinstance(clock, StampedClock):
+        before = int(np.searchsorted(clock.times_s, time_s, "right")) - 1
+    else:
+        before = int(np.floor((time_s - clock.start_s) * float(clock.rate)))
+    low = min(max(before, 0), max(size - 2, 0))
+    part, *_ = bridged(lambda begin, end: distance.values[begin:end], size, low, low + 2)
+    return float(np.interp(time_s, clock.times(part.size, low), part))

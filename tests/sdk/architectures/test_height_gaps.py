@@ -65,3 +65,25 @@ def test_a_hole_between_time_stamps_is_a_gap() -> None:
     kept = np.r_[0:2000, 2300:COUNT]
     found = height_gaps(recording_of(heights()[kept], kept / RATE), "main", NONE)
     np.testing.assert_allclose(found, SPEED / RATE * np.array([[1999, 2300]]), atol=1e-9)
+
+
+def test_places_are_told_where_the_encoder_is_silent_as_well() -> None:
+    values, travel = heights(), SPEED / RATE * np.arange(COUNT)
+    values[2000:2300] = np.nan
+    travel[1990:2100] = np.nan
+    clock = UniformClock.of(RATE)
+    channels = Channel.of("height", values, clock), Channel.of("distance", travel, clock)
+    found = height_gaps(Recording(channels), "main", NONE)
+    np.testing.assert_allclose(found, SPEED / RATE * np.array([[1999, 2300]]), atol=1e-9)
+
+
+def test_an_encoder_on_its_own_times_tells_the_place() -> None:
+    values = heights()
+    values[2000:2300] = np.nan
+    ticks = np.sort(np.random.default_rng(1).uniform(0.0, 5.0, 400))
+    channels = (
+        Channel.of("height", values, UniformClock.of(RATE)),
+        Channel.of("distance", SPEED * ticks, StampedClock(ticks)),
+    )
+    found = height_gaps(Recording(channels), "main", NONE)
+    np.testing.assert_allclose(found, SPEED / RATE * np.array([[1999, 2300]]), atol=1e-9)

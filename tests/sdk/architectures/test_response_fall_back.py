@@ -136,7 +136,7 @@ def test_two_plug_ins_that_answer_are_named(drive: Simulation) -> None:
     loaded = Plugins()
     loaded.add(Other(drive.truth), "one")
     loaded.add(Other(drive.truth), "two")
-    with pytest.raises(PluginError, match="plug-ins (one and two|two and one) both answer"):
+    with pytest.raises(PluginError, match=r"plug-ins (one and two|two and one) both answer"):
         loaded.fall_back(asked(drive))
 
 
