@@ -8,8 +8,9 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import Channel, InputError, Profile, ProfileTrack, Recording, UniformClock
 from floatref.architectures import hookspecs
+from floatref.architectures.fall_back import DropOut
 from floatref.architectures.plugins import Plugins
 from floatref.architectures.question import Question
 from floatref.values.block import Axis, Block, Header
@@ -61,6 +62,21 @@ def test_the_pipeline_is_known_and_the_point_is_answered(plugins: Plugins) -> No
         question = Question("temporal_finish", pipeline, pipeline.resolve({}), header, origin_m=0.0)
         assert {stage.cutoff for stage in plugins.ask(question)} == {1 / 60.0}
     assert plugins.reports == []
+
+
+def test_a_gap_of_the_heights_is_answered_from_what_was_recorded(
+    example: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    profile = Profile(0.025, (ProfileTrack.of("main", np.zeros(9), np.ones(9, np.bool_)),))
+    asked = []
+    monkeypatch.setattr("floatref.process", lambda *args: asked.append(args) or profile)
+    clock, samples = UniformClock.of(1000), np.zeros(9)
+    for name, answer in (("height", None), ("unsprung_specific_force", profile)):
+        recording = Recording((Channel.of(name, samples, clock),))
+        gaps = {"main": np.array([[1.0, 2.0]])}
+        found = example.temporal_fall_back(DropOut(recording, profile, gaps))
+        assert found is answer, name
+    assert asked == [(recording, "response-observer")]
 
 
 def test_the_stage_is_known_and_scales(plugins: Plugins) -> None:

@@ -27,7 +27,6 @@ from floatref.response.reading import Kind, Reading
 from floatref.response.resampling import Resampling
 from floatref.response.state_space import Discrete, Hold, discretized, state_space
 from floatref.response.trailer import IMINE_TRAILER, Trailer
-from floatref.response.tyre import TyreRoad
 from floatref.response.wheelbase import joined, joined_at_speed, shifted
 
 __all__ = [
@@ -47,7 +46,6 @@ __all__ = [
     "Resampling",
     "Trailer",
     "Tyre",
-    "TyreRoad",
     "UnknownInputObserver",
     "VehicleModel",
     "calculation_rate",
