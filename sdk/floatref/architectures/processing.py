@@ -140,6 +140,7 @@ def _stages(
         header=source.header,
         origin_m=source.origin_m,
         fastest_mps=source.fastest_mps,
+        ends_m=source.ends_m,
     )
     return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(question(point=point)))
 

@@ -60,7 +60,8 @@ class Question:
     """What a point of the signal flow needs to know to choose its stages.
 
     ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
-    encoder distance of its first sample, ``fastest_mps`` the fastest speed over a second.
+    encoder distance of its first sample, ``ends_m`` the first and the last that the encoder tells
+    within a sample of the stream's ends, ``fastest_mps`` the fastest speed over a second.
     """
 
     point: str
@@ -69,6 +70,7 @@ class Question:
     header: Header
     origin_m: float
     fastest_mps: float = 0.0
+    ends_m: tuple[float, float] = (0.0, 0.0)
 
     def setting(self, name: str) -> float:
         """Return setting ``name``; InputError if nothing has decided it."""

@@ -81,7 +81,7 @@ def estimate_observing(question: Question) -> Sequence[Stage]:
 
 def project(question: Question) -> Sequence[Stage]:
     """Decimate by encoder distance (5.3)."""
-    return (ToDistance(question.setting("interval_m"), question.origin_m),)
+    return (ToDistance(question.setting("interval_m"), question.ends_m[0]),)
 
 
 def finish(question: Question) -> Sequence[Stage]:
@@ -146,7 +146,7 @@ def _second(motion: Motion) -> Iterator[Stage]:
 
 
 def _estimate(question: Question, groups: Sequence[Group]) -> Sequence[Stage]:
-    stages: list[Stage] = [ToRate(calculation_rate_of(question))]
+    stages: list[Stage] = [ToRate(calculation_rate_of(question), question.ends_m[1])]
     components = question.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from floatref.architectures.aligned import AlignedChannel, Stretch
+from floatref.architectures.aligned import AlignedChannel, Stretch, bridged
 from floatref.architectures.covering import covering
 from floatref.architectures.damage import Damage
 from floatref.architectures.encoder_damage import encoder_damage
@@ -25,7 +25,7 @@ from floatref.architectures.stuck import damaged_height
 from floatref.architectures.travel import fastest_speed
 from floatref.errors import InputError
 from floatref.stages.signals import DISTANCE, HEIGHT
-from floatref.values.arrays import Flag, FlagArray
+from floatref.values.arrays import Flag, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
@@ -42,10 +42,11 @@ class Source:
     """The channels of a recording that a pipeline needs, as a stream of blocks.
 
     `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
-    is travelled from there to the last; `fastest_mps` the fastest speed over a second of the
-    recording; `length` the number of samples that all channels cover;
-    `gone` the damaged stretches of every channel, first index and the one behind, shape (k, 2);
-    `warnings` one line for each channel and kind of damage.
+    is travelled from there to the last; `ends_m` the first and the last distance that the encoder
+    tells, less than a sample away; `fastest_mps` the fastest speed over a second of the recording;
+    `length` the number of samples that all channels cover; `gone` the damaged stretches of every
+    channel, first index and the one behind, shape (k, 2); `warnings` one line for each channel and
+    kind of damage.
     """
 
     def __init__(
@@ -86,6 +87,7 @@ class Source:
         self._events = GnssEvents(recording, gnss_faults(recording))
         self.origin_m = self._distance(0)
         self.distance_m = np.fmax(self._distance(self.length - 1) - self.origin_m, 0.0)
+        self.ends_m = self._ends(found[ChannelId(DISTANCE)])
         self.fastest_mps = fastest_speed(recording)
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
@@ -108,8 +110,29 @@ class Source:
     def _distance(self, index: int) -> float:
         return float(self._aligned[ChannelId(DISTANCE)].take(index, index + 1).values[0])
 
+    def _ends(self, encoder: Channel) -> tuple[float, float]:
+        """Return the distances at the encoder's own ends, where they are those of the stream."""
+        size, step = encoder.values.size, self.header.step
+        first, last = self.origin_m, self.origin_m + self.distance_m
+        begin, end = self._time(0), self._time(self.length - 1)
+        if begin - encoder.span_s[0] < step:
+            first = min(first, _known(encoder, 0))
+        if encoder.span_s[1] - end < step:
+            last = max(last, _known(encoder, size - 1))
+        return first, last
+
     def _time(self, index: int) -> float:
         return self.header.origin + index * self.header.step
+
+
+def _known(channel: Channel, index: int) -> float:
+    """Return a sample, or what the known ones beside it tell."""
+
+    def read(low: int, high: int) -> FloatArray:
+        return channel.values[low:high]
+
+    values, *_ = bridged(read, channel.values.size, index, index + 1)
+    return float(values[0])
 
 
 def _needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:

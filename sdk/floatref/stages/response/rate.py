@@ -27,15 +27,16 @@ class ToRate(Stage):
     Channels of a wheel path are resampled by a windowed sinc without delay, with their first and
     last sample repeated beyond the ends; `distance`, `travel_speed` and `high_pass_cutoff` are
     linear. An output has the flags of all samples less than one new step away; what a flagged
-    sample was off by reaches as far as the window. Output 0 lies at the first sample.
+    sample was off by reaches as far as the window. Output 0 lies at the first sample, the last one
+    at the last sample or less than a new step beyond.
     """
 
     declared: ClassVar[Declared] = Declared(shift_invariant=False, delay=LONG)
 
-    def __init__(self, rate_hz: Fraction) -> None:
-        """Resample to ``rate_hz``."""
+    def __init__(self, rate_hz: Fraction, end_m: float = -np.inf) -> None:
+        """Resample to ``rate_hz``; `distance` ends at ``end_m`` or farther."""
         super().__init__()
-        self.rate_hz = rate_hz
+        self.rate_hz, self.end_m = rate_hz, end_m
         self._resampling = Resampling(1.0, 1.0)
         self._made: frozenset[ChannelId] = frozenset()
 
@@ -66,13 +67,20 @@ class ToRate(Stage):
         if waiting is None or len(waiting) == 0:
             return ()
         last = waiting.first + len(waiting) - 1 - self.memory["begun"]
-        count = int(last / self._resampling.ratio) + 1 - self.memory["next"]
+        count = ceil(last / self._resampling.ratio) + 1 - self.memory["next"]
         found = {}
         for channel, run in self.memory["runs"].items():
             end = np.full(self._beyond, waiting[channel][-1])
             more = self._resampling.advance(run, end), self._resampling.finish(run)
             found[channel] = np.concatenate(more)[:count]
-        return (self._out(waiting, found),)
+        return (self._at_the_end(self._out(waiting, found)),)
+
+    def _at_the_end(self, block: Block) -> Block:
+        """Return the last block, its last distance that which the encoder has told by then."""
+        end = {c: x.copy() for c, x in block.values.items() if c.name == DISTANCE and x.size}
+        for distance in end.values():
+            distance[-1] = max(distance[-1], self.end_m)
+        return block.setting(end)
 
     @property
     def _beyond(self) -> int:
