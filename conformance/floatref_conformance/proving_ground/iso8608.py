@@ -22,7 +22,10 @@ CLASS_A = 16e-6
 
 
 def class_density(road_class: str, wave_number: FloatArray) -> FloatArray:
-    """Return (2.1) in m³/cycle at wave numbers in cycles/m; InputError for an unknown class."""
+    """Return (2.1), as (14) of Zhu, in m³/cycle at wave numbers in cycles/m.
+
+    Raises InputError for an unknown class.
+    """
     if len(road_class) != 1 or road_class not in CLASSES:
         raise InputError(f"ISO 8608 class {road_class}: unknown; choose one of A to H")
     level = CLASS_A * 4.0 ** CLASSES.index(road_class)

@@ -90,7 +90,7 @@ def quarter_car(
 
 
 def half_car_with_equipment() -> PlainModel:
-    """Return the truck of Table 1 of Zhu, (2) to (6), in y₁, y₂, y₃, y₄ and θ (nose up).
+    """Return the truck of Table 1 of Zhu, (2) to (6) of Zhu in y₁, y₂, y₃, y₄ and θ (nose up).
 
     Each axle has two springs and dampers, k₄ and c₄, and one tyre, k₅.
     """
@@ -136,7 +136,7 @@ def _zhu(of3: float, of4: float, l1: float, l2: float, e: float) -> list[list[fl
 
 
 def two_wheel_trailer() -> PlainModel:
-    """Return the trailer of Imine, (2) to (6), in z₁, z₂, z, θ (left down) and φ (nose up).
+    """Return the trailer, (2) to (6) of Imine in z₁, z₂, z, θ (left down) and φ (nose up).
 
     The paper leaves the hitch out, so that the chassis may turn about its axle, z = p·φ, without a
     spring: it is thrown about its axle as a road lifts it, and its momentum of that motion stays

@@ -98,7 +98,7 @@ def denoise(x: npt.ArrayLike, L: int, r: int) -> Vector:
     """Rebuild a series from its r strongest components.
 
     Equation:
-        Embedding, decomposition, grouping of the first r, diagonal averaging.
+        Section 5: embedding, decomposition, grouping of the first r, diagonal averaging.
 
     Args:
         x: series, shape (N,).

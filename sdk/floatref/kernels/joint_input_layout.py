@@ -6,7 +6,7 @@ from floatref.values.arrays import FloatArray
 
 
 class System(NamedTuple):
-    """s states, p inputs and m readings, (12)-(13) of Zhu, for states less `after` times inputs."""
+    """(12) and (13) of Zhu for states less `after` times inputs: s states, p inputs, m readings."""
 
     transition: FloatArray
     """A_c, (s, s)."""

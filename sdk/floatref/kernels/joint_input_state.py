@@ -154,7 +154,7 @@ def _divide(lower: FloatArray, right: FloatArray) -> None:
 def _update(
     sample: FloatArray, present: IndexArray, count: int, system: System, memory: Memory
 ) -> bool:
-    """Do steps (a) and (b); return False, and leave all as it is, if a matrix has no inverse.
+    """Do steps (a) and (b) of Zhu; return False, all as it was, if a matrix has no inverse.
 
     With R̃ = Λ·Λᵀ all of these steps is in W = Λ⁻¹·G·P, H = Λ⁻¹·J and e = Λ⁻¹·(Z - G·X).
     """
@@ -234,7 +234,7 @@ def _tell(k: int, seen: bool, after: FloatArray, memory: Memory, told: Told) -> 
 
 @compiled
 def _predict(system: System, memory: Memory, seen: bool) -> None:
-    """Do step (c): states and covariance at the next sample, and what they owe to the inputs.
+    """Do step (c) of Zhu: the next states and covariance, and what they owe to the inputs.
 
     Inputs that are ``seen``, and so estimated anew or lost from now on, leave nothing.
     """

@@ -26,7 +26,7 @@ def observe(
     road: FloatArray,
     settled: BoolArray,
 ) -> None:
-    """Write state and road at every sample, and whether the error of the start has decayed.
+    """Write state and road by (10) and (11) of Imine, and whether the start's error has decayed.
 
     ``transition`` (2, s, s) acts on the last state, ``taps`` (2, d, s, m) on the inputs of the
     sample and of those before it; the second of each has no innovation. ``start`` (s, m) makes

@@ -36,8 +36,8 @@ def connected(
 ) -> VehicleModel:
     """Return the model of ``freedoms``, each with its mass in kg or its inertia in kg·m².
 
-    The tyres' own stiffness and damping are added to K and C, as in (7) of Zhu. InputError as
-    `VehicleModel`.
+    The tyres' own stiffness and damping are added to K and C, as in (7) of Zhu and of Imine.
+    InputError as `VehicleModel`.
     """
     coordinates = tuple(freedom for freedom, _ in freedoms)
     names = [freedom.name for freedom in coordinates]

@@ -57,7 +57,7 @@ class HalfCar:
         return self.rear_axle_m + self.front_axle_m
 
     def model(self) -> VehicleModel:
-        """Return the model with q = (y1, y2, y3, y4, θ) and F of the rear and the front tyre.
+        """Return the model of (2) to (6) of Zhu: q = (y1, y2, y3, y4, θ), F of rear and front tyre.
 
         θ is positive with the nose up, against the pitch of a recording. C has +2·c4 for the
         rear wheel, as (4) of Zhu has it and (7) has not.

@@ -20,7 +20,7 @@ double pole."""
 def decay_rate(
     model: VehicleModel, measured: Sequence[Reading], outputs: FloatArray, error: FloatArray
 ) -> float:
-    """Return -max Re eig(L) of (14) in 1/s, that with which the slowest part of an error decays.
+    """Return -max Re eig(L) of (15) of Imine, in 1/s: how fast the slowest part of an error decays.
 
     ``outputs`` is C' of the readings ``measured``, shape (k, 2n), and ``error`` is L. Raises
     InputError if an error does not decay, naming the eigenvalue, the freedom that it belongs to,

@@ -25,7 +25,7 @@ class Discrete:
     """States from one sample to the next: x⁺ = A_c·x + before·F + after·F⁺.
 
     With a hold of first order x⁺ needs the next forces. ξ = x - after·F does not:
-    ξ⁺ = A_c·ξ + input·F, and readings G·x + J·F are G·ξ + (J + G·after)·F.
+    ξ⁺ = A_c·ξ + input·F as in (12) of Zhu, and readings G·x + J·F are G·ξ + (J + G·after)·F.
 
     Attributes:
         transition: A_c, shape (2n, 2n).

@@ -59,7 +59,7 @@ class Trailer:
         check_inertia(TRAILER, "roll_kg_m2", self.roll_kg_m2, self.chassis_kg, breadth)
 
     def model(self, left: str = "left", right: str = "right") -> VehicleModel:
-        """Return the model with q = (z1, z2, z, θ, φ) and F of the left and the right tyre.
+        """Return the model of (2) to (6) of Imine: q = (z1, z2, z, θ, φ), F of left and right tyre.
 
         Both angles are positive against roll and pitch of a recording: θ lowers the left side, φ
         lifts the nose. K is singular: without a hitch no spring holds z = p·φ. (3) of Imine

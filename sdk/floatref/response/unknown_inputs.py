@@ -16,10 +16,10 @@ from floatref.values.arrays import BoolArray, FloatArray
 
 
 class ObserverEquations(NamedTuple):
-    """(10) and (11) as one system: state (x, u of damped tyres), s of them; inputs (y, z'').
+    """(10) and (11) of Imine in one: state (x, u of damped tyres), s of them; inputs (y, z'').
 
     Attributes:
-        error: L of (14), shape (s, s), in 1/s with the units of the states.
+        error: L of (12) to (14) of Imine, shape (s, s), in 1/s with the units of the states.
         inputs: of y and z'' into the rate of the state, shape (s, k + p).
         road_of_state: shape (p, s).
         road_of_input: shape (p, k + p).
@@ -34,7 +34,9 @@ class ObserverEquations(NamedTuple):
 def observer_equations(
     model: VehicleModel, gain: FloatArray, outputs: FloatArray
 ) -> ObserverEquations:
-    """Return the observer's equations for G, shape (2n, k), and C' of y = C'x, shape (k, 2n).
+    """Return (10) and (11) of Imine, from (8) and (9) of Imine, and L of (12) to (14) of Imine.
+
+    ``gain`` is G, shape (2n, k), ``outputs`` is C' of y = C'x, shape (k, 2n).
 
     Raises InputError for a model in which the force of a tyre does not move its wheel alone.
     """
@@ -54,7 +56,7 @@ def observer_equations(
 
 
 def wheel_equations(model: VehicleModel) -> tuple[FloatArray, FloatArray]:
-    """Return W, shape (p, 2n), and m, shape (p,), of c·u' + k·u = m·z'' + W·x: (9) times c.
+    """Return W (p, 2n) and m (p,) of (9) of Imine times c: c·u' + k·u = m·z'' + W·x.
 
     Raises InputError if two tyres carry one freedom, or a wheel's mass is coupled to another's.
     """

@@ -127,6 +127,7 @@ def test_a_trailer_on_one_road_does_not_roll() -> None:
     assert np.abs(uneven.position[3]).max() > 1e-3
 
 
+@pytest.mark.cites("(8) of Zhu")
 @pytest.mark.parametrize("speed_kmh", [36.0, 90.0])
 def test_the_rear_wheel_meets_the_front_wheels_road_later(speed_kmh: float) -> None:
     """(8) of Zhu: u₁(t) = u₂(t − (L₁ + L₂)/v)."""
@@ -139,6 +140,7 @@ def test_the_rear_wheel_meets_the_front_wheels_road_later(speed_kmh: float) -> N
     assert rear[times > delay] == pytest.approx(late[times > delay], abs=1e-5)
 
 
+@pytest.mark.cites("(2) to (7) of Zhu")
 def test_zhus_matrices_are_the_references() -> None:
     """Each from the print alone; the recording's pitch is nose down, the paper's θ nose up."""
     theirs = zhu.structure_of_equations()
@@ -150,6 +152,7 @@ def test_zhus_matrices_are_the_references() -> None:
         assert own == pytest.approx(np.asarray(their), rel=1e-12)
 
 
+@pytest.mark.cites("(2) to (7) of Imine")
 def test_imines_matrices_are_the_references() -> None:
     theirs = imine.motion()
     for own, their in (
@@ -230,6 +233,7 @@ def test_setup_has_the_models_own_name_and_parameters(name: str) -> None:
     assert told != exact.recording.setup.vehicle.parameters
 
 
+@pytest.mark.cites("Table 1 of Zhu")
 def test_table_1_is_the_papers() -> None:
     assert dict(ZHU_TABLE_1) == {
         "equipment_kg": zhu.TABLE_1.m_1, "body_kg": zhu.TABLE_1.m_2,

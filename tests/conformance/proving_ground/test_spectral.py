@@ -66,7 +66,7 @@ def test_sayers_roads_have_the_spectrum_of_equation_2_4(case: str) -> None:
         assert_density(wave_number, spectra, density)
 
 
-@pytest.mark.cites("(2.1)")
+@pytest.mark.cites("(2.1)", "(14) of Zhu")
 @pytest.mark.parametrize(("road_class", "level"), [("A", 16e-6), ("C", 256e-6), ("H", 262144e-6)])
 def test_iso_roads_have_the_spectrum_of_their_class(road_class: str, level: float) -> None:
     wave_number, rows = many(lambda seed: iso8608_road(road_class, LENGTH_M, seed, SPACING_M), 5)

@@ -60,7 +60,7 @@ def least_squares(
     return root @ (orthogonal.T @ np.concatenate(right)), root @ root.T
 
 
-@pytest.mark.cites("(13) of Zhu")
+@pytest.mark.cites("(13) of Zhu", "step (a) of Zhu", "step (b) of Zhu", "step (c) of Zhu")
 @settings(deadline=None, max_examples=20, phases=[Phase.generate])
 @given(seed=SEEDS, p=st.integers(1, 2), N=st.integers(1, 6))
 def test_estimate_is_least_squares(seed: int, p: int, N: int) -> None:
@@ -123,6 +123,7 @@ def test_covariances_stay_symmetric_and_positive() -> None:
         assert np.linalg.eigvalsh(P)[0] > -1e-9 * np.abs(P).max()
 
 
+@pytest.mark.cites("step (a) of Zhu")
 def test_forces_that_no_measurement_feels_are_refused() -> None:
     eye, J = np.eye(2), np.array([[1.0, 1.0], [2.0, 2.0]])
     with pytest.raises(ValueError, match="wheel accelerations"):

@@ -68,6 +68,7 @@ def test_obstacle_is_as_long_as_said_at_any_speed(v: float, d: float, A: float) 
         assert np.count_nonzero(heights) * 0.01 == pytest.approx(d, abs=0.0201)
 
 
+@pytest.mark.cites("section 4.3 of Zhu")
 @settings(deadline=None, max_examples=20)
 @given(v=st.floats(0.1, 60))
 def test_a_step_is_five_centimetres_at_any_speed(v: float) -> None:

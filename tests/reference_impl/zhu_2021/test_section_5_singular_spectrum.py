@@ -35,6 +35,7 @@ def test_eigenvalues_are_the_energy_of_their_components(seed: int, L: int) -> No
     assert grouping(X, U, list(range(L))) == pytest.approx(X)
 
 
+@pytest.mark.cites("section 5 of Zhu")
 @settings(deadline=None, max_examples=20)
 @given(seed=SEEDS, f=st.floats(0.05, 0.45))
 def test_a_sine_has_two_components(seed: int, f: float) -> None:
@@ -43,6 +44,7 @@ def test_a_sine_has_two_components(seed: int, f: float) -> None:
     assert denoise(x, 20, 2) == pytest.approx(x, abs=1e-6)
 
 
+@pytest.mark.cites("section 5 of Zhu")
 def test_noise_is_taken_off() -> None:
     rng = np.random.default_rng(5)
     x = np.sin(2 * np.pi * 0.03 * np.arange(300))

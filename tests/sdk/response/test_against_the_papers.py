@@ -1,6 +1,7 @@
 """Matrices, discretization and outputs against the reference, from drawn parameters."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -68,6 +69,7 @@ def structures(parameters):
     return [(half.model(), zhu(half)), (two.model(), Structure(m, b, k, pushed))]
 
 
+@pytest.mark.cites("(2) to (7) of Zhu", "(2) to (7) of Imine")
 @laws
 @given(seed=SEEDS)
 def test_half_car_and_trailer_have_the_matrices_of_the_equations(seed, drawn_parameters):
@@ -78,6 +80,7 @@ def test_half_car_and_trailer_have_the_matrices_of_the_equations(seed, drawn_par
         np.testing.assert_array_equal(model.selection, pushed)
 
 
+@pytest.mark.cites("Table 1 of Zhu")
 def test_the_constants_are_those_of_the_reference():
     printed = section_2_vehicle.structure()
     model = ZHU_HALF_CAR.model()
@@ -86,6 +89,7 @@ def test_the_constants_are_those_of_the_reference():
     assert section_2_trailer.Trailer(*vars(IMINE_TRAILER).values()) == section_2_trailer.TRAILER
 
 
+@pytest.mark.cites("(7) of Imine")
 @laws
 @given(seed=SEEDS)
 def test_a_road_pushes_as_in_the_equations_of_the_trailer(seed, drawn_parameters):
@@ -95,6 +99,7 @@ def test_a_road_pushes_as_in_the_equations_of_the_trailer(seed, drawn_parameters
     close(model.selection * [t.damping for t in model.tyres], rate)
 
 
+@pytest.mark.cites("(9) of Zhu", "(12) of Zhu")
 @laws
 @given(seed=SEEDS, hold=st.sampled_from(Hold))
 def test_states_are_carried_as_by_precise_integration(seed, hold, drawn_parameters):
@@ -112,6 +117,7 @@ def test_states_are_carried_as_by_precise_integration(seed, hold, drawn_paramete
         close(system.after, ramp)
 
 
+@pytest.mark.cites("(10) of Zhu", "(11) of Zhu")
 @laws
 @given(seed=SEEDS)
 def test_readings_are_those_of_the_selection_matrices(seed, drawn_parameters):
@@ -134,6 +140,7 @@ def test_readings_are_those_of_the_selection_matrices(seed, drawn_parameters):
             close(found, expected)
 
 
+@pytest.mark.cites("(8) of Zhu")
 def test_the_rear_tyre_comes_as_much_later_as_in_the_reference():
     # (8) at a speed that makes the delay 200 samples: nothing is read between two of them.
     speed, step = ZHU_HALF_CAR.wheelbase_m, 1 / 200

@@ -10,11 +10,13 @@ from floatref.errors import InputError
 from floatref.response.calculation_rate import calculation_rate
 
 
+@pytest.mark.cites("section 4.3 of Zhu")
 @given(speed=st.floats(0.01, 100.0))
 def test_the_spacing_is_a_twentieth_of_a_metre(speed):
     assert speed / calculation_rate(speed) == pytest.approx(0.05, rel=1e-12)
 
 
+@pytest.mark.cites("section 4.3 of Zhu")
 def test_the_two_speeds_of_print():
     assert (calculation_rate(10.0), calculation_rate(20.0)) == (200.0, 400.0)
 

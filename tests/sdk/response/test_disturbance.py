@@ -61,6 +61,7 @@ def test_two_steps_are_one_that_is_as_long(step, parts):
     np.testing.assert_allclose(disturbance_of(MODEL, step, densities), total, rtol=1e-8)
 
 
+@pytest.mark.cites("(15) of Zhu")
 @pytest.mark.parametrize("hold", Hold)
 def test_a_walking_force_errs_from_its_hold_by_what_is_told(hold):
     """Drawn walks of class D at 20 m/s, in 50 pieces of a step, against their hold."""

@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.response import ZHU_HALF_CAR, HalfCar
 
 
+@pytest.mark.cites("(2) to (6) of Zhu")
 @settings(deadline=None, max_examples=25)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_forces_are_those_of_springs_between_moving_ends(seed, drawn_parameters):
@@ -28,6 +29,7 @@ def test_the_forces_are_those_of_springs_between_moving_ends(seed, drawn_paramet
     np.testing.assert_allclose(car.model().stiffness @ q, forces, rtol=1e-9, atol=1e-3)
 
 
+@pytest.mark.cites("Table 1 of Zhu")
 def test_the_constants_are_those_of_table_1_with_a_readable_damping():
     model = ZHU_HALF_CAR.model()
     np.testing.assert_array_equal(np.diag(model.mass), [1000, 13000, 170, 170, 124566])

@@ -40,6 +40,7 @@ def observer(model, gains, *without):
     return UnknownInputObserver.of(model, 0.005, gains, readings(model, *without), 0.05)
 
 
+@pytest.mark.cites("(15) of Imine")
 @FEW
 @given(seed=SEEDS, name=NAMES)
 def test_positive_gains_on_every_freedom_are_stable_and_their_time_is_told(seed, name):

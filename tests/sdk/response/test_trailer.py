@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.response import IMINE_TRAILER, Trailer
 
 
+@pytest.mark.cites("(2) to (6) of Imine")
 @settings(deadline=None, max_examples=25)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_forces_are_those_of_springs_between_moving_ends(seed, drawn_parameters):

@@ -47,6 +47,7 @@ def readings(model):
     return [Reading(Kind.DISPLACEMENT, freedom.name, 1e-4) for freedom in model.freedoms]
 
 
+@pytest.mark.cites("(8) of Imine", "(9) of Imine", "(12) to (14) of Imine")
 @settings(deadline=None, max_examples=25)
 @given(seed=SEEDS)
 def test_the_error_matrix_is_that_of_the_reference(seed):
@@ -58,6 +59,7 @@ def test_the_error_matrix_is_that_of_the_reference(seed):
     assert (np.abs(found - expected) <= 1e-12 * scale).all()
 
 
+@pytest.mark.cites("(8) of Imine", "(9) of Imine", "(10) of Imine", "(11) of Imine")
 @settings(deadline=None, max_examples=25)
 @given(seed=SEEDS)
 def test_the_inputs_act_as_in_the_reference(seed):
@@ -72,6 +74,7 @@ def test_the_inputs_act_as_in_the_reference(seed):
     assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
 
 
+@pytest.mark.cites("(10) of Imine", "(11) of Imine")
 @settings(deadline=None, max_examples=4)
 @given(seed=SEEDS)
 def test_samples_are_those_of_the_reference(seed):

@@ -79,6 +79,7 @@ def test_where_one_tyre_tells_nothing_the_other_does():
     assert np.isnan(alone).all()
 
 
+@pytest.mark.cites("(8) of Zhu")
 @laws
 @given(speed=st.floats(3.0, 30.0))
 def test_at_constant_speed_the_rear_tyre_comes_by_the_delay_later(speed):

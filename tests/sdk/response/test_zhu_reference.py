@@ -80,6 +80,7 @@ def literal(model, readings, hold, noise, start, samples):
     return told.F, force_spread, told.X + told.F @ after.T, spread
 
 
+@pytest.mark.cites("(13) of Zhu", "step (a) of Zhu", "step (b) of Zhu", "step (c) of Zhu")
 @laws
 @given(seed=SEEDS, masses=st.integers(1, 5), tyres=st.integers(1, 2), hold=st.sampled_from(Hold))
 def test_forces_states_and_sigmas_of_drawn_models(seed, masses, tyres, hold):
@@ -105,6 +106,7 @@ def test_forces_states_and_sigmas_of_drawn_models(seed, masses, tyres, hold):
     )
 
 
+@pytest.mark.cites("section 5 of Zhu")
 @laws
 @given(seed=SEEDS, size=st.integers(24, 80), window=st.integers(2, 12), keep=st.integers(1, 12))
 def test_denoising_keeps_the_same_components(seed, size, window, keep):
