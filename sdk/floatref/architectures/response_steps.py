@@ -19,7 +19,14 @@ from floatref.stages.dropping import Drop
 from floatref.stages.integration import Integrate
 from floatref.stages.protocol import Stage
 from floatref.stages.resampling import ToDistance
-from floatref.stages.response import Denoise, EstimateRoad, JoinTyres, ShiftAlong, ToRate
+from floatref.stages.response import (
+    Denoise,
+    EstimateRoad,
+    JoinTyres,
+    RestoreContact,
+    ShiftAlong,
+    ToRate,
+)
 from floatref.stages.response.estimators import Group
 from floatref.stages.response.names import elevation_under, sigma_under
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
@@ -85,7 +92,10 @@ def project(question: Question) -> Sequence[Stage]:
 
 
 def finish(question: Question) -> Sequence[Stage]:
-    """The backward stages (5.7), the way from wheel to laser, and all tyres of a track as one."""
+    """The backward stages (5.7), the way from wheel to laser, and all tyres of a track as one.
+
+    What the tyres level over their contact is given back as far as it can be.
+    """
     tyres = _tyres(question)
     most = max(len(places) for places in tyres.values())
     setup, vehicle = question.header.setup, question.header.setup.vehicle
@@ -100,7 +110,8 @@ def finish(question: Question) -> Sequence[Stage]:
     backward = [VaryingHighPassB3R(elevation_under(k)) for k in range(most)]
     numbers = {track: range(len(places)) for track, places in tyres.items()}
     schedule = ScheduleWaveNumber(_schedule(question)), Drop(TRAVEL_SPEED)
-    return (*schedule, *backward, Drop(CUTOFF), ShiftAlong(shifts), JoinTyres(numbers))
+    restored = RestoreContact(question.setting("contact_m"))
+    return (*schedule, *backward, Drop(CUTOFF), ShiftAlong(shifts), JoinTyres(numbers), restored)
 
 
 def _motions(question: Question) -> tuple[Motion, ...]:

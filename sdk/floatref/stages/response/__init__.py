@@ -1,6 +1,7 @@
 """Stages of the response architecture: calculation rate, estimator, and the way to the profile."""
 
 from floatref.stages.response.along import ShiftAlong
+from floatref.stages.response.contact import RestoreContact
 from floatref.stages.response.denoising import Denoise
 from floatref.stages.response.estimation import EstimateRoad
 from floatref.stages.response.estimators import Group, WithPlaces
@@ -12,6 +13,7 @@ __all__ = [
     "EstimateRoad",
     "Group",
     "JoinTyres",
+    "RestoreContact",
     "ShiftAlong",
     "ToRate",
     "WithPlaces",
