@@ -16,8 +16,8 @@ DEFICIENT = 1e-10
 def joint_input_state(samples: FloatArray, system: System, memory: Memory, told: Told) -> int:
     """Run over ``samples``, shape (N, m), and write what they tell; return samples done.
 
-    That is less than N when states or covariance are no longer finite. Readings that are not
-    finite are left out. Where J of the others has no full rank, the step only predicts: the input
+    That is less than N when states or covariance are no longer finite, or the covariance is, by
+    rounding, no longer positive. Readings that are not finite are left out. Where J of the others has no full rank, the step only predicts: the input
     is told as NaN, and its last value goes on with the variance ``unknown``, an error of which the
     part ``stays`` is the same at the next sample.
     """
@@ -28,11 +28,12 @@ def joint_input_state(samples: FloatArray, system: System, memory: Memory, told:
         count = _finite(samples[k], present)
         if not _same(present, count, before, known):
             ranked, known = _full_rank(system, present, count), count
-        seen = ranked and _update(samples[k], present, count, system, memory)
-        if not seen:
+        if not ranked:
             _lose(system.unknown, memory.spread)
-        _tell(k, seen, system.after, memory, told)
-        _predict(system, memory, seen)
+        elif not _update(samples[k], present, count, system, memory):
+            return k
+        _tell(k, ranked, system.after, memory, told)
+        _predict(system, memory, ranked)
         if not _stays_finite(memory):
             return k
     return size

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.response.model import Freedom, Tyre, VehicleModel
 from floatref.values.arrays import FloatArray
 
@@ -37,10 +38,16 @@ def connected(
     """Return the model of ``freedoms``, each with its mass in kg or its inertia in kg·m².
 
     The tyres' own stiffness and damping are added to K and C, as in (7) of Zhu and of Imine.
-    InputError as `VehicleModel`.
+    Raises InputError for a row of another length than q, and as `VehicleModel`.
     """
     coordinates = tuple(freedom for freedom, _ in freedoms)
     names = [freedom.name for freedom in coordinates]
+    for connection in connections:
+        if len(connection.row) != len(names):
+            raise InputError(
+                f"model {name}: a connection has the row {connection.row}; give a number for each "
+                f"of {', '.join(names)}"
+            )
     ends = [_tyre_connection(tyre, names) for tyre in tyres]
     everything = [*connections, *ends]
     return VehicleModel(

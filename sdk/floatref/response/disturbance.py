@@ -1,7 +1,7 @@
 """Q of (12) of Zhu: what moves a model beside the forces of its tyres, in one step."""
 
 from collections.abc import Mapping
-from math import isfinite, pi
+from math import ceil, isfinite, log2, pi
 
 import numpy as np
 
@@ -27,8 +27,6 @@ def disturbance_of(
     none. Raises InputError for an unknown freedom, a density that is negative or not finite, or a
     step that is not above zero.
     """
-    from scipy.linalg import expm
-
     discretized(model, step_s)
     size = len(model.freedoms)
     squares = np.zeros(size)
@@ -41,16 +39,12 @@ def disturbance_of(
         squares[model.index(name)] = density**2
     a, _ = state_space(model)
     accelerated = np.linalg.inv(model.mass)
-    # Van Loan: the exponential of [[-A, W], [0, Aᵀ]] has Q behind its lower right part; in
-    # velocities of m per step the exponent is small.
+    # In velocities of m per step the exponent is small.
     scale = np.repeat([1.0, step_s], size)
     intensity = np.zeros_like(a)
     intensity[size:, size:] = accelerated * squares @ accelerated.T
     both = step_s * scale[:, None] * intensity * scale
-    rate = step_s * scale[:, None] * a / scale
-    whole = expm(np.block([[-rate, both], [np.zeros_like(a), rate.T]]))
-    covariance = whole[2 * size :, 2 * size :].T @ whole[: 2 * size, 2 * size :]
-    covariance = covariance / scale / scale[:, None]
+    covariance = _gathered(step_s * scale[:, None] * a / scale, both) / scale / scale[:, None]
     return np.asarray(0.5 * (covariance + covariance.T))
 
 
@@ -83,3 +77,20 @@ def hold_error_of(
     dampers = np.array([2 * tyre.damping**2 / step_s for tyre in model.tyres])
     share = 4 / 3 if hold is Hold.ZERO_ORDER else 1 / 3
     return np.asarray(share * rate * (ramp * (springs + dampers)) @ ramp.T)
+
+
+def _gathered(rate: FloatArray, intensity: FloatArray) -> FloatArray:
+    """Return ∫ exp(rate·t)·intensity·exp(rateᵀ·t) dt from 0 to 1, all of shape (s, s)."""
+    from scipy.linalg import expm
+
+    # Van Loan: the exponential of [[-A, W], [0, Aᵀ]] has Q behind its lower right part. It holds
+    # what decays backwards, too: in parts of the step that is no more than e.
+    halvings = max(0, ceil(log2(np.linalg.norm(rate, 1))))
+    block = np.block([[-rate, intensity], [np.zeros_like(rate), rate.T]])
+    whole, size = expm(block / 2**halvings), len(rate)
+    moved = whole[size:, size:].T
+    covariance = moved @ whole[:size, size:]
+    for _ in range(halvings):
+        covariance = covariance + moved @ covariance @ moved.T
+        moved = moved @ moved
+    return np.asarray(covariance)

@@ -92,7 +92,7 @@ class JointInputState:
         Where the others do not tell all forces, force and road are NaN; the states go on with the
         last forces, and their standard deviations take in a rough road about 0.1 m away. Raises
         InputError for another shape, when no sample at all tells the forces, or when the
-        covariance does not stay finite.
+        covariance does not stay finite and positive.
         """
         array = self._checked(samples)
         found = self.advance(self.begin(), array)
@@ -131,8 +131,8 @@ class JointInputState:
         done = joint_input_state(array, self.system, memory, told)
         if done < count:
             raise InputError(
-                f"model {self.model.name}: the covariance is no longer finite at sample {done} of "
-                f"{count}; measure a displacement too, or give a smaller initial covariance or step"
+                f"model {self.model.name}: the covariance is no longer finite and positive at "
+                f"sample {done} of {count}; give a smaller initial covariance or step"
             )
         return self._estimate(told)
 
@@ -185,9 +185,11 @@ def _covariance(model: VehicleModel, name: str, given: ArrayLike, size: int) -> 
         raise InputError(f"model {model.name}: {name} holds what is no finite number; check it")
     # Freedoms differ in unit and size, so each is measured by its own variance.
     own = np.diag(matrix)
+    negative = bool((own < 0).any())
     scale = np.sqrt(np.where(own > 0, own, 1.0))
     scaled = matrix / scale / scale[:, None]
-    if np.abs(scaled - scaled.T).max() > LOP_SIDED or np.linalg.eigvalsh(scaled)[0] < -LOP_SIDED:
+    lop_sided = np.abs(scaled - scaled.T).max() > LOP_SIDED
+    if negative or lop_sided or np.linalg.eigvalsh(scaled)[0] < -LOP_SIDED:
         raise InputError(
             f"model {model.name}: {name} is no covariance; "
             "give a symmetric matrix without negative eigenvalues"

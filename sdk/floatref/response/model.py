@@ -124,10 +124,11 @@ class VehicleModel:
 
     def _check_names(self) -> None:
         names = [freedom.name for freedom in self.freedoms]
-        if not self.tyres or len(set(names)) != len(names):
+        if not names or not self.tyres or len(set(names)) != len(names):
             raise InputError(
-                f"model {self.name}: {len(self.tyres)} tyres and the freedoms {', '.join(names)}; "
-                "give a tyre or more, and every freedom a name of its own"
+                f"model {self.name}: {len(self.tyres)} tyres and the freedoms "
+                f"{', '.join(names) or 'none'}; give a tyre or more, and every freedom a name of "
+                "its own"
             )
 
     def _check_tyre(self, tyre: Tyre) -> None:

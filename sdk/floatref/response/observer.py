@@ -132,8 +132,9 @@ class UnknownInputObserver:
     def _inputs(self, displacements: FloatArray, wheel_accelerations: FloatArray) -> FloatArray:
         y = np.asarray(displacements, dtype=np.float64)
         z = np.asarray(wheel_accelerations, dtype=np.float64)
-        self._check_inputs("displacements", y, (len(y), len(self.measured)))
-        self._check_inputs("wheel_accelerations", z, (len(y), len(self.model.tyres)))
+        count = y.shape[0] if y.ndim else 0
+        self._check_inputs("displacements", y, (count, len(self.measured)))
+        self._check_inputs("wheel_accelerations", z, (count, len(self.model.tyres)))
         return np.hstack([y, z])
 
     def _check_inputs(self, name: str, values: FloatArray, shape: tuple[int, int]) -> None:

@@ -39,7 +39,8 @@ def joined(
         drift is common to all tyres. NaN where no tyre tells.
 
     Raises:
-        InputError: If lengths differ, or the steps are not even and above zero.
+        InputError: If lengths differ, a position is not finite, or the steps are not even and
+            above zero.
     """
     distance = np.asarray(distance_m, dtype=np.float64)
     step = _even_step(distance)
@@ -48,6 +49,8 @@ def joined(
             f"{len(roads)} roads, {len(sigmas)} sigmas and {len(x_m)} positions; "
             "give one of each for every tyre"
         )
+    if not np.isfinite(x_m).all():
+        raise InputError(f"tyres at {', '.join(f'{x:g}' for x in x_m)} m; give finite numbers")
     over, spread = np.zeros(distance.size), np.zeros(distance.size)
     weights = np.zeros(distance.size)
     for road, sigma, ahead in zip(roads, sigmas, x_m, strict=True):
@@ -81,11 +84,17 @@ def joined_at_speed(
 
 
 def shifted(values: ArrayLike, samples: float) -> FloatArray:
-    """Return ``values`` as they are ``samples`` later, by a polynomial through six of them.
+    """Return ``values``, shape (n,), as they are ``samples`` later, by a polynomial through six.
 
-    NaN where one of the six is missing or NaN; exact copies for a whole number of samples.
+    NaN where one of the six is missing or NaN; exact copies for a whole number of samples. Raises
+    InputError for another shape, and for a shift that is not finite.
     """
     series = np.asarray(values, dtype=np.float64)
+    if series.ndim != 1 or not isfinite(samples):
+        raise InputError(
+            f"values of the shape {series.shape} to shift by {samples:g} samples; give one channel "
+            "and a finite number"
+        )
     whole = round(samples)
     if abs(samples - whole) < EVEN:
         return _moved(series, whole)

@@ -1,9 +1,11 @@
 """Laws of every model: the energy of springs and dampers, and the lift with the road."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floatref.errors import InputError
 from floatref.response import Connection, Freedom, Tyre, connected
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -37,3 +39,10 @@ def test_a_vehicle_rises_with_the_road(seed, drawn_parameters):
             force = model.selection @ tyres
             scale = np.abs(matrix).max()
             np.testing.assert_allclose(matrix @ lifted, force, atol=1e-12 * scale)
+
+
+@pytest.mark.parametrize("row", [(), (1.0,), (1.0, -1.0, 0.0)])
+def test_a_row_has_a_number_for_each_freedom(row):
+    freedoms = [(Freedom(name, name, name), 1.0) for name in "ab"]
+    with pytest.raises(InputError, match=r"^model drawn: .* give a number for each of a, b$"):
+        connected("drawn", freedoms, [Tyre("b", 5.0)], [Connection(row, 1.0)])

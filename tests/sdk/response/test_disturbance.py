@@ -11,6 +11,7 @@ from floatref.response import (
     Hold,
     QuarterCar,
     discretized,
+    state_space,
 )
 from floatref.response.disturbance import disturbance_of, hold_error_of
 
@@ -62,6 +63,19 @@ def test_two_steps_are_one_that_is_as_long(step, parts):
 
 
 @pytest.mark.cites("(15) of Zhu")
+@FEW
+@given(step=st.floats(20.0, 1000.0))
+def test_after_a_long_step_it_stands_still(step):
+    """What comes in is what is damped: A·Q + Q·Aᵀ + W = 0."""
+    found = disturbance_of(MODEL, step, {"body": 5.0, "wheel": 20.0})
+    a, _ = state_space(MODEL)
+    damped = a @ found + found @ a.T
+    wanted = np.diag([0.0, 0.0, (5.0 / 700.0) ** 2, (20.0 / 75.0) ** 2])
+    scale = np.sqrt(np.diag(found))
+    flow = np.abs(a) @ np.outer(scale, scale)
+    assert (np.abs(damped + wanted) <= 1e-9 * (flow + flow.T)).all()
+
+
 @pytest.mark.parametrize("hold", Hold)
 def test_a_walking_force_errs_from_its_hold_by_what_is_told(hold):
     """Drawn walks of class D at 20 m/s, in 50 pieces of a step, against their hold."""

@@ -181,6 +181,7 @@ def refused(says, **changed):
         ({"initial": np.zeros(3)}, r"initial covariance has the shape \(3,\)"),
         ({"initial": np.full(4, np.nan)}, "initial covariance holds what is no finite number"),
         ({"initial": np.full(4, -1.0)}, "initial covariance is no covariance"),
+        ({"initial": np.full(4, -1e-15)}, "initial covariance is no covariance"),
         ({"disturbance": np.tri(4)}, "disturbance is no covariance; give a symmetric"),
         ({"disturbance": np.ones((4, 4)) - np.eye(4)}, "disturbance is no covariance"),
         ({"readings": []}, "readings"),
@@ -212,5 +213,19 @@ def test_samples_that_tell_nothing_are_refused_in_one_line(samples, says):
 def test_a_covariance_beyond_all_numbers_is_refused_with_what_to_do():
     model = CORNER.model()
     rule = JointInputState.of(model, all_read(model), STEP, start(model), start(model, 1e308))
-    with pytest.raises(InputError, match=r"no longer finite at sample 0 of 5; .* smaller initial"):
+    with pytest.raises(
+        InputError, match=r"no longer finite and positive at sample 0 of 5; .* smaller"
+    ):
         rule.estimate(np.full((5, 4), np.nan))
+
+
+@pytest.mark.parametrize("variance", [1e12, 1e15])
+def test_a_covariance_that_rounding_spoils_is_refused_and_makes_no_gap(variance):
+    model = ZHU_HALF_CAR.model()
+    rule = JointInputState.of(
+        model, all_read(model, 1e-3), STEP, start(model), start(model, variance)
+    )
+    with pytest.raises(
+        InputError, match=r"finite and positive at sample \d+ of 50; give a smaller"
+    ):
+        rule.estimate(np.zeros((50, 10)))

@@ -231,6 +231,7 @@ def test_what_makes_no_observer_is_refused(message):
         ((10, 3), (10, 1), r"displacements have the shape \(10, 3\); the observer needs \(10, 2\)"),
         ((10, 2), (9, 1), r"accelerations have the shape \(9, 1\); the observer needs \(10, 1\)"),
         ((10,), (10, 1), r"displacements have the shape \(10,\)"),
+        ((), (), r"displacements have the shape \(\)"),
     ],
 )
 def test_signals_of_another_shape_are_refused(y, a, message):

@@ -116,3 +116,17 @@ def test_distances_have_even_steps():
     uneven = np.array([0.0, 1.0, 2.5, 3.0])
     with pytest.raises(InputError, match="not in even steps above zero; resample them"):
         joined([np.ones(4)] * 2, [np.ones(4)] * 2, AXLES, uneven)
+
+
+@pytest.mark.parametrize("x_m", [float("nan"), float("inf")])
+def test_tyres_have_a_place(x_m):
+    with pytest.raises(InputError, match=rf"^tyres at -3\.19, {x_m:g} m; give finite numbers$"):
+        joined([np.ones(9)] * 2, [np.ones(9)] * 2, (-3.19, x_m), np.arange(9.0))
+
+
+@pytest.mark.parametrize(
+    ("values", "samples"), [(np.ones((9, 2)), 1.5), (1.0, 1.0), (np.ones(9), float("nan"))]
+)
+def test_one_channel_is_shifted_by_a_number(values, samples):
+    with pytest.raises(InputError, match="give one channel and a finite number"):
+        shifted(values, samples)
