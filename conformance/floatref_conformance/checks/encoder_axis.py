@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref.values.recording import Recording
 from floatref_conformance.checks.interface import Taken
+from floatref_conformance.devices.interface import HEIGHT
 from floatref_conformance.proving_ground.staging import drive_of
 
 
@@ -18,10 +20,15 @@ class EncoderAxis:
 
     @classmethod
     def of(cls, taken: Taken) -> "EncoderAxis":
-        """Return the axis of a recording, by the drive that was simulated."""
+        """Return the axis of a recording, by the drive that was simulated.
+
+        Without a height sensor a wheel finds the road, ahead of the laser's place: it takes the
+        way between them by the setup, and no device knows what the encoder will make of it.
+        """
         encoder = taken.recording.channel("distance")
         motion = drive_of(taken.scenario).motion(encoder.times_s)
-        return cls(motion.distance, encoder.values)
+        ahead_m = seen_ahead_m(taken.recording)
+        return cls(motion.distance + ahead_m, encoder.values + ahead_m)
 
     def true(self, told_m: FloatArray) -> FloatArray:
         """Return the true distance in m where the encoder told ``told_m``."""
@@ -30,3 +37,12 @@ class EncoderAxis:
     def told(self, true_m: FloatArray) -> FloatArray:
         """Return what the encoder told, in m, at the true distance ``true_m``."""
         return np.interp(true_m, self.true_m, self.told_m)
+
+
+def seen_ahead_m(recording: Recording) -> float:
+    """Return how far ahead of the laser's place the road is seen, in m; 0 by a height sensor."""
+    setup = recording.setup
+    if setup.vehicle is None or any(c.id.name == HEIGHT for c in recording.channels):
+        return 0.0
+    place = setup.tracks[recording.tracks[0]]
+    return setup.vehicle.x_m - place.reference_point_m[0] - place.laser_offset_m[0]

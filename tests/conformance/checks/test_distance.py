@@ -12,10 +12,11 @@ from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.distance import DISTANCE
-from floatref_conformance.checks.encoder_axis import EncoderAxis
+from floatref_conformance.checks.encoder_axis import EncoderAxis, seen_ahead_m
 from floatref_conformance.checks.features import Feature, middles, place
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
@@ -154,6 +155,45 @@ def test_the_axis_of_an_encoder_that_slips_is_what_it_told():
     assert axis.told(true[some]) == pytest.approx(channel.values[some], abs=0.0004)
     assert axis.true(channel.values[some]) == pytest.approx(true[some], abs=0.001)
     assert np.abs(true - channel.values).max() > 0.2
+
+
+def seen_by_wheels(taken):
+    """Return ``taken`` for a device without a height sensor, and what it can know at best.
+
+    The road under the front wheel, where the encoder tells the wheel to be by the setup.
+    """
+    said = Description("fake", "1", "response", ("response",))
+    recording = visible(taken.recording, said.channels)
+    place, encoder = recording.setup.tracks["left"], recording.channel("distance")
+    ahead = recording.setup.vehicle.x_m - place.reference_point_m[0]
+    true = drive_of(taken.scenario).motion(encoder.times_s).distance + ahead
+    points = 0.05 * np.arange(int((encoder.values[-1] + ahead) / 0.05))
+    under = np.interp(points, encoder.values + ahead, true)
+    truth = known(taken)
+    tracks = tuple(
+        ProfileTrack.of(t.name, np.interp(under, truth.distance_m, t.elevation))
+        for t in truth.tracks
+    )
+    return replace(taken, recording=recording), Profile(0.05, tracks)
+
+
+@pytest.mark.parametrize("percent", [-1.0, 1.0])
+def test_what_the_encoder_tells_wrong_between_wheel_and_laser_is_no_fault_of_a_device(percent):
+    case = DISTANCE.cases(1, Effort.QUICK)[2]
+    scenario = replace(case.scenario, encoder_error_percent=percent, vehicle="pickup")
+    taken, best = seen_by_wheels(taken_of(scenario))
+    measured = DISTANCE.judge(case, Bench(taken, lambda _: best))
+    assert all(m.within(DeviceClass.REFERENCE) for m in measured)
+    displaced = replace(best, start_m=-taken.recording.setup.vehicle.x_m)
+    forgetful = DISTANCE.judge(case, Bench(taken, lambda _: displaced))
+    assert {m.quantity for m in forgetful if not m.within(DeviceClass.NOMINAL)} >= {START}
+
+
+def test_a_device_with_a_height_sensor_sees_the_road_at_its_laser(stopped):
+    assert stopped.recording.setup.vehicle is not None
+    assert seen_ahead_m(stopped.recording) == 0.0
+    taken, _ = seen_by_wheels(stopped)
+    assert seen_ahead_m(taken.recording) == pytest.approx(1.72 + 2.91)
 
 
 @settings(deadline=None, max_examples=20)
