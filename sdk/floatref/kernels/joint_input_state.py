@@ -16,11 +16,10 @@ DEFICIENT = 1e-10
 def joint_input_state(samples: FloatArray, system: System, memory: Memory, told: Told) -> int:
     """Run over ``samples``, shape (N, m), and write what they tell; return samples done.
 
-    That is less than N when states or covariance are no longer finite, or the covariance is, by
-    rounding, no longer positive. Readings that are not finite are left out. Where J of the others
-    has no full rank, the step only predicts: the input is told as NaN, and its last value goes on
-    with the variance ``unknown``, an error of which the part ``stays`` is the same at the next
-    sample.
+    That is less than N when states or covariance are no longer finite, or rounding has left it not
+    positive. Readings not finite are left out. Where J of the others has no full rank, the step
+    only predicts: the input is NaN, and its last value goes on with the variance ``unknown``, an
+    error of which the part ``stays`` is the same at the next sample.
     """
     rows = system.variance.size
     present, before = np.empty(rows, dtype=np.int64), np.empty(rows, dtype=np.int64)
