@@ -42,6 +42,7 @@ QUOTED = re.findall(r"^\| `(\S+)` \| `(\S+)` \|((?: [\d.,<]+ \|){4})$", PAGE, re
 FLAT = re.findall(r"^\| `(\S+)` \| `(\S+)` \| ([\d.]+) \|$", PAGE, re.M)
 STOPS = [name for name, run in RUNS.items() if run.kind == "stop"]
 OBSERVER = "temporal-matched-hpf"
+RESPONSE = "response-joint-input-state", "response-observer"
 ROWS = {
     "seven stops, mean": STOPS,
     "near stop": ["ns_72-11_0.20g"],
@@ -102,6 +103,16 @@ def test_the_page_on_the_matched_high_pass_has_the_same_means(row: str) -> None:
         f"{fmean(CELLS[run, pipeline][name] for run in ROWS[row]):.{digits}f}"
         for pipeline in ("temporal-adaptive-hpf-spatial-backward", OBSERVER)
         for name, digits in (("cross_correlation", 3), ("peak_m_per_km", 1))
+    ]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_the_correlations_without_a_height_sensor_are_the_tables(row: str) -> None:
+    (shown,) = re.findall(rf"^\| {re.escape(row)} \|((?: [\d.]+ \|){{3}})$", PAGE, re.M)
+    pipelines = "temporal-adaptive-hpf-spatial-backward", *RESPONSE
+    assert [figure.strip() for figure in shown.strip("| ").split("|")] == [
+        f"{fmean(CELLS[run, name]['cross_correlation'] for run in ROWS[row]):.3f}"
+        for name in pipelines
     ]
 
 
