@@ -63,6 +63,7 @@ class Vehicle:
         sensor_x_m: reference points of the profiler ahead of the centre of gravity, in m.
         sensor_z_m: their height above the ground at rest, in m.
         antenna_m: GNSS antenna, from the point on the ground below the centre of gravity, in m.
+        response_axle: place in `axles` of the one whose wheels bear response sensors.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Vehicle:
     sensor_x_m: float
     sensor_z_m: float = 0.282
     antenna_m: Vector = (-1.0, 0.0, 2.464)
+    response_axle: int = 0
 
     def __post_init__(self) -> None:
         """Refuse parameters that no vehicle has; InputError names the first."""
@@ -184,14 +186,14 @@ class Vehicle:
         return np.asarray(np.linalg.solve(self.stiffness(), force))
 
     def gauges(self, lateral_m: float) -> Gauges:
-        """Return what is measured at the front wheel nearest to ``lateral_m``.
+        """Return what is measured at the wheel of ``response_axle`` nearest to ``lateral_m``.
 
         The body's height above it is the springs' own, z − x·θ + y·φ; in the middle, the left
         wheel counts.
         """
-        wheel = int(
-            abs(lateral_m + self.front.half_track_m) < abs(lateral_m - self.front.half_track_m)
-        )
+        half_m = self.axles[self.response_axle].half_track_m
+        right = abs(lateral_m + half_m) < abs(lateral_m - half_m)
+        wheel = 2 * self.response_axle + int(right)
         travel = self._travel()[wheel]
         unsprung = np.eye(FREEDOMS)[3 + wheel]
         forces = {
@@ -205,17 +207,17 @@ class Vehicle:
         return Gauges()
 
     def known(self) -> VehicleSetup:
-        """Return the quarter car of a front corner: its share of the body on its own wheel."""
-        front = self.front
+        """Return the quarter car of a measured corner: its share of the body on its own wheel."""
+        axle = self.axles[self.response_axle]
         parameters = {
-            "sprung_kg": self.sprung_kg * self.load_shares()[0] / 2,
-            "unsprung_kg": front.wheel_kg,
-            "suspension_n_per_m": front.spring + BAR_SHARE * front.anti_roll,
-            "suspension_ns_per_m": front.damper,
-            "tyre_n_per_m": front.tyre,
+            "sprung_kg": self.sprung_kg * self.load_shares()[self.response_axle] / 2,
+            "unsprung_kg": axle.wheel_kg,
+            "suspension_n_per_m": axle.spring + BAR_SHARE * axle.anti_roll,
+            "suspension_ns_per_m": axle.damper,
+            "tyre_n_per_m": axle.tyre,
             "tyre_ns_per_m": 0.0,
         }
-        return VehicleSetup("quarter-car", parameters, front.x_m)
+        return VehicleSetup("quarter-car", parameters, axle.x_m)
 
     def _travel(self) -> FloatArray:
         """Return each corner's suspension travel per unit of freedom, shape (4, 7)."""

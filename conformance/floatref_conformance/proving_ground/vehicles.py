@@ -81,8 +81,12 @@ TRAILER = Vehicle(
     roll_links=0.3,
     sensor_x_m=-1.25,
     antenna_m=(-0.4, 0.0, 1.9),
+    response_axle=1,
 )
-"""One axle; the front pair stands for the hitch, borne by the tow vehicle's rear wheels."""
+"""One axle; the front pair stands for the hitch, borne by the tow vehicle's rear wheels.
+
+The sensors of its response are on its own axle, the rear one.
+"""
 
 SOFT_VAN = Vehicle(
     name="soft-van",

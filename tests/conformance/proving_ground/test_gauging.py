@@ -14,7 +14,8 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.sensors import SensorSuite
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.suspension import SuspensionMotion
-from floatref_conformance.proving_ground.vehicles import LOADED_VAN
+from floatref_conformance.proving_ground.vehicle import Vehicle
+from floatref_conformance.proving_ground.vehicles import LOADED_VAN, TRAILER
 
 SHORT = Scenario(seed=1, length_m=70.0, event_at_m=30.0, rate_hz=2000.0, imu=False, gnss=False)
 NAMES = ("unsprung_specific_force", "sprung_specific_force", "suspension_deflection")
@@ -94,13 +95,17 @@ def test_ideal_channels_belong_together() -> None:
     assert np.abs(twice - between).max() < 5e-3 * np.abs(between).max()
 
 
-def test_tracks_are_measured_at_their_own_front_wheel() -> None:
-    simulation = simulate(replace(SHORT, sensors=0.0))
+@pytest.mark.parametrize(("vehicle", "first"), [(LOADED_VAN, 0), (TRAILER, 2)])
+def test_tracks_are_measured_at_their_own_wheel_of_the_axle_that_has_sensors(
+    vehicle: Vehicle, first: int
+) -> None:
+    """The front axle's, but a trailer's own: its front pair is the tow vehicle."""
+    simulation = simulate(replace(SHORT, vehicle=vehicle.name, sensors=0.0))
     motion = freedoms(simulation)
-    for wheel, track in enumerate(("left", "right")):
+    for wheel, track in enumerate(("left", "right"), first):
         read = values(simulation.recording, "unsprung_specific_force", track)
         assert read == pytest.approx(G + motion.acceleration[3 + wheel], abs=1e-9)
-        x, y = LOADED_VAN.contacts()[wheel]
+        x, y = vehicle.contacts()[wheel]
         heave, pitch, roll = motion.position[:3]
         travel = heave - x * pitch + y * roll - motion.position[3 + wheel]
         read = values(simulation.recording, "suspension_deflection", track)
@@ -185,6 +190,15 @@ def test_an_installer_knows_each_parameter_but_for_an_error(seed: int, error: fl
     assert np.abs(off).max() <= error * (1 + 1e-9)
     assert error < 1e-6 or np.ptp(off) > 0.05 * error
     assert told.parameters["tyre_ns_per_m"] == 0.0
+
+
+def test_a_trailers_corner_is_of_its_own_axle() -> None:
+    told, axle = TRAILER.known(), TRAILER.rear
+    assert told.x_m == axle.x_m
+    assert told.parameters["unsprung_kg"] == axle.wheel_kg
+    assert told.parameters["suspension_n_per_m"] == axle.spring
+    share = 2 * told.parameters["sprung_kg"] / TRAILER.sprung_kg
+    assert share == pytest.approx(TRAILER.front.x_m / TRAILER.wheelbase_m)
 
 
 def test_the_vehicle_of_a_recording_is_a_front_corner() -> None:
