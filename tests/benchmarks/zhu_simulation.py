@@ -10,8 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.response import ZHU_HALF_CAR, Hold, JointInputState, Kind, Reading
-from floatref.response.state_space import discretized, state_space
+from floatref.response import (
+    ZHU_HALF_CAR,
+    Hold,
+    JointInputState,
+    Kind,
+    Reading,
+    hold_error_of,
+    joined_at_speed,
+    state_space,
+)
 
 Array = NDArray[np.float64]
 MODEL = ZHU_HALF_CAR.model()
@@ -100,18 +108,14 @@ def measured(drive: Drive, seed: int, noise: float = NOISE) -> tuple[Array, list
 def estimated(
     drive: Drive, seen: Array, readings: list[Reading], hold: Hold
 ) -> tuple[Array, Array]:
-    """Return the road under both axles, shape (N, 2), and joined by (8), shape (N,), in m."""
+    """Return the road under both axles, shape (N, 2), and joined under the front, (N,), in m."""
     step_s = 1 / drive.rate_hz
-    disturbance = road_between_samples(step_s, drive.speed)
+    disturbance = hold_error_of(MODEL, step_s, drive.speed, "E", hold)
     initial = INITIAL * np.eye(10)
-    joint = JointInputState.of(MODEL, readings, step_s, disturbance, initial, hold)
-    found = joint.estimate(seen)
-    lag = ZHU_HALF_CAR.wheelbase_m / drive.speed * drive.rate_hz
-    samples = np.arange(len(seen))
-    rear = np.interp(samples + lag, samples, found.road[:, 0], right=np.nan)
-    weights = 1 / found.road_sigma[-1] ** 2
-    both = (weights[0] * rear + weights[1] * found.road[:, 1]) / weights.sum()
-    return found.road, np.where(np.isfinite(both), both, found.road[:, 1])
+    found = JointInputState.of(MODEL, readings, step_s, disturbance, initial, hold).estimate(seen)
+    behind = (-ZHU_HALF_CAR.wheelbase_m, 0.0)
+    both, _ = joined_at_speed(found.road.T, found.road_sigma.T, behind, drive.speed, step_s)
+    return found.road, both
 
 
 def rmse_percent(found: Array, true: Array) -> float:
@@ -119,30 +123,16 @@ def rmse_percent(found: Array, true: Array) -> float:
     return float(100 * np.linalg.norm(found - true) / np.linalg.norm(true))
 
 
-def road_between_samples(step_s: float, speed: float) -> Array:
-    """Return Q for what a class-E road does between samples beside what is held, shape (10, 10).
-
-    Per step its height changes by 2π·n0·√(G·v·T), and a third of that variance is left beside
-    what the estimator holds, as of a Brownian bridge's integral about a line or a constant.
-    """
-    change = 2 * np.pi * N0 * np.sqrt(CLASS_E * speed * step_s)
-    after = discretized(MODEL, step_s, Hold.FIRST_ORDER).after * MODEL.tyres[0].stiffness
-    return np.asarray(after @ after.T * change**2 / 3)
-
-
 def _integrated(under: Array, fine_hz: float) -> Array:
     """Return the states at every other row of ``under``, by steps over two of its intervals."""
     a, b = state_space(MODEL)
-    forced = MODEL.tyres[0].stiffness * under @ b.T
-    x, step = np.zeros(10), 1 / fine_hz
-    states = np.empty((under.shape[0] // 2 + 1, 10))
-    states[0] = x
-    for k in range(states.shape[0] - 1):
-        f0, f1, f2 = forced[2 * k : 2 * k + 3]
-        k1 = a @ x + f0
-        k2 = a @ (x + step / 2 * k1) + f1
-        k3 = a @ (x + step / 2 * k2) + f1
-        k4 = a @ (x + step * k3) + f2
-        x = x + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-        states[k + 1] = x
+    forced = MODEL.tyres[0].stiffness * under @ b.T / (6 * fine_hz)
+    # The four slopes of the rule, put into each other: the equations are linear.
+    z, one = a / fine_hz, np.eye(10)
+    kept = one + z @ (one + z @ (one + z @ (one + z / 4) / 3) / 2)
+    first, middle = one + z @ (one + z @ (one + z / 2) / 2), 4 * one + z @ (2 * one + z / 2)
+    pushed = forced[:-1:2] @ first.T + forced[1::2] @ middle.T + forced[2::2]
+    states = np.zeros((len(pushed) + 1, 10))
+    for k, push in enumerate(pushed):
+        states[k + 1] = kept @ states[k] + push
     return states
