@@ -8,11 +8,15 @@ from floatref.response.disturbance import disturbance_of, hold_error_of
 from floatref.response.joint_filter import JointInputState
 
 STEP, RUNS, COUNT = 0.005, 60, 120
-MODELS = [QuarterCar(700.0, 75.0, 45e3, 3300.0, 320e3).model(), ZHU_HALF_CAR.model()]
+MODELS = {
+    "quarter-car": QuarterCar(700.0, 75.0, 45e3, 3300.0, 320e3).model(),
+    "damped tyre": QuarterCar(700.0, 75.0, 45e3, 3300.0, 320e3, 2000.0).model(),
+    "half car": ZHU_HALF_CAR.model(),
+}
 
 
 def normalised_errors(model, hold):
-    """Errors of forces and states over their sigmas, (runs, samples, p + 2n)."""
+    """Errors of forces, states and roads over their sigmas, (runs, samples, p + 2n + p)."""
     size = 2 * len(model.freedoms)
     sizes = {Kind.ACCELERATION: 0.2, Kind.VELOCITY: 0.01, Kind.DISPLACEMENT: 1e-3}
     readings = [Reading(k, f.name, s) for k, s in sizes.items() for f in model.freedoms]
@@ -21,24 +25,33 @@ def normalised_errors(model, hold):
     start = np.repeat([1e-4, 1e-2], size // 2)
     rule = JointInputState.of(model, readings, STEP, noise, start, hold)
     system, scaled = rule.system, []
-    root = np.linalg.cholesky(noise + 1e-20 * np.eye(size))
+    whole = len(rule.initial)
+    root = np.zeros((whole, size))
+    root[:size] = np.linalg.cholesky(noise + 1e-20 * np.eye(size))
     for run in range(RUNS):
         rng = np.random.default_rng(run)
         force = 5e3 * rng.normal(size=(COUNT, len(model.tyres)))
-        xi, states = np.sqrt(start) * rng.normal(size=size), []
+        xi, states = np.sqrt(np.diag(rule.initial)) * rng.normal(size=whole), []
         for f in force:
             states.append(xi + system.after @ f)
             xi = system.transition @ xi + system.influence @ f + root @ rng.normal(size=size)
-        samples = np.array(states) @ system.output.T + force @ system.direct.T
+        states = np.array(states)
+        samples = states @ system.output.T + force @ system.direct.T
         samples += np.sqrt(system.variance) * rng.normal(size=samples.shape)
         told = rule.estimate(samples)
-        errors = (told.force - force) / told.force_sigma
-        scaled.append(np.hstack([errors, (told.states - states) / told.states_sigma]))
+        # The road under a tyre with damping is a state behind the model's own.
+        roads = states[:, size:] if whole > size else force / [t.stiffness for t in model.tyres]
+        errors = (
+            (told.force - force) / told.force_sigma,
+            (told.states - states[:, :size]) / told.states_sigma,
+            (told.road - roads) / told.road_sigma,
+        )
+        scaled.append(np.hstack(errors))
     return np.array(scaled)
 
 
 @pytest.mark.parametrize("hold", Hold)
-@pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
+@pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 def test_errors_have_the_mean_zero_and_the_spread_that_is_told(model, hold):
     errors = normalised_errors(model, hold)
     # Over so many runs a mean has the sigma 1/√60, a mean square √(2/60); runs are independent,

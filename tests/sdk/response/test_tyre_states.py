@@ -1,6 +1,9 @@
 """The road as a state of a tyre with damping is the solution of F = k·u + c·u'."""
 
+from decimal import Decimal, localcontext
+
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -46,3 +49,16 @@ def test_a_tyre_without_damping_adds_none_and_the_vehicle_stays_as_it_is(hold):
     np.testing.assert_array_equal(found.input[:4], damped.input)
     assert not found.transition[:4, 4].any()
     assert not found.transition[4, :4].any()
+
+
+@FEW
+@given(damping=st.floats(2.0, 15.0).map(lambda x: 10.0**x))
+def test_a_slow_tyre_loses_no_digits(damping):
+    """What 1 N after the step gives is (1 - (1 - exp(-s))/s)/k, here with 60 digits."""
+    model = car(damping)
+    found = with_tyre_states(model, discretized(model, 0.005)).after[4, 0]
+    with localcontext() as context:
+        context.prec = 60
+        steps = 320_000 * Decimal("0.005") / Decimal(damping)
+        right = float((1 - (1 - (-steps).exp()) / steps) / 320_000)
+    assert found == pytest.approx(right, rel=1e-9, abs=0.0)

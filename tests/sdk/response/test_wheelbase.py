@@ -130,3 +130,13 @@ def test_tyres_have_a_place(x_m):
 def test_one_channel_is_shifted_by_a_number(values, samples):
     with pytest.raises(InputError, match="give one channel and a finite number"):
         shifted(values, samples)
+
+
+@pytest.mark.parametrize("ahead", [-2.5, -0.5, 0.5, 2.5])
+def test_between_two_samples_the_larger_sigma_counts(ahead):
+    sigma = np.full(40, 1e-3)
+    sigma[20] = 5e-3
+    _, found = joined([np.zeros(40)], [sigma], (ahead * STEP,), STEP * np.arange(40))
+    np.testing.assert_array_equal(
+        np.flatnonzero(found > 3e-3), [20 + ahead - 0.5, 20 + ahead + 0.5]
+    )
