@@ -1,5 +1,6 @@
 """The laws of the stage protocol, for the stages of the response architecture."""
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from types import MappingProxyType
@@ -9,6 +10,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.response import Kind, QuarterCar, Reading
+from floatref.response.estimate import Estimate
 from floatref.response.gains import default_gains
 from floatref.response.observer import UnknownInputObserver
 from floatref.stages.response import (
@@ -20,7 +22,8 @@ from floatref.stages.response import (
     ToRate,
     WithPlaces,
 )
-from floatref.values.arrays import Flag
+from floatref.stages.response.uncertainty import drift_sigma
+from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis, Block
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws
@@ -193,3 +196,28 @@ def test_the_last_distance_is_that_which_the_encoder_told_last() -> None:
         out = stream.run([77])
         assert out[line][-1] == max(end_m, samples[line][-1])
         assert (np.diff(out[line]) >= 0).all()
+
+
+class Steady:
+    """An estimator that knows the road 3 mm above the wheel, within 1 mm."""
+
+    def begin(self) -> None:
+        """Keep nothing."""
+
+    def advance(self, memory: None, samples: FloatArray) -> Estimate:
+        """Return the same for all samples."""
+        size, rest = len(samples), np.zeros((len(samples), 4))
+        road = np.full((size, 1), 3e-3)
+        return Estimate(road, np.full((size, 1), 1e-3), rest, rest)
+
+
+def test_the_sigma_is_made_of_noise_drift_and_parameters() -> None:
+    class Case(TestEstimateRoad):
+        def make(self) -> EstimateRoad:
+            return EstimateRoad([replace(group("left"), estimator=Steady())], parameter_sigma=0.5)
+
+    stream = Case().stream(3)
+    sigma = stream.run([50, 60])[ChannelId(SIGMA, "left")]
+    drift = drift_sigma(1e-3, stream.samples[ChannelId("high_pass_cutoff")])
+    assert drift.min() > 1e-5
+    np.testing.assert_allclose(sigma, np.sqrt(1e-6 + drift**2 + (0.5 * 3e-3) ** 2), rtol=1e-9)
