@@ -2,7 +2,9 @@
 
 Forces of the tyres and all states come from whichever accelerations, velocities and displacements
 are measured. A tyre with damping turns its force into the road by a state of its own, so that the
-road's standard deviation is that of the filter, too.
+road's standard deviation is that of the filter, too. That state has no process noise: forces of
+such tyres above half the sampling rate have to be filtered from the readings before they are
+sampled, else the road errs by far more than its standard deviation.
 """
 
 from collections.abc import Sequence
