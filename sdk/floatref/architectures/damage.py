@@ -156,3 +156,14 @@ def within(spans: IndexArray, low: int, high: int) -> BoolArray | None:
     np.add.at(edges, first, 1)
     np.subtract.at(edges, behind, 1)
     return np.cumsum(edges[:-1]) > 0
+
+
+def merged(spans: IndexArray) -> IndexArray:
+    """Return ``spans``, shape (k, 2), in order, those that touch or overlap as one."""
+    found: list[list[int]] = []
+    for begin, end in sorted(spans.tolist()):
+        if found and begin <= found[-1][1]:
+            found[-1][1] = max(found[-1][1], end)
+        else:
+            found.append([begin, end])
+    return np.array(found, dtype=np.int64).reshape(-1, 2)

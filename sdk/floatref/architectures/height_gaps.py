@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from floatref.architectures.aligned import BRIDGE_S, GAP, bridged
+from floatref.architectures.damage import merged
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import StampedClock
@@ -22,7 +23,7 @@ def height_gaps(recording: Recording, track: str, gone: IndexArray) -> FloatArra
     """
     height = recording.channel(HEIGHT, track)
     distance = recording.channel(DISTANCE, track)
-    spans = _merged(np.concatenate([*_missing(height.values), gone]))
+    spans = merged(np.concatenate([*_missing(height.values), gone]))
     times = np.array([_around(height, *span) for span in spans] + _holes(height))
     times = times.reshape(-1, 2)
     long = times[times[:, 1] - times[:, 0] > BRIDGE_S + 2.0 / height.mean_rate_hz]
@@ -34,17 +35,6 @@ def _missing(values: FloatArray) -> Iterator[IndexArray]:
     for first, chunk in chunks(values):
         edges = np.flatnonzero(np.diff(np.isnan(chunk), prepend=False, append=False))
         yield edges.reshape(-1, 2) + first
-
-
-def _merged(spans: IndexArray) -> IndexArray:
-    """Return ``spans`` in order, those that touch or overlap as one, shape (k, 2)."""
-    merged: list[list[int]] = []
-    for begin, end in sorted(spans.tolist()):
-        if merged and begin <= merged[-1][1]:
-            merged[-1][1] = max(merged[-1][1], end)
-        else:
-            merged.append([begin, end])
-    return np.array(merged, dtype=np.int64).reshape(-1, 2)
 
 
 def _around(channel: Channel, first: int, behind: int) -> tuple[float, float]:

@@ -113,15 +113,17 @@ class Plugins:
 
     def _answer(self, hook: str, context: object, checked: Callable[[Any, str], T]) -> T | None:
         answers: dict[str, T] = {}
-        for plugin, call in self._callers(hook):
+        # The built-in comes last, and only where no third party has answered.
+        for plugin, call in sorted(self._callers(hook), key=lambda c: c[0] == BUILT_IN):
+            if plugin == BUILT_IN and answers:
+                break
             answer = self._guarded(plugin, partial(call, context=context))
             if answer:
                 answers[plugin] = checked(answer[0], plugin)
-        default = answers.pop(BUILT_IN, None)
         if len(answers) > 1:
             both = " and ".join(answers)
             raise PluginError(f"plug-ins {both} both answer {hook}; remove one")
-        return next(iter(answers.values()), default)
+        return next(iter(answers.values()), None)
 
     def _callers(self, hook: str) -> list[tuple[str, pluggy.HookCaller]]:
         everyone = dict(self._manager.list_name_plugin())

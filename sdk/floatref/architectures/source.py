@@ -22,8 +22,10 @@ from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.architectures.saturation import damaged_force
 from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
+from floatref.architectures.stuck_force import stuck_force, together
 from floatref.architectures.travel import fastest_speed
 from floatref.errors import InputError
+from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import Flag, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
@@ -150,7 +152,10 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel], force: str) -> 
     if name.name == DISTANCE:
         return encoder_damage(found[name])
     if _is_force(name):
-        return damaged_force(found[name])
+        damage = damaged_force(found[name])
+        if name.name == SPECIFIC_FORCE:
+            return damage
+        return together(damage, stuck_force(found[name], found[ChannelId(DISTANCE)]))
     if name.name not in RANGES:
         return Damage()
     beside = found[ChannelId(force, name.track)]

@@ -91,9 +91,7 @@ class _Repeated:
         heave_m, doubt = max(HEAVE_M, COARSE * quantum), np.zeros(length.size, np.bool_)
         for k in np.flatnonzero(stuck):
             begin, end = self.channel.clock.times(2, int(self.runs.first[k]), int(length[k] - 1))
-            moves = (
-                _travel(distance, begin, end) >= TRAVEL_M and _spread(force, begin, end) >= ALIVE
-            )
+            moves = travel(distance, begin, end) >= TRAVEL_M and _spread(force, begin, end) >= ALIVE
             heaves = _heave(force, begin, end) >= heave_m
             stands = bool(heaves) and length[k] >= LASTING_S * rate
             stuck[k], doubt[k] = (moves and (unusual[k] or heaves)) or stands, moves
@@ -120,7 +118,7 @@ class _Repeated:
         return larger
 
 
-def _travel(distance: Channel, begin_s: float, end_s: float) -> float:
+def travel(distance: Channel, begin_s: float, end_s: float) -> float:
     """Return how far the vehicle gets meanwhile, in m; infinite if that is not known."""
     low, high = _indices(distance, begin_s, end_s)
     values = distance.values[[max(low - 1, 0), min(high, distance.values.size - 1)]]

@@ -132,6 +132,14 @@ def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
     assert loaded.fall_back(asked(drive)) is drive.truth
 
 
+def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
+    recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
+    question = DropOut(recording, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
+    loaded = Plugins()
+    loaded.add(Other(drive.truth), "other")
+    assert loaded.fall_back(question) is drive.truth
+
+
 def test_two_plug_ins_that_answer_are_named(drive: Simulation) -> None:
     loaded = Plugins()
     loaded.add(Other(drive.truth), "one")
