@@ -137,9 +137,18 @@ class AlignedChannel:
     def _between(
         self, place: FloatArray, low: int, mask: BoolArray | None, apart_s: float
     ) -> BoolArray | None:
-        """Return which places rest on a sample of ``mask``, or lie in a hole beyond ``apart_s``."""
+        """Return which places rest on a sample of ``mask``, or lie in a hole beyond ``apart_s``.
+
+        A leap of the encoder is met by the first place behind it, however fast its samples come.
+        """
         before, after = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
-        found = None if mask is None else mask[before - low] | mask[after - low]
+        passed = before.copy()
+        if self.channel.id.name == DISTANCE:
+            passed[1:] = np.minimum(before[:-1] + 1, before[1:])
+        found = None
+        if mask is not None:
+            counts = np.cumsum(np.append(0, mask))
+            found = counts[after + 1 - low] > counts[passed - low]
         if self._gap_s is None or not isinstance(self.channel.clock, StampedClock):
             return found
         times = self.channel.clock.times_s

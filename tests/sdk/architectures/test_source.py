@@ -217,3 +217,33 @@ def test_gnss_of_a_constant_rate_comes_once_each(steady, rate, start):
     times = [event.time_s for block in blocks for event in block.events]
     inside = [t for t in clock.times(60).tolist() if 0.0 <= t < 4.0 - 1e-12]
     assert times == pytest.approx(inside)
+
+
+@pytest.mark.parametrize("sample", [8001, 8002, 8003, 8004])
+@pytest.mark.parametrize("cut", [700, 2001, 4000])
+def test_a_leap_between_two_samples_of_a_slower_accelerometer_is_flagged(steady, sample, cut):
+    times = np.arange(20_000) / 4000.0
+    travel = 20.0 * times
+    travel[sample:] += 1.0
+    source = Source(steady(distance=Channel.of("distance", travel, UniformClock.of(4000))))
+    blocks = list(source.blocks(cut))
+    flags = np.concatenate([b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    values = np.concatenate([block[DISTANCE] for block in blocks])
+    behind = int(np.argmax(np.diff(values))) + 1
+    found = np.flatnonzero(flags & Flag.SLOW)
+    assert behind in found
+    assert len(found) <= 2
+
+
+def test_the_ends_are_those_of_the_encoder_less_than_a_sample_away(steady):
+    times = np.arange(20_003) / 4000.0 - 0.0005
+    clock = UniformClock.of(4000, -0.0005)
+    source = Source(steady(distance=Channel.of("distance", 3.0 + 20.0 * times, clock)))
+    assert source.ends_m[0] == 3.0 + 20.0 * times[0] < source.origin_m
+    assert source.ends_m[1] == 3.0 + 20.0 * times[-1] > source.origin_m + source.distance_m
+
+
+def test_an_encoder_that_goes_on_alone_does_not_move_the_ends(steady):
+    times = np.arange(40_000) / 4000.0
+    source = Source(steady(distance=Channel.of("distance", 20.0 * times, UniformClock.of(4000))))
+    assert source.ends_m == (source.origin_m, source.origin_m + source.distance_m)

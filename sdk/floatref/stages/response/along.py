@@ -23,7 +23,8 @@ class ShiftAlong(Stage):
     What a wheel at x_w feels at the encoder distance s is the road at s + x_w - x_l of an axis on
     which a sensor at x_l tells the road at s. Where no wheel has been there is no value: it is NaN,
     flagged as missing. A value is missing where one of its two points is, and has the flags of
-    both. Blocks wait for a shift backwards.
+    all points from there to its new place: the encoder is believed on the way. Blocks wait for a
+    shift backwards.
     """
 
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=1 << 62)
@@ -67,7 +68,8 @@ class ShiftAlong(Stage):
         places = np.arange(first, max(first, end))
         values, flags = {}, {}
         for channel, (points, part) in self._points.items():
-            values[channel], flags[channel] = _taken(wide, channel, places - points, part)
+            values[channel], own = _taken(wide, channel, places - points, part)
+            flags[channel] = own | _passed(flags_of(wide, channel), places - wide.first, points)
         self.memory["next"] = first + places.size
         keep = max(0, min(self.memory["next"] - self._behind - wide.first, len(wide)))
         self.memory["waiting"] = wide.part(keep, len(wide))
@@ -96,6 +98,23 @@ def _taken(
         return near, near_marks
     far, far_marks = _at(x, marks, places - 1 - wide.first)
     return (1.0 - part) * near + part * far, near_marks | far_marks
+
+
+def _passed(marks: FlagArray | None, places: IndexArray, points: int) -> FlagArray:
+    """Return the flags between each of ``places`` and ``points`` before it, both included."""
+    if marks is None or not marks.any() or not places.size:
+        return np.zeros(places.size, np.uint8)
+    reach = abs(points)
+    low, size = int(places[0]) - max(points, 0), places.size + reach
+    padded = np.zeros(size, np.uint8)
+    begin, end = max(low, 0), min(low + size, marks.size)
+    padded[begin - low : end - low] = marks[begin:end]
+    width = 1
+    while width <= reach:
+        step = min(width, reach + 1 - width)
+        padded = padded[:-step] | padded[step:]
+        width += step
+    return padded
 
 
 def _at(x: FloatArray, marks: FlagArray, index: IndexArray) -> tuple[FloatArray, FlagArray]:

@@ -5,6 +5,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ELEVATION
 from floatref.values.arrays import FloatArray
@@ -25,7 +26,7 @@ class RestoreContact(Stage):
 
     In full up to half a cycle per L, a gain of 1/0.64, and less and less up to 0.8. The filter is
     symmetrical, so it shifts no wave; blocks wait for the points that it needs. A point with a
-    missing one within eight contact lengths is left as it is.
+    missing or flagged one within eight contact lengths is left as it is.
     """
 
     declared: ClassVar[Declared] = Declared(delay=1 << 62)
@@ -70,25 +71,33 @@ class RestoreContact(Stage):
         first, reach = self.memory["next"], self._taps.size - 1
         end = max(first, end)
         low, high = first - wide.first, end - wide.first
-        values = {c: self._restored(wide[c], low, high) for c in self._made}
+        values = {
+            c: wide[c][low:high] + self._change(_sound(wide, c), low, high) for c in self._made
+        }
         self.memory["next"] = end
         kept = max(0, high - reach)
         self.memory["waiting"] = wide.part(min(kept, len(wide)), len(wide))
         return wide.part(low, high).setting(values)
 
-    def _restored(self, x: FloatArray, low: int, high: int) -> FloatArray:
-        """Return points ``low`` to ``high - 1``; what lies beyond ``x`` is missing."""
+    def _change(self, x: FloatArray, low: int, high: int) -> FloatArray:
+        """Return what is to be added at ``low`` to ``high - 1``; beyond ``x`` nothing is known."""
         reach = self._taps.size - 1
         padded = np.full(high - low + 2 * reach, np.nan)
         begin, end = max(low - reach, 0), min(high + reach, x.size)
         at = begin - low + reach
         padded[at : at + end - begin] = x[begin:end]
         # One tap after the other: the same sum whatever the length of a block.
-        change = self._taps[0] * padded[reach : reach + high - low]
+        change: FloatArray = self._taps[0] * padded[reach : reach + high - low]
         for lag, tap in enumerate(self._taps[1:], start=1):
             before = padded[reach - lag : reach - lag + high - low]
             change += tap * (before + padded[reach + lag : reach + lag + high - low])
-        return np.asarray(x[low:high] + np.where(np.isnan(change), 0.0, change))
+        return np.where(np.isnan(change), 0.0, change)
+
+
+def _sound(block: Block, channel: ChannelId) -> FloatArray:
+    """Return the samples of ``channel``; flagged ones are missing."""
+    marks = flags_of(block, channel)
+    return block[channel] if marks is None else np.where(marks != 0, np.nan, block[channel])
 
 
 def correction(contact_m: float, interval_m: float) -> FloatArray:

@@ -221,3 +221,20 @@ def test_the_sigma_is_made_of_noise_drift_and_parameters() -> None:
     drift = drift_sigma(1e-3, stream.samples[ChannelId("high_pass_cutoff")])
     assert drift.min() > 1e-5
     np.testing.assert_allclose(sigma, np.sqrt(1e-6 + drift**2 + (0.5 * 3e-3) ** 2), rtol=1e-9)
+
+
+@pytest.mark.parametrize("points", [-7, 0, 12])
+def test_a_flag_covers_the_way_that_a_value_is_shifted(points: int) -> None:
+    """An encoder that leaps there misplaces all that was or will be shifted across."""
+    channel = ChannelId(UNDER, "left")
+    marks = np.zeros(100, np.uint8)
+    marks[50:53] = Flag.SLOW
+    stream = Stream(
+        lambda: ShiftAlong({channel: points * STEP_S}),
+        {channel: np.zeros(100)},
+        ("left",),
+        Axis.DISTANCE,
+        flags={channel: marks},
+    )
+    found = np.flatnonzero(stream.run([30, 51, 60]).flags[channel] & Flag.SLOW)
+    np.testing.assert_array_equal(found, np.arange(50 + min(points, 0), 53 + max(points, 0)))
