@@ -19,10 +19,12 @@ from rich.table import Table
 from road_prior_measuring import compared, quietly, stretch
 
 import floatref
-from floatref.measures import cross_correlation, iri_trace
+from floatref.measures import cross_correlation, high_pass, iri_trace
+from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
-from floatref_conformance.proving_ground.staging import suite_of
+from floatref_conformance.proving_ground.staging import road_of, setup_of, suite_of
+from floatref_conformance.proving_ground.vehicles import vehicle_called
 
 JOINT, OBSERVER = "response-joint-input-state", "response-observer"
 LASER = "road-prior-smoother"
@@ -31,7 +33,9 @@ ERRORS_PERCENT = (0.0, 5.0, 10.0, 20.0)
 SPEED_KMH = 72.0
 """That of the drives with parameter errors."""
 VEHICLES = ("loaded-van", "minivan", "pickup", "soft-van")
-MIDDLE_M, LENGTH_M = 250.0, 500.0
+MIDDLE_M, LENGTH_M, INTERVAL_M = 250.0, 500.0, 0.025
+ALONE_COLUMNS = ("20 % off alone", "r", "lowest", "IRI, %", "most")
+APART_COLUMNS = ("vehicle", "wheel, m", "laser, m", "r", "lowest", "IRI, %")
 COLUMNS = ("drives", "pipeline", "road: r", "lowest", "IRI, %", "most", "laser: r", "IRI, % ")
 
 
@@ -58,19 +62,22 @@ def drive(speed_kmh: float, draw: int, known: bool = False) -> Simulation:
         imu=False,
         gnss=False,
         rate_hz=4000.0,
-        profile_interval_m=0.025,
+        profile_interval_m=INTERVAL_M,
     )
     suite = suite_of(scenario)
     return simulate(scenario, suite=replace(suite, vehicle_error=0.0) if known else suite)
 
 
-def misjudged(made: Simulation, percent: float, draw: int) -> floatref.Recording:
-    """Return the recording with each parameter off by ``percent``, of drawn sign."""
+def misjudged(made: Simulation, percent: float, draw: int, alone: str = "") -> floatref.Recording:
+    """Return the recording with each parameter, or that ``alone``, off by ``percent``.
+
+    Signs are drawn.
+    """
     setup = made.recording.setup
     assert setup.vehicle is not None
     signs = np.random.default_rng([draw, 8]).choice([-1.0, 1.0], len(setup.vehicle.parameters))
     changed = {
-        name: value * (1 + percent / 100 * sign)
+        name: value * (1 + percent / 100 * sign * (alone in ("", name)))
         for (name, value), sign in zip(setup.vehicle.parameters.items(), signs, strict=True)
     }
     vehicle = replace(setup.vehicle, parameters=changed)
@@ -130,6 +137,50 @@ def by_error(draws: int) -> list[list[str]]:
     return lines
 
 
+def by_parameter(draws: int) -> list[list[str]]:
+    """Return lines of the joint filter with one parameter off alone, by the largest error."""
+    vehicle = drive(SPEED_KMH, 0).recording.setup.vehicle
+    assert vehicle is not None
+    found: dict[str, list[Score]] = {n: [] for n, value in vehicle.parameters.items() if value}
+    for draw in shown(range(draws), "single parameters"):
+        made = drive(SPEED_KMH, draw, known=True)
+        laser = quietly(made.recording, LASER, {})
+        for name, rows in found.items():
+            recording = misjudged(made, ERRORS_PERCENT[-1], draw, alone=name)
+            rows += scores(made, quietly(recording, JOINT, {}), laser)
+    lines = [line(name, "", rows) for name, rows in found.items()]
+    return [[name, *cells[:4]] for name, _, *cells in lines]
+
+
+def lines_apart(draws: int) -> list[list[str]]:
+    """Return for every vehicle how the road in its wheels' line compares with the laser's."""
+    lines = []
+    for name in VEHICLES:
+        vehicle, found = vehicle_called(name), []
+        for draw in range(draws):
+            scenario = Scenario(seed=draw, length_m=LENGTH_M, profile_interval_m=INTERVAL_M)
+            road = road_of(scenario, LENGTH_M)
+            laser = setup_of(scenario, vehicle, road.lateral_m).tracks["left"].reference_point_m[1]
+            found.append(_compared(road, laser, vehicle.front.half_track_m))
+        r, error = np.transpose(found)
+        places = [f"{vehicle.front.half_track_m:.2f}", f"{laser:.2f}"]
+        lines.append([name, *places, f"{r.mean():.3f}", f"{r.min():.3f}", f"{error.mean():+.1f}"])
+    return lines
+
+
+def _compared(road: Road, laser_m: float, wheel_m: float) -> tuple[float, float]:
+    """Return cross correlation and IRI error in % of the road ``wheel_m`` left of the middle."""
+    place = np.arange(0.0, LENGTH_M, INTERVAL_M)
+    true, found = (
+        iri_trace(high_pass(road.across(place, np.full(place.size, y)), INTERVAL_M), INTERVAL_M)[
+            round(100 / INTERVAL_M) : round(-100 / INTERVAL_M)
+        ]
+        for y in (laser_m, wheel_m)
+    )
+    agreed = cross_correlation(true, found, INTERVAL_M, 1.0).cross_correlation
+    return agreed, 100.0 * float(np.abs(found).mean() / np.abs(true).mean() - 1.0)
+
+
 def draw_figure(lines: list[list[str]], path: Path) -> None:
     """Draw correlation and IRI error against speed and against parameter error."""
     import matplotlib
@@ -160,22 +211,32 @@ def draw_figure(lines: list[list[str]], path: Path) -> None:
     figure.savefig(path, dpi=110)
 
 
+def show(title: str, columns: tuple[str, ...], lines: list[list[str]]) -> None:
+    """Print one table."""
+    table = Table(title=title)
+    for name in columns:
+        table.add_column(name, justify="right")
+    for cells in lines:
+        table.add_row(*cells)
+    Console(width=120).print(table)
+
+
 def main() -> None:
-    """Print the table, and write and draw what is asked for."""
+    """Print the tables, and write and draw what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--draws", type=int, default=8, help="drives of each line")
     parser.add_argument("--page", type=Path, help="Markdown page whose table is replaced")
     parser.add_argument("--plot", type=Path, help="figure to draw")
     asked = parser.parse_args()
     lines = [*by_speed(asked.draws), *by_error(asked.draws)]
-    table = Table(title="Road from the vehicle's response")
-    for name in COLUMNS:
-        table.add_column(name, justify="right")
-    for cells in lines:
-        table.add_row(*cells)
-    Console(width=120).print(table)
+    alone, apart = by_parameter(asked.draws), lines_apart(asked.draws)
+    show("Road from the vehicle's response", COLUMNS, lines)
+    show("One parameter off at 72 km/h, joint filter", ALONE_COLUMNS, alone)
+    show("Road in the wheels' line and in the laser's", APART_COLUMNS, apart)
     if asked.page:
         write_page(asked.page, lines, COLUMNS)
+        write_page(asked.page, alone, ALONE_COLUMNS)
+        write_page(asked.page, apart, APART_COLUMNS)
     if asked.plot:
         draw_figure(lines, asked.plot)
 
