@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ELEVATION
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis, Block, Header, joined
 from floatref.values.channels import ChannelId
 
@@ -26,7 +26,7 @@ class RestoreContact(Stage):
 
     In full up to half a cycle per L, a gain of 1/0.64, and less and less up to 0.8. The filter is
     symmetrical, so it shifts no wave; blocks wait for the points that it needs. A point with a
-    missing or flagged one within eight contact lengths is left as it is.
+    missing one within eight contact lengths is left as it is.
     """
 
     declared: ClassVar[Declared] = Declared(delay=1 << 62)
@@ -95,9 +95,11 @@ class RestoreContact(Stage):
 
 
 def _sound(block: Block, channel: ChannelId) -> FloatArray:
-    """Return the samples of ``channel``; flagged ones are missing."""
+    """Return the samples of ``channel``, NaN where they are flagged as missing."""
     marks = flags_of(block, channel)
-    return block[channel] if marks is None else np.where(marks != 0, np.nan, block[channel])
+    if marks is None:
+        return block[channel]
+    return np.where(marks & np.uint8(Flag.MISSING), np.nan, block[channel])
 
 
 def correction(contact_m: float, interval_m: float) -> FloatArray:

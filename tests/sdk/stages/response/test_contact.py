@@ -1,12 +1,14 @@
 """What a tyre levels over its contact, given back."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 from floatref.errors import InputError
 from floatref.stages.response import RestoreContact
 from floatref.stages.signals import ELEVATION
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws, Stream
@@ -76,3 +78,15 @@ def test_beside_a_missing_point_nothing_is_changed() -> None:
 def test_a_contact_that_is_none_is_refused(contact_m: float) -> None:
     with pytest.raises(InputError, match="contact of"):
         RestoreContact(contact_m)
+
+
+@pytest.mark.parametrize(("flag", "restores"), [(Flag.MISSING, False), (Flag.BRAKING, True)])
+def test_only_points_flagged_as_missing_are_no_part_of_it(flag: Flag, restores: bool) -> None:
+    values = np.random.default_rng(0).standard_normal(3000)
+    marks = np.zeros(3000, np.uint8)
+    marks[1500] = flag
+    make = partial(RestoreContact, CONTACT_M)
+    stream = Stream(make, {CHANNEL: values}, ("left",), Axis.DISTANCE, flags={CHANNEL: marks})
+    found = stream.run([1400, 1501])[CHANNEL]
+    near = slice(1490, 1511)
+    assert (found[near] != values[near]).all() == restores
