@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from floatref.architectures.response_plausible import check_sink
 from floatref.errors import InputError
 from floatref.response import VehicleModel, model_of
 from floatref.values.block import Header
@@ -86,9 +87,11 @@ def vehicle_model(setup: Setup) -> VehicleModel:
 def response_needs(recording: Recording) -> Needs:
     """Return the channels that tell the freedoms of the vehicle's model, of its wheel paths.
 
-    InputError as `vehicle_model`, or if no wheel path has an `unsprung_specific_force`.
+    InputError as `vehicle_model` and `check_sink`, or if no wheel path has an
+    `unsprung_specific_force`.
     """
     model = vehicle_model(recording.setup)
+    check_sink(model)
     named = tuple(dict.fromkeys(tyre.track for tyre in model.tyres if tyre.track))
     others = {
         name

@@ -5,25 +5,23 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
 
-import numpy as np
-
 from floatref.architectures.question import Question
 from floatref.architectures.response_needs import (
     DEFLECTION,
+    FORCE,
     Motion,
     has_deflection,
     is_there,
     motions,
     vehicle_model,
 )
-from floatref.response import Kind, Reading, VehicleModel, state_space
+from floatref.architectures.response_plausible import least_rate
+from floatref.response import Kind, Reading, VehicleModel
 from floatref.response.calculation_rate import POINTS_PER_M, calculation_rate
 from floatref.stages.response.estimators import Group, RoadEstimator
 from floatref.stages.response.uncertainty import drift_sigma
 from floatref.values.channels import ChannelId
 
-SAMPLES_PER_PERIOD = 8.0
-"""At the model's fastest mode; with fewer the force on a tyre is not what it is between samples."""
 STEPS_PER_HZ = 10
 """Rates are whole multiples of a tenth of a hertz."""
 
@@ -43,20 +41,15 @@ def calculation_rate_of(question: Question) -> Fraction:
     """Return the rate in Hz: ``points_per_m`` at the run's fastest speed, section 4.3 of Zhu.
 
     At least `SAMPLES_PER_PERIOD` of the model's fastest mode, and at most the stream's own.
+    InputError if that is too slow for the model.
     """
     points = question.setting("points_per_m") / POINTS_PER_M
     rate = points * calculation_rate(question.fastest_mps)
-    least = SAMPLES_PER_PERIOD * fastest_mode_hz(vehicle_model(question.header.setup))
-    rate = max(rate, least)
+    model = vehicle_model(question.header.setup)
+    rate = max(rate, least_rate(model, question.header.rate, FORCE))
     if rate >= float(question.header.rate):
         return question.header.rate
     return Fraction(round(STEPS_PER_HZ * rate), STEPS_PER_HZ)
-
-
-def fastest_mode_hz(model: VehicleModel) -> float:
-    """Return the highest frequency in Hz at which ``model`` swings by itself."""
-    modes = np.linalg.eigvals(state_space(model)[0])
-    return float(np.abs(modes.imag).max()) / (2.0 * np.pi)
 
 
 def groups_of(question: Question, make: MakeEstimator) -> tuple[Group, ...]:

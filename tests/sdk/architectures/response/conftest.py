@@ -16,6 +16,8 @@ from floatref.values.recording import Channel, Recording, Setup, TrackSetup, Veh
 G = 9.80665
 RATE = 1000.0
 SECTIONS = (high_pass_1, False), (high_pass_2, False), (high_pass_2, True), (high_pass_1, True)
+FAINT = 1e-9
+"""No sensor is without noise: on a level road it would be stuck."""
 CAR = {
     "sprung_kg": 700.0,
     "unsprung_kg": 75.0,
@@ -101,7 +103,7 @@ class Drive:
         rng, clock = np.random.default_rng(self.seed + 1), UniformClock.of(RATE)
         channels: dict[str, Channel | None] = {"distance": Channel.of("distance", distance, clock)}
         for name, x in values.items():
-            spread = (self.noise or {}).get(name, 0.0) * rng.standard_normal(x.size)
+            spread = (self.noise or {}).get(name, FAINT) * rng.standard_normal(x.size)
             channels[name] = Channel.of(name, x + spread, clock, "left")
         channels |= replaced
         tracks = {"left": TrackSetup((0.1, 0.0, 0.0), (self.laser_m - 0.1, 0.0, 0.0))}
