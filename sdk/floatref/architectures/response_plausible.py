@@ -1,9 +1,10 @@
-"""Whether a vehicle's model can be what it says, and whether its wheels are sampled fast enough."""
+"""Whether a model can be a vehicle, its wheels are sampled fast enough, and settings are sane."""
 
 from fractions import Fraction
 
 import numpy as np
 
+from floatref.architectures.question import Question
 from floatref.errors import InputError
 from floatref.response import VehicleModel, state_space
 from floatref.values.channels import STANDARD_GRAVITY
@@ -12,6 +13,18 @@ SAMPLES_PER_PERIOD = 8.0
 """At the model's fastest mode; with fewer the force on a tyre is not what it is between samples."""
 LEAST_SINK_M, MOST_SINK_M = 2e-4, 0.5
 """What tyres of any vehicle give way under its weight lies between these, in m."""
+
+MOST = {"contact_m": 2.0, "denoise_window_s": 5.0}
+"""No tyre levels the road over more; a longer window takes a memory that grows with its square."""
+
+
+def short(question: Question, name: str) -> float:
+    """Return setting ``name``, one of `MOST`; InputError if it is above what that has for it."""
+    value = question.setting(name)
+    if value > MOST[name]:
+        unit = name.rpartition("_")[2]
+        raise InputError(f"setting {name} is {value:g}; give it in {unit}, up to {MOST[name]:g}")
+    return value
 
 
 def check_sink(model: VehicleModel) -> None:

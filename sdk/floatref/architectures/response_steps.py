@@ -12,6 +12,7 @@ from floatref.architectures.response_needs import (
     motions,
     vehicle_model,
 )
+from floatref.architectures.response_plausible import short
 from floatref.architectures.response_readings import calculation_rate_of, groups_of
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.drive_marks import MarkDrive
@@ -110,7 +111,7 @@ def finish(question: Question) -> Sequence[Stage]:
     backward = [VaryingHighPassB3R(elevation_under(k)) for k in range(most)]
     numbers = {track: range(len(places)) for track, places in tyres.items()}
     schedule = ScheduleWaveNumber(_schedule(question)), Drop(TRAVEL_SPEED)
-    restored = RestoreContact(question.setting("contact_m"))
+    restored = RestoreContact(short(question, "contact_m"))
     return (*schedule, *backward, Drop(CUTOFF), ShiftAlong(shifts), JoinTyres(numbers), restored)
 
 
@@ -161,7 +162,7 @@ def _estimate(question: Question, groups: Sequence[Group]) -> Sequence[Stage]:
     components = question.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)
-        window_s = question.setting("denoise_window_s")
+        window_s = short(question, "denoise_window_s")
         stages.append(Denoise(tuple(names), round(components), window_s))
     return (*stages, EstimateRoad(groups, question.setting("parameter_sigma")), Drop(CUTOFF))
 

@@ -54,3 +54,10 @@ def test_a_wheel_that_is_sampled_too_slowly_is_refused(drive, pipeline):
     with pytest.raises(InputError, match=r"40 samples per second.* needs 8") as caught:
         run(known.recording(unsprung_specific_force=slow), pipeline)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("name", "most"), [("contact_m", 2), ("denoise_window_s", 5)])
+def test_lengths_beyond_reason_are_refused(drive, name, most):
+    wanted = {"denoise_components": 3.0, name: 1e6}
+    with pytest.raises(InputError, match=f"setting {name} is 1e.06; .* up to {most}"):
+        run(drive(length_m=20.0).recording(), JOINT, wanted)
