@@ -21,6 +21,7 @@ from floatref.stages.integration import Integrate
 from floatref.stages.protocol import Stage
 from floatref.stages.resampling import ToDistance
 from floatref.stages.response import (
+    CompareTravel,
     Denoise,
     EstimateRoad,
     JoinTyres,
@@ -159,12 +160,22 @@ def _second(motion: Motion) -> Iterator[Stage]:
 
 def _estimate(question: Question, groups: Sequence[Group]) -> Sequence[Stage]:
     stages: list[Stage] = [ToRate(calculation_rate_of(question), question.ends_m[1])]
+    stages += _watching(question)
     components = question.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)
         window_s = short(question, "denoise_window_s")
         stages.append(Denoise(tuple(names), round(components), window_s))
     return (*stages, EstimateRoad(groups, question.setting("parameter_sigma")), Drop(CUTOFF))
+
+
+def _watching(question: Question) -> list[Stage]:
+    """Hold the deflection against the heights of body and wheel, where all are known."""
+    placed = {m.quantity: m.displacement_name for m in _motions(question) if m.placed}
+    if not (_uses_deflection(question) and {"sprung", "unsprung"} <= set(placed)):
+        return []
+    sigma_m = question.setting("deflection_sigma_m")
+    return [CompareTravel(DEFLECTION, placed["sprung"], placed["unsprung"], sigma_m)]
 
 
 def _tyres(question: Question) -> dict[str, list[float]]:

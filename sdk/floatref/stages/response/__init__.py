@@ -7,8 +7,10 @@ from floatref.stages.response.estimation import EstimateRoad
 from floatref.stages.response.estimators import Group, WithPlaces
 from floatref.stages.response.joining import JoinTyres
 from floatref.stages.response.rate import ToRate
+from floatref.stages.response.travel import CompareTravel
 
 __all__ = [
+    "CompareTravel",
     "Denoise",
     "EstimateRoad",
     "Group",
