@@ -12,6 +12,7 @@ OURS = {"floatref", "floatref_adapters", "floatref_conformance", "floatref_refer
 ALLOWED = {
     "sdk": {"click", "jsonschema", "numba", "numpy", "pluggy", "rich", "scipy"},
     "sdk/floatref/plots": {"matplotlib"},
+    "sdk/floatref/batch": {"dask", "distributed", "pyarrow"},
     "adapters": {"numpy", "pluggy"},
     "adapters/floatref_adapters": {
         "asammdf",

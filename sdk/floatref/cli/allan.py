@@ -9,11 +9,11 @@ import click
 from floatref.cli.allan_report import allan_report, chosen, doubts, travelled
 from floatref.cli.allan_tables import print_tables
 from floatref.cli.printing import print_json
-from floatref.cli.sources import recording_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
 from floatref.files.sources import naming
+from floatref.mapping.sources import recording_of
 from floatref.measures.at_rest import ChannelNoise, channel_noise
 from floatref.values.recording import Channel, Recording
 

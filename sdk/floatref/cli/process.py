@@ -14,10 +14,10 @@ from floatref.cli.formats import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.cli.progress import progress_bar
 from floatref.cli.settings import read_settings
-from floatref.cli.sources import Source, recording_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.sources import naming
+from floatref.mapping.sources import Source, recording_of
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
