@@ -9,6 +9,7 @@ COMMANDS = {
     "process": ("floatref.cli.process:process", "turn a recording into a road profile"),
     "iri": ("floatref.cli.iri:iri", "IRI of a profile, whole and by segment"),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
+    "convert": ("floatref.cli.convert:convert", "write a profile in another format"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "channels": ("floatref.cli.channels:channels", "list what a native file holds, draft its map"),
