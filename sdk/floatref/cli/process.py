@@ -1,8 +1,7 @@
 """`floatref process`: a recording, or a native file, into a road profile."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from math import nan
 from pathlib import Path
 from typing import Any
@@ -16,8 +15,8 @@ from floatref.cli.progress import progress_bar
 from floatref.cli.settings import read_settings
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
-from floatref.files.sources import naming
-from floatref.mapping.sources import Source, recording_of
+from floatref.mapping.profiling import profiled
+from floatref.mapping.sources import recording_of
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -60,9 +59,12 @@ def process(
     chosen = read_settings(settings)
     with progress_bar("Reading", as_json) as shown:
         read = recording_of(source, adapter, channel_map, shown)
-    profile, warnings = _processed(read, pipeline, chosen, source, as_json)
-    profile = replace(profile, provenance={**profile.provenance, **read.origin})
-    report = _report(profile, out, (*read.warnings, *warnings))
+    # Until the first block is through, loops may be compiled: seconds, once per installation.
+    starting = "Starting (the first time, this compiles)"
+    with progress_bar("Processing", as_json, starting) as shown:
+        result = profiled(read, pipeline, chosen, shown)
+    profile = result.profile
+    report = _report(profile, out, result.warnings)
     with _drawn(profile, read.recording, plot):
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
@@ -95,18 +97,6 @@ def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterato
     with replacing_file(plot, overwrite=True) as beside:
         draw_profile(profile, beside, travel_speed(recording))
         yield
-
-
-def _processed(
-    read: Source, pipeline: str, settings: Mapping[str, Any], source: Path, quiet: bool
-) -> tuple[Profile, tuple[str, ...]]:
-    from floatref.architectures.processing import run
-
-    # Until the first block is through, loops may be compiled: seconds, once per installation.
-    starting = "Starting (the first time, this compiles)"
-    with naming(source), read.named(), progress_bar("Processing", quiet, starting) as shown:
-        result = run(read.recording, pipeline, settings, shown)
-    return result.profile, tuple(map(read.said, result.warnings))
 
 
 def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:

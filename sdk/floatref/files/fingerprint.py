@@ -15,7 +15,7 @@ def fingerprint(path: Path) -> dict[str, str]:
     """
     document = document_path(path, DOCUMENT)
     names = (document.name, *sample_files(document))
-    return {name: _sha256(document.with_name(name)) for name in names}
+    return {name: sha256(document.with_name(name)) for name in names}
 
 
 def fingerprint_native(path: Path) -> dict[str, str]:
@@ -24,10 +24,11 @@ def fingerprint_native(path: Path) -> dict[str, str]:
     Raises InputError for a file that cannot be read.
     """
     if not path.is_dir():
-        return {path.name: _sha256(path)}
-    return {item.name: _sha256(item) for item in sorted(path.iterdir()) if item.is_file()}
+        return {path.name: sha256(path)}
+    return {item.name: sha256(item) for item in sorted(path.iterdir()) if item.is_file()}
 
 
-def _sha256(path: Path) -> str:
+def sha256(path: Path) -> str:
+    """Return the SHA-256 of the file ``path``; InputError if it cannot be read."""
     with opened(path) as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

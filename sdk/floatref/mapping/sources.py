@@ -1,13 +1,13 @@
 """What a command reads: a recording directory or a native file, and what is kept of its origin."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from floatref.architectures.adapter import RecordingDirectory
+from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.readers import is_native, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
@@ -21,11 +21,14 @@ if TYPE_CHECKING:
 class Source:
     """A recording, where it came from, and one line for each thing to know about its reading.
 
-    ``reading`` is None unless it came through a channel map.
+    ``inputs`` is the SHA-256 of every file that was read, by its path; ``reading`` is None unless
+    it came through a channel map.
     """
 
+    path: Path
     recording: Recording
     origin: dict[str, Any]
+    inputs: Mapping[Path, str]
     warnings: tuple[str, ...] = ()
     reading: "Reading | None" = None
 
@@ -60,23 +63,46 @@ def recording_of(
     if not is_native(reader):
         if chart is not None:
             raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
-        hashes = fingerprint if isinstance(reader, RecordingDirectory) else fingerprint_native
-        origin = {"source": source.name, "adapter": reader.name, "sha256": hashes(source)}
-        return Source(read_source(reader, source), origin)
+        hashes = _hashes_of(reader, source)
+        origin = {"source": source.name, "adapter": reader.name, "sha256": hashes}
+        return Source(source, read_source(reader, source), origin, _placed(hashes, source))
     from floatref.mapping.reading import read_native
 
     reading = read_native(source, chart, reader.name, progress)
-    return Source(reading.recording, _origin(source, reading, channel_map), reading.told, reading)
+    inputs = _inputs(reading, channel_map)
+    origin = _origin(source, reading, channel_map, inputs)
+    return Source(source, reading.recording, origin, inputs, reading.told, reading)
 
 
-def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[str, Any]:
-    """Return names, adapters, clocks and fingerprints of every file that was read."""
+def _hashes_of(reader: Adapter, source: Path) -> dict[str, str]:
+    ours = isinstance(reader, RecordingDirectory)
+    return fingerprint(source) if ours else fingerprint_native(source)
+
+
+def _placed(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
+    """Return ``hashes`` of files in the folder ``source``, or beside the file, by their paths."""
+    folder = source if source.is_dir() else source.parent
+    return {folder.resolve() / name: value for name, value in hashes.items()}
+
+
+def _inputs(reading: "Reading", channel_map: Path | None) -> dict[Path, str]:
+    """Return the SHA-256 of every file behind ``reading``, the map included, by its path."""
     files = [*reading.files.values(), *reading.databases]
     files += [] if channel_map is None else [channel_map]
+    found: dict[Path, str] = {}
+    for file in dict.fromkeys(path.resolve() for path in files):
+        found |= _placed(fingerprint_native(file), file)
+    return found
+
+
+def _origin(
+    source: Path, reading: "Reading", channel_map: Path | None, inputs: Mapping[Path, str]
+) -> dict[str, Any]:
+    """Return names, adapters, clocks and fingerprints of every file that was read."""
     origin: dict[str, Any] = {
         "source": source.name,
         "adapter": reading.adapters[""],
-        "sha256": _hashes(files, source.resolve().parent),
+        "sha256": _named(inputs, source.resolve().parent),
         "channels": dict(
             zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
         ),
@@ -88,11 +114,10 @@ def _origin(source: Path, reading: "Reading", channel_map: Path | None) -> dict[
     return origin
 
 
-def _hashes(files: Sequence[Path], folder: Path) -> dict[str, str]:
-    """Return the SHA-256 of ``files``: by name, or by path from ``folder`` if it is another's."""
+def _named(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
+    """Return ``hashes`` by file name, or by path from ``folder`` if the name is another's."""
     found: dict[str, str] = {}
-    for file in dict.fromkeys(path.resolve() for path in files):
-        for name, value in fingerprint_native(file).items():
-            path = file / name if file.is_dir() else file
-            found[name if name not in found else Path(relpath(path, folder)).as_posix()] = value
+    for path, value in hashes.items():
+        name = path.name if path.name not in found else Path(relpath(path, folder)).as_posix()
+        found[name] = value
     return found
