@@ -73,6 +73,14 @@ def pipeline_capabilities(name: str) -> tuple[str, ...]:
     return plugins().pipeline(name).capabilities
 
 
+def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
+    """Return the settings of pipeline ``name`` with those ``given`` in place.
+
+    Raises InputError for a pipeline or a setting that `process` does not know.
+    """
+    return plugins().pipeline(name).resolve(given)
+
+
 def run(
     recording: Recording,
     pipeline: str,

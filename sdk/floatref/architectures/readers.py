@@ -30,15 +30,19 @@ def reader_of(source: Path, name: str | None) -> Adapter:
         return named_reader(name)
     if not exists(source):
         raise InputError(f"{source}: not found")
-    known = plugins().adapters()
-    found = [adapter for adapter in known.values() if _recognised(adapter, source)]
+    found = recognising(source)
     if not found:
-        names = ", ".join(known)
+        names = ", ".join(plugins().adapters())
         raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
     if len(found) > 1:
         both = " and ".join(adapter.name for adapter in found)
         raise InputError(f"{source}: adapters {both} both recognise it; choose with --adapter")
     return found[0]
+
+
+def recognising(source: Path) -> list[Adapter]:
+    """Return the adapters that recognise ``source``; one that fails at it is reported."""
+    return [adapter for adapter in plugins().adapters().values() if _recognised(adapter, source)]
 
 
 def named_reader(name: str) -> Adapter:

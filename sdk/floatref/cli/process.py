@@ -12,9 +12,9 @@ from floatref.architectures.writing import format_of, write_as
 from floatref.cli.formats import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.cli.progress import progress_bar
-from floatref.cli.settings import read_settings
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
+from floatref.files.settings import read_settings
 from floatref.mapping.profiling import profiled
 from floatref.mapping.sources import recording_of
 from floatref.values.profile import Profile, ProfileTrack

@@ -9,12 +9,12 @@ import click
 
 from floatref.architectures.reading import profile_of
 from floatref.cli.printing import print_json
-from floatref.cli.settings import read_settings
 from floatref.cli.tune_report import loss_curves, tune_report
 from floatref.cli.tune_tables import print_tables
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
+from floatref.files.settings import read_settings
 from floatref.mapping.sources import recording_of
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
