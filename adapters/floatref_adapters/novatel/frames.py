@@ -147,6 +147,12 @@ def _length(header: bytes) -> int:
     return header[3] + length + 4 if fits else 0
 
 
+def is_sound(data: bytes, at: int) -> bool:
+    """Tell whether a whole binary log with a right checksum begins at ``at``."""
+    size = _length(data[at : at + LONG_HEADER.size])
+    return _log(data[at : at + size], size) is not None
+
+
 def _left(data: bytes, faults: Counter[str]) -> None:
     rest = data.strip(b"\r\n \0")
     if rest:

@@ -3,6 +3,10 @@
 import struct
 from pathlib import Path
 
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from floatref import Epoch, NativeFile
 from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
@@ -55,3 +59,15 @@ def test_the_kind_of_a_binary_log_tells_its_antenna_and_answers(tmp_path: Path) 
     file = opened(tmp_path, log)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTPOS_17": 2}
     assert file.told == ("1 answers to commands: not read",)
+
+
+@settings(deadline=None)
+@given(ahead=st.binary(max_size=40), behind=st.binary(max_size=400))
+def test_three_bytes_of_another_file_are_no_log(
+    tmp_path_factory: pytest.TempPathFactory, ahead: bytes, behind: bytes
+) -> None:
+    path = tmp_path_factory.mktemp("run") / "run.parquet"
+    path.write_bytes(b"PAR1" + ahead + b"\xaaD\x13" + behind)
+    assert not NovAtel().recognises(path)
+    path.write_bytes(path.read_bytes() + short_log(508, NOW_MS, bytes(80)))
+    assert NovAtel().recognises(path)
