@@ -32,7 +32,18 @@ def enforce(document: Any, name: str, source: object) -> None:
 
     The line names ``source``, the JSON path, the value found there and what is expected.
     """
-    error = next(_validator(name).iter_errors(document), None)
+    _enforce(_validator(name), document, source)
+
+
+def enforce_schema(document: Any, schema: dict[str, Any], source: object) -> None:
+    """Raise InputError unless ``document`` obeys ``schema``, whose every part is described."""
+    from jsonschema import Draft202012Validator
+
+    _enforce(Draft202012Validator(schema), document, source)
+
+
+def _enforce(validator: "Draft202012Validator", document: Any, source: object) -> None:
+    error = next(validator.iter_errors(document), None)
     if error is not None:
         place = _place(document, error.absolute_path)
         raise InputError(f"{source}: {place}{_complaint(error)}; {_expected(error)}")

@@ -10,10 +10,10 @@ from floatref.files.document import shown
 from floatref.files.recording import setup_of
 from floatref.files.schema import enforce
 from floatref.files.sources import naming
+from floatref.files.toml_document import read_toml
 from floatref.mapping.clock_entries import clocks_of
 from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap, FileEntry
 from floatref.mapping.quantities import quantity_of
-from floatref.mapping.toml_document import read_toml
 
 FORMAT = "floatref-map/1"
 SCHEMA = "floatref-map-1"
@@ -27,7 +27,7 @@ def read_map(path: Path) -> ChannelMap:
     two entries for one channel, and names of files that are not there.
     """
     path = Path(path)
-    document = read_toml(path)
+    document = read_toml(path, "channel map")
     enforce(document, SCHEMA, path)
     with naming(path):
         files = _files(document, path)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from floatref.errors import InputError, one_line
+from floatref.files.toml_document import MOST_PARTS
 from floatref.mapping.candidates import Candidate, candidates
 from floatref.mapping.clock_keys import unstarted
 from floatref.mapping.conversion import Conversion
@@ -14,7 +15,6 @@ from floatref.mapping.guesses import Guess
 from floatref.mapping.naming import find, full_name
 from floatref.mapping.remarks import remark, turned, vehicle
 from floatref.mapping.taking import UNKNOWN
-from floatref.mapping.toml_document import MOST_PARTS
 from floatref.mapping.units import MPS, known_unit
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, Epoch, NativeFile, Stream

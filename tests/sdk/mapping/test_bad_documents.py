@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from floatref.files.toml_document import MOST_PARTS
 from floatref.mapping import read_map
-from floatref.mapping.toml_document import MOST_PARTS
 
 HEAD = 'format = "floatref-map/1"\n'
 VEHICLE = HEAD + "[setup.vehicle]\nmodel = 'quarter-car'\nparameters.sprung_kg = 700\n"
@@ -23,7 +23,7 @@ Refusal = Callable[[Path], str]
         (b"format = ", "not TOML: "),
         (b"format = 1\nformat = 2", "not TOML: "),
         ((HEAD + LASER).replace("\n", "\r").encode(), "not TOML: "),
-        ((HEAD + LASER).encode("utf-16"), "byte 0 is not UTF-8; save the map as UTF-8"),
+        ((HEAD + LASER).encode("utf-16"), "byte 0 is not UTF-8; save the channel map as UTF-8"),
         ((HEAD + LASER).encode("utf-16-le"), "not TOML: "),
         ((HEAD + "# ä\n" + LASER).encode("latin-1"), "byte 28 is not UTF-8"),
         (HEAD + "# \x00\n" + LASER, "not TOML: "),

@@ -20,30 +20,31 @@ DOTTED = re.compile(
 )
 
 
-def read_toml(path: Path) -> dict[str, Any]:
+def read_toml(path: Path, kind: str) -> dict[str, Any]:
     """Return what the TOML file ``path`` holds: tables, lists, strings, numbers, truth values.
 
-    Raises InputError with one line for a file that cannot be read, is above 1 MiB, no UTF-8 or no
-    TOML, and for dates, numbers beyond float64 and 64 bits, and deep nesting.
+    Raises InputError with one line, in which ``kind`` is what the file is taken for, such as
+    "channel map", if it cannot be read, is above 1 MiB, no UTF-8 or no TOML, and for dates,
+    numbers beyond float64 and 64 bits, and deep nesting.
     """
     with opened(path) as stream:
         content = stream.read(LARGEST_BYTES + 1)
     with naming(path):
         if len(content) > LARGEST_BYTES:
-            raise InputError("larger than 1 MiB; give a channel map in TOML")
-        document = _parsed(_decoded(content))
+            raise InputError(f"larger than 1 MiB; give a {kind} in TOML")
+        document = _parsed(_decoded(content, kind), kind)
         _check_plain(document, "")
     return document
 
 
-def _decoded(content: bytes) -> str:
+def _decoded(content: bytes, kind: str) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise InputError(f"byte {error.start} is not UTF-8; save the map as UTF-8") from error
+        raise InputError(f"byte {error.start} is not UTF-8; save the {kind} as UTF-8") from error
 
 
-def _parsed(text: str) -> dict[str, Any]:
+def _parsed(text: str, kind: str) -> dict[str, Any]:
     if DOTTED.search(text):
         raise InputError(
             f"has a name of {MOST_PARTS} parts or more, as in a.b.c; shorten it, or write \\u002E "
@@ -55,13 +56,13 @@ def _parsed(text: str) -> dict[str, Any]:
         raise InputError(f"not TOML: {error}; correct it there") from error
     except (RecursionError, ValueError) as error:
         # Nesting without end, or an integer of thousands of digits.
-        raise InputError(f"no channel map ({type(error).__name__}); shorten it") from error
+        raise InputError(f"no {kind} ({type(error).__name__}); shorten it") from error
 
 
 def _check_plain(value: Any, where: str, depth: int = 0) -> None:
     """Refuse numbers that are none, dates, and nesting that no map has."""
     if depth > DEEPEST:
-        raise InputError(f"{where[:60]}: nested too deeply; a map has no such entry")
+        raise InputError(f"{where[:60]}: nested too deeply; there is no such entry")
     if isinstance(value, dict):
         for key, item in value.items():
             _check_plain(item, f"{where}.{shown(key)[1:-1]}".lstrip("."), depth + 1)

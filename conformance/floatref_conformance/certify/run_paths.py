@@ -1,0 +1,91 @@
+"""Which files are runs: paths, directories of runs and patterns, and names that tell them apart."""
+
+import glob
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from floatref.errors import InputError
+
+DOCUMENTS = ("profile.json", "recording.json")
+"""Names of the JSON files of our directories: whoever names one means its directory."""
+BESIDE = (
+    *(".bin", ".dbc", ".tdms_index"),
+    *(".html", ".jpg", ".json", ".md", ".pdf", ".png", ".toml", ".xlsx", ".yaml", ".zip"),
+)
+"""Suffixes in a directory of runs that are no run: what belongs to one, maps, notes, pictures."""
+PATTERN = re.compile(r"[*?\[]")
+
+
+def runs_of(given: Sequence[str], folder: Path = Path()) -> tuple[Path, ...]:
+    """Return the runs in ``given``, each once; relative paths are looked for in ``folder``.
+
+    Each is a recording, a profile, a directory of them, searched through, or a pattern. Raises
+    InputError for one that does not exist or holds no run.
+    """
+    found: dict[Path, Path] = {}
+    for text in given:
+        runs = list(_runs(text, folder))
+        if not runs:
+            raise InputError(f"{text}: holds no run; give a profile, a recording or a pattern")
+        for path in runs:
+            found.setdefault(path.resolve(), path)
+    return tuple(found.values())
+
+
+def existing(text: str, folder: Path = Path()) -> Path:
+    """Return the path that ``text`` means in ``folder``; InputError if there is nothing."""
+    path = folder / text
+    try:
+        there = path.exists()
+    except (OSError, ValueError):
+        there = False
+    if not there:
+        raise InputError(f"{path}: not found; check the name")
+    return path.parent if path.name in DOCUMENTS else path
+
+
+def natural(text: str) -> list[tuple[str, int]]:
+    """Return what sorts ``text`` as people do: run-2 before run-10."""
+    parts = re.findall(r"(\D*)(\d*)", text.casefold())
+    return [(word, int(digits or -1)) for word, digits in parts]
+
+
+def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
+    """Return a name for every path, all different: no longer a part of it than is needed."""
+    parts = [path.resolve().parts[1:] for path in paths]
+    bare = tuple(_bare(path.name or "run") for path in paths)
+    longest = max(map(len, parts), default=0)
+    deeper = ("/".join(names[-depth:]) for depth in range(1, longest + 1) for names in parts)
+    levels = [bare, *zip(*[deeper] * len(paths), strict=True)] if paths else [bare]
+    return next((tuple(names) for names in levels if len(set(names)) == len(paths)), bare)
+
+
+def _runs(text: str, folder: Path) -> Iterator[Path]:
+    if PATTERN.search(text) and not (folder / text).exists():
+        matches = sorted(glob.glob(text, root_dir=folder, recursive=True), key=natural)
+        if not matches:
+            raise InputError(f"{folder / text}: no file matches this pattern; correct it")
+        for match in matches:
+            yield from _within(existing(match, folder))
+    else:
+        yield from _within(existing(text, folder))
+
+
+def _within(path: Path) -> Iterator[Path]:
+    """Yield ``path`` if it is a run, else the runs in that directory and those below."""
+    if not path.is_dir() or any((path / name).is_file() for name in DOCUMENTS):
+        yield path
+        return
+    for child in sorted(path.iterdir(), key=lambda child: natural(child.name)):
+        hidden = child.name.startswith(".")
+        if child.is_dir() and not (hidden or child.is_symlink()):
+            yield from _within(child)
+        elif child.is_file() and not hidden and child.suffix.lower() not in BESIDE:
+            yield child
+
+
+def _bare(name: str) -> str:
+    """Return ``name`` without its suffix; what starts with a digit, as in stop_0.20g, is none."""
+    stem, dot, suffix = name.rpartition(".")
+    return stem if dot and stem and suffix[:1].isalpha() else name
