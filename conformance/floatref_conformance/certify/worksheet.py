@@ -31,10 +31,10 @@ class Criterion:
         value: as measured; NaN if it could not be.
         limit: None if it is reported only.
         unit: "" for a correlation.
-        at_least: whether the value has to reach the limit, or to stay within it.
+        at_least: whether the value has to reach the limit, or its magnitude to stay within it.
         judged: the outcome.
         track: the wheel path; empty: of all.
-        reason: why it failed or is missing, in one line.
+        reason: in one line why it failed or is missing, or what is to be known though it passed.
     """
 
     id: str
@@ -75,8 +75,9 @@ class RunTrack:
         with_others: average cross correlation with the other runs; NaN if there are none.
         distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
         height_percent, height_sigma: how much higher it takes the road, and 1-sigma.
-        flagged_m: length of its points within the section that are not valid.
+        flagged_m: length of its points within the section that are not valid, or missing.
         causes: why it does not agree; empty if it does.
+        missing_m: length within the section for which it has no elevation; a part of flagged_m.
     """
 
     track: str
@@ -91,6 +92,7 @@ class RunTrack:
     height_sigma: float
     flagged_m: float
     causes: tuple[Cause, ...] = ()
+    missing_m: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
