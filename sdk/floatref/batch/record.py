@@ -52,9 +52,11 @@ class Record:
         name, source: as in the job.
         error: one line that says why there is no profile.
         rows: of the summary; empty after an error.
-        warnings: one line each.
-        key: what the profile depends on beside its inputs: pipeline, resolved and given settings,
-            adapter, versions. Another key is another profile.
+        warnings: of reading and processing, one line each.
+        remarks: what could not be measured of the profile, one line each.
+        key: ``asked``, what the profile depends on beside its inputs; ``segment_m``; after success
+            also the ``settings`` of the profile, the ``adapter`` that read it, and ``located``,
+            whether the recording tells where it was.
         inputs: SHA-256 of every file that was read, by its absolute path.
         outputs: SHA-256 of every file of the profile, by its name.
         effort: what it has cost.
@@ -66,6 +68,7 @@ class Record:
     error: str = ""
     rows: tuple[Row, ...] = ()
     warnings: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
     key: Mapping[str, Any] = field(default_factory=dict)
     inputs: Mapping[str, str] = field(default_factory=dict)
     outputs: Mapping[str, str] = field(default_factory=dict)

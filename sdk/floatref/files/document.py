@@ -15,17 +15,17 @@ LARGEST_BYTES = 4 << 20
 """Largest JSON file that is read; samples belong into files of their own."""
 
 
-def read_document(path: Path) -> Any:
+def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
     """Return what the JSON file ``path`` holds.
 
-    Raises InputError for a file that is missing, empty, above 4 MiB, not UTF-8, not JSON or cut
-    short, and for numbers that float64 does not hold. Of repeated keys the last one counts.
+    Raises InputError for a file that is missing, empty, above ``most_bytes``, not UTF-8, not JSON
+    or cut short, and for numbers that float64 does not hold. Of repeated keys the last one counts.
     """
     with opened(path) as stream:
-        text = stream.read(LARGEST_BYTES + 1)
-    if len(text) > LARGEST_BYTES:
+        text = stream.read(most_bytes + 1)
+    if len(text) > most_bytes:
         raise InputError(
-            f"{path}: larger than {LARGEST_BYTES >> 20} MiB; "
+            f"{path}: larger than {most_bytes >> 20} MiB; "
             "keep samples in files of their own beside it"
         )
     try:

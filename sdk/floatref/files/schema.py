@@ -13,10 +13,15 @@ from floatref.files.document import shown
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
 
-SCHEMAS = ("floatref-recording-1", "floatref-profile-1", "floatref-map-1")
+SCHEMAS = (
+    "floatref-recording-1",
+    "floatref-profile-1",
+    "floatref-map-1",
+    "floatref-batch-record-1",
+)
+"""Names of the schemas in the package."""
 SHOWN = 16
 """Names that an error lists of those that there are."""
-"""Names of the schemas in the package."""
 
 
 def read_schema(name: str) -> dict[str, Any]:

@@ -1,0 +1,74 @@
+"""Whether what a file gave the last time is what it would give now."""
+
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from floatref import __version__
+from floatref.architectures.plugins import plugins
+from floatref.batch.job import Job
+from floatref.batch.record import Record
+from floatref.errors import FloatrefError
+from floatref.files import fingerprint_native
+from floatref.files.document import plain
+from floatref.files.fingerprint import sha256
+
+LIBRARIES = ("numpy", "numba", "scipy")
+"""Another version of these may round otherwise."""
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of floatref and of the libraries that it computes with."""
+    return {"floatref": __version__, **{name: version(name) for name in LIBRARIES}}
+
+
+def asked(job: Job) -> dict[str, Any]:
+    """Return what the profile of ``job`` depends on beside the content of its inputs."""
+    described: dict[str, Any] = plain(
+        {
+            "source": str(job.source.resolve()),
+            "adapter": job.adapter,
+            "map": None if job.channel_map is None else str(job.channel_map),
+            "pipeline": job.pipeline,
+            "settings": job.settings,
+            "resolved": _resolved(job),
+            "versions": versions(),
+        },
+        "job",
+    )
+    return described
+
+
+def holds(record: Record, job: Job) -> bool:
+    """Return whether ``record`` and the profile that it tells of are those of ``job``, unchanged.
+
+    The length of segments may differ. What failed is never said to hold.
+    """
+    if record.error or not record.outputs or record.key.get("asked") != asked(job):
+        return False
+    outputs = {job.profile / name: value for name, value in record.outputs.items()}
+    inputs = {Path(path): value for path, value in record.inputs.items()}
+    return _are(outputs) and _are(inputs) and _has_no_more(job.source, inputs)
+
+
+def _resolved(job: Job) -> dict[str, Any]:
+    """Return all settings before the recording decides any; none if they cannot be used."""
+    try:
+        return dict(plugins().pipeline(job.pipeline).resolve(job.settings))
+    except FloatrefError:
+        return {}
+
+
+def _are(files: Mapping[Path, str]) -> bool:
+    try:
+        return all(sha256(path) == value for path, value in files.items())
+    except FloatrefError:
+        return False
+
+
+def _has_no_more(source: Path, inputs: Mapping[Path, str]) -> bool:
+    """Return whether the native folder ``source`` has no file that is not among ``inputs``."""
+    if not source.is_dir() or source.resolve() / "recording.json" in inputs:
+        return True
+    return {source.resolve() / name for name in fingerprint_native(source)} <= set(inputs)
