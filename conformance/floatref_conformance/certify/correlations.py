@@ -8,7 +8,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.outcome import judged_by
-from floatref_conformance.certify.wording import joined, listed, of_track, with_causes
+from floatref_conformance.certify.reasons import joined, listed, of_track, with_causes
 from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet, RunTrack
 
 REPEATABILITY = (

@@ -12,8 +12,8 @@ from floatref_conformance.certify.correlations import (
 )
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.outcome import judged_by, reported
+from floatref_conformance.certify.reasons import joined, listed, unused
 from floatref_conformance.certify.scales import judge_distance, judge_height
-from floatref_conformance.certify.wording import joined, listed, unused
 from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet
 from floatref_conformance.verdict import Verdict
 

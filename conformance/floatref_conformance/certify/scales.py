@@ -9,7 +9,7 @@ from floatref_conformance.certify.correlations import mean
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.outcome import judged_by, reported
 from floatref_conformance.certify.plan import DistancePlan
-from floatref_conformance.certify.wording import joined, listed, of_track
+from floatref_conformance.certify.reasons import joined, listed, of_track
 from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet
 
 DISTANCE = (
