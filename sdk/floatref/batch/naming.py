@@ -1,0 +1,85 @@
+"""Names of sources in the output: one each, safe as a path, and the same from run to run.
+
+A name becomes a folder below ``profiles`` and a file below ``records``, so that neither may lie
+inside another's, on a disk that does not tell capitals apart either.
+"""
+
+import os
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path, PurePosixPath
+
+UNSAFE = re.compile(r'[<>:"|?*\\/]|^\.|[. ]$')
+"""What a part of a name may not hold: some systems or shares refuse it, or take it away."""
+LONGEST = 200
+"""Bytes of a part; what is added to it has to fit into the 255 that disks allow."""
+DIGITS = (8, 16, 32, 64)
+"""How much of a hash tells names apart; more where that is a name already."""
+RECORD = ".json"
+
+
+def name_below(path: Path, base: Path) -> str:
+    """Return the path of ``path`` from ``base`` as a safe name; its own name if it is outside."""
+    parts = path.relative_to(base).parts if path.is_relative_to(base) else ()
+    if not parts or ".." in parts:
+        parts = (path.name,)
+    return "/".join(map(_safe, parts))
+
+
+def unique_names(names: Sequence[str], sources: Sequence[Path]) -> tuple[str, ...]:
+    """Return ``names``, with a hash of the path of its source in each that meets another.
+
+    ``sources`` are as many, absolute and different. The order does not matter.
+    """
+    found = list(names)
+    for digits in DIGITS:
+        for index in _meeting(found):
+            found[index] = _marked(names[index], sources[index], digits)
+    return tuple(found)
+
+
+def _safe(part: str) -> str:
+    """Return ``part`` without what is no letter of a file name, hides it, or leads elsewhere."""
+    plain = "".join(c if c.isprintable() else "_" for c in part)
+    plain = UNSAFE.sub("_", plain) or "_"
+    if len(plain.encode()) <= LONGEST:
+        return plain
+    return _tagged(plain, _digest(part)[: DIGITS[0]])
+
+
+def _marked(name: str, source: Path, digits: int) -> str:
+    place = PurePosixPath(name)
+    tag = _digest(os.fsdecode(os.path.realpath(source)))[:digits]
+    return str(place.with_name(_tagged(place.name, tag)))
+
+
+def _tagged(part: str, tag: str) -> str:
+    """Return ``part`` with ``tag`` before its suffix, shortened where it is too long."""
+    place = PurePosixPath(part)
+    suffix = place.suffix if len(place.suffix.encode()) <= 20 else ""
+    stem = part.removesuffix(suffix).encode()[: LONGEST - len(tag) - len(suffix.encode()) - 1]
+    return f"{stem.decode(errors='ignore')}-{tag}{suffix}"
+
+
+def _digest(text: str) -> str:
+    return sha256(os.fsencode(text)).hexdigest()
+
+
+def _meeting(names: Sequence[str]) -> list[int]:
+    """Return which of ``names`` are one, or lie inside another's profile or record."""
+    keys = [tuple(_folded(name).split("/")) for name in names]
+    counts = Counter(keys)
+    folders = {key[:end] for key in counts for end in range(1, len(key))}
+    return [
+        at
+        for at, key in enumerate(keys)
+        if counts[key] > 1 or key in folders or (*key[:-1], key[-1] + RECORD) in folders
+    ]
+
+
+def _folded(name: str) -> str:
+    """Return ``name`` as a disk may compare it, that tells neither case nor accents' spelling."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())
