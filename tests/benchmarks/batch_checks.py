@@ -73,6 +73,7 @@ class Compared:
 
 def compared(items: Sequence[Item], corpus: Path, out: Path, work: Path) -> Compared:
     """Process ``items`` one by one; compare every file of every profile byte by byte."""
+    work.mkdir(parents=True, exist_ok=True)
     good = [item for item in items if item.damage is None]
     differing = [i.path for i in good if not _is_same(i, corpus, out, work / f"{i.number}")]
     return Compared(len(good), tuple(differing))
@@ -85,7 +86,7 @@ def _is_same(item: Item, corpus: Path, out: Path, alone: Path) -> bool:
     arguments += ["--pipeline", item.pipeline] if item.pipeline else []
     done = CliRunner().invoke(main, arguments)
     if done.exit_code:
-        return False
+        raise RuntimeError(f"{item.path}: {done.output}")
     return _bytes(alone) == _bytes(out / "profiles" / item.path)
 
 
