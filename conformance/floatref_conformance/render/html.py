@@ -2,16 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
-from floatref.errors import InputError
 from floatref.files.atomic import replacing_file
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.events import Event, RunFinished, RunStarted
 from floatref_conformance.render.page import page_of
-from floatref_conformance.render.text import printable
+from floatref_conformance.render.templating import filled, needs_jinja
 from floatref_conformance.verdict import RunResult
 
 NAME = "report.html"
@@ -35,8 +32,7 @@ class HtmlReport:
         The report of an earlier run goes away now, so that it is never taken for this one's.
         Raises InputError where the package that fills in the page is not installed.
         """
-        if find_spec("jinja2") is None:
-            raise InputError("report.html needs Jinja; pip install 'floatref[conformance]'")
+        needs_jinja(NAME)
         folder.mkdir(parents=True, exist_ok=True)
         (folder / NAME).unlink(missing_ok=True)
         return cls(folder)
@@ -56,19 +52,4 @@ def as_html(result: RunResult, checks: Sequence[Check] = ()) -> str:
     Whatever a device or a file said is text in it, never markup, and nothing in it leads to
     another file.
     """
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader(__package__, "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        finalize=_shown,
-    )
-    return environment.get_template(TEMPLATE).render(page=page_of(result, checks)) + "\n"
-
-
-def _shown(value: Any) -> Any:
-    """Return ``value`` with what cannot be shown in a string escaped; markup is sound already."""
-    return printable(value) if type(value) is str else value
+    return filled(TEMPLATE, page=page_of(result, checks))

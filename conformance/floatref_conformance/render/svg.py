@@ -19,6 +19,8 @@ GAP = 16.0
 TICKS_ALONG, TICKS_UP = 10, 4
 MOST_POINTS = 800
 """Largest number of points that a line is drawn with."""
+DOTS = ("dot", "square")
+"""Styles of lines that are single points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +83,7 @@ class Figure:
     end: float
     shades: tuple[Shade, ...] = ()
     marks: tuple[Mark, ...] = ()
+    numbered: tuple[float, ...] = ()
 
 
 def drawn(figure: Figure) -> str:
@@ -90,7 +93,7 @@ def drawn(figure: Figure) -> str:
     for panel in figure.panels:
         tops.append(tops[-1] + panel.height + GAP)
     bottom = tops[-1] - GAP
-    parts = [_opening(figure, bottom + BOTTOM)]
+    parts = [opening(figure.name, figure.title, figure.description, bottom + BOTTOM)]
     parts += [_shade(shade, across, bottom) for shade in figure.shades]
     for panel, top in zip(figure.panels, tops, strict=False):
         parts += _panel(panel, across, top)
@@ -99,13 +102,14 @@ def drawn(figure: Figure) -> str:
     return "\n".join(part for part in parts if part)
 
 
-def _opening(figure: Figure, height: float) -> str:
-    name = _text(figure.name)
+def opening(name: str, title: str, description: str, height: float) -> str:
+    """Return the start tag of a picture, with its words for those who do not see it."""
+    name = worded(name)
     return (
-        f'<svg class="plot" viewBox="0 0 {_n(WIDTH)} {_n(height)}" role="img" '
+        f'<svg class="plot" viewBox="0 0 {px(WIDTH)} {px(height)}" role="img" '
         f'aria-labelledby="{name}-title {name}-desc">\n'
-        f'<title id="{name}-title">{_text(figure.title)}</title>\n'
-        f'<desc id="{name}-desc">{_text(figure.description)}</desc>'
+        f'<title id="{name}-title">{worded(title)}</title>\n'
+        f'<desc id="{name}-desc">{worded(description)}</desc>'
     )
 
 
@@ -114,20 +118,20 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
     held = [line.y for line in panel.lines] if panel.held is None else [panel.held]
     up = scale_of(held, bottom, top, panel.from_zero)
     grid, numbers = [], []
-    for value in ticks(up.low, up.high, TICKS_UP):
-        y = _n(up(value))
-        grid.append(f"M{_n(across.first)} {y}H{_n(across.last)}")
-        numbers.append(f'<text x="{_n(LEFT - 6)}" y="{y}" dy=".32em">{label(value)}</text>')
+    for value in ticks(up.low, up.high, max(TICKS_UP, int(panel.height // 28))):
+        y = px(up(value))
+        grid.append(f"M{px(across.first)} {y}H{px(across.last)}")
+        numbers.append(f'<text x="{px(LEFT - 6)}" y="{y}" dy=".32em">{label(value)}</text>')
     middle = (top + bottom) / 2
     name = f"{panel.label} ({panel.unit})" if panel.unit else panel.label
     return [
         f'<path class="grid" d="{"".join(grid)}"/>',
         f'<g class="numbers up">{"".join(numbers)}</g>',
-        f'<text class="axis" transform="translate(12 {_n(middle)}) rotate(-90)">'
-        f"{_text(name)}</text>",
+        f'<text class="axis" transform="translate(12 {px(middle)}) rotate(-90)">'
+        f"{worded(name)}</text>",
         *(_line(line, across, up) for line in panel.lines),
-        f'<rect class="frame" x="{_n(across.first)}" y="{_n(top)}" '
-        f'width="{_n(across.last - across.first)}" height="{_n(panel.height)}"/>',
+        f'<rect class="frame" x="{px(across.first)}" y="{px(top)}" '
+        f'width="{px(across.last - across.first)}" height="{px(panel.height)}"/>',
     ]
 
 
@@ -138,7 +142,7 @@ def _line(line: Line, across: Scale, up: Scale) -> str:
     strokes = decimated(np.where(inside, line.y, np.nan), MOST_POINTS)
     path = []
     for stroke in strokes:
-        points = [f"{_n(across(line.x[k]))} {_n(up(line.y[k]))}" for k in stroke]
+        points = [f"{px(across(line.x[k]))} {px(up(line.y[k]))}" for k in stroke]
         path.append(f"M{points[0]}" + ("L" + " ".join(points[1:]) if points[1:] else "h0"))
     return f'<path class="line {line.style}" d="{"".join(path)}"/>' if path else ""
 
@@ -148,7 +152,7 @@ def _shade(shade: Shade, across: Scale, bottom: float) -> str:
     for start, end in shade.stretches:
         left, right = (across(min(max(x, across.low), across.high)) for x in (start, end))
         width = max(right - left, 1.0)
-        rectangles.append(f"M{_n(left)} {_n(TOP)}h{_n(width)}V{_n(bottom)}h{_n(-width)}z")
+        rectangles.append(f"M{px(left)} {px(TOP)}h{px(width)}V{px(bottom)}h{px(-width)}z")
     return f'<path class="{shade.style}" d="{"".join(rectangles)}"/>' if rectangles else ""
 
 
@@ -158,23 +162,23 @@ def _mark(mark: Mark, across: Scale, bottom: float) -> str:
     x = across(mark.at)
     side, dx = ("end", -4.0) if x > (across.first + across.last) / 2 else ("start", 4.0)
     return (
-        f'<path class="mark" d="M{_n(x)} {_n(TOP)}V{_n(bottom)}"/>'
-        f'<text class="marked" x="{_n(x + dx)}" y="{_n(TOP + 11)}" text-anchor="{side}">'
-        f"{_text(mark.label)}</text>"
+        f'<path class="mark" d="M{px(x)} {px(TOP)}V{px(bottom)}"/>'
+        f'<text class="marked" x="{px(x + dx)}" y="{px(TOP + 11)}" text-anchor="{side}">'
+        f"{worded(mark.label)}</text>"
     )
 
 
 def _ticks_along(figure: Figure, across: Scale, bottom: float) -> str:
-    values = ticks(across.low, across.high, TICKS_ALONG)
-    strokes = "".join(f"M{_n(across(value))} {_n(bottom)}v4" for value in values)
+    values = figure.numbered or ticks(across.low, across.high, TICKS_ALONG)
+    strokes = "".join(f"M{px(across(value))} {px(bottom)}v4" for value in values)
     numbers = "".join(
-        f'<text x="{_n(across(value))}" y="{_n(bottom + 17)}">{label(value)}</text>'
+        f'<text x="{px(across(value))}" y="{px(bottom + 17)}">{label(value)}</text>'
         for value in values
     )
     middle = (across.first + across.last) / 2
     return (
         f'<path class="tick" d="{strokes}"/><g class="numbers along">{numbers}</g>'
-        f'<text class="axis" x="{_n(middle)}" y="{_n(bottom + 36)}">{_text(figure.along)}</text>'
+        f'<text class="axis" x="{px(middle)}" y="{px(bottom + 36)}">{worded(figure.along)}</text>'
     )
 
 
@@ -187,18 +191,26 @@ def _legend(figure: Figure) -> str:
     shown = [shade for shade in figure.shades if shade.stretches]
     parts, x = [], LEFT
     for name, style in (*entries.items(), *((shade.label, shade.style) for shade in shown)):
-        sample = f"M{_n(x)} 14h18" if style.startswith("line") else f"M{_n(x)} 8h18v12h-18z"
+        sample = _sample(style, x)
         parts.append(f'<path class="{style}" d="{sample}"/>')
-        parts.append(f'<text x="{_n(x + 24)}" y="14" dy=".32em">{_text(name)}</text>')
+        parts.append(f'<text x="{px(x + 24)}" y="14" dy=".32em">{worded(name)}</text>')
         x += 48 + 5.8 * len(name)
     return f'<g class="legend">{"".join(parts)}</g>' if parts else ""
 
 
-def _text(text: str) -> str:
+def _sample(style: str, x: float) -> str:
+    """Return the path that shows ``style`` from ``x`` on: a dot, a line, or an area."""
+    if style.removeprefix("line ") in DOTS:
+        return f"M{px(x + 9)} 14h0"
+    return f"M{px(x)} 14h18" if style.startswith("line") else f"M{px(x)} 8h18v12h-18z"
+
+
+def worded(text: str) -> str:
+    """Return ``text`` as it may stand in a picture."""
     return escaped(printable(text))
 
 
-def _n(value: float) -> str:
-    """Return a coordinate with one decimal and no needless zero."""
+def px(value: float) -> str:
+    """Return ``value`` with one decimal and no needless zero."""
     text = f"{value:.1f}"
     return "0" if text in ("-0.0", "0.0") else text.removesuffix(".0")

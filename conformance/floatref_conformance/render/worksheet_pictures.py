@@ -1,0 +1,207 @@
+"""The pictures of a worksheet: runs over the reference, their IRI, and what stood still."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.measures import high_pass, short_interval_roughness
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.worksheet import RunSheet, SectionSheet, StationarySheet
+from floatref_conformance.render import worksheet_wording as wording
+from floatref_conformance.render.svg import Figure, Line, Mark, Panel, Shade, drawn
+
+SHOWN_M = 30.0
+"""Longest wavelength of the elevations shown: a profile's drift would hide the road."""
+CLOSE_M = 15.0
+"""Length of the stretch that is shown close up."""
+LONGEST_NAME = 24
+NAMED = 2
+"""Runs that do not agree and have a line of their own in the legend."""
+
+
+def overlaid(section: SectionSheet, track: str, limits: CertificationLimits, name: str) -> str:
+    """Return the reference with all runs of ``track`` over it, as one SVG element.
+
+    Elevation of wavelengths up to `SHOWN_M`, and the roughness over 7.62 m.
+    """
+    pairs = tuple(_profiles(section, track, limits))
+    panels = (
+        Panel("elevation", "mm", tuple(_elevation(*pair, track) for pair in pairs), 170.0),
+        Panel("roughness", "m/km", tuple(_roughness(*pair, track) for pair in pairs), 120.0, True),
+    )
+    title = f"Wheel path {track}: {len(pairs) - 1} runs over the reference"
+    return _drawn_along(section.start_m, section.end_m, panels, title, name)
+
+
+def close_up(section: SectionSheet, track: str, limits: CertificationLimits, name: str) -> str:
+    """Return the roughest stretch of the reference, of `CLOSE_M`, with all runs over it."""
+    start = roughest_m(section.reference, track)
+    pairs = tuple(_profiles(section, track, limits))
+    lines = tuple(_elevation(*pair, track) for pair in pairs)
+    seen = [line.y[(line.x >= start) & (line.x <= start + CLOSE_M)] for line in lines]
+    held = np.concatenate(seen)
+    panel = Panel("elevation", "mm", lines, 200.0, held=held)
+    title = f"Wheel path {track}: the roughest {CLOSE_M:g} m"
+    return _drawn_along(start, start + CLOSE_M, (panel,), title, name)
+
+
+def roughest_m(reference: Profile, track: str) -> float:
+    """Return where the roughest `CLOSE_M` of ``track`` begin, in m on its axis."""
+    elevation = reference.track(track).elevation
+    try:
+        rough = short_interval_roughness(elevation, reference.interval_m, CLOSE_M)
+    except InputError:
+        return reference.start_m
+    half = round(CLOSE_M / 2 / reference.interval_m)
+    inner = rough[half : max(rough.size - half, half + 1)]
+    if not np.isfinite(inner).any():
+        return reference.start_m
+    return float(reference.start_m + np.nanargmax(inner) * reference.interval_m)
+
+
+def iri_by_run(section: SectionSheet, limits: CertificationLimits, name: str) -> str:
+    """Return the IRI of every run beside the reference's, one panel for each wheel path."""
+    numbers = np.arange(1.0, len(section.runs) + 1.0)
+    panels = tuple(
+        Panel(f"IRI, {track}", "m/km", _iri_lines(section, track, limits, numbers), 110.0)
+        for track in wording.tracks_of(section)
+    )
+    first, last = 0.5, len(section.runs) + 0.5
+    return drawn(
+        Figure(
+            name,
+            "IRI of every run against the reference's",
+            "; ".join(_iri_told(section, track) for track in wording.tracks_of(section)),
+            panels,
+            "run",
+            first,
+            last,
+            numbered=tuple(numbers[:: -(-len(section.runs) // 24)]),
+        )
+    )
+
+
+def at_rest(sheet: StationarySheet, name: str) -> str:
+    """Return the profile of a stationary test with the stretch that counts; empty without one."""
+    profile = sheet.profile
+    if profile is None:
+        return ""
+    elevation, roughness = [], []
+    for track, style in zip(profile.tracks, ("result", "second", *["run"] * 99), strict=False):
+        label = _short(track.name)
+        rough = _rough(profile, track.elevation)
+        middle = profile.distance_m[:-1] + profile.interval_m / 2
+        elevation.append(Line(label, profile.distance_m, 1000.0 * track.elevation, style))
+        roughness.append(Line(label, middle, rough, style))
+    panels = (
+        Panel("elevation", "mm", tuple(elevation), 120.0),
+        Panel("roughness", "m/km", tuple(roughness), 110.0, True),
+    )
+    end = max(float(profile.distance_m[-1]), profile.start_m + profile.interval_m)
+    counts = Shade("counts", ((sheet.start_m, sheet.end_m),), "scored")
+    title = f"Test {sheet.id}: elevation and roughness of a standing vehicle"
+    told = f"What counts reaches from {wording.stretch(sheet)}."
+    return drawn(
+        Figure(name, title, told, panels, "distance in m", profile.start_m, end, (counts,))
+    )
+
+
+def lag_along(distance_m: FloatArray, lag_m: FloatArray, percent: float, of: str, name: str) -> str:
+    """Return how far a run lies ahead, against distance, and the straight line through it."""
+    kept = np.isfinite(lag_m)
+    x, y = distance_m[kept], 1000.0 * lag_m[kept]
+    middle = float(np.median(y - 10.0 * percent * x)) if x.size else 0.0
+    ends = np.array([x.min(), x.max()]) if x.size else np.array([0.0, 1.0])
+    fitted = Line(f"{percent:+.2f} %", ends, 10.0 * percent * ends + middle, "truth")
+    panel = Panel("lag", "mm", (fitted, Line("windows", *_apart(x, y), "dot")), 130.0)
+    title = f"{of}: lag against distance"
+    return _drawn_along(float(ends[0]), float(ends[-1]) + 1e-6, (panel,), title, name)
+
+
+def _drawn_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
+    told = f"{title}, {start:.6g} m to {end:.6g} m."
+    marks: tuple[Mark, ...] = ()
+    return drawn(Figure(name, title, told, panels, "distance in m", start, end, (), marks))
+
+
+def _profiles(
+    section: SectionSheet, track: str, limits: CertificationLimits
+) -> Iterator[tuple[Profile, str, str]]:
+    """Yield the reference and every run that has ``track``, with its name and its style.
+
+    Runs that do not agree come last and so lie on top.
+    """
+    yield section.reference, "reference", "truth"
+    runs = [run for run in section.runs if _has(run, track)]
+    bad = [run for run in runs if wording.is_bad(run, limits, track)]
+    for run in runs:
+        if run not in bad and run.profile is not None:
+            yield run.profile, "runs", "run"
+    for index, run in enumerate(bad):
+        if run.profile is not None:
+            own = index < NAMED and len(bad) <= NAMED
+            label = f"{_short(run.name)} (does not agree)" if own else "runs that do not agree"
+            yield run.profile, label, f"failing-{min(index, NAMED - 1) + 1 if own else 1}"
+
+
+def _has(run: RunSheet, track: str) -> bool:
+    return run.profile is not None and track in [one.name for one in run.profile.tracks]
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
+
+
+def _elevation(profile: Profile, label: str, style: str, track: str) -> Line:
+    elevation = profile.track(track).elevation
+    try:
+        shown = high_pass(elevation, profile.interval_m, SHOWN_M)
+    except InputError:
+        shown = np.full(elevation.size, np.nan)
+    return Line(label, profile.distance_m, 1000.0 * shown, style)
+
+
+def _roughness(profile: Profile, label: str, style: str, track: str) -> Line:
+    middle = profile.distance_m[:-1] + profile.interval_m / 2
+    return Line(label, middle, _rough(profile, profile.track(track).elevation), style)
+
+
+def _rough(profile: Profile, elevation: FloatArray) -> FloatArray:
+    try:
+        return short_interval_roughness(elevation, profile.interval_m)
+    except InputError:
+        return np.full(elevation.size - 1, np.nan)
+
+
+def _iri_lines(
+    section: SectionSheet, track: str, limits: CertificationLimits, numbers: FloatArray
+) -> tuple[Line, ...]:
+    """Return the reference's IRI as a line, and a dot for each run: round, or else square."""
+    iri = section.reference_iri[track]
+    across = np.array([0.5, len(section.runs) + 0.5])
+    found = np.array([_iri(run, track) for run in section.runs])
+    bad = np.array([wording.is_bad(run, limits, track) for run in section.runs])
+    return (
+        Line("reference", across, np.array([iri, iri]), "truth"),
+        Line("run", *_apart(numbers, np.where(bad, np.nan, found)), "dot"),
+        Line("run that does not agree", *_apart(numbers, np.where(bad, found, np.nan)), "square"),
+    )
+
+
+def _apart(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the points with a missing one behind each, so that each is a dot."""
+    return np.repeat(x, 2), np.column_stack([y, np.full(y.size, np.nan)]).ravel()
+
+
+def _iri(run: RunSheet, track: str) -> float:
+    return next((one.iri_m_per_km for one in run.tracks if one.track == track), float("nan"))
+
+
+def _iri_told(section: SectionSheet, track: str) -> str:
+    found = [_iri(run, track) for run in section.runs]
+    known = [value for value in found if value == value]
+    spread = f"runs {min(known):.3f} to {max(known):.3f} m/km" if known else "no runs"
+    return f"{track}: reference {section.reference_iri[track]:.3f} m/km, {spread}"

@@ -1,0 +1,178 @@
+"""A certification in the terminal: the verdict, then every number that it rests on."""
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from floatref.values.arrays import FloatArray
+from floatref_conformance.certify.worksheet import (
+    Criterion,
+    Judged,
+    RunSheet,
+    SectionSheet,
+    StationarySheet,
+    Worksheet,
+)
+from floatref_conformance.render import worksheet_wording as wording
+from floatref_conformance.render.terminal import PLAIN_WIDTH
+from floatref_conformance.render.text import printable
+
+COLOURS = {Judged.PASS: "green", Judged.FAIL: "red", Judged.MISSING: "yellow"}
+HEADS = (
+    "accu-\nracy",
+    "with\nothers",
+    "IRI\nm/km",
+    "bias\n%",
+    "distance\n% ± 2σ",
+    "height\n% ± 2σ",
+    "flag-\nged, m",
+)
+MOST_RUNS = 12
+"""With more, the matrix of pairs is left to the page and the document."""
+LONGEST_NAME = 10
+NARROW = (0, 0, 0, 0)
+
+
+def print_worksheet(worksheet: Worksheet, console: Console) -> None:
+    """Print the verdict, every section, the stationary tests, the limits, the verdict again."""
+    if not console.is_terminal:
+        console.width = max(console.width, PLAIN_WIDTH)
+    _say(console, wording.verdict_line(worksheet))
+    for section in worksheet.sections:
+        _print_section(section, worksheet, console)
+    for sheet in worksheet.stationary:
+        _print_stationary(sheet, console)
+    if worksheet.criteria:
+        _print_criteria("All sections together", worksheet.criteria, console)
+    _say(console, "")
+    for line in closing_lines(worksheet):
+        _say(console, line)
+    _say(console, wording.verdict_line(worksheet))
+
+
+def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
+    """Return limits, settings and versions in one line each."""
+    told = (
+        ("Limits", wording.limits_in_words(worksheet.limits)),
+        ("Settings", wording.listed(worksheet.settings)),
+        ("Versions", wording.listed(worksheet.versions)),
+    )
+    return tuple(
+        f"{title}: {'; '.join(f'{name} {value}' for name, value in pairs)}."
+        for title, pairs in told
+        if pairs
+    )
+
+
+def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console) -> None:
+    _say(console, "")
+    _say(console, f"Section {section.name}: {wording.where(section)}")
+    _print_criteria("Criteria", section.criteria, console)
+    for track in wording.tracks_of(section):
+        _show(_runs(section, track, worksheet), console)
+    if 1 < len(section.runs) <= MOST_RUNS:
+        for track, pairs in section.pairs.items():
+            _show(_pairs(track, pairs, worksheet.limits.repeatability), console)
+    elif section.runs[MOST_RUNS:]:
+        _say(console, f"The pairs of {len(section.runs)} runs are on the page and in the document.")
+    for index, run in enumerate(section.runs, start=1):
+        _print_run(index, run, console)
+
+
+def _print_run(index: int, run: RunSheet, console: Console) -> None:
+    """Print what there is to say of a run, if there is anything."""
+    lines = wording.run_lines(run)
+    if lines:
+        _say(console, f"Run {index}, {run.name}:")
+    for line in lines:
+        _say(console, f"  {line}")
+
+
+def _print_stationary(sheet: StationarySheet, console: Console) -> None:
+    _say(console, "")
+    _say(console, f"Test {sheet.id}: {wording.what_counts(sheet)}")
+    _print_criteria("Criteria", sheet.criteria, console)
+    for line in sheet.said:
+        _say(console, f"  {line}")
+
+
+def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Console) -> None:
+    """Print a table of ``criteria``, and below it why they are not met."""
+    table = _empty(title)
+    for head in ("criterion", "path"):
+        table.add_column(head, overflow="fold")
+    for head in ("value", "limit"):
+        table.add_column(head, justify="right", no_wrap=True)
+    table.add_column("outcome", no_wrap=True)
+    table.add_column("clause", overflow="fold")
+    for one in criteria:
+        word = Text(one.judged.value, COLOURS.get(one.judged, ""))
+        value, limit = wording.value_in_words(one), wording.limit_in_words(one)
+        told = (one.title, one.track or "all", value, limit)
+        table.add_row(*map(_text, told), word, _text(one.clause))
+    _show(table, console)
+    for one in criteria:
+        if one.reason:
+            of = f" {one.track}" if one.track else ""
+            _say(console, f"  {one.title}{of}: {one.reason}")
+
+
+def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:
+    """Return one row for each run, with a star where the run does not agree."""
+    table = _empty(f"Runs, wheel path {printable(track)} (*: does not agree)", NARROW)
+    table.add_column("run", no_wrap=True)
+    for head in HEADS:
+        table.add_column(head, justify="right", no_wrap=True, vertical="bottom")
+    for index, run in enumerate(section.runs, start=1):
+        found = [wording.figures(one) for one in run.tracks if one.track == track]
+        star = "*" if wording.is_bad(run, worksheet.limits, track) else " "
+        numbers = found[0] if found else (wording.NOTHING,) * len(HEADS)
+        table.add_row(_text(f"{index:>2}{star} {_short(run.name)}"), *map(_text, numbers))
+    return table
+
+
+def _pairs(track: str, pairs: FloatArray, limit: float) -> Table:
+    """Return the cross correlations of all pairs; those below ``limit`` bear a star."""
+    table = _empty(f"Pairs of runs, wheel path {printable(track)} (*: below {limit:g})", NARROW)
+    table.add_column("")
+    for column in range(2, len(pairs) + 1):
+        table.add_column(f"{column} ", justify="right", no_wrap=True)
+    for row in range(len(pairs) - 1):
+        cells = [""] * row + [_pair(value, limit) for value in pairs[row, row + 1 :]]
+        table.add_row(f"{row + 1:>2}", *cells)
+    return table
+
+
+def _pair(value: float, limit: float) -> str:
+    digits = wording.number(value, 3).removeprefix("0")
+    return digits + ("*" if value < limit else " ")
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
+
+
+def _empty(title: str, padding: tuple[int, int, int, int] = (0, 1, 0, 0)) -> Table:
+    return Table(
+        title=title,
+        title_justify="left",
+        title_style="bold",
+        box=SIMPLE_HEAD,
+        padding=padding,
+        pad_edge=False,
+        show_edge=False,
+    )
+
+
+def _show(table: Table, console: Console) -> None:
+    _say(console, "")
+    console.print(table)
+
+
+def _text(words: str) -> Text:
+    return Text(printable(words))
+
+
+def _say(console: Console, line: str) -> None:
+    console.print(printable(line), markup=False, highlight=False, soft_wrap=True)

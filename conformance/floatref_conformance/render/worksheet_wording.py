@@ -1,0 +1,185 @@
+"""What is said of a certification in words, the same in the terminal and on the page."""
+
+from collections.abc import Mapping, Sequence
+from math import isnan
+
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.worksheet import (
+    Cause,
+    Criterion,
+    Judged,
+    RunSheet,
+    RunTrack,
+    SectionSheet,
+    StationarySheet,
+    Worksheet,
+)
+
+NOTHING = "–"
+"""Stands for a number that could not be had."""
+COUNTED = "runs"
+"""The id of the criterion that is a number of runs."""
+
+
+def criteria_of(worksheet: Worksheet) -> tuple[tuple[str, Criterion], ...]:
+    """Return every criterion behind the name of what it was judged on; empty: of all."""
+    return (
+        *(("", one) for one in worksheet.criteria),
+        *((sheet.name, one) for sheet in worksheet.sections for one in sheet.criteria),
+        *((sheet.id, one) for sheet in worksheet.stationary for one in sheet.criteria),
+    )
+
+
+def verdict_line(worksheet: Worksheet) -> str:
+    """Return the verdict in one line."""
+    profiler = worksheet.profiler or "profiler without a name"
+    return f"{worksheet.verdict}: {profiler}: {summary(worksheet)} (class {worksheet.device_class})"
+
+
+def summary(worksheet: Worksheet) -> str:
+    """Return how many criteria are met; what is missing is never called met."""
+    judged = [one.judged for _, one in criteria_of(worksheet)]
+    passed, failed, missing = (
+        judged.count(kind) for kind in (Judged.PASS, Judged.FAIL, Judged.MISSING)
+    )
+    parts = [f"{passed} of {passed + failed} criteria that were judged are met"]
+    if missing:
+        parts.append(f"{missing} could not be judged")
+    return "; ".join(parts)
+
+
+def value_in_words(criterion: Criterion) -> str:
+    """Return what was measured, with its unit."""
+    return _quantity(criterion, criterion.value)
+
+
+def limit_in_words(criterion: Criterion) -> str:
+    """Return what the value has to reach or to stay within; that there is nothing such."""
+    if criterion.limit is None:
+        return "none"
+    sign = "≥" if criterion.at_least else "≤"
+    return f"{sign} {_quantity(criterion, criterion.limit, exact=True)}"
+
+
+def _quantity(criterion: Criterion, value: float, exact: bool = False) -> str:
+    if isnan(value):
+        return NOTHING
+    if criterion.id == COUNTED:
+        return f"{value:.0f}"
+    text = f"{value:.6g}" if exact else number(value, 4 if not criterion.unit else 3)
+    return f"{text} {criterion.unit}".strip()
+
+
+def number(value: float, digits: int) -> str:
+    """Return ``value`` with ``digits`` decimals."""
+    return NOTHING if isnan(value) else f"{value:.{digits}f}"
+
+
+def signed(value: float, digits: int) -> str:
+    """Return ``value`` with its sign and ``digits`` decimals."""
+    return NOTHING if isnan(value) else f"{value:+.{digits}f}".replace("-", "−")
+
+
+def with_error(value: float, sigma: float) -> str:
+    """Return ``value`` with twice its standard deviation, both in per cent."""
+    if isnan(value) or isnan(sigma):
+        return signed(value, 2)
+    return f"{signed(value, 2)} ± {2 * sigma:.2f}"
+
+
+def figures(track: RunTrack) -> tuple[str, ...]:
+    """Return the numbers of a run's wheel path, in the order of `FIGURES`."""
+    return (
+        number(track.accuracy, 4),
+        number(track.with_others, 4),
+        number(track.iri_m_per_km, 3),
+        signed(track.bias_percent, 2),
+        with_error(track.distance_percent, track.distance_sigma),
+        with_error(track.height_percent, track.height_sigma),
+        number(track.flagged_m, 1),
+    )
+
+
+FIGURES = (
+    "accuracy",
+    "with others",
+    "IRI, m/km",
+    "bias, %",
+    "distance, % ± 2σ",
+    "height, % ± 2σ",
+    "flagged, m",
+)
+
+
+def cause_in_words(cause: Cause) -> str:
+    """Return a cause, and how much of what the correlation lacks comes back without it."""
+    if isnan(cause.explains):
+        return cause.text
+    return f"{cause.text}; explains {100 * cause.explains:.0f} % of what the correlation lacks"
+
+
+def run_lines(run: RunSheet) -> tuple[str, ...]:
+    """Return what is said of a run: its fault, what was done to it, why it does not agree."""
+    fault = (f"not used: {run.error}",) if run.error else ()
+    causes = tuple(
+        f"{track.track}: {cause_in_words(cause)}" for track in run.tracks for cause in track.causes
+    )
+    return (*fault, *run.said, *causes)
+
+
+def is_bad(run: RunSheet, limits: CertificationLimits, track: str | None = None) -> bool:
+    """Return whether a wheel path of ``run``, or any of them, does not agree."""
+    judged = [one for one in run.tracks if track in (None, one.track)]
+    return any(one.causes or not one.accuracy >= limits.accuracy for one in judged) or not judged
+
+
+def tracks_of(section: SectionSheet) -> tuple[str, ...]:
+    """Return the wheel paths of ``section``, as its reference has them."""
+    return tuple(section.reference_iri)
+
+
+def where(section: SectionSheet) -> str:
+    """Return what ``section`` is cut from, and how rough that is."""
+    iri = ", ".join(f"{name} {value:.3f} m/km" for name, value in section.reference_iri.items())
+    return f"{stretch(section)} of {section.reference_source}; IRI {iri}"
+
+
+def what_counts(sheet: StationarySheet) -> str:
+    """Return what the numbers of a stationary test are of."""
+    return f"{stretch(sheet)} of {sheet.source}" if sheet.profile else sheet.source
+
+
+def stretch(sheet: SectionSheet | StationarySheet) -> str:
+    """Return from where to where ``sheet`` reaches."""
+    return f"{sheet.start_m:.8g} m to {sheet.end_m:.8g} m"
+
+
+def limits_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
+    """Return every limit of the worksheet behind its name."""
+    return (
+        ("Runs at each section", f"≥ {limits.runs}"),
+        ("Repeatability", f"≥ {limits.repeatability:g}"),
+        ("Accuracy", f"≥ {limits.accuracy:g}"),
+        ("Distance error", _at_most(limits.distance_percent, "%")),
+        ("Height scale error", _at_most(limits.height_percent, "%")),
+        ("IRI bias", _at_most(limits.iri_bias_percent, "%")),
+        ("Quiescent IRI", _at_most(limits.quiescent_m_per_km, "m/km")),
+        ("Bounce IRI", _at_most(limits.bounce_m_per_km, "m/km")),
+    )
+
+
+def _at_most(limit: float | None, unit: str) -> str:
+    return "reported only" if limit is None else f"≤ {limit:g} {unit}"
+
+
+def listed(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
+    """Return settings or versions as pairs of words; what is not set is left out."""
+    return tuple((name, _plain(value)) for name, value in values.items() if value is not None)
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} {_plain(item)}" for name, item in value.items())
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return ", ".join(map(_plain, value))
+    return f"{value:g}" if isinstance(value, float) else str(value)
