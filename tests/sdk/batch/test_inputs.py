@@ -1,0 +1,284 @@
+"""Sources: every recording of a tree once, nothing that is none, and wrong usage before work."""
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floatref.architectures.plugins import plugins
+from floatref.architectures.writing import write_as
+from floatref.batch.inputs import Defaults, Found, find_jobs
+from floatref.errors import InputError
+from floatref.files import write_profile, write_recording
+from floatref.values.clock import UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording
+from floatref_adapters.testing import WRITERS
+
+MAP = """format = "floatref-map/1"
+[[files]]
+name = "gnss"
+path = "gnss.csv"
+[source]
+dbc = "names.csv"
+[[channels]]
+native = "a"
+channel = "height"
+"""
+
+
+def recording() -> Recording:
+    clock = UniformClock.of(100.0)
+    samples = {"distance": 0.1, "height": 1.0, "vertical_specific_force": 9.8}
+    channels = (Channel.of(n, x * np.arange(1.0, 51.0), clock) for n, x in samples.items())
+    return Recording(tuple(channels))
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a tree with a recording in every format, profiles in every format, and the rest."""
+    tree = tmp_path_factory.mktemp("made") / "tree"
+    for suffix, write in WRITERS.items():
+        folder = tree / suffix[1:]
+        folder.mkdir(parents=True)
+        write(recording(), folder / f"run{suffix}", None)
+    (tree / "ours").mkdir()
+    write_recording(recording(), tree / "ours" / "run")
+    profile = Profile(0.05, (ProfileTrack.of("main", np.zeros(100)),))
+    done = tree / "profiles"
+    done.mkdir()
+    write_profile(profile, done / "p")
+    for form in plugins().profile_formats().values():
+        if form.suffix:
+            write_as(form, profile, done / f"p{form.suffix}")
+    (tree / "notes.md").write_text("a, b\n")
+    (tree / "run.txt").write_text("time\theight\n0.0\t1.0\n0.1\t1.1\n")
+    (tree / "readme.txt").write_text("What this is\n")
+    (tree / "list.csv").write_text("file\ncsv/run.csv\n")
+    (tree / ".hidden.csv").write_text("time,height\n0,1\n")
+    (tree / ".floatref-12").mkdir()
+    (tree / ".floatref-12" / "run.csv").touch()
+    (tree / "damaged.mf4").write_bytes(b"\0" * 100)
+    return tree
+
+
+@pytest.fixture
+def tree(made: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "tree"))
+
+
+@pytest.fixture
+def find(tmp_path: Path) -> Callable[..., Found]:
+    def call(*given: object, **options: object) -> Found:
+        return find_jobs([str(each) for each in given], tmp_path / "out", Defaults(**options))
+
+    return call
+
+
+def names(found: Found) -> list[str]:
+    return [job.name for job in found.jobs]
+
+
+def test_a_tree_gives_every_recording_and_passes_over_the_rest(tree, find):
+    found = find(tree)
+    runs = {f"{suffix[1:]}/run{suffix}" for suffix in WRITERS}
+    assert set(names(found)) == runs | {"ours/run", "run.txt", "damaged.mf4"}
+    assert names(found) == sorted(names(found), key=lambda name: name.split("/"))
+    passed = {str(path.relative_to(tree)) for path in found.passed_over}
+    profiles = {"profiles/p", "profiles/p.csv", "profiles/p.erd", "profiles/p.parquet"}
+    assert passed == profiles | {"notes.md", "readme.txt", "list.csv"}
+
+
+def test_a_job_knows_where_its_source_is_and_how_large(tree, find, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = find("tree/ours/run", "tree/csv/run.csv", segment_m=100.0, pipeline="temporal-hpf")
+    folder, table = found.jobs
+    assert folder.source == tree / "ours" / "run"
+    assert folder.size_bytes == sum(f.stat().st_size for f in (tree / "ours/run").iterdir())
+    assert table.source == tree / "csv" / "run.csv"
+    assert table.size_bytes == (tree / "csv" / "run.csv").stat().st_size
+    for job in found.jobs:
+        assert (job.out, job.segment_m, job.pipeline) == (tmp_path / "out", 100.0, "temporal-hpf")
+        assert job.profile.is_relative_to(tmp_path / "out")
+
+
+def test_every_way_to_a_source_leads_to_one_job(tree, find):
+    run = tree / "ours" / "run"
+    (tree / "link.csv").symlink_to(tree / "csv" / "run.csv")
+    ways = [run, run / "recording.json", tree / "ours", tree / "ours/*/recording.json"]
+    assert names(find(*ways)) == ["run"]
+    assert names(find(*reversed(ways))) == ["run"]
+    found = find(tree / "csv" / "run.csv", tree / "csv/../csv/run.csv", tree / "link.csv")
+    assert names(found) == ["run.csv"]
+
+
+def test_links_to_folders_are_not_followed(tree, find):
+    (tree / "ours" / "loop").symlink_to(tree, target_is_directory=True)
+    found = find(tree / "ours")
+    assert names(found) == ["run"]
+    assert found.passed_over == (tree / "ours" / "loop",)
+
+
+def test_the_output_and_that_of_other_batches_are_not_searched(tree, find, tmp_path):
+    for name in ("profiles", "records"):
+        (tree / "old" / name).mkdir(parents=True)
+    (tree / "old" / ".lock").touch()
+    (tree / "old" / "summary.csv").write_text("file,name\n")
+    before = names(find(tree))
+    out = tree / "new"
+    shutil.copytree(tree / "csv", out)
+    assert names(find_jobs([str(tree)], out, Defaults())) == before
+    assert "new/run.csv" in names(find(tree))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "expected"),
+    [
+        ("**/*.mf4", ["damaged.mf4", "mf4/run.mf4"]),
+        ("*/run.[ch]*", ["csv/run.csv", "h5/run.h5"]),
+        ("ours/*", ["run"]),
+        ("ours/*/*", ["run"]),
+        ("csv*", ["csv/run.csv"]),
+        (".h*", [".hidden.csv"]),
+        ("notes.m?", ["notes.md"]),
+    ],
+)
+def test_patterns_are_expanded_and_named_below_their_fixed_part(tree, find, pattern, expected):
+    wanted = [name.replace(".hidden", "_hidden") for name in expected]
+    assert names(find(tree / pattern)) == wanted
+
+
+def test_two_stars_give_what_the_folder_gives_and_what_else_is_named(tree, find):
+    whole = set(names(find(tree)))
+    assert whole <= set(names(find(tree / "**/*")))
+    assert not [name for name in names(find(tree / "**/*")) if name.endswith((".f64", ".u8"))]
+
+
+def test_an_existing_name_with_brackets_is_no_pattern(tree, find):
+    shutil.copy(tree / "csv" / "run.csv", tree / "run[1].csv")
+    assert names(find(tree / "run[1].csv")) == ["run[1].csv"]
+
+
+def test_a_manifest_gives_what_it_names_even_what_is_missing(tree, find):
+    text = "file,pipeline\ncsv/run.csv,\nno.mf4,temporal-hpf\nours,\nnotes.md,\nprofiles/p,\n"
+    (tree / "list").write_text(text)
+    found = find(tree / "list")
+    expected = ["csv/run.csv", "no.mf4", "ours/run", "notes.md", "profiles/p"]
+    assert names(found) == expected
+    assert [job.pipeline for job in found.jobs][1] == "temporal-hpf"
+    assert found.jobs[1].size_bytes == 0
+    assert found.passed_over == ()
+
+
+def test_files_of_one_name_are_told_apart(tree, find, tmp_path):
+    other = tmp_path / "other"
+    shutil.copytree(tree / "csv", other)
+    found = find(tree / "csv", other, tree / "h5" / "run.h5")
+    assert len(set(names(found))) == 3
+    assert names(found)[2] == "run.h5"
+    assert sorted(names(find(other, tree / "h5" / "run.h5", tree / "csv"))) == sorted(names(found))
+
+
+def test_files_of_the_map_belong_to_other_sources(tree, find):
+    for name in ("gnss.csv", "names.csv"):
+        shutil.copy(tree / "csv" / "run.csv", tree / "csv" / name)
+    chart = tree / "csv" / "map.toml"
+    chart.write_text(MAP)
+    for given in (tree / "csv", tree / "csv/*.*"):
+        found = find(given, channel_map=chart)
+        assert names(found) == ["run.csv"]
+        assert found.jobs[0].channel_map == chart
+        assert found.passed_over == ()
+    assert [job.channel_map for job in find(tree / "ours", channel_map=chart).jobs] == [None]
+
+
+def test_a_named_adapter_reads_its_own_and_what_nobody_recognises(tree, find):
+    found = find(tree, adapter="mdf4")
+    assert names(found) == ["damaged.mf4", "mf4/run.mf4"]
+    assert tree / "ours" / "run" in found.passed_over
+    assert names(find(tree / "notes.md", adapter="mdf4")) == ["notes.md"]
+
+
+def test_a_folder_that_an_adapter_recognises_is_one_source(tree, find, know):
+    class Vendor:
+        name, summary = "vendor", "folders of a vendor"
+
+        def recognises(self, source: Path) -> bool:
+            return source.suffix == ".run"
+
+        def read(self, source: Path) -> Recording:
+            raise NotImplementedError
+
+    know(Vendor())
+    (tree / "ours" / "a.run" / "deep").mkdir(parents=True)
+    (tree / "ours" / "a.run" / "deep" / "x.csv").write_text("abc")
+    found = find(tree / "ours")
+    assert names(found) == ["a.run", "run"]
+    assert found.jobs[0].size_bytes == 3
+
+
+@pytest.mark.parametrize(
+    ("given", "options", "said"),
+    [
+        ("no.mf4", {}, "no.mf4: not found"),
+        ("no*.mf4", {}, r"no\*.mf4: matches no recording"),
+        ("a**/x", {}, r"\*\*"),
+        ("profiles", {}, "profiles: no recording in it"),
+        ("profiles/p", {}, "profiles/p: no recording in it"),
+        ("csv", {"pipeline": "no"}, "pipeline no: unknown"),
+        ("csv", {"settings": {"no": 1.0}}, "setting no: pipeline temporal-basic has none such"),
+        ("csv", {"adapter": "no"}, "adapter no: unknown"),
+        ("csv", {"channel_map": Path("no.toml")}, "no.toml: No such file"),
+        ("csv", {"channel_map": Path("no.toml"), "adapter": "recording"}, "leave the map out"),
+        ("csv", {"segment_m": 0.0}, "segment 0.0 m: must be above zero"),
+        ("csv", {"segment_m": float("nan")}, "segment nan m"),
+        ("pipe", {}, "pipe: is a device or pipe"),
+    ],
+)
+def test_wrong_usage_is_one_line_before_any_work(tree, find, given, options, said):
+    os.mkfifo(tree / "pipe")
+    with pytest.raises(InputError, match=said) as caught:
+        find(tree / given, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
+    os.mkfifo(tree / "csv" / "pipe.csv")
+    found = find(tree / "csv")
+    assert names(found) == ["run.csv"]
+    assert found.passed_over == (tree / "csv" / "pipe.csv",)
+
+
+def test_a_link_that_leads_nowhere_is_a_source_that_cannot_be_read(tree, find):
+    (tree / "csv" / "gone.mf4").symlink_to(tree / "nowhere.mf4")
+    assert names(find(tree / "csv")) == ["gone.mf4", "run.csv"]
+
+
+def test_an_empty_list_and_an_empty_argument_are_told(tree, find):
+    (tree / "list").write_text("file\n")
+    with pytest.raises(InputError, match="no recording was found"):
+        find(tree / "list")
+    with pytest.raises(InputError, match="'': not found"):
+        find("")
+
+
+def test_one_file_in_two_ways_is_refused(tree, find):
+    (tree / "list").write_text("file,pipeline\ncsv/run.csv,temporal-hpf\n")
+    with pytest.raises(InputError, match=r"run.csv: given twice, with different options"):
+        find(tree / "csv", tree / "list")
+
+
+def test_a_folder_that_cannot_be_listed_is_told(tree, find, monkeypatch):
+    real = os.scandir
+
+    def refusing(path: str | Path) -> object:
+        if Path(path).name == "csv":
+            raise PermissionError(13, "Permission denied", str(path))
+        return real(path)
+
+    monkeypatch.setattr(os, "scandir", refusing)
+    with pytest.raises(InputError, match="csv: Permission denied; make it readable"):
+        find(tree)
