@@ -1,0 +1,112 @@
+"""Slope in the waveband of 1.6 to 8 m: what every profiler and reference of a road share.
+
+Hills, datum and the profilers' own high-pass lie above it, footprint and texture below.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.measures import waveband_slope
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.profile import ProfileTrack
+
+STEP_M = 0.25
+"""Between the points of a slope: six of them in the shortest wave."""
+CLIPPED_AT = 3.0
+"""Slopes are clipped at this many times their 90th percentile, for artefacts would outweigh all."""
+LEAST_VALID_M = 50.0
+"""With less than that marked valid, all measured points are used."""
+HIGHEST = 9e5
+"""Elevations beyond are refused by filters; a road in mm may be higher."""
+
+
+@dataclass(frozen=True, eq=False)
+class Slope:
+    """Slope at ``start_m + k * STEP_M``, 0 where ``measured`` is false; both of shape (n,)."""
+
+    start_m: float
+    values: FloatArray
+    measured: BoolArray
+
+    @property
+    def distance_m(self) -> FloatArray:
+        """Position of every point in m."""
+        return self.start_m + STEP_M * np.arange(self.values.size, dtype=np.float64)
+
+    @property
+    def end_m(self) -> float:
+        """Position of the last point in m."""
+        return self.start_m + STEP_M * (self.values.size - 1)
+
+    def energy(self) -> float:
+        """Return the sum of squares."""
+        return float(np.square(self.values).sum())
+
+
+def slope_of(
+    track: ProfileTrack, start_m: float, interval_m: float, clipped: bool = True
+) -> Slope | None:
+    """Return the slope of ``track``, whose point 0 lies at ``start_m``; None if it has none.
+
+    Elevation may be in any unit: its median is taken away first.
+    """
+    usable = usable_points(track, interval_m)
+    if np.count_nonzero(usable) < 2 or interval_m >= 2.0:
+        return None
+    points = np.flatnonzero(usable)
+    cut = slice(int(points[0]), int(points[-1]) + 1)
+    z = np.where(usable, track.elevation, np.nan)[cut]
+    rise, factor = _within_reach(z)
+    try:
+        slope = factor * waveband_slope(rise, interval_m, "medium")
+    except InputError:
+        return None
+    at = start_m + interval_m * (cut.start + 0.5 + np.arange(slope.size, dtype=np.float64))
+    known = usable[cut][:-1] & usable[cut][1:]
+    return _on_steps(at, np.where(known, slope, 0.0), known, clipped)
+
+
+def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
+    """Return the valid points of ``track``, or all measured ones if too few of them are."""
+    if np.count_nonzero(track.valid) * interval_m >= LEAST_VALID_M:
+        return track.valid
+    return np.isfinite(track.elevation)
+
+
+def _within_reach(z: FloatArray) -> tuple[FloatArray, float]:
+    """Return ``z`` about its median and less by a factor, so that no filter refuses it."""
+    rise = z - np.nanmedian(z)
+    factor = max(float(np.nanmax(np.abs(rise))) / HIGHEST, 1.0)
+    return np.asarray(rise / factor), factor
+
+
+def _on_steps(at: FloatArray, slope: FloatArray, known: BoolArray, clipped: bool) -> Slope:
+    """Return ``slope`` at whole steps, linearly between its points ``at``."""
+    first = math.ceil(at[0] / STEP_M)
+    steps = STEP_M * np.arange(first, math.floor(at[-1] / STEP_M) + 1)
+    measured = np.interp(steps, at, known.astype(np.float64)) > 0.999
+    values = np.where(measured, np.interp(steps, at, slope), 0.0)
+    if clipped and measured.any():
+        limit = CLIPPED_AT * float(np.quantile(np.abs(values[measured]), 0.9))
+        values = np.clip(values, -limit, limit)
+    return Slope(float(STEP_M * first), values, measured)
+
+
+def aligned(slopes: Sequence[Slope]) -> tuple[Slope, ...]:
+    """Return ``slopes`` from the first point of any of them to the last, 0 where one has none."""
+    start = min(s.start_m for s in slopes)
+    end = max(s.end_m for s in slopes)
+    return tuple(_extended(s, start, end) for s in slopes)
+
+
+def _extended(slope: Slope, start_m: float, end_m: float) -> Slope:
+    """Return ``slope`` from ``start_m`` to ``end_m``."""
+    before = round((slope.start_m - start_m) / STEP_M)
+    after = round((end_m - slope.end_m) / STEP_M)
+    return Slope(
+        start_m, np.pad(slope.values, (before, after)), np.pad(slope.measured, (before, after))
+    )
