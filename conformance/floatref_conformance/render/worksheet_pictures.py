@@ -1,6 +1,7 @@
 """The pictures of a worksheet: runs over the reference, their IRI, and what stood still."""
 
 from collections.abc import Iterator
+from math import isnan
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import RunSheet, SectionSheet, StationarySheet
 from floatref_conformance.render import worksheet_wording as wording
-from floatref_conformance.render.svg import Figure, Line, Mark, Panel, Shade, drawn
+from floatref_conformance.render.svg import Figure, Line, Panel, Shade, drawn
 
 SHOWN_M = 30.0
 """Longest wavelength of the elevations shown: a profile's drift would hide the road."""
@@ -101,9 +102,10 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
         Panel("roughness", "m/km", tuple(roughness), 110.0, True),
     )
     end = max(float(profile.distance_m[-1]), profile.start_m + profile.interval_m)
-    counts = Shade("counts", ((sheet.start_m, sheet.end_m),), "scored")
+    reach = () if isnan(sheet.start_m) else ((sheet.start_m, sheet.end_m),)
+    counts = Shade("counts", reach, "scored")
     title = f"Test {sheet.id}: elevation and roughness of a standing vehicle"
-    told = f"What counts reaches from {wording.stretch(sheet)}."
+    told = f"What counts: {wording.what_counts(sheet)}."
     return drawn(
         Figure(name, title, told, panels, "distance in m", profile.start_m, end, (counts,))
     )
@@ -123,8 +125,7 @@ def lag_along(distance_m: FloatArray, lag_m: FloatArray, percent: float, of: str
 
 def _drawn_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
     told = f"{title}, {start:.6g} m to {end:.6g} m."
-    marks: tuple[Mark, ...] = ()
-    return drawn(Figure(name, title, told, panels, "distance in m", start, end, (), marks))
+    return drawn(Figure(name, title, told, panels, "distance in m", start, end))
 
 
 def _profiles(

@@ -31,7 +31,6 @@ class CriterionRow:
     limit: str
     outcome: str
     reason: str
-    clause: str
 
 
 @dataclass(frozen=True)
@@ -89,6 +88,7 @@ class Page:
     tests: tuple[SectionPart, ...]
     heads: tuple[str, ...]
     limits: Pairs
+    clauses: Pairs
     settings: Pairs
     versions: Pairs
     inputs: Pairs
@@ -110,6 +110,7 @@ def page_of(worksheet: Worksheet) -> Page:
         tests=tuple(_test(s, f"test-{n}") for n, s in enumerate(worksheet.stationary, start=1)),
         heads=wording.FIGURES,
         limits=wording.limits_in_words(worksheet.limits),
+        clauses=wording.clauses_of(worksheet),
         settings=wording.listed(worksheet.settings),
         versions=wording.listed(worksheet.versions),
         inputs=tuple(_inputs(worksheet)),
@@ -132,13 +133,12 @@ def _facts(worksheet: Worksheet) -> Pairs:
 def _criterion(of: str, one: Criterion) -> CriterionRow:
     return CriterionRow(
         of or "all",
-        one.title,
+        wording.title_of(one),
         one.track or "all",
         wording.value_in_words(one),
         wording.limit_in_words(one),
         one.judged.value,
         one.reason,
-        one.clause,
     )
 
 

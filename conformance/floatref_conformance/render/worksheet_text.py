@@ -52,17 +52,18 @@ def print_worksheet(worksheet: Worksheet, console: Console) -> None:
 
 
 def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
-    """Return limits, settings and versions in one line each."""
+    """Return limits, settings and versions in one line each, then where criteria come from."""
     told = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
         ("Settings", wording.listed(worksheet.settings)),
         ("Versions", wording.listed(worksheet.versions)),
     )
-    return tuple(
+    lines = [
         f"{title}: {'; '.join(f'{name} {value}' for name, value in pairs)}."
         for title, pairs in told
         if pairs
-    )
+    ]
+    return (*lines, *(f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet)))
 
 
 def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console) -> None:
@@ -105,17 +106,16 @@ def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Consol
     for head in ("value", "limit"):
         table.add_column(head, justify="right", no_wrap=True)
     table.add_column("outcome", no_wrap=True)
-    table.add_column("clause", overflow="fold")
     for one in criteria:
         word = Text(one.judged.value, COLOURS.get(one.judged, ""))
         value, limit = wording.value_in_words(one), wording.limit_in_words(one)
-        told = (one.title, one.track or "all", value, limit)
-        table.add_row(*map(_text, told), word, _text(one.clause))
+        told = (wording.title_of(one), one.track or "all", value, limit)
+        table.add_row(*map(_text, told), word)
     _show(table, console)
     for one in criteria:
         if one.reason:
             of = f" {one.track}" if one.track else ""
-            _say(console, f"  {one.title}{of}: {one.reason}")
+            _say(console, f"  {wording.title_of(one)}{of}: {one.reason}")
 
 
 def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:

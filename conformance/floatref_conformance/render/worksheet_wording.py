@@ -19,6 +19,11 @@ NOTHING = "–"
 """Stands for a number that could not be had."""
 COUNTED = "runs"
 """The id of the criterion that is a number of runs."""
+SIGNED = (
+    *("distance", "distance-mean", "distance-readings", "distance-readings-mean"),
+    *("height-scale", "iri-bias"),
+)
+"""The ids of criteria whose value has a sign, and whose limit is that of its magnitude."""
 
 
 def criteria_of(worksheet: Worksheet) -> tuple[tuple[str, Criterion], ...]:
@@ -50,24 +55,31 @@ def summary(worksheet: Worksheet) -> str:
 
 def value_in_words(criterion: Criterion) -> str:
     """Return what was measured, with its unit."""
-    return _quantity(criterion, criterion.value)
+    value = criterion.value
+    if isnan(value):
+        return NOTHING
+    if criterion.id == COUNTED:
+        return f"{value:.0f}"
+    told = signed(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
+    return f"{told} {criterion.unit}".strip()
+
+
+def title_of(criterion: Criterion) -> str:
+    """Return the title as a line begins with it."""
+    return criterion.title[:1].upper() + criterion.title[1:]
+
+
+def clauses_of(worksheet: Worksheet) -> tuple[tuple[str, str], ...]:
+    """Return every kind of criterion once, and where it comes from."""
+    return tuple({one.id: one.clause for _, one in criteria_of(worksheet)}.items())
 
 
 def limit_in_words(criterion: Criterion) -> str:
     """Return what the value has to reach or to stay within; that there is nothing such."""
     if criterion.limit is None:
         return "none"
-    sign = "≥" if criterion.at_least else "≤"
-    return f"{sign} {_quantity(criterion, criterion.limit, exact=True)}"
-
-
-def _quantity(criterion: Criterion, value: float, exact: bool = False) -> str:
-    if isnan(value):
-        return NOTHING
-    if criterion.id == COUNTED:
-        return f"{value:.0f}"
-    text = f"{value:.6g}" if exact else number(value, 4 if not criterion.unit else 3)
-    return f"{text} {criterion.unit}".strip()
+    sign = "±" if criterion.id in SIGNED else "≥" if criterion.at_least else "≤"
+    return f"{sign} {criterion.limit:.6g} {criterion.unit}".strip()
 
 
 def number(value: float, digits: int) -> str:
@@ -146,7 +158,7 @@ def where(section: SectionSheet) -> str:
 
 def what_counts(sheet: StationarySheet) -> str:
     """Return what the numbers of a stationary test are of."""
-    return f"{stretch(sheet)} of {sheet.source}" if sheet.profile else sheet.source
+    return sheet.source if isnan(sheet.start_m) else f"{stretch(sheet)} of {sheet.source}"
 
 
 def stretch(sheet: SectionSheet | StationarySheet) -> str:

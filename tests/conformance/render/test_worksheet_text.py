@@ -56,9 +56,9 @@ def test_every_criterion_stands_with_its_limit_and_its_reason(certified):
     text = " ".join(shown(certified(), 120).split())
     for part in (
         "Accuracy left 0.9500 ≥ 0.9 pass",
-        "Distance left 1.000 % ≤ 0.15 % fail",
+        "Distance left +1.000 % ± 0.15 % fail",
         "Distance left: run-3 takes the section 1.00 % longer",
-        "Iri-Bias left 0.400 % none reported",
+        "Iri-Bias left +0.400 % none reported",
         "Bounce left – ≤ 0.126 m/km missing",
     ):
         assert part in text
