@@ -45,7 +45,8 @@ class Told:
     def __str__(self) -> str:
         if isnan(self.percent) or isnan(self.sigma):
             return f"{self.who} (not known)"
-        return f"{self.who} {self.percent:+.2f} % ± {2.0 * self.sigma:.2f} %"
+        doubt = f" ± {2.0 * self.sigma:.2f} %" if self.sigma else ""
+        return f"{self.who} {self.percent:+.2f} %{doubt}"
 
 
 def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tuple[Criterion, ...]:

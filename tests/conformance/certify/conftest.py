@@ -10,6 +10,10 @@ import pytest
 from floatref.files import write_profile
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.plan import SectionPlan
+from floatref_conformance.certify.sections import Run, section_sheet
+from floatref_conformance.certify.worksheet import SectionSheet
 from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.sayers import sayers_road
 
@@ -24,6 +28,7 @@ SECTION_M = 160.9
 BEGINS_M = 60.0
 
 RunMaker = Callable[..., Profile]
+SheetMaker = Callable[..., SectionSheet]
 
 
 @pytest.fixture(scope="session")
@@ -92,6 +97,49 @@ def written(
     for number, run in enumerate(ten_runs, 1):
         write_profile(run, folder / "runs" / f"run-{number}")
     return folder
+
+
+@pytest.fixture(scope="session")
+def sheet_of(reference: Profile) -> SheetMaker:
+    """Return a function that makes the sheet of runs: profiles, called run-1 and so on, or runs.
+
+    Its options: ``limits``, ``stretch_m``, and another ``reference``.
+    """
+
+    def make(
+        runs: tuple[Profile | Run, ...],
+        limits: CertificationLimits = CertificationLimits(),  # noqa: B008
+        stretch_m: tuple[float, float] | None = None,
+        reference: Profile = reference,
+    ) -> SectionSheet:
+        placed = [
+            run if isinstance(run, Run) else Run(f"run-{k}", f"runs/run-{k}", (), run)
+            for k, run in enumerate(runs, 1)
+        ]
+        plan = SectionPlan("main", Path("reference"), (), stretch_m)
+        return section_sheet(plan, reference, placed, limits)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def without() -> RunMaker:
+    """Return a function that takes ``count`` points from a wheel path, or flags them alone."""
+
+    def make(
+        profile: Profile, track: str, first: int, count: int, flags_only: bool = False
+    ) -> Profile:
+        whole = profile.track(track)
+        elevation, valid = whole.elevation.copy(), whole.valid.copy()
+        valid[first : first + count] = False
+        if not flags_only:
+            elevation[first : first + count] = np.nan
+        changed = ProfileTrack.of(track, elevation, valid)
+        return replace(
+            profile, tracks=tuple(changed if t.name == track else t for t in profile.tracks)
+        )
+
+    return make
 
 
 def _noise(draw: np.random.Generator, x: np.ndarray, interval_m: float) -> np.ndarray:
