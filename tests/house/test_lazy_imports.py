@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-HEAVY = ("numba", "scipy.signal", "matplotlib", "jsonschema", "rich")
+HEAVY = ("numba", "scipy.signal", "matplotlib", "jsonschema", "rich", "dask", "distributed")
 REPORT = "import sys; print(*(m for m in {heavy!r} if m in sys.modules))"
 
 

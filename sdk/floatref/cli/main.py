@@ -15,6 +15,7 @@ COMMANDS = {
     "channels": ("floatref.cli.channels:channels", "list what a native file holds, draft its map"),
     "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
     "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
+    "batch": ("floatref.cli.batch:batch", "process many recordings on a cluster"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),
 }
 

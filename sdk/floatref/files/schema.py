@@ -17,6 +17,7 @@ SCHEMAS = (
     "floatref-recording-1",
     "floatref-profile-1",
     "floatref-map-1",
+    "floatref-batch-1",
     "floatref-batch-record-1",
 )
 """Names of the schemas in the package."""

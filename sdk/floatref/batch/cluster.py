@@ -1,0 +1,169 @@
+"""A Dask cluster for one command: processes of this machine, or a cluster that runs elsewhere."""
+
+import logging
+import warnings
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from floatref import __version__
+from floatref.errors import InputError
+from floatref.files.atomic import replacing_file
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+ANSWER_S = 10.0
+"""Until then a scheduler has to answer."""
+
+WORKERS_S = 30.0
+"""Until then a cluster has to have its first worker."""
+
+LOCAL = {
+    # One file per worker and no other waiting there: who dies with a worker has killed it.
+    "distributed.scheduler.worker-saturation": 1.0,
+    # A worker that reads or compiles for minutes is silent, and well.
+    "distributed.scheduler.worker-ttl": "24 hours",
+    "distributed.worker.multiprocessing-method": "spawn",
+    # Nothing of ours can be spilled; a paused worker would wait for ever.
+    "distributed.worker.memory.target": False,
+    "distributed.worker.memory.spill": False,
+    "distributed.worker.memory.pause": False,
+}
+"""Dask's configuration for a local cluster."""
+
+LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
+
+
+def check_installed() -> None:
+    """Raise InputError now if a batch would lack a package later."""
+    try:
+        import dask  # noqa: F401
+        import distributed  # noqa: F401
+        import pyarrow  # noqa: F401
+    except ImportError as error:
+        raise InputError(
+            "a batch needs Dask and pyarrow; run: pip install 'floatref[batch]'"
+        ) from error
+
+
+@contextmanager
+def connect(out: Path, jobs: int | None = None, address: str | None = None) -> Iterator["Client"]:
+    """Yield a client of the cluster at ``address``, or of ``jobs`` processes of this machine.
+
+    Without both there is one process for each processor. Raises InputError if no scheduler
+    answers, if it has no workers, if one of them has another version of floatref, or does not
+    see the folder ``out``. The local processes end with the context, whatever ends that.
+    """
+    check_installed()
+    with ExitStack() as stack:
+        stack.enter_context(_quiet())
+        client = stack.enter_context(_local(jobs) if address is None else _existing(address))
+        if address is not None:
+            _check_workers(client, out)
+        yield client
+
+
+def count_workers(client: "Client") -> int:
+    """Return how many workers there are; 0 if nobody tells."""
+    try:
+        return len(client.nthreads())
+    except (OSError, RuntimeError, TimeoutError):
+        return 0
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep logs and warnings of the cluster off the terminal; what matters we say ourselves."""
+    import distributed  # noqa: F401  # It sets levels of its own when it is imported.
+
+    for name in LOGGERS:
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+@contextmanager
+def _local(jobs: int | None) -> Iterator["Client"]:
+    import dask
+    from dask.system import CPU_COUNT
+    from distributed import Client, LocalCluster
+
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(LOCAL))
+        try:
+            cluster = LocalCluster(
+                n_workers=jobs or CPU_COUNT,
+                processes=True,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs=logging.CRITICAL + 1,
+            )
+            stack.callback(cluster.close)
+            client = stack.enter_context(Client(cluster))
+        except (OSError, RuntimeError, TimeoutError) as error:
+            raise InputError(f"no workers can be started here ({error}); try --jobs 1") from error
+        yield client
+
+
+@contextmanager
+def _existing(address: str) -> Iterator["Client"]:
+    from distributed import Client
+
+    try:
+        client = Client(address, timeout=ANSWER_S, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError(
+            f"cluster {address}: no scheduler answers there ({error}); start one, or leave "
+            "--cluster out"
+        ) from error
+    with client:
+        yield client
+
+
+def _check_workers(client: "Client", out: Path) -> None:
+    """Raise InputError unless scheduler and workers are there, and able to do the work."""
+    address = client.scheduler_info()["address"]
+    try:
+        client.wait_for_workers(1, timeout=WORKERS_S)
+    except TimeoutError as error:
+        raise InputError(f"cluster {address}: has no workers; start some") from error
+    with replacing_file(out / ".cluster", overwrite=True) as token:
+        token.touch()
+        _check_answer(f"scheduler {address}", _answer_of_scheduler(client), out, False)
+        for worker, answer in client.run(_hello, str(token), on_error="return").items():
+            _check_answer(f"worker {worker}", answer, out, True)
+    (out / ".cluster").unlink(missing_ok=True)
+
+
+def _answer_of_scheduler(client: "Client") -> Any:
+    """Return what the scheduler says; it has to unpack the work before it can pass it on."""
+    try:
+        return client.run_on_scheduler(_hello)
+    except Exception as error:
+        return error
+
+
+def _hello(token: str = "") -> tuple[str, bool]:
+    """Return the version of floatref here, and whether file ``token`` is seen here."""
+    from floatref import __version__ as here
+
+    return here, Path(token).is_file()
+
+
+def _check_answer(who: str, answer: Any, out: Path, sees: bool) -> None:
+    """Raise InputError unless ``answer`` is that of our version, which sees the folder ``out``."""
+    if isinstance(answer, Exception):
+        reason = f"{type(answer).__name__}: {answer}"
+        raise InputError(
+            f"{who}: cannot run floatref ({reason}); install floatref[batch] {__version__} there"
+        ) from answer
+    version, seen = answer
+    if version != __version__:
+        raise InputError(
+            f"{who}: has floatref {version}, and we {__version__}; install the same there"
+        )
+    if sees and not seen:
+        raise InputError(f"{who}: does not see {out}; choose a folder that all machines share")

@@ -1,0 +1,88 @@
+"""What `floatref batch` does: a folder, a cluster, every file, and one summary of them all."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from floatref.batch.batch_document import Command, Finished, batch_document, write_batch_document
+from floatref.batch.cluster import connect, count_workers
+from floatref.batch.defaults import Defaults
+from floatref.batch.folder import not_given, prepared
+from floatref.batch.inputs import Found
+from floatref.batch.job import Job
+from floatref.batch.record import Record
+from floatref.batch.record_files import read_record
+from floatref.batch.running import run_jobs
+from floatref.batch.silence import silence
+from floatref.batch.summary import write_summary
+from floatref.batch.tally import Tally
+from floatref.cli.batch_progress import progress
+from floatref.cli.batch_report import tell_remarks
+
+
+@dataclass(frozen=True)
+class Work:
+    """What the command was asked for, as it was typed."""
+
+    given: Sequence[str]
+    defaults: Defaults
+    out: Path
+    resume: bool
+    jobs: int | None
+    cluster: str | None
+    plot: Path | None
+
+    @property
+    def command(self) -> Command:
+        """Return what batch.json tells of it."""
+        options = asdict(self.defaults)
+        chart = options.pop("channel_map")
+        return Command(
+            self.given,
+            {
+                **options,
+                "map": None if chart is None else str(chart),
+                "jobs": self.jobs,
+                "cluster": self.cluster,
+                "resume": self.resume,
+            },
+        )
+
+
+def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
+    """Process what was ``found``, count it in ``tally``, and return what batch.json holds.
+
+    Raises InputError for a folder or a cluster that cannot be used.
+    """
+    with prepared(work.out, work.resume):
+        failed: dict[str, Record] = {}
+        workers = _processed(found.jobs, work, tally, failed)
+        wall_s = monotonic() - tally.began_s
+        gone = not_given(work.out, found.jobs)
+        tell_remarks(found.passed_over, gone)
+        write_summary(_records(found.jobs, failed), work.out)
+        finished = Finished(wall_s, workers, found.passed_over, gone)
+        document = batch_document(work.command, tally, finished)
+        write_batch_document(document, work.out)
+    return document
+
+
+def _processed(jobs: Sequence[Job], work: Work, tally: Tally, failed: dict[str, Record]) -> int:
+    """Fill ``tally``, and ``failed`` by name; return the number of workers at the end."""
+    with silence() as shown, connect(work.out, work.jobs, work.cluster) as client:
+        tally.begin(jobs, monotonic())
+        with progress(tally, shown, lambda: count_workers(client)) as tell:
+            for job, record in run_jobs(client, jobs, work.resume):
+                tally.add(job, record)
+                if record.error:
+                    failed[job.name] = record
+                tell()
+        return count_workers(client)
+
+
+def _records(jobs: Iterable[Job], failed: Mapping[str, Record]) -> Iterator[Record]:
+    """Yield the record of every job in the order of the inputs, from disk one by one."""
+    for job in jobs:
+        yield failed[job.name] if job.name in failed else read_record(job.record)
