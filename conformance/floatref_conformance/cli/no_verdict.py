@@ -13,7 +13,12 @@ from floatref.cli.lazy import LazyGroup
 
 FAULT_OF_THE_SUITE = 3
 INTERRUPTED = 130
-MISSING = {"table": "no table", "simulate": "no recording", "selftest": "no counts"}
+MISSING = {
+    "table": "no table",
+    "simulate": "no recording",
+    "selftest": "no counts",
+    "certify": "no worksheet",
+}
 """What a sub-command that stops early leaves its caller without; for others it is a verdict."""
 
 

@@ -1,0 +1,192 @@
+"""A certification from its plan to its worksheet: read, place, compare, judge."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from floatref.errors import InputError
+from floatref.values.profile import Profile
+from floatref_conformance import EDITION
+from floatref_conformance.certify.converting import Converted, converted
+from floatref_conformance.certify.criteria import verdict_of
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.placing import place, placed
+from floatref_conformance.certify.plan import Plan, Processing, SectionPlan, StationaryPlan
+from floatref_conformance.certify.run_paths import names_of
+from floatref_conformance.certify.scales import judge_readings
+from floatref_conformance.certify.sections import Run, section_sheet
+from floatref_conformance.certify.stationary import stationary_sheet
+from floatref_conformance.certify.worksheet import (
+    Criterion,
+    SectionSheet,
+    StationarySheet,
+    Worksheet,
+)
+from floatref_conformance.classes import DeviceClass
+
+MEASURED_BY = ("floatref", "numpy", "scipy", "numba")
+"""Distributions on whose versions the numbers depend."""
+
+Progress = Callable[[str, float], None]
+"""Called with what is being done and the part of all that is done, from 0 to 1."""
+
+
+def certify(
+    plan: Plan,
+    processing: Processing,
+    limits: CertificationLimits,
+    device_class: DeviceClass,
+    progress: Progress = lambda doing, done: None,
+) -> Worksheet:
+    """Return the worksheet of ``plan``.
+
+    A run that cannot be used is an error of that run alone. Raises InputError for a reference
+    that cannot be used, a run that is the reference itself, and where no run can be used at all.
+    """
+    for section in plan.sections:
+        _check_apart(section)
+    steps = _Steps(plan, progress)
+    references = dict(_true(converted(_references(plan), processing, steps.read)))
+    sources = converted(_sources(plan), processing, steps.read)
+    _check_usable(plan, sources)
+    sections = tuple(
+        _section(section, references[section.reference], sources, limits, steps)
+        for section in plan.sections
+    )
+    stationary = tuple(
+        _stationary(name, test, sources[test.source], limits) for name, test in _tests(plan)
+    )
+    criteria = () if plan.distance is None else judge_readings(plan.distance, limits)
+    return Worksheet(
+        plan.profiler,
+        device_class,
+        limits,
+        verdict_of(_all_criteria(sections, stationary, criteria)),
+        sections,
+        stationary,
+        criteria,
+        settings=_settings(processing),
+        versions=dict(_versions()),
+    )
+
+
+class _Steps:
+    """Counts what is done of a plan: every source that is read, and every run that is placed."""
+
+    def __init__(self, plan: Plan, progress: Progress) -> None:
+        placed_runs = sum(len(section.runs) for section in plan.sections)
+        self._total = len(_references(plan)) + len(_sources(plan)) + placed_runs
+        self._done = 0
+        self._progress = progress
+        progress("reading", 0.0)
+
+    def read(self, path: Path) -> None:
+        """Tell that ``path`` was read."""
+        self._tell(f"read {path.name}")
+
+    def placed(self, name: str) -> None:
+        """Tell that the run ``name`` was found on its section."""
+        self._tell(f"placed {name}")
+
+    def _tell(self, doing: str) -> None:
+        self._done += 1
+        self._progress(doing, self._done / self._total)
+
+
+def _section(
+    plan: SectionPlan,
+    reference: Profile,
+    sources: Mapping[Path, Converted],
+    limits: CertificationLimits,
+    steps: _Steps,
+) -> SectionSheet:
+    """Return the sheet of a section, its runs placed on the reference's axis."""
+    runs = []
+    for name, path in zip(names_of(plan.runs), plan.runs, strict=True):
+        runs.append(_run(name, path, sources[path], reference))
+        steps.placed(name)
+    return section_sheet(plan, reference, runs, limits)
+
+
+def _run(name: str, path: Path, source: Converted, reference: Profile) -> Run:
+    if source.profile is None:
+        return Run(name, str(path), source.said, None, source.error)
+    try:
+        placement = place(reference, source.profile)
+        profile = placed(source.profile, placement)
+    except InputError as error:
+        return Run(name, str(path), source.said, None, f"{path}: {error}")
+    return Run(name, str(path), (*source.said, *placement.said), profile)
+
+
+def _stationary(
+    name: str, plan: StationaryPlan, source: Converted, limits: CertificationLimits
+) -> StationarySheet:
+    return stationary_sheet(name, plan, source.profile, limits, source.said, source.error)
+
+
+def _check_apart(section: SectionPlan) -> None:
+    """Raise InputError for a run that is the reference: it would agree with it, of course."""
+    for run in section.runs:
+        if run.resolve() == section.reference.resolve():
+            raise InputError(f"{run}: is the reference itself; leave it out of the runs")
+
+
+def _true(sources: Mapping[Path, Converted]) -> Iterator[tuple[Path, Profile]]:
+    """Yield the references; InputError for one that cannot be used."""
+    for path, source in sources.items():
+        if source.profile is None:
+            raise InputError(f"reference {source.error}")
+        yield path, source.profile
+
+
+def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:
+    """Raise InputError with the first reason if no run of any section can be read."""
+    runs = [sources[run] for section in plan.sections for run in section.runs]
+    if all(run.profile is None for run in runs):
+        first = f", first {runs[0].error}" if len(runs) > 1 else f": {runs[0].error}"
+        raise InputError(f"none of the {len(runs)} runs can be used{first}")
+
+
+def _references(plan: Plan) -> Sequence[Path]:
+    return tuple(dict.fromkeys(section.reference for section in plan.sections))
+
+
+def _sources(plan: Plan) -> Sequence[Path]:
+    """Return every run and every recorded test, each once."""
+    runs = [run for section in plan.sections for run in section.runs]
+    return tuple(dict.fromkeys([*runs, *(test.source for _, test in _tests(plan))]))
+
+
+def _tests(plan: Plan) -> Iterator[tuple[str, StationaryPlan]]:
+    for name, test in (("quiescent", plan.quiescent), ("bounce", plan.bounce)):
+        if test is not None:
+            yield name, test
+
+
+def _all_criteria(
+    sections: Sequence[SectionSheet],
+    stationary: Sequence[StationarySheet],
+    criteria: Sequence[Criterion],
+) -> Iterator[Criterion]:
+    yield from criteria
+    for section in sections:
+        yield from section.criteria
+    for test in stationary:
+        yield from test.criteria
+
+
+def _settings(processing: Processing) -> dict[str, object]:
+    """Return how the numbers were made, beside the limits."""
+    given = {name: str(value) for name, value in asdict(processing).items() if value is not None}
+    return {"filter": "iri", "max_offset_m": 1.0, **given}
+
+
+def _versions() -> Iterator[tuple[str, str]]:
+    yield "edition", EDITION
+    for name in MEASURED_BY:
+        try:
+            yield name, version(name)
+        except PackageNotFoundError:
+            yield name, "not installed"
