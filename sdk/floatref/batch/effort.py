@@ -17,13 +17,13 @@ class Watch:
 
     def __init__(self) -> None:
         """Start to measure."""
-        self._seconds, self._cpu_s = perf_counter(), process_time()
+        self._seconds, self._cpu_s = perf_counter(), _cpu_s()
 
     def told(self, record: Record, job: Job) -> Record:
         """Return ``record`` with its effort until now."""
         effort = Effort(
             seconds=perf_counter() - self._seconds,
-            cpu_s=process_time() - self._cpu_s,
+            cpu_s=_cpu_s() - self._cpu_s,
             bytes_in=_bytes(map(Path, record.inputs)),
             bytes_out=_bytes(job.profile / name for name in record.outputs),
             peak_bytes=peak_bytes(),
@@ -39,6 +39,12 @@ def peak_bytes() -> int:
 
     largest = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return largest if sys.platform == "darwin" else largest << 10
+
+
+def _cpu_s() -> float:
+    """Return the processor time in s of this process, and of those that it has started."""
+    spent = os.times()
+    return process_time() + spent.children_user + spent.children_system
 
 
 def _bytes(paths: Iterable[Path]) -> int:

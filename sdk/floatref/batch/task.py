@@ -102,7 +102,7 @@ def _made(job: Job) -> Record:
     result = profiled(read, job.pipeline, job.settings)
     profile = result.profile
     rows, remarks = measured(profile, job.segment_m, read.recording)
-    make_folder_of(job.profile)
+    _make_room(job.profile)
     write_profile(profile, job.profile, overwrite=True)
     more = {
         "settings": dict(profile.settings),
@@ -133,6 +133,13 @@ def _reason(error: Exception) -> str:
         place = f"{error.filename}: " if error.filename else ""
         return f"{place}{error.strerror or text}"
     return f"a fault of floatref or of a plug-in: {type(error).__name__}: {text}"
+
+
+def _make_room(profile: Path) -> None:
+    """Make the folder around ``profile``, and remove what is left of an older one."""
+    make_folder_of(profile)
+    if not (profile / DOCUMENT).exists():
+        _remove(profile)
 
 
 def _remove(profile: Path) -> None:

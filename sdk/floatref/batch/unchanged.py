@@ -13,6 +13,7 @@ from floatref.errors import FloatrefError
 from floatref.files import fingerprint_native
 from floatref.files.document import plain
 from floatref.files.fingerprint import sha256
+from floatref.files.recording import DOCUMENT
 
 LIBRARIES = ("numpy", "numba", "scipy")
 """Another version of these may round otherwise."""
@@ -69,6 +70,6 @@ def _are(files: Mapping[Path, str]) -> bool:
 
 def _has_no_more(source: Path, inputs: Mapping[Path, str]) -> bool:
     """Return whether the native folder ``source`` has no file that is not among ``inputs``."""
-    if not source.is_dir() or source.resolve() / "recording.json" in inputs:
+    if not source.is_dir() or source.resolve() / DOCUMENT in inputs:
         return True
     return {source.resolve() / name for name in fingerprint_native(source)} <= set(inputs)
