@@ -57,8 +57,9 @@ class Bench:
     def common(self, part: str, run: Run, out: Path) -> dict[str, Any]:
         """Print and return what every run is held to."""
         bad = sum(item.damage is not None for item in self.items)
-        self.held(run.code == (5 if bad else 0), f"{part}: exit {run.code}")
-        rows = summary(out)
+        right = run.code == (5 if bad else 0)
+        self.held(right, f"{part}: exit {run.code}{'' if right else ' ' + run.stderr[-2000:]}")
+        rows = summary(out) if right else {}
         wrong = wrong_rows(self.items, rows)
         self.held(not wrong, f"{part}: {len(rows)} files in the summary once, {bad} say why not")
         for line in wrong[:10]:
