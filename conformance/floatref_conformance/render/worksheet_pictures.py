@@ -111,18 +111,6 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
     )
 
 
-def lag_along(distance_m: FloatArray, lag_m: FloatArray, percent: float, of: str, name: str) -> str:
-    """Return how far a run lies ahead, against distance, and the straight line through it."""
-    kept = np.isfinite(lag_m)
-    x, y = distance_m[kept], 1000.0 * lag_m[kept]
-    middle = float(np.median(y - 10.0 * percent * x)) if x.size else 0.0
-    ends = np.array([x.min(), x.max()]) if x.size else np.array([0.0, 1.0])
-    fitted = Line(f"{percent:+.2f} %", ends, 10.0 * percent * ends + middle, "truth")
-    panel = Panel("lag", "mm", (fitted, Line("windows", *_apart(x, y), "dot")), 130.0)
-    title = f"{of}: lag against distance"
-    return _drawn_along(float(ends[0]), float(ends[-1]) + 1e-6, (panel,), title, name)
-
-
 def _drawn_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
     told = f"{title}, {start:.6g} m to {end:.6g} m."
     return drawn(Figure(name, title, told, panels, "distance in m", start, end))
@@ -187,12 +175,12 @@ def _iri_lines(
     bad = np.array([wording.is_bad(run, limits, track) for run in section.runs])
     return (
         Line("reference", across, np.array([iri, iri]), "truth"),
-        Line("run", *_apart(numbers, np.where(bad, np.nan, found)), "dot"),
-        Line("run that does not agree", *_apart(numbers, np.where(bad, found, np.nan)), "square"),
+        Line("run", *apart(numbers, np.where(bad, np.nan, found)), "dot"),
+        Line("run that does not agree", *apart(numbers, np.where(bad, found, np.nan)), "square"),
     )
 
 
-def _apart(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+def apart(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the points with a missing one behind each, so that each is a dot."""
     return np.repeat(x, 2), np.column_stack([y, np.full(y.size, np.nan)]).ravel()
 

@@ -11,15 +11,21 @@ from hypothesis import strategies as st
 
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import Cause, StationarySheet
+from floatref_conformance.certify.worksheet import (
+    Cause,
+    RunSheet,
+    RunTrack,
+    SectionSheet,
+    StationarySheet,
+)
 from floatref_conformance.render.heat_map import heat_map
+from floatref_conformance.render.lag_picture import lag_picture
 from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH
 from floatref_conformance.render.worksheet_pictures import (
     CLOSE_M,
     at_rest,
     close_up,
     iri_by_run,
-    lag_along,
     overlaid,
     roughest_m,
 )
@@ -148,11 +154,28 @@ def test_what_counts_of_a_stationary_test_is_shaded():
     assert at_rest(StationarySheet("bounce", "x", 0.0, 0.0, {}, (), ()), "x") == ""
 
 
-def test_lags_lie_on_the_line_of_their_error():
-    x = np.linspace(0.0, 160.0, 17)
-    svg = lag_along(x, 0.01 * x + 0.3, 1.0, "run-3", "x")
+@pytest.mark.parametrize("percent", [-1.0, -0.4, 0.4, 1.0])
+def test_the_lag_of_a_run_grows_by_its_error_of_distance(percent):
+    x = np.arange(3201) * 0.05
+    steps = np.random.default_rng(4).normal(0.0, 1e-3, x.size)
+    road = np.cumsum(steps - steps.mean())
+    longer = np.interp(x / (1.0 + percent / 100.0), x, road)
+    tracks = (RunTrack("left", 0.4, 0.0, 1.5, 0, 0.9, percent, 0.01, 0, 0, 0),)
+    reference, found = (Profile(0.05, (ProfileTrack.of("left", z),), 100.0) for z in (road, longer))
+    run = RunSheet("run-3", "x", (), tracks, "", found)
+    section = SectionSheet("A", "x", 100.0, 260.0, {"left": 1.5}, (run,), {}, (), reference)
+    svg = lag_picture(section, run, tracks[0], "x")
+    assert f"{percent:+.2f} %".replace("-", "−") in svg
     (line,), (dots,) = drawn(svg, "truth"), drawn(svg, "dot")
-    assert len(dots) == x.size
+    assert len(dots) >= 10
     (x0, y0), (x1, y1) = line
     for at, y in dots:
-        assert y == pytest.approx(y0 + (at - x0) * (y1 - y0) / (x1 - x0), abs=0.2)
+        assert y == pytest.approx(y0 + (at - x0) * (y1 - y0) / (x1 - x0), abs=3.0)
+
+
+def test_a_run_without_a_shape_has_no_picture_of_its_lag(section_of, run_of):
+    make, numbers = run_of
+    level = Profile(0.05, (ProfileTrack.of("left", np.zeros(3201)),), 100.0)
+    run = make(1, [numbers("left", distance=1.0)])
+    made = section_of([replace(run, profile=level)], tracks=("left",))
+    assert lag_picture(made, made.runs[0], made.runs[0].tracks[0], "x") == ""
