@@ -1,0 +1,199 @@
+"""From a plan to its worksheet: the numbers of `floatref compare`, and what stops or does not."""
+
+import itertools
+import json
+from dataclasses import replace
+from math import isnan
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from floatref.cli.main import main as floatref_command
+from floatref.errors import InputError
+from floatref.files import read_profile, write_profile, write_recording
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify.certifying import certify
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.plan import (
+    DistancePlan,
+    Plan,
+    Processing,
+    SectionPlan,
+    StationaryPlan,
+)
+from floatref_conformance.certify.worksheet import RunSheet, Worksheet
+from floatref_conformance.classes import DeviceClass
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.verdict import Verdict
+
+CORRELATIONS = CertificationLimits(runs=2, distance_percent=None, height_percent=None)
+
+
+def certified(plan: Plan, limits: CertificationLimits = CORRELATIONS, **how: Any) -> Worksheet:
+    return certify(plan, Processing(**how), limits, DeviceClass.NOMINAL)
+
+
+def section(folder: Path, *runs: str | Path, **more: Any) -> Plan:
+    """Return the plan of one section over runs of `folder`, or of other places."""
+    paths = tuple(folder / "runs" / run for run in runs)
+    return Plan((SectionPlan("road", folder / "reference", paths, **more),))
+
+
+def compared(reference: Path, profile: Path) -> dict[str, Any]:
+    """Return what `floatref compare` prints, by wheel path."""
+    done = CliRunner().invoke(floatref_command, ["compare", str(reference), str(profile), "--json"])
+    assert done.exit_code == 0, done.output
+    return {track["name"]: track for track in json.loads(done.stdout)["tracks"]}
+
+
+def only(worksheet: Worksheet) -> RunSheet:
+    (sheet,) = worksheet.sections
+    (run,) = sheet.runs
+    return run
+
+
+def test_every_number_is_that_of_compare(written: Path) -> None:
+    names = [f"run-{k}" for k in range(1, 5)]
+    (sheet,) = certified(section(written, *names)).sections
+    for run in sheet.runs:
+        told = compared(written / "reference", written / "runs" / run.name)
+        for track in run.tracks:
+            expected = told[track.track]
+            assert track.accuracy == expected["cross_correlation"]
+            assert track.offset_m == expected["offset_m"]
+            assert track.iri_m_per_km == expected["iri_m_per_km"]
+            assert sheet.reference_iri[track.track] == expected["iri_reference_m_per_km"]
+    for i, j in itertools.combinations(range(4), 2):
+        told = compared(written / "runs" / names[i], written / "runs" / names[j])
+        for name, pairs in sheet.pairs.items():
+            assert pairs[i, j] == told[name]["cross_correlation"]
+            assert isnan(pairs[j, i])
+
+
+def test_good_runs_pass(written: Path) -> None:
+    worksheet = certified(section(written, *(f"run-{k}" for k in range(1, 11))))
+    assert worksheet.verdict is Verdict.PASS
+    assert not any(run.error or run.said for run in worksheet.sections[0].runs)
+
+
+def test_a_run_that_cannot_be_read_is_an_error_of_its_own(written: Path, tmp_path: Path) -> None:
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "profile.json").write_text("{")
+    plan = section(written, "run-1", tmp_path / "bad", "run-2")
+    (sheet,) = certified(plan).sections
+    bad, *good = sheet.runs
+    assert bad.name == "bad"
+    assert "not JSON" in bad.error
+    assert bad.profile is None
+    assert [run.error for run in good] == ["", ""]
+
+
+def test_a_reference_that_cannot_be_read_ends_it(written: Path, tmp_path: Path) -> None:
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "profile.json").write_text("{")
+    good = section(written, "run-1").sections[0]
+    with pytest.raises(InputError, match=r"reference .*profile.json: not JSON"):
+        certified(Plan((replace(good, reference=tmp_path / "bad"),)))
+
+
+def test_runs_of_which_none_can_be_read_end_it(written: Path, tmp_path: Path) -> None:
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "profile.json").write_text("{")
+    with pytest.raises(InputError, match=r"none of the 1 runs can be used: .*not JSON"):
+        certified(section(written, tmp_path / "bad"))
+
+
+def test_the_reference_is_no_run(written: Path, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(written / "reference")
+    with pytest.raises(InputError, match="link: is the reference itself"):
+        certified(section(written, "run-1", tmp_path / "link"))
+
+
+def test_a_run_that_starts_elsewhere_is_moved_and_said(
+    written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
+) -> None:
+    write_profile(replace(ten_runs[0], start_m=37.5), tmp_path / "late")
+    run = only(certified(section(written, tmp_path / "late")))
+    assert any("37.50 m farther along" in line for line in run.said)
+    assert min(track.accuracy for track in run.tracks) > 0.98
+
+
+def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
+    written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
+) -> None:
+    left, right = (1000.0 * track.elevation[::-1] for track in ten_runs[0].tracks)
+    tracks = (ProfileTrack.of("left", right), ProfileTrack.of("right", left))
+    write_profile(replace(ten_runs[0], tracks=tracks), tmp_path / "back")
+    run = only(certified(section(written, tmp_path / "back")))
+    assert any("reversed" in line for line in run.said)
+    assert any("in mm" in line for line in run.said)
+    assert min(track.accuracy for track in run.tracks) > 0.98
+
+
+def test_a_stretch_is_all_that_counts(written: Path, tmp_path: Path) -> None:
+    spoilt = read_profile(written / "runs" / "run-1")
+    tracks = []
+    for track in spoilt.tracks:
+        elevation = track.elevation.copy()
+        elevation[: round(40.0 / spoilt.interval_m)] *= 3.0
+        tracks.append(ProfileTrack.of(track.name, elevation))
+    write_profile(replace(spoilt, tracks=tuple(tracks)), tmp_path / "spoilt")
+    behind = only(certified(section(written, tmp_path / "spoilt", stretch_m=(80.0, 180.0))))
+    whole = only(certified(section(written, tmp_path / "spoilt")))
+    assert min(track.accuracy for track in behind.tracks) > 0.95
+    assert max(track.accuracy for track in whole.tracks) < 0.9
+
+
+def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None:
+    one = section(written, "run-1", "run-2").sections[0]
+    plan = Plan((one, replace(one, name="part", stretch_m=(50.0, 150.0))))
+    told: list[tuple[str, float]] = []
+    certify(plan, Processing(), CORRELATIONS, DeviceClass.NOMINAL, lambda *step: told.append(step))
+    parts = [done for _, done in told]
+    assert parts == sorted(parts)
+    assert (parts[0], parts[-1]) == (0.0, 1.0)
+    assert sum(doing.startswith("read run-1") for doing, _ in told) == 1
+
+
+def test_tests_at_rest_and_readings_are_judged_with_the_rest(
+    written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
+) -> None:
+    still = replace(
+        ten_runs[0],
+        tracks=tuple(
+            ProfileTrack.of(t.name, 1e-5 * t.elevation + k * 1e-7)
+            for k, t in enumerate(ten_runs[0].tracks)
+        ),
+    )
+    write_profile(still, tmp_path / "still")
+    good = section(written, "run-1", "run-2")
+    rest = StationaryPlan(tmp_path / "still", (50.0, 190.0))
+    plan = replace(good, quiescent=rest, distance=DistancePlan(1000.0, (1000.1, 1000.2)))
+    limits = replace(CORRELATIONS, distance_percent=0.15)
+    assert certified(plan).verdict is Verdict.PASS
+    shaken = replace(plan, bounce=StationaryPlan(written / "runs" / "run-3", (50.0, 190.0)))
+    assert certified(shaken).verdict is Verdict.FAIL
+    longer = replace(plan, distance=DistancePlan(1000.0, (1003.0, 1003.0)))
+    assert certified(longer, limits).verdict is Verdict.FAIL
+
+
+def test_recordings_are_processed_on_the_way(tmp_path: Path) -> None:
+    drive = Scenario(road_seed=4, length_m=420.0, rate_hz=2000.0, imu=False, gnss=False)
+    drive = replace(drive, response=False, profile_interval_m=0.05, sensors=0.3)
+    for seed in (1, 2):
+        made = simulate(replace(drive, seed=seed))
+        write_recording(made.recording, tmp_path / f"run-{seed}")
+    write_profile(made.truth, tmp_path / "truth")
+    runs = tuple(tmp_path / f"run-{seed}" for seed in (1, 2))
+    plan = Plan((SectionPlan("road", tmp_path / "truth", runs, (130.0, 290.9)),))
+    worksheet = certified(plan, pipeline="temporal-matched-hpf")
+    (sheet,) = worksheet.sections
+    assert worksheet.verdict is Verdict.PASS
+    for run in sheet.runs:
+        assert run.error == ""
+        assert run.said[0] == "processed by temporal-matched-hpf"
+        assert len(run.tracks) == 2
+    assert sheet.pairs["left"][0, 1] > 0.98
