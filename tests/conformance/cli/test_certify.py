@@ -193,7 +193,8 @@ def test_tests_at_rest(call: Callable[..., Result], folder: Path) -> None:
 def test_a_plan_says_it_all(folder: Path) -> None:
     (folder / "whole.toml").write_text(
         'profiler = "Van 3"\n[[sections]]\nname = "road"\nreference = "reference"\n'
-        'runs = ["runs/*"]\nfrom_m = 10\nto_m = 140\n[quiescent]\nsource = "rest"\nfrom_m = 20\nto_m = 140\n'
+        'runs = ["runs/*"]\nfrom_m = 10\nto_m = 140\n'
+        '[quiescent]\nsource = "rest"\nfrom_m = 20\nto_m = 140\n'
     )
     result = certify("--plan", folder / "whole.toml", *LOOSE, "--json")
     told = document(result)
