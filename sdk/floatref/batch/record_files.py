@@ -44,7 +44,6 @@ def write_record(record: Record, path: Path) -> None:
     described = asdict(record)
     del described["skipped"]
     document = plain({"format": FORMAT, **described}, "record")
-    enforce(document, SCHEMA, path)
     make_folder_of(path)
     with replacing_file(path, overwrite=True) as beside:
         write_document(document, beside)
