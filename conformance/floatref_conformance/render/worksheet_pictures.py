@@ -19,6 +19,8 @@ SHOWN_M = 30.0
 CLOSE_M = 15.0
 """Length of the stretch that is shown close up."""
 LONGEST_NAME = 24
+AROUND = 0.03
+"""The axis of the IRI holds so much around the reference's at least."""
 NAMED = 2
 """Runs that do not agree and have a line of their own in the legend."""
 
@@ -67,8 +69,7 @@ def iri_by_run(section: SectionSheet, limits: CertificationLimits, name: str) ->
     """Return the IRI of every run beside the reference's, one panel for each wheel path."""
     numbers = np.arange(1.0, len(section.runs) + 1.0)
     panels = tuple(
-        Panel(f"IRI, {track}", "m/km", _iri_lines(section, track, limits, numbers), 110.0)
-        for track in wording.tracks_of(section)
+        _iri_panel(section, track, limits, numbers) for track in wording.tracks_of(section)
     )
     first, last = 0.5, len(section.runs) + 0.5
     return drawn(
@@ -165,19 +166,22 @@ def _rough(profile: Profile, elevation: FloatArray) -> FloatArray:
         return np.full(elevation.size - 1, np.nan)
 
 
-def _iri_lines(
+def _iri_panel(
     section: SectionSheet, track: str, limits: CertificationLimits, numbers: FloatArray
-) -> tuple[Line, ...]:
+) -> Panel:
     """Return the reference's IRI as a line, and a dot for each run: round, or else square."""
     iri = section.reference_iri[track]
     across = np.array([0.5, len(section.runs) + 0.5])
     found = np.array([_iri(run, track) for run in section.runs])
     bad = np.array([wording.is_bad(run, limits, track) for run in section.runs])
-    return (
+    lines = [
         Line("reference", across, np.array([iri, iri]), "truth"),
         Line("run", *apart(numbers, np.where(bad, np.nan, found)), "dot"),
         Line("run that does not agree", *apart(numbers, np.where(bad, found, np.nan)), "square"),
-    )
+    ]
+    shown = tuple(line for line in lines if np.isfinite(line.y).any())
+    held = np.concatenate([found, iri * np.array([1.0 - AROUND, 1.0 + AROUND])])
+    return Panel(f"IRI, {track}", "m/km", shown, 110.0, held=held)
 
 
 def apart(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -7,6 +7,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import (
     Criterion,
+    Judged,
     RunSheet,
     SectionSheet,
     StationarySheet,
@@ -102,7 +103,11 @@ def page_of(worksheet: Worksheet) -> Page:
         device=worksheet.profiler or "profiler without a name",
         summary=wording.summary(worksheet),
         facts=_facts(worksheet),
-        criteria=tuple(_criterion(*pair) for pair in wording.criteria_of(worksheet)),
+        criteria=tuple(
+            _criterion(of, one)
+            for of, one in wording.criteria_of(worksheet)
+            if one.judged is not Judged.REPORTED or not of
+        ),
         sections=tuple(
             _section(sheet, worksheet.limits, f"section-{n}")
             for n, sheet in enumerate(worksheet.sections, start=1)
@@ -124,7 +129,7 @@ def _facts(worksheet: Worksheet) -> Pairs:
     tests = ", ".join(sheet.id for sheet in worksheet.stationary)
     return (
         ("Class", worksheet.device_class.value),
-        ("Sections", f"{len(worksheet.sections)}, {length:.6g} m together"),
+        ("Sections", f"{len(worksheet.sections)}, {round(length, 1):.10g} m together"),
         ("Runs", f"{len(runs)}, {sum(not run.error for run in runs)} of them used"),
         ("Stationary tests", tests or "none"),
     )

@@ -163,7 +163,8 @@ def what_counts(sheet: StationarySheet) -> str:
 
 def stretch(sheet: SectionSheet | StationarySheet) -> str:
     """Return from where to where ``sheet`` reaches."""
-    return f"{sheet.start_m:.8g} m to {sheet.end_m:.8g} m"
+    ends = (f"{round(end, 2):.10g} m" for end in (sheet.start_m, sheet.end_m))
+    return " to ".join(ends)
 
 
 def limits_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
