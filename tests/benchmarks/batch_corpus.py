@@ -11,7 +11,7 @@ import argparse
 import csv
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -140,13 +140,18 @@ def write_corpus(
     else:
         with ProcessPoolExecutor(jobs) as pool:
             list(pool.map(doing, items, chunksize=PER_FOLDER))
-    with (folder / MANIFEST).open("w", newline="") as stream:
-        table = csv.DictWriter(stream, ("file", "map", "pipeline", "settings"))
-        table.writeheader()
-        table.writerows(entry.row for entry in items)
+    write_manifest(folder / MANIFEST, items)
     named = {entry.path: entry.damage.name for entry in items if entry.damage}
     (folder / CORRUPT).write_text(json.dumps(named, indent=1) + "\n")
     return items
+
+
+def write_manifest(path: Path, items: Sequence[Item]) -> None:
+    """Name the files in a CSV table, as `floatref batch` takes it."""
+    with path.open("w", newline="") as stream:
+        table = csv.DictWriter(stream, ("file", "map", "pipeline", "settings"))
+        table.writeheader()
+        table.writerows(entry.row for entry in items)
 
 
 def main() -> None:

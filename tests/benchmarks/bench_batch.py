@@ -3,9 +3,9 @@
     python tests/benchmarks/bench_batch.py [PART...] [--files 1000] [--json docs/data/batch.json]
 
     corpus     a thousand files in every format: exit code, rows, and the same bytes as one by one
-    worker     SIGKILL of one worker in mid-run: every file in the summary exactly once
+    worker     some of them; SIGKILL of one worker in mid-run: every file in the summary once
     resume     SIGKILL of everything in mid-run, then --resume: no finished file is done again
-    cluster    the same against a scheduler and two workers that were started on loopback
+    cluster    against a scheduler and two workers that were started on loopback
     scale      long recordings by one worker and by two, in turn: throughput, memory, seconds per km
     overhead   what a task costs the scheduler
 
@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 from batch_checks import compared, efforts, placed, summary, wrong_rows
-from batch_corpus import MANIFEST, Item, write_corpus
+from batch_corpus import MANIFEST, Item, write_corpus, write_manifest
 from batch_runs import Run, batch, cluster, end_all, end_worker, records_in
 from batch_scale import machine, overhead, scale
 
@@ -38,6 +38,7 @@ class Bench:
 
     work: Path
     items: list[Item]
+    some: list[Item]
     identical: int
     drives: int
     jobs: int = 2
@@ -49,18 +50,23 @@ class Bench:
         """What is given to the command."""
         return self.work / "corpus" / MANIFEST
 
+    @property
+    def shorter(self) -> Path:
+        """What is given where workers die."""
+        return self.work / "corpus" / "some.csv"
+
     def held(self, right: bool, text: str) -> None:
         """Print a line, and remember if it fails."""
         print(f"{'ok   ' if right else 'FAILS'}  {text}", flush=True)
         self.failed |= not right
 
-    def common(self, part: str, run: Run, out: Path) -> dict[str, Any]:
-        """Print and return what every run is held to."""
-        bad = sum(item.damage is not None for item in self.items)
+    def common(self, part: str, run: Run, out: Path, items: Sequence[Item]) -> dict[str, Any]:
+        """Print and return what every run of ``items`` is held to."""
+        bad = sum(item.damage is not None for item in items)
         right = run.code == (5 if bad else 0)
         self.held(right, f"{part}: exit {run.code}{'' if right else ' ' + run.stderr[-2000:]}")
         rows = summary(out) if right else {}
-        wrong = wrong_rows(self.items, rows)
+        wrong = wrong_rows(items, rows)
         self.held(not wrong, f"{part}: {len(rows)} files in the summary once, {bad} say why not")
         for line in wrong[:10]:
             print(f"         {line}")
@@ -82,7 +88,7 @@ def corpus(bench: Bench) -> dict[str, Any]:
     """Every format, some corrupt; a sample is processed one by one, too."""
     out = bench.work / "whole"
     run = batch([bench.manifest, "--out", out, "--jobs", str(bench.jobs)])
-    found = bench.common("corpus", run, out)
+    found = bench.common("corpus", run, out, bench.items)
     costs = efforts(out)
     draw = np.random.default_rng(0)
     chosen = [bench.items[k] for k in draw.permutation(len(bench.items))[: bench.identical]]
@@ -104,9 +110,9 @@ def corpus(bench: Bench) -> dict[str, Any]:
 def worker(bench: Bench) -> dict[str, Any]:
     """A worker dies; what it was at is done by another."""
     out = bench.work / "worker"
-    watch = end_worker(out, len(bench.items) // 4)
-    run = batch([bench.manifest, "--out", out, "--jobs", str(bench.jobs)], watch)
-    found = bench.common("worker", run, out)
+    watch = end_worker(out, len(bench.some) // 4)
+    run = batch([bench.shorter, "--out", out, "--jobs", str(bench.jobs)], watch)
+    found = bench.common("worker", run, out, bench.some)
     bench.held(len(run.peaks) > bench.jobs, f"worker: {len(run.peaks)} processes for 2 workers")
     return found
 
@@ -114,12 +120,12 @@ def worker(bench: Bench) -> dict[str, Any]:
 def resume(bench: Bench) -> dict[str, Any]:
     """Everything dies; what was done stays as it is."""
     out = bench.work / "resume"
-    arguments = [bench.manifest, "--out", out, "--jobs", str(bench.jobs)]
-    killed = batch(arguments, end_all(out, len(bench.items) // 2))
+    arguments = [bench.shorter, "--out", out, "--jobs", str(bench.jobs)]
+    killed = batch(arguments, end_all(out, len(bench.some) // 2))
     bench.held(killed.code == -9, f"resume: first run ended by signal {-killed.code}")
     done = _finished(out)
     again = batch([*arguments, "--resume"])
-    found = bench.common("resume", again, out)
+    found = bench.common("resume", again, out, bench.some)
     kept = sum(_profile_stamp(out, name) == stamp for name, stamp in done.items())
     bench.held(kept == len(done) > 0, f"resume: {kept} of {len(done)} finished files were kept")
     return {**found, "finished_before": len(done), "kept": kept}
@@ -144,8 +150,8 @@ def existing(bench: Bench) -> dict[str, Any]:
     """A scheduler and two workers that are there already do the same."""
     out = bench.work / "cluster"
     with cluster(2, bench.work) as (address, workers, _):
-        run = batch([bench.manifest, "--out", out, "--cluster", address], helpers=workers)
-    return bench.common("cluster", run, out)
+        run = batch([bench.shorter, "--out", out, "--cluster", address], helpers=workers)
+    return bench.common("cluster", run, out, bench.some)
 
 
 def scaled(bench: Bench) -> dict[str, Any]:
@@ -194,6 +200,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
     parser.add_argument("--files", type=int, default=1000)
     parser.add_argument("--corrupt", type=int, default=10)
+    parser.add_argument("--some", type=int, default=300, help="files where workers die")
     parser.add_argument("--identical", type=int, default=100, help="files processed one by one")
     parser.add_argument("--drives", type=int, default=16, help="long recordings")
     parser.add_argument("--json", type=Path, help="where the figures go")
@@ -210,10 +217,12 @@ def main() -> int:
     parts = given.parts or list(PARTS)
     found: dict[str, Any] = {"machine": machine()}
     with tempfile.TemporaryDirectory(prefix="floatref-bench-") as name:
-        bench = Bench(Path(name), [], given.identical, given.drives)
+        bench = Bench(Path(name), [], [], given.identical, given.drives)
         if set(parts) - {"scale", "overhead"}:
             folder, jobs = bench.manifest.parent, os.cpu_count() or 1
             bench.items = write_corpus(folder, given.files, given.corrupt, jobs=jobs)
+            bench.some = bench.items[: given.some]
+            write_manifest(bench.shorter, bench.some)
         for part in parts:
             found[part] = {**PARTS[part](bench), "load": round(os.getloadavg()[0], 2)}
     if given.json is not None:
