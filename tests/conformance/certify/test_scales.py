@@ -1,7 +1,7 @@
 """Errors of scale: every run is held to the limit, with two sigma in its favour."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
@@ -32,6 +32,7 @@ def by_height(*errors, limits=LIMITS):
     return judge_height("left", runs(*(track(height=error) for error in errors)), limits)
 
 
+@settings(deadline=None)
 @given(
     st.lists(st.tuples(st.floats(-3.0, 3.0), st.floats(0.0, 0.07)), min_size=1, max_size=12),
     st.floats(0.15, 2.0),
@@ -46,6 +47,14 @@ def test_it_fails_where_one_run_is_beyond_with_two_sigma_in_its_favour(errors, l
         worst = max(beyond, key=lambda k: abs(errors[k - 1][0]))
         assert found.value == errors[worst - 1][0]
         assert f"run-{worst} {found.value:+.2f} %" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("sigma", "judged"), [(0.011, Judged.PASS), (0.009, Judged.FAIL), (0.0, Judged.FAIL)]
+)
+def test_an_error_beyond_the_limit_fails_once_two_sigma_say_so(sigma, judged):
+    assert by_distance((0.17, sigma))[0].judged is judged
+    assert by_height((-1.02, sigma)).judged is judged
 
 
 def test_one_long_run_among_ten_is_the_one_that_is_named():
@@ -100,6 +109,7 @@ def test_without_a_limit_it_is_reported():
     assert by_height((4.0, 0.01), limits=free).value == 4.0
 
 
+@settings(deadline=None)
 @given(st.floats(100.0, 5000.0), st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=10))
 def test_every_reading_of_a_known_length_is_held_to_the_limit(known, errors):
     readings = tuple(known * (1 + error / 100) for error in errors)
