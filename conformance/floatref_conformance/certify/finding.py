@@ -112,3 +112,17 @@ def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
     if found:
         marked = [replace(c, needed=needed) for c in found]
         yield Find(marked[0], unit, tuple(marked[1:]))
+
+
+def find_forward(pieces: Sequence[Piece], slopes: Sequence[Slope]) -> Candidate | None:
+    """Return the best place of ``pieces`` in a run in m, driven forward; None if it is chance."""
+    best: Candidate | None = None
+    for piece in pieces:
+        scales = scales_of(piece.end_m - piece.start_m)
+        needed = chance(piece, [slopes[0].end_m - slopes[0].start_m], len(scales))
+        for c in search(piece, slopes, scales, (False,), piece.middle_m)[:1]:
+            if best is None or abs(c.score) / needed > abs(best.score) / best.needed:
+                best = replace(c, needed=needed)
+        if best is not None and abs(best.score) >= SURE_SCORE:
+            break
+    return best if best is not None and best.found else None

@@ -35,7 +35,7 @@ def test_a_run_that_lies_right_comes_back_as_the_same_object(road, start_m) -> N
     assert placement.said == ()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(
     start_m=st.floats(-55.0, -1.5),
     interval_m=st.sampled_from([0.005, 0.0254, 0.04, 0.1]),
