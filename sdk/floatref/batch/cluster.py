@@ -23,6 +23,8 @@ WORKERS_S = 30.0
 LOCAL = {
     # One file per worker and no other waiting there: who dies with a worker has killed it.
     "distributed.scheduler.worker-saturation": 1.0,
+    # A file that has ended two workers is tried alone, which then tells.
+    "distributed.scheduler.allowed-failures": 1,
     # A worker that reads or compiles for minutes is silent, and well.
     "distributed.scheduler.worker-ttl": "24 hours",
     "distributed.worker.multiprocessing-method": "spawn",
@@ -113,7 +115,7 @@ def _existing(address: str) -> Iterator["Client"]:
     from distributed import Client
 
     try:
-        client = Client(address, timeout=ANSWER_S, set_as_default=False)
+        client = Client(address, timeout=ANSWER_S)
     except (OSError, ValueError, TimeoutError) as error:
         raise InputError(
             f"cluster {address}: no scheduler answers there ({error}); start one, or leave "

@@ -59,10 +59,10 @@ def sweep(out: Path) -> None:
 
 def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
     """Return the names of records in ``out`` that none of ``jobs`` has."""
-    given = {job.record for job in jobs}
+    given = {job.name for job in jobs}
     records = out / RECORDS
-    there = (path for path in sorted(records.rglob("*.json")) if path not in given)
-    return tuple(path.relative_to(records).as_posix().removesuffix(".json") for path in there)
+    found = (path.relative_to(records).as_posix() for path in records.rglob("*.json"))
+    return tuple(sorted({name.removesuffix(".json") for name in found} - given))
 
 
 def _made(out: Path, resume: bool) -> bool:

@@ -89,7 +89,7 @@ def test_only_files_that_are_to_blame_fail(kinds: tuple[Path, list[list[Any]]]) 
     errors = {name: error for name, error, _ in kinds[1] if error}
     assert set(errors) == {"deadly", "raises"}
     assert errors["raises"] == "ValueError: odd file"
-    assert "the worker ended 4 times while it processed this file alone" in errors["deadly"]
+    assert "the worker ended 2 times while it processed this file alone" in errors["deadly"]
 
 
 def test_a_deadly_file_leaves_its_record(kinds: tuple[Path, list[list[Any]]]) -> None:
