@@ -1,6 +1,7 @@
 """Repeatability, accuracy and IRI of a wheel path at a section, against their limits."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import fsum, isnan, nan
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.outcome import judged_by
+from floatref_conformance.certify.outliers import outliers
 from floatref_conformance.certify.reasons import joined, listed, of_track, with_causes
 from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet, RunTrack
 
@@ -28,16 +30,27 @@ BIAS = (
 def judge_repeatability(
     name: str, runs: Sequence[RunSheet], pairs: FloatArray, limits: CertificationLimits
 ) -> Criterion:
-    """Return the average over all pairs of ``runs``; ``pairs`` of shape (all runs, all runs)."""
+    """Return the average over all pairs of ``runs``; ``pairs`` has shape (runs, runs).
+
+    The reason names the runs without which the others would agree; where those are too many, all
+    that are below the limit.
+    """
     found = pairs[~np.isnan(pairs)]
-    value = mean(found.tolist())
-    scores = [(run, track, track.with_others) for run, track in of_track(runs, name)]
     lacking = "" if found.size else "it takes two runs that can be correlated"
-    return _correlation(
+    made = _correlation(
         ("repeatability", f"agreement of {found.size} pairs of runs", REPEATABILITY),
-        (value, limits.repeatability, name, lacking),
-        scores,
+        (mean(found.tolist()), limits.repeatability, name, lacking),
+        [(run, track, track.with_others) for run, track in of_track(runs, name)],
     )
+    blamed, rest = outliers(pairs, limits.repeatability)
+    if not blamed:
+        return made
+    tracks = {run.name: track for run, track in of_track(runs, name)}
+    told = [
+        with_causes(f"{runs[k].name} {tracks[runs[k].name].with_others:.3f}", tracks[runs[k].name])
+        for k in blamed
+    ]
+    return replace(made, reason=f"the other runs agree to {rest:.3f} without {listed(told)}")
 
 
 def judge_accuracy(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:

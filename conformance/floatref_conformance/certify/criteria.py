@@ -43,7 +43,7 @@ def judge_section(
     made += judge_distance(used, limits)
     for name in pairs:
         made += [
-            judge_repeatability(name, used, pairs[name], limits),
+            judge_repeatability(name, runs, pairs[name], limits),
             judge_accuracy(name, used, limits),
             judge_bias(name, used, limits),
             judge_height(name, used, limits),

@@ -81,6 +81,17 @@ def test_a_run_below_the_limit_is_named_though_the_average_passes(sheet_of, ten_
     assert "run-1 " not in found.reason
 
 
+def test_one_bad_run_is_blamed_for_the_pairs_of_all_others(sheet_of, ten_runs, run_over):
+    bad = Run("torn", "torn.erd", (), None, "line 3 is cut short")
+    spoilt = Run("spoilt", "", (), run_over(3, distance=1.01))
+    good = (Run(f"run-{k}", "", (), p) for k, p in enumerate(ten_runs[:3]))
+    found = criterion(sheet_of((bad, spoilt, *good)), "repeatability", "left")
+    assert found.judged is Judged.FAIL
+    assert found.reason.startswith("the other runs agree to 0.99")
+    assert " without spoilt 0." in found.reason
+    assert "run-" not in found.reason
+
+
 def test_of_many_runs_below_the_worst_are_named_and_the_rest_counted(sheet_of, run_over):
     sheet = sheet_of(tuple(run_over(seed, noise_m=NOISY_M) for seed in range(1, 9)))
     found = criterion(sheet, "accuracy", "right")
