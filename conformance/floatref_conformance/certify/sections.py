@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import nan
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from floatref_conformance.certify.comparing import (
 )
 from floatref_conformance.certify.criteria import judge_section
 from floatref_conformance.certify.cutting import section_of, within
+from floatref_conformance.certify.fit import fit
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import SectionPlan
 from floatref_conformance.certify.worksheet import RunSheet, RunTrack, SectionSheet
@@ -154,6 +154,7 @@ def _track(
     limits: CertificationLimits,
 ) -> RunTrack:
     """Return one wheel path of one run, with the causes if it does not agree."""
+    told = fit(truth, run, name)
     return RunTrack(
         track=name,
         accuracy=found.accuracy,
@@ -161,10 +162,10 @@ def _track(
         iri_m_per_km=found.iri_m_per_km,
         bias_percent=found.bias_percent,
         with_others=others,
-        distance_percent=nan,
-        distance_sigma=nan,
-        height_percent=nan,
-        height_sigma=nan,
+        distance_percent=told.distance_percent,
+        distance_sigma=told.distance_sigma,
+        height_percent=told.height_percent,
+        height_sigma=told.height_sigma,
         flagged_m=found.flagged_m,
         missing_m=found.missing_m,
     )

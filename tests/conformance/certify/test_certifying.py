@@ -2,6 +2,7 @@
 
 import itertools
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from math import isnan
 from pathlib import Path
@@ -23,7 +24,7 @@ from floatref_conformance.certify.plan import (
     SectionPlan,
     StationaryPlan,
 )
-from floatref_conformance.certify.worksheet import RunSheet, Worksheet
+from floatref_conformance.certify.worksheet import Judged, RunSheet, Worksheet
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
@@ -131,6 +132,26 @@ def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     assert any("reversed" in line for line in run.said)
     assert any("in mm" in line for line in run.said)
     assert min(track.accuracy for track in run.tracks) > 0.98
+
+
+def test_errors_of_distance_and_height_fail_and_are_named(
+    written: Path, run_over: Callable[..., Profile], tmp_path: Path
+) -> None:
+    write_profile(run_over(21, distance=1.01), tmp_path / "long")
+    write_profile(run_over(22, height=1.03), tmp_path / "high")
+    good = [f"run-{k}" for k in range(1, 4)]
+    plan = section(written, *good, tmp_path / "long", tmp_path / "high")
+    worksheet = certified(plan, CertificationLimits(runs=5))
+    assert worksheet.verdict is Verdict.FAIL
+    failed = [c for c in worksheet.sections[0].criteria if c.judged is Judged.FAIL]
+    reasons = {criterion.id: criterion.reason for criterion in failed}
+    assert reasons["distance"].startswith("beyond the limit: long +1.0")
+    assert reasons["height-scale"].startswith("beyond the limit: high +")
+    assert "run-" not in reasons["distance"] + reasons["height-scale"]
+    runs = {run.name: run for run in worksheet.sections[0].runs}
+    for long, high in zip(runs["long"].tracks, runs["high"].tracks, strict=True):
+        assert long.distance_percent == pytest.approx(1.0, abs=0.02)
+        assert abs(high.height_percent - 3.0) < 3.0 * high.height_sigma
 
 
 def test_a_stretch_is_all_that_counts(written: Path, tmp_path: Path) -> None:
