@@ -52,7 +52,7 @@ def _lags(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -> Iter
     beyond = [(r, t) for r, t in runs if abs(t.distance_percent) - 2.0 * t.distance_sigma > limit]
     beyond.sort(key=lambda pair: -abs(pair[1].distance_percent))
     for number, (run, track) in enumerate(beyond[:MOST_LAGS], start=1):
-        drawn = lag_picture(sheet, run, track, f"{anchor}-lag-{number}")
+        drawn = lag_picture(sheet, run, track.track, f"{anchor}-lag-{number}")
         caption = (
             f"Run {run.name}, wheel path {track.track}: how far it lies ahead of the reference. "
             "An error of distance is a slope."

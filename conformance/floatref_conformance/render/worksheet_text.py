@@ -71,10 +71,13 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
     _say(console, f"Section {section.name}: {wording.where(section)}")
     _print_criteria("Criteria", section.criteria, console)
     for track in wording.tracks_of(section):
-        _show(_runs(section, track, worksheet), console)
+        title = f"Runs, wheel path {track} (*: does not agree)"
+        _show(title, _runs(section, track, worksheet), console)
     if 1 < len(section.runs) <= MOST_RUNS:
+        limit = worksheet.limits.repeatability
         for track, pairs in section.pairs.items():
-            _show(_pairs(track, pairs, worksheet.limits.repeatability), console)
+            title = f"Pairs of runs, wheel path {track} (*: below {limit:g})"
+            _show(title, _pairs(pairs, limit), console)
     elif section.runs[MOST_RUNS:]:
         _say(console, f"The pairs of {len(section.runs)} runs are on the page and in the document.")
     for index, run in enumerate(section.runs, start=1):
@@ -100,7 +103,7 @@ def _print_stationary(sheet: StationarySheet, console: Console) -> None:
 
 def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Console) -> None:
     """Print a table of ``criteria``, and below it why they are not met."""
-    table = _empty(title)
+    table = _empty()
     for head in ("criterion", "path"):
         table.add_column(head, overflow="fold")
     for head in ("value", "limit"):
@@ -111,7 +114,7 @@ def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Consol
         value, limit = wording.value_in_words(one), wording.limit_in_words(one)
         told = (wording.title_of(one), one.track or "all", value, limit)
         table.add_row(*map(_text, told), word)
-    _show(table, console)
+    _show(title, table, console)
     for one in criteria:
         if one.reason:
             of = f" {one.track}" if one.track else ""
@@ -120,7 +123,7 @@ def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Consol
 
 def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:
     """Return one row for each run, with a star where the run does not agree."""
-    table = _empty(f"Runs, wheel path {printable(track)} (*: does not agree)", NARROW)
+    table = _empty(NARROW)
     table.add_column("run", no_wrap=True)
     for head in HEADS:
         table.add_column(head, justify="right", no_wrap=True, vertical="bottom")
@@ -132,9 +135,9 @@ def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:
     return table
 
 
-def _pairs(track: str, pairs: FloatArray, limit: float) -> Table:
+def _pairs(pairs: FloatArray, limit: float) -> Table:
     """Return the cross correlations of all pairs; those below ``limit`` bear a star."""
-    table = _empty(f"Pairs of runs, wheel path {printable(track)} (*: below {limit:g})", NARROW)
+    table = _empty(NARROW)
     table.add_column("")
     for column in range(2, len(pairs) + 1):
         table.add_column(f"{column} ", justify="right", no_wrap=True)
@@ -153,11 +156,8 @@ def _short(name: str) -> str:
     return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
 
 
-def _empty(title: str, padding: tuple[int, int, int, int] = (0, 1, 0, 0)) -> Table:
+def _empty(padding: tuple[int, int, int, int] = (0, 1, 0, 0)) -> Table:
     return Table(
-        title=title,
-        title_justify="left",
-        title_style="bold",
         box=SIMPLE_HEAD,
         padding=padding,
         pad_edge=False,
@@ -165,8 +165,10 @@ def _empty(title: str, padding: tuple[int, int, int, int] = (0, 1, 0, 0)) -> Tab
     )
 
 
-def _show(table: Table, console: Console) -> None:
+def _show(title: str, table: Table, console: Console) -> None:
+    """Print ``table`` below a title, which may be wider."""
     _say(console, "")
+    console.print(Text(printable(title), "bold"), soft_wrap=True)
     console.print(table)
 
 

@@ -164,7 +164,7 @@ def test_the_lag_of_a_run_grows_by_its_error_of_distance(percent):
     reference, found = (Profile(0.05, (ProfileTrack.of("left", z),), 100.0) for z in (road, longer))
     run = RunSheet("run-3", "x", (), tracks, "", found)
     section = SectionSheet("A", "x", 100.0, 260.0, {"left": 1.5}, (run,), {}, (), reference)
-    svg = lag_picture(section, run, tracks[0], "x")
+    svg = lag_picture(section, run, "left", "x")
     assert f"{percent:+.2f} %".replace("-", "−") in svg
     (line,), (dots,) = drawn(svg, "truth"), drawn(svg, "dot")
     assert len(dots) >= 10
@@ -178,4 +178,4 @@ def test_a_run_without_a_shape_has_no_picture_of_its_lag(section_of, run_of):
     level = Profile(0.05, (ProfileTrack.of("left", np.zeros(3201)),), 100.0)
     run = make(1, [numbers("left", distance=1.0)])
     made = section_of([replace(run, profile=level)], tracks=("left",))
-    assert lag_picture(made, made.runs[0], made.runs[0].tracks[0], "x") == ""
+    assert lag_picture(made, made.runs[0], "left", "x") == ""
