@@ -13,7 +13,6 @@ from floatref_conformance.certify.causes import causes
 from floatref_conformance.certify.fit import fit
 from floatref_conformance.certify.limits import CertificationLimits
 
-
 STRICT = CertificationLimits(repeatability=0.98, accuracy=0.98)
 
 
