@@ -1,9 +1,18 @@
-"""Drawings of profiles and sensor noise, written as files; needs the extra ``floatref[plot]``."""
+"""Drawings of profiles, networks and sensor noise as files; needs the extra ``floatref[plot]``."""
 
 from floatref.plots.allan import draw_allan
 from floatref.plots.comparison import draw_comparison
 from floatref.plots.figure import check_drawing
+from floatref.plots.network import SUMMARY_COLUMNS, draw_summary
 from floatref.plots.profile import draw_profile
 from floatref.plots.sensitivity import draw_sensitivity
 
-__all__ = ["check_drawing", "draw_allan", "draw_comparison", "draw_profile", "draw_sensitivity"]
+__all__ = [
+    "SUMMARY_COLUMNS",
+    "check_drawing",
+    "draw_allan",
+    "draw_comparison",
+    "draw_profile",
+    "draw_sensitivity",
+    "draw_summary",
+]

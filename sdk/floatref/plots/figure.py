@@ -33,9 +33,9 @@ def check_drawing(path: Path) -> None:
 
 
 def new_figure(
-    rows: int, columns: int, heights: Sequence[float]
+    rows: int, columns: int, heights: Sequence[float], shared: bool = True
 ) -> tuple[Figure, np.ndarray[tuple[int, int], np.dtype[np.object_]]]:
-    """Return a figure and its axes, ``rows`` by ``columns``, on one shared distance axis.
+    """Return a figure and its axes, ``rows`` by ``columns``, on one distance axis if ``shared``.
 
     ``heights`` are in inches, one for each row. Raises InputError if matplotlib is missing.
     """
@@ -49,10 +49,10 @@ def new_figure(
     )
     FigureCanvasAgg(figure)
     ratios = {"height_ratios": list(heights)}
-    axes = figure.subplots(rows, columns, sharex=True, squeeze=False, gridspec_kw=ratios)
+    axes = figure.subplots(rows, columns, sharex=shared, squeeze=False, gridspec_kw=ratios)
     for ax in axes.flat:
         dress(ax)
-    for ax in axes[-1]:
+    for ax in axes[-1] if shared else ():
         ax.set_xlabel("Distance (m)")
     return figure, axes
 

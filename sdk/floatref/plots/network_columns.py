@@ -1,0 +1,110 @@
+"""The columns of a summary as segments: wheel paths of a segment are one, and files have order."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.values.arrays import BoolArray, FloatArray
+
+SUMMARY_COLUMNS = (
+    "name",
+    "status",
+    "segment",
+    "length_m",
+    "latitude_deg",
+    "longitude_deg",
+    "iri_m_per_km",
+    "mean_roughness_index_m_per_km",
+    "flagged_m",
+)
+"""Columns of a summary that a drawing of it takes."""
+FAILED = "failed"
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Segments of a network, each of shape (N,), and its files, each of shape (F,).
+
+    Attributes:
+        file: place of the segment's file among the files.
+        roughness: mean roughness index, else the mean IRI of its wheel paths, in m/km.
+        length_m: of the segment.
+        flagged_m: length that is not valid, the mean of the wheel paths.
+        latitude, longitude: of its start in degrees; longitudes have no leap at 180.
+        paired: whether its roughness is a mean roughness index.
+        names, failed: of the files.
+    """
+
+    file: NDArray[np.intp]
+    roughness: FloatArray
+    length_m: FloatArray
+    flagged_m: FloatArray
+    latitude: FloatArray
+    longitude: FloatArray
+    paired: BoolArray
+    names: tuple[str, ...]
+    failed: BoolArray
+
+
+def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
+    """Return the segments in ``columns`` of a summary, in its order; missing values are NaN.
+
+    Raises InputError for a column that is not there, or is not as long as the others.
+    """
+    _check(columns)
+    places = {name: at for at, name in enumerate(dict.fromkeys(columns["name"]))}
+    rows = np.array([places[name] for name in columns["name"]], np.intp)
+    bad = np.array([status == FAILED for status in columns["status"]], np.bool_)
+    failed = np.zeros(len(places), np.bool_)
+    failed[rows[bad]] = True
+    part = np.array([-1 if number is None else number for number in columns["segment"]], np.intp)
+    file, part = rows[~bad], part[~bad]
+    values = {name: np.array(columns[name], np.float64)[~bad] for name in SUMMARY_COLUMNS[3:]}
+    keys = file * (part.max(initial=0) + 2) + part
+    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+    mean = {name: _means(column, which, first.size) for name, column in values.items()}
+    index = mean["mean_roughness_index_m_per_km"]
+    return Segments(
+        file=file[first],
+        roughness=np.where(np.isnan(index), mean["iri_m_per_km"], index),
+        length_m=mean["length_m"],
+        flagged_m=mean["flagged_m"],
+        latitude=mean["latitude_deg"],
+        longitude=_without_leap(values["longitude_deg"][first]),
+        paired=~np.isnan(index),
+        names=tuple(places),
+        failed=failed,
+    )
+
+
+def _check(columns: Mapping[str, Sequence[Any]]) -> None:
+    for name in SUMMARY_COLUMNS:
+        if name not in columns:
+            raise InputError(f"column {name}: missing; give the columns of a summary")
+        if len(columns[name]) != len(columns["name"]):
+            raise InputError(
+                f"column {name}: has {len(columns[name])} rows and name {len(columns['name'])}; "
+                "give columns of one length"
+            )
+
+
+def _means(values: FloatArray, which: NDArray[np.intp], count: int) -> FloatArray:
+    """Return the mean of what is finite for each of ``count`` segments, NaN where nothing is."""
+    there = np.isfinite(values)
+    sums = np.bincount(which[there], values[there], count)
+    numbers = np.bincount(which[there], minlength=count)
+    found: FloatArray = np.full(count, np.nan)
+    np.divide(sums, numbers, out=found, where=numbers > 0)
+    return found
+
+
+def _without_leap(longitude: FloatArray) -> FloatArray:
+    """Return ``longitude`` in degrees within 180 of where most of the network lies."""
+    turn = np.exp(1j * np.radians(longitude[np.isfinite(longitude)]))
+    middle = float(np.degrees(np.angle(turn.sum()))) if turn.size else 0.0
+    found: FloatArray = middle + (longitude - middle + 180.0) % 360.0 - 180.0
+    return found
