@@ -92,11 +92,11 @@ def signed(value: float, digits: int) -> str:
     return NOTHING if isnan(value) else f"{value:+.{digits}f}".replace("-", "−")
 
 
-def with_error(value: float, sigma: float) -> str:
+def with_error(value: float, sigma: float, digits: int) -> str:
     """Return ``value`` with twice its standard deviation, both in per cent."""
     if isnan(value) or isnan(sigma):
-        return signed(value, 2)
-    return f"{signed(value, 2)} ± {2 * sigma:.2f}"
+        return signed(value, digits)
+    return f"{signed(value, digits)} ± {2 * sigma:.{digits}f}"
 
 
 def figures(track: RunTrack) -> tuple[str, ...]:
@@ -106,8 +106,8 @@ def figures(track: RunTrack) -> tuple[str, ...]:
         number(track.with_others, 4),
         number(track.iri_m_per_km, 3),
         signed(track.bias_percent, 2),
-        with_error(track.distance_percent, track.distance_sigma),
-        with_error(track.height_percent, track.height_sigma),
+        with_error(track.distance_percent, track.distance_sigma, 3),
+        with_error(track.height_percent, track.height_sigma, 2),
         number(track.flagged_m, 1),
     )
 
@@ -142,7 +142,19 @@ def run_lines(run: RunSheet) -> tuple[str, ...]:
 def is_bad(run: RunSheet, limits: CertificationLimits, track: str | None = None) -> bool:
     """Return whether a wheel path of ``run``, or any of them, does not agree."""
     judged = [one for one in run.tracks if track in (None, one.track)]
-    return any(one.causes or not one.accuracy >= limits.accuracy for one in judged) or not judged
+    return not judged or any(_disagrees(one, limits) for one in judged)
+
+
+def _disagrees(track: RunTrack, limits: CertificationLimits) -> bool:
+    """Return whether there is a cause, a low correlation, or a scale that is surely wrong."""
+    scales = (
+        (track.distance_percent, track.distance_sigma, limits.distance_percent),
+        (track.height_percent, track.height_sigma, limits.height_percent),
+    )
+    wrong = [
+        limit is not None and abs(percent) - 2.0 * sigma > limit for percent, sigma, limit in scales
+    ]
+    return bool(track.causes) or not track.accuracy >= limits.accuracy or any(wrong)
 
 
 def tracks_of(section: SectionSheet) -> tuple[str, ...]:

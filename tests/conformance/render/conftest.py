@@ -133,9 +133,8 @@ def rough(seed=0, metres=160.0, interval=0.05):
 
 
 def run_track(track, accuracy=0.97, distance=0.02, height=0.1, causes=(), **changes):
-    made = RunTrack(
-        track, accuracy, 0.0, 1.5, 0.4, 0.96, distance, 0.01, height, 0.1, 0.0, tuple(causes)
-    )
+    changes["causes"] = tuple(causes)
+    made = RunTrack(track, accuracy, 0.0, 1.5, 0.4, 0.96, distance, 0.01, height, 0.1, 0.0)
     return replace(made, **changes)
 
 

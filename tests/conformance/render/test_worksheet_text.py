@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from floatref_conformance.certify.worksheet import Judged
+from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.worksheet import Cause, Judged
 from floatref_conformance.render.worksheet_text import MOST_RUNS, print_worksheet
+from floatref_conformance.render.worksheet_wording import is_bad
 
 
 def shown(worksheet, width=80, terminal=True):
@@ -38,7 +40,7 @@ def test_tables_fit_80_columns_and_no_number_is_cut(certified, run_of):
     made = certified()
     section = replace(made.sections[0], runs=(make(1, wide, name="a-very-long-name-of-a-run"),))
     text = shown(replace(made, sections=(section,)))
-    figures = "0.9700 0.9600 15.123 −98.76 −12.34 ± 0.02 −56.78 ± 9.80 1234.5"
+    figures = "0.9700 0.9600 15.123 −98.76 −12.340 ± 0.020 −56.78 ± 9.80 1234.5"
     row = row_of(text, "a-very-lo…")
     assert " ".join(row.split()).endswith(figures)
     assert len(row) <= 80
@@ -50,6 +52,26 @@ def test_a_run_that_does_not_agree_bears_a_star_and_its_cause(certified):
     assert "left: takes the section 1.00 % longer; explains 93 % of what" in text
     assert "not used: holds no profile" in text
     assert "reversed: driven from the other end" in text
+
+
+@pytest.mark.parametrize(
+    ("changes", "bad"),
+    [
+        ({}, False),
+        ({"causes": [Cause("noise", "noise", nan)]}, True),
+        ({"accuracy": 0.89}, True),
+        ({"accuracy": nan}, True),
+        ({"distance_percent": -0.3, "distance_sigma": 0.01}, True),
+        ({"distance_percent": -0.3, "distance_sigma": 0.2}, False),
+        ({"height_percent": 1.5, "height_sigma": 0.1}, True),
+        ({"height_percent": nan, "height_sigma": nan}, False),
+    ],
+)
+def test_a_run_agrees_unless_something_is_surely_wrong(run_of, changes, bad):
+    make, numbers = run_of
+    run = make(1, [numbers("left", **changes), numbers("right")])
+    assert is_bad(run, CertificationLimits()) is is_bad(run, CertificationLimits(), "left") is bad
+    assert not is_bad(run, CertificationLimits(), "right")
 
 
 def test_every_criterion_stands_with_its_limit_and_its_reason(certified):
