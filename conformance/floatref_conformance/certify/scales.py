@@ -10,7 +10,7 @@ from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.outcome import judged_by, reported
 from floatref_conformance.certify.plan import DistancePlan
 from floatref_conformance.certify.reasons import joined, listed, of_track
-from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet
+from floatref_conformance.certify.worksheet import Criterion, Judged, RunSheet, RunTrack
 
 DISTANCE = (
     "AASHTO R 56-14: distance within 0.15 %; ours: told from the section's profiles, and every "
@@ -47,6 +47,18 @@ class Told:
             return f"{self.who} (not known)"
         doubt = f" ± {2.0 * self.sigma:.2f} %" if self.sigma else ""
         return f"{self.who} {self.percent:+.2f} %{doubt}"
+
+
+def agrees(track: RunTrack, limits: CertificationLimits) -> bool:
+    """Return whether a wheel path of a run is within the limits all by itself."""
+    distance = Told("", track.distance_percent, track.distance_sigma)
+    height = Told("", track.height_percent, track.height_sigma)
+    return not (
+        track.accuracy < limits.accuracy
+        or track.with_others < limits.repeatability
+        or distance.beyond(inf if limits.distance_percent is None else limits.distance_percent)
+        or height.beyond(inf if limits.height_percent is None else limits.height_percent)
+    )
 
 
 def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tuple[Criterion, ...]:

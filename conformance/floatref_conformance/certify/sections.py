@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isnan
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from floatref.errors import InputError
 from floatref.files.sources import naming
 from floatref.measures import iri
 from floatref.values.profile import Profile
+from floatref_conformance.certify.causes import causes
 from floatref_conformance.certify.comparing import (
     Comparison,
     compare,
@@ -21,6 +23,7 @@ from floatref_conformance.certify.cutting import section_of, within
 from floatref_conformance.certify.fit import fit
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import SectionPlan
+from floatref_conformance.certify.scales import agrees
 from floatref_conformance.certify.worksheet import RunSheet, RunTrack, SectionSheet
 
 
@@ -155,7 +158,7 @@ def _track(
 ) -> RunTrack:
     """Return one wheel path of one run, with the causes if it does not agree."""
     told = fit(truth, run, name)
-    return RunTrack(
+    track = RunTrack(
         track=name,
         accuracy=found.accuracy,
         offset_m=found.offset_m,
@@ -169,3 +172,6 @@ def _track(
         flagged_m=found.flagged_m,
         missing_m=found.missing_m,
     )
+    if isnan(found.accuracy) or agrees(track, limits):
+        return track
+    return replace(track, causes=causes(truth, run, name, told, limits))

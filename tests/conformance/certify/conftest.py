@@ -1,7 +1,8 @@
 """A road of Sayers' spectrum and ten repeated runs over it, as profiles, without a simulation."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from floatref.files import write_profile
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify import sections
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import SectionPlan
 from floatref_conformance.certify.sections import Run, section_sheet
@@ -100,8 +102,10 @@ def written(
 
 
 @pytest.fixture(scope="session")
-def sheet_of(reference: Profile) -> SheetMaker:
+def sheet_of(reference: Profile) -> Iterator[SheetMaker]:
     """Return a function that makes the sheet of runs: profiles, called run-1 and so on, or runs.
+
+    What a run's profile tells of its scales is told once, however many sheets it is in.
 
     Its options: ``limits``, ``stretch_m``, and another ``reference``.
     """
@@ -119,7 +123,10 @@ def sheet_of(reference: Profile) -> SheetMaker:
         plan = SectionPlan("main", Path("reference"), (), stretch_m)
         return section_sheet(plan, reference, placed, limits)
 
-    return make
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sections, "fit", cache(sections.fit))
+        patch.setattr(sections, "causes", cache(sections.causes))
+        yield make
 
 
 @pytest.fixture(scope="session")
