@@ -150,6 +150,7 @@ def test_errors_of_distance_and_height_fail_and_are_named(
     assert "run-" not in reasons["distance"] + reasons["height-scale"]
     runs = {run.name: run for run in worksheet.sections[0].runs}
     for long, high in zip(runs["long"].tracks, runs["high"].tracks, strict=True):
+        assert (long.causes[0].id, high.causes[0].id) == ("distance", "height-scale")
         assert long.distance_percent == pytest.approx(1.0, abs=0.02)
         assert abs(high.height_percent - 3.0) < 3.0 * high.height_sigma
 
