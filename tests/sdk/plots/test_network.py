@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
 
 from floatref.errors import InputError
 from floatref.plots import SUMMARY_COLUMNS, draw_summary
@@ -78,7 +80,7 @@ def test_one_degree_is_as_long_one_way_as_the_other(tmp_path: Path) -> None:
         row("a", k, length=100.0, iri=2.0, lat=60 + 0.1 * math.sin(t), lon=10 + 0.2 * math.cos(t))
         for k, t in enumerate(turn)
     ]
-    places = _dots(columns(*rows), tmp_path)
+    places = np.concatenate(list(_dots(_drawn(columns(*rows), tmp_path))))
     width, height = np.ptp(places, axis=0)
     assert width == pytest.approx(height, rel=0.01)
 
@@ -92,25 +94,27 @@ def test_a_network_across_the_date_line_stays_together(tmp_path: Path) -> None:
     assert np.diff(found.longitude) == pytest.approx(0.001, abs=1e-9)
 
 
-def _dots(given: Columns, folder: Path) -> np.ndarray:
-    """Return where the dots of the map are, in pixels."""
-    from matplotlib.collections import PathCollection
-    from matplotlib.figure import Figure
-
-    kept: list[np.ndarray] = []
+def _drawn(given: Columns, folder: Path) -> Figure:
+    """Return the figure that was drawn."""
+    kept: list[Figure] = []
     real = Figure.savefig
 
     def keep(figure: Figure, *args: Any, **options: Any) -> None:
         real(figure, *args, **options)
-        for ax in figure.axes:
-            for dots in ax.collections:
-                if isinstance(dots, PathCollection) and len(dots.get_offsets()):
-                    kept.append(ax.transData.transform(np.asarray(dots.get_offsets())))
+        kept.append(figure)
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(Figure, "savefig", keep)
         draw_summary(given, folder / "n.png")
-    return np.concatenate(kept)
+    return kept[0]
+
+
+def _dots(figure: Figure) -> Iterator[np.ndarray]:
+    """Yield where the dots of the map are, in pixels."""
+    for ax in figure.axes:
+        for dots in ax.collections:
+            if isinstance(dots, PathCollection) and len(dots.get_offsets()):
+                yield ax.transData.transform(np.asarray(dots.get_offsets()))
 
 
 @given(
@@ -163,6 +167,8 @@ def test_the_index_of_two_paths_goes_before_their_mean() -> None:
 def test_one_wild_segment_does_not_hide_the_others(tmp_path: Path) -> None:
     given = network(False)
     given["iri_m_per_km"] = [1e6, *given["iri_m_per_km"][1:]]
+    bars = _drawn(given, tmp_path).axes[0].patches
+    assert sum(bar.get_height() for bar in bars) == pytest.approx(6.0)
     draw_summary(given, tmp_path / "n.svg")
     assert "at the end: 1 segment above" in text_of(tmp_path / "n.svg")
 
