@@ -193,3 +193,22 @@ def line(judged):
 def test_a_failure_outweighs_what_is_missing_and_that_what_passed(judged, verdict):
     for order in permutations(judged):
         assert verdict_of(map(line, order)) is verdict
+
+
+@pytest.mark.parametrize(
+    ("numbers", "ids", "said"),
+    [
+        ({"distance": 1.01}, {"distance"}, "distance 1.0"),
+        ({"height": 1.03}, {"height-scale"}, "heights 3"),
+    ],
+)
+def test_the_one_run_with_an_error_of_scale_fails_and_is_named_with_it(
+    sheet_of, ten_runs, run_over, numbers, ids, said
+):
+    sheet = sheet_of((*ten_runs[:2], run_over(3, **numbers), ten_runs[3]))
+    told = {cause.text for t in sheet.runs[2].tracks for cause in t.causes}
+    assert any(text.startswith(said) for text in told)
+    assert not any(t.causes for k in (0, 1, 3) for t in sheet.runs[k].tracks)
+    lines = [c for c in sheet.criteria if c.id in ids]
+    assert {c.judged for c in lines} == {Judged.FAIL}
+    assert all("run-3 +" in c.reason and "run-1 " not in c.reason for c in lines)
