@@ -15,6 +15,7 @@ from floatref_conformance.certify.placing import place, placed
 from floatref_conformance.certify.plan import Plan, Processing, SectionPlan, StationaryPlan
 from floatref_conformance.certify.run_paths import names_of
 from floatref_conformance.certify.scales import judge_readings
+from floatref_conformance.certify.second_opinion import confirm_worksheet
 from floatref_conformance.certify.sections import Run, section_sheet
 from floatref_conformance.certify.stationary import stationary_sheet
 from floatref_conformance.certify.worksheet import (
@@ -42,7 +43,8 @@ def certify(
     """Return the worksheet of ``plan``.
 
     A run that cannot be used is an error of that run alone. Raises InputError for a reference
-    that cannot be used, a run that is the reference itself, and where no run can be used at all.
+    that cannot be used, a run that is the reference itself, and where no run can be used at all;
+    SuiteError where the reference implementation does not give the worst numbers too.
     """
     for section in plan.sections:
         _check_apart(section)
@@ -58,7 +60,7 @@ def certify(
         _stationary(name, test, sources[test.source], limits) for name, test in _tests(plan)
     )
     criteria = () if plan.distance is None else judge_readings(plan.distance, limits)
-    return Worksheet(
+    worksheet = Worksheet(
         plan.profiler,
         device_class,
         limits,
@@ -69,6 +71,8 @@ def certify(
         settings=_settings(processing),
         versions=dict(_versions()),
     )
+    confirm_worksheet(worksheet)
+    return worksheet
 
 
 class _Steps:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from floatref_conformance.certify import second_opinion
 from floatref_conformance.certify.limits import CertificationLimits
@@ -13,6 +14,7 @@ from floatref_conformance.certify.second_opinion import confirm_worksheet
 from floatref_conformance.certify.stationary import stationary_sheet
 from floatref_conformance.certify.worksheet import Worksheet
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.cli.main import main
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.verdict import Verdict
 
@@ -107,3 +109,16 @@ def test_of_a_long_section_the_measure_is_still_confirmed_and_a_wrong_one_denied
     monkeypatch.setattr(second_opinion, "iri", lambda z, interval: float(np.abs(z).mean()))
     with pytest.raises(SuiteError, match="IRI is"):
         confirm_worksheet(worksheet_of(section))
+
+
+def test_a_certification_whose_measure_is_wrong_ends_without_a_verdict(written, monkeypatch):
+    from floatref_conformance.certify import comparing
+
+    right = comparing.iri
+    monkeypatch.setattr(comparing, "iri", lambda z, interval: 1.01 * right(z, interval))
+    runs = [str(written / "runs" / f"run-{k}") for k in (1, 2)]
+    command = ["certify", *runs, "--reference", str(written / "reference"), "--section", "0:60"]
+    result = CliRunner().invoke(main, command)
+    assert result.exit_code == 3
+    assert "by the reference" in result.output
+    assert "PASS" not in result.output
