@@ -81,7 +81,7 @@ def batch(
     if jobs and cluster:
         raise InputError("--jobs is for workers of this machine; leave it or --cluster out")
     check_installed()
-    _check_drawing(plot)
+    _check_drawing(plot, out)
     defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
     tally = Tally()
     with interruptible(lambda: _interrupted(tally)):
@@ -92,13 +92,14 @@ def batch(
         raise click.exceptions.Exit(SOME_FAILED)
 
 
-def _check_drawing(plot: Path | None) -> None:
-    """Refuse before the work what would be refused after it."""
+def _check_drawing(plot: Path | None, out: Path) -> None:
+    """Refuse before the work what would be refused after it; ``out`` may have to be made."""
     if plot is None:
         return
     from floatref.plots import check_drawing
 
-    check_target(plot, overwrite=True)
+    if plot.absolute().parent != out.absolute():
+        check_target(plot, overwrite=True)
     check_drawing(plot)
 
 

@@ -6,12 +6,18 @@ from datetime import timedelta
 from math import isnan
 from threading import Event, Thread
 from time import monotonic
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from floatref.batch.tally import Tally
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 EVERY_S = 30.0
 """Between two plain lines."""
+
+REFRESH_S = 5.0
+"""Until a bar is drawn anew, with the number of workers."""
 
 
 @contextmanager
@@ -21,17 +27,27 @@ def progress(
     """Show ``tally`` on ``stream`` as it grows; yield what is to be called when it has."""
     from rich.console import Console
 
+    def line() -> str:
+        return f"{said(tally)}, {workers()} workers"
+
     console = Console(file=stream)
     if console.is_terminal:
-        from rich.progress import BarColumn, Progress, TextColumn
-
-        columns = (BarColumn(), TextColumn("{task.description}"))
-        with Progress(*columns, console=console, transient=True) as bar:
-            task = bar.add_task("starting", total=1.0)
-            yield lambda: bar.update(task, completed=tally.part, description=said(tally))
+        with _bar(tally, console) as show, _regularly(lambda: show(line()), REFRESH_S):
+            yield lambda: show(None)
         return
-    with _told_regularly(lambda: f"{said(tally)}, {workers()} workers", stream, every_s):
+    with _regularly(lambda: print(line(), file=stream, flush=True), every_s):
         yield lambda: None
+
+
+@contextmanager
+def _bar(tally: Tally, console: "Console") -> Iterator[Callable[[str | None], None]]:
+    """Yield what moves a bar to where ``tally`` is, with a line beside it if there is one."""
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (BarColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(said(tally), total=1.0)
+        yield lambda line: bar.update(task, completed=tally.part, description=line or said(tally))
 
 
 def said(tally: Tally) -> str:
@@ -55,17 +71,18 @@ def duration(seconds: float) -> str:
 
 
 @contextmanager
-def _told_regularly(line: Callable[[], str], stream: TextIO, every_s: float) -> Iterator[None]:
+def _regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
+    """Call ``act`` every so often, also while no file comes to its end."""
     over = Event()
 
-    def tell() -> None:
+    def repeat() -> None:
         while not over.wait(every_s):
-            print(line(), file=stream, flush=True)
+            act()
 
-    teller = Thread(target=tell, daemon=True)
-    teller.start()
+    other = Thread(target=repeat, daemon=True)
+    other.start()
     try:
         yield
     finally:
         over.set()
-        teller.join(timeout=1.0)
+        other.join(timeout=1.0)

@@ -66,12 +66,15 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
         write_batch_document(document, work.out)
+        if work.plot is not None:
+            _draw(work.out, work.plot)
     return document
 
 
 def _processed(jobs: Sequence[Job], work: Work, tally: Tally, failed: dict[str, Record]) -> int:
-    """Fill ``tally``, and ``failed`` by name; return the number of workers at the end."""
+    """Fill ``tally``, and ``failed`` by name; return how many workers there were."""
     with silence() as shown, connect(work.out, work.jobs, work.cluster) as client:
+        workers = count_workers(client)
         tally.begin(jobs, monotonic())
         with progress(tally, shown, lambda: count_workers(client)) as tell:
             for job, record in run_jobs(client, jobs, work.resume):
@@ -79,7 +82,14 @@ def _processed(jobs: Sequence[Job], work: Work, tally: Tally, failed: dict[str, 
                 if record.error:
                     failed[job.name] = record
                 tell()
-        return count_workers(client)
+        return max(workers, count_workers(client))
+
+
+def _draw(out: Path, plot: Path) -> None:
+    from floatref.batch.columns import read_columns
+    from floatref.plots import SUMMARY_COLUMNS, draw_summary
+
+    draw_summary(read_columns(out, SUMMARY_COLUMNS), plot)
 
 
 def _records(jobs: Iterable[Job], failed: Mapping[str, Record]) -> Iterator[Record]:

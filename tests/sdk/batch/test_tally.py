@@ -5,7 +5,7 @@ from math import isnan, nan
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.batch.job import Job
@@ -13,6 +13,9 @@ from floatref.batch.record import Effort, Record, Row
 from floatref.batch.tally import ROUGHEST, Tally
 
 ROW = Row("left", 0, 0.0, 100.0, nan, nan, 1.0, nan, 0.0)
+
+patient = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+"""How fast examples are made decides nothing."""
 
 
 def job(name: str, size_bytes: int = 1000) -> Job:
@@ -23,6 +26,7 @@ def record(name: str, **fields: object) -> Record:
     return replace(Record(name, f"/in/{name}", length_m=500.0, rows=(ROW,)), **fields)
 
 
+@patient
 @given(st.lists(st.sampled_from(["done", "failed", "skipped"]), max_size=30))
 def test_every_file_is_counted_once(outcomes: list[str]) -> None:
     tally = Tally()
@@ -71,6 +75,7 @@ def test_effort_is_summed_and_the_peak_of_memory_is_the_largest() -> None:
     assert tally.effort == Effort(5.0, 2.5, 30, 10, 700)
 
 
+@patient
 @given(st.lists(st.floats(0.0, 20.0) | st.just(nan), max_size=20))
 def test_the_roughest_rows_are_kept_in_order(values: list[float]) -> None:
     tally = Tally()

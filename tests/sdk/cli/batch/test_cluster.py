@@ -61,6 +61,19 @@ def test_the_summary_is_that_of_the_local_cluster(bench: Any, address: str) -> N
     assert not (bench.out / ".cluster").exists()
 
 
+def test_a_scheduler_that_dies_leaves_rows_that_say_so(bench: Any, address: str) -> None:
+    bench.put(a=("ready", 300), w0=("wait", 200))
+    start_worker(bench)
+    process = bench.batch("--cluster", address)
+    bench.wait_until(lambda: len(bench.records()) == 1 and bench.at_work() == 1)
+    bench.started[0].kill()
+    report = bench.report_of(process, code=5)
+    # Whether the scheduler had passed on that the other was done is its secret.
+    assert report["files"]["done"] + report["files"]["failed"] == 2
+    errors = {failure["name"]: failure["error"] for failure in report["failures"]}
+    assert "the cluster was lost before this file was done" in errors["w0.gate"]
+
+
 def test_workers_of_another_version_are_refused(bench: Any, address: str) -> None:
     bench.put(**FILES)
     program = (sys.executable, "-c", OTHER_VERSION)

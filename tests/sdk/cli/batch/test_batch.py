@@ -1,0 +1,173 @@
+"""`floatref batch`: what is refused before any work, and what is said of it."""
+
+import signal
+import sys
+from io import StringIO
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+from rich.console import Console
+
+from floatref.batch.job import Job
+from floatref.batch.record import Record
+from floatref.batch.tally import Tally
+from floatref.cli.batch_progress import progress, said
+from floatref.cli.batch_report import FAILURES, counted, print_report
+from floatref.cli.interruption import interruptible
+from floatref.cli.main import main
+
+
+def refused(*arguments: str) -> str:
+    result = CliRunner().invoke(main, ["batch", *arguments])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.count("\n") == 1
+    return result.stderr
+
+
+@pytest.fixture
+def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a folder of the working directory with something in it."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "runs").mkdir()
+    (tmp_path / "runs" / "a.mf4").write_bytes(b"nothing of the kind")
+    (tmp_path / "given.json").write_text('{"cutoff": 3}', encoding="ascii")
+    (tmp_path / "others").mkdir()
+    (tmp_path / "others" / "letter.txt").touch()
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["runs"], "Missing option '--out'"),
+        (["--out", "out"], "Missing argument 'IN...'"),
+        (["nowhere", "--out", "out"], "nowhere: not found"),
+        (["others", "--out", "out"], "no recording in it"),
+        (["runs", "--out", "out", "--jobs", "0"], "0 is not in the range"),
+        (
+            ["runs", "--out", "out", "--jobs", "2", "--cluster", "tcp://a:1"],
+            "leave it or --cluster",
+        ),
+        (["runs", "--out", "out", "--pipeline", "temporal"], "pipeline temporal: unknown"),
+        (["runs", "--out", "out", "--settings", "given.json"], "setting cutoff"),
+        (["runs", "--out", "out", "--segment", "-5"], "segment -5.0 m"),
+        (["runs", "--out", "out", "--segment", "nan"], "segment nan m"),
+        (["runs", "--out", "out", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
+        (["runs", "--out", "none/out"], "its folder does not exist"),
+        (["runs", "--out", "given.json"], "given.json: is not a folder"),
+        (["runs", "--out", "others"], "others: is not empty"),
+        (["runs", "--out", "others", "--resume"], "others: holds other files and no batch"),
+        (["runs", "--out", "out", "--cluster", "far away"], "no scheduler answers there"),
+    ],
+)
+def test_wrong_usage_is_one_line_and_leaves_nothing(
+    runs: Path, arguments: list[str], text: str
+) -> None:
+    before = sorted(runs.rglob("*"))
+    assert text in refused(*arguments)
+    assert sorted(runs.rglob("*")) == before
+
+
+def test_a_missing_extra_is_named(runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert "pip install 'floatref[batch]'" in refused("runs", "--out", "out")
+    assert not (runs / "out").exists()
+
+
+def tallied(done: int, failed: int) -> Tally:
+    names = [f"f{index}" for index in range(done + failed)]
+    jobs = [Job(Path("/in", name), name, Path("/out")) for name in names]
+    tally = Tally()
+    tally.begin([*jobs, jobs[0]], 0.0)
+    for index, job in enumerate(jobs):
+        error = "" if index < done else f"damaged at byte {index}"
+        tally.add(job, Record(job.name, str(job.source), error, length_m=500.0))
+    return tally
+
+
+def test_progress_tells_files_failures_and_rate() -> None:
+    text = said(tallied(3, 2))
+    assert text.startswith("5 of 6 files, 2 failed, ")
+    assert "files/min" in text
+    assert text.endswith(" left")
+
+
+def test_where_nobody_watches_progress_is_plain_lines() -> None:
+    stream = StringIO()
+    tally = tallied(1, 0)
+    with progress(tally, stream, lambda: 4, every_s=0.001):
+        while "\n" not in stream.getvalue():
+            pass
+    assert "\x1b" not in stream.getvalue()
+    line = stream.getvalue().splitlines()[0]
+    assert line.startswith("1 of 2 files, 0 failed")
+    assert line.endswith(", 4 workers")
+
+
+def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    # rich takes this for a terminal.
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    stream = StringIO()
+    assert Console(file=stream).is_terminal
+    tally = tallied(2, 1)
+    with progress(tally, stream, lambda: 1) as tell:
+        tell()
+    assert "3 of 4 files, 1 failed" in stream.getvalue()
+
+
+def test_failures_are_listed_up_to_a_number(capsys: pytest.CaptureFixture[str]) -> None:
+    tally = tallied(1, FAILURES + 3)
+    failures = [{"name": name, "error": why} for name, why in tally.failed.items()]
+    files = {"found": 24, "done": 1, "failed": 23, "skipped": 0}
+    run = {"wall_s": 60.0, "workers": 2, "processed": 24, "length_km": 0.5}
+    effort = {"cpu_s": 1.0, "peak_bytes": 1_000_000}
+    document = {"files": files, "this_run": run, "effort": effort, "failures": failures}
+    print_report({**document, "warnings": 0, "length_km": 0.5}, tally, Path("out"))
+    text = capsys.readouterr().out
+    assert text.count("damaged at byte") == FAILURES
+    assert "and 3 more, in the summary" in text
+
+
+@pytest.mark.parametrize(
+    ("names", "text"),
+    [
+        (["a"], "1 file (a)"),
+        (list("abc"), "3 files (a, b, c)"),
+        (list("abcd"), "4 files (a, b, c,"),
+    ],
+)
+def test_names_are_told_up_to_a_number(names: list[str], text: str) -> None:
+    assert counted(names).startswith(text)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_work_once(
+    number: signal.Signals, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = signal.getsignal(number)
+    steps = []
+
+    def work() -> None:
+        try:
+            signal.raise_signal(number)
+        finally:
+            # Impatience does not hinder what has to be tidied up.
+            signal.raise_signal(number)
+            steps.append("tidied")
+
+    with pytest.raises(click.exceptions.Exit) as ended, interruptible(lambda: "so far"):
+        work()
+    assert ended.value.exit_code == 130
+    assert (steps, capsys.readouterr().err) == (["tidied"], "so far\n")
+    assert signal.getsignal(number) is before
+
+
+def test_a_signal_that_was_ignored_stays_so() -> None:
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with interruptible(lambda: "never"):
+            signal.raise_signal(signal.SIGINT)
+    finally:
+        signal.signal(signal.SIGINT, before)
