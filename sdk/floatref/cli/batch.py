@@ -80,11 +80,11 @@ def batch(
     """
     if jobs and cluster:
         raise InputError("--jobs is for workers of this machine; leave it or --cluster out")
-    check_installed()
-    _check_drawing(plot, out)
-    defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
     tally = Tally()
     with interruptible(lambda: _interrupted(tally)):
+        check_installed()
+        _check_drawing(plot, out)
+        defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
         found = find_jobs(given, out, defaults)
         report = work_through(found, Work(given, defaults, out, resume, jobs, cluster, plot), tally)
     print_json(report) if as_json else print_report(report, tally, out)

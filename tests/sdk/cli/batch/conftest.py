@@ -161,9 +161,10 @@ class Bench:
 def is_alive(process: int) -> bool:
     """Tell whether ``process`` runs; one that has ended and waits for its parent does not."""
     try:
+        os.kill(process, 0)
         status = Path(f"/proc/{process}/stat").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return False
+    except OSError as error:
+        return not isinstance(error, ProcessLookupError) and not os.path.isdir("/proc/self")
     return status.rpartition(")")[2].split()[0] != "Z"
 
 
