@@ -10,6 +10,7 @@ from shutil import which
 from typing import Any
 
 import pytest
+from matplotlib.image import imread
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes")
 READY = {f"r{index}": ("ready", 900 - index) for index in range(6)}
@@ -140,7 +141,8 @@ def test_a_second_command_stays_out_of_the_folder(story: Story) -> None:
 def test_the_installed_command_starts_workers_as_well(bench: Any) -> None:
     bench.put(one=("ready", 10))
     command = which("floatref")
-    process = bench.start("batch", "in", "--out", "out", "--jobs", "1", program=(command,))
-    code, out, err = bench.ended(process)
+    arguments = ("batch", "in", "--out", "out", "--jobs", "1", "--plot", "out/map.png")
+    code, out, err = bench.ended(bench.start(*arguments, program=(command,)))
     assert (code, err) == (0, "")
     assert "summary.parquet" in out
+    assert imread(bench.out / "map.png").shape[0] > 400
