@@ -20,7 +20,7 @@ PAGES = ("batch-scaling.md", "performance.md")
 PLACE = re.compile(r"(<!-- batch: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 NETWORK_KM = 10_000
 CALCULATED = (10, 100)
-LINKS = {"1 Gbit/s": 118e6, "10 Gbit/s": 1180e6}
+LINKS = {"1 Gbit/s": 0.94e9 / 8, "10 Gbit/s": 9.4e9 / 8}
 """Bytes/s of payload that a link to a file server carries."""
 Found = dict[str, Any]
 Row = tuple[str, ...]
