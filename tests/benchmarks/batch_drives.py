@@ -14,6 +14,8 @@ SPEEDS_MPS = (8.0, 28.0)
 SECONDS = (3.0, 20.0)
 FIXES_HZ = 5
 EARTH_M = 6_371_000.0
+DISTRICT = ((0.85, 0.14), (0.8505, 0.1408))
+"""South-western and north-eastern corner, latitude and longitude in rad."""
 BUMPS = 80
 WAVELENGTHS_M = (0.5, 60.0)
 ROUGHNESS = (4e-6, 64e-6)
@@ -86,7 +88,7 @@ def fixes(draw: np.random.Generator, times: Floats, distance: Floats) -> list[Ch
     clock = UniformClock.of(FIXES_HZ)
     count = int(times[-1] * FIXES_HZ) + 1
     gone = np.interp(clock.times(count), times, distance)
-    place, heading = draw.uniform((0.8, 0.1), (0.9, 0.3)), draw.uniform(0, 2 * np.pi)
+    place, heading = draw.uniform(*DISTRICT), draw.uniform(0, 2 * np.pi)
     north, east = np.cos(heading) / EARTH_M, np.sin(heading) / EARTH_M / np.cos(place[0])
     return [
         Channel.of("gnss_latitude", place[0] + gone * north, clock),
