@@ -4,6 +4,7 @@ import csv
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 
 from floatref.batch.defaults import Defaults, checked
@@ -44,7 +45,7 @@ def is_manifest(path: Path) -> bool:
         return False
     if b"\0" in start:
         return False
-    lines = list(_lines(start.decode("utf-8-sig", "replace")))[:TRIED]
+    lines = list(islice(_lines(start.decode("utf-8-sig", "replace")), TRIED))
     if lines and _columns(lines[0][1]):
         return True
     return any(_exists(path.parent, text) for _, text in lines)

@@ -1,21 +1,13 @@
-"""Sources: every recording of a tree once, nothing that is none, and wrong usage before work."""
+"""Sources: every recording of a tree once, and nothing that is none."""
 
 import os
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from floatref.architectures.plugins import plugins
-from floatref.architectures.writing import write_as
 from floatref.batch.inputs import Defaults, Found, find_jobs
-from floatref.errors import InputError
-from floatref.files import write_profile, write_recording
-from floatref.values.clock import UniformClock
-from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Channel, Recording
+from floatref.values.recording import Recording
 from floatref_adapters.testing import WRITERS
 
 MAP = """format = "floatref-map/1"
@@ -28,54 +20,6 @@ dbc = "names.csv"
 native = "a"
 channel = "height"
 """
-
-
-def recording() -> Recording:
-    clock = UniformClock.of(100.0)
-    samples = {"distance": 0.1, "height": 1.0, "vertical_specific_force": 9.8}
-    channels = (Channel.of(n, x * np.arange(1.0, 51.0), clock) for n, x in samples.items())
-    return Recording(tuple(channels))
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a tree with a recording in every format, profiles in every format, and the rest."""
-    tree = tmp_path_factory.mktemp("made") / "tree"
-    for suffix, write in WRITERS.items():
-        folder = tree / suffix[1:]
-        folder.mkdir(parents=True)
-        write(recording(), folder / f"run{suffix}", None)
-    (tree / "ours").mkdir()
-    write_recording(recording(), tree / "ours" / "run")
-    profile = Profile(0.05, (ProfileTrack.of("main", np.zeros(100)),))
-    done = tree / "profiles"
-    done.mkdir()
-    write_profile(profile, done / "p")
-    for form in plugins().profile_formats().values():
-        if form.suffix:
-            write_as(form, profile, done / f"p{form.suffix}")
-    (tree / "notes.md").write_text("a, b\n")
-    (tree / "run.txt").write_text("time\theight\n0.0\t1.0\n0.1\t1.1\n")
-    (tree / "readme.txt").write_text("What this is\n")
-    (tree / "list.csv").write_text("file\ncsv/run.csv\n")
-    (tree / ".hidden.csv").write_text("time,height\n0,1\n")
-    (tree / ".floatref-12").mkdir()
-    (tree / ".floatref-12" / "run.csv").touch()
-    (tree / "damaged.mf4").write_bytes(b"\0" * 100)
-    return tree
-
-
-@pytest.fixture
-def tree(made: Path, tmp_path: Path) -> Path:
-    return Path(shutil.copytree(made, tmp_path / "tree"))
-
-
-@pytest.fixture
-def find(tmp_path: Path) -> Callable[..., Found]:
-    def call(*given: object, **options: object) -> Found:
-        return find_jobs([str(each) for each in given], tmp_path / "out", Defaults(**options))
-
-    return call
 
 
 def names(found: Found) -> list[str]:
@@ -231,32 +175,6 @@ def test_a_folder_that_an_adapter_recognises_is_one_source(tree, find, know):
     assert found.jobs[0].size_bytes == 3
 
 
-@pytest.mark.parametrize(
-    ("given", "options", "said"),
-    [
-        ("no.mf4", {}, "no.mf4: not found"),
-        ("no*.mf4", {}, r"no\*.mf4: matches no recording"),
-        ("a**/x", {}, r"\*\*"),
-        ("profiles", {}, "profiles: no recording in it"),
-        ("profiles/p", {}, "profiles/p: no recording in it"),
-        ("csv", {"pipeline": "no"}, "pipeline no: unknown"),
-        ("csv", {"settings": {"no": 1.0}}, "setting no: pipeline temporal-basic has none such"),
-        ("csv", {"adapter": "no"}, "adapter no: unknown"),
-        ("csv", {"channel_map": Path("no.toml")}, "no.toml: No such file"),
-        ("csv", {"channel_map": Path("no.toml"), "adapter": "recording"}, "leave the map out"),
-        ("csv", {"segment_m": 0.0}, "segment 0.0 m: must be above zero"),
-        ("csv", {"segment_m": float("nan")}, "segment nan m"),
-        ("csv", {"segment_m": float("inf")}, "segment inf m"),
-        ("pipe", {}, "pipe: is a device or pipe"),
-    ],
-)
-def test_wrong_usage_is_one_line_before_any_work(tree, find, given, options, said):
-    os.mkfifo(tree / "pipe")
-    with pytest.raises(InputError, match=said) as caught:
-        find(tree / given, **options)
-    assert "\n" not in str(caught.value)
-
-
 def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
     os.mkfifo(tree / "csv" / "pipe.csv")
     found = find(tree / "csv")
@@ -267,30 +185,3 @@ def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
 def test_a_link_that_leads_nowhere_is_a_source_that_cannot_be_read(tree, find):
     (tree / "csv" / "gone.mf4").symlink_to(tree / "nowhere.mf4")
     assert names(find(tree / "csv")) == ["gone.mf4", "run.csv"]
-
-
-def test_an_empty_list_and_an_empty_argument_are_told(tree, find):
-    (tree / "list").write_text("file\n")
-    with pytest.raises(InputError, match="no recording was found"):
-        find(tree / "list")
-    with pytest.raises(InputError, match="'': not found"):
-        find("")
-
-
-def test_one_file_in_two_ways_is_refused(tree, find):
-    (tree / "list").write_text("file,pipeline\ncsv/run.csv,temporal-hpf\n")
-    with pytest.raises(InputError, match=r"run.csv: given twice, with different options"):
-        find(tree / "csv", tree / "list")
-
-
-def test_a_folder_that_cannot_be_listed_is_told(tree, find, monkeypatch):
-    real = os.scandir
-
-    def refusing(path: str | Path) -> object:
-        if Path(path).name == "csv":
-            raise PermissionError(13, "Permission denied", str(path))
-        return real(path)
-
-    monkeypatch.setattr(os, "scandir", refusing)
-    with pytest.raises(InputError, match="csv: Permission denied; make it readable"):
-        find(tree)
