@@ -15,7 +15,7 @@ import signal
 import sys
 from pathlib import Path
 
-from floatref.batch.cluster import connect
+from floatref.batch.cluster import LOCAL, connect
 from floatref.batch.job import Job
 from floatref.batch.record import Record
 from floatref.batch.running import run_jobs
@@ -43,7 +43,7 @@ def all_kinds(out, client):
 
 
 def few(out, client):
-    return run_jobs(client, jobs(out, {"small": 1, "deadly": 2, "large": 3}), True, task)
+    return run_jobs(client, jobs(out, {"small": 1, "deadly": 2}), True, task)
 
 
 def cancelled(out, client):
@@ -56,6 +56,7 @@ def cancelled(out, client):
 
 if __name__ == "__main__":
     out = Path(sys.argv[1])
+    LOCAL["distributed.scheduler.allowed-failures"] = int(sys.argv[4])
     with silence(), connect(out, int(sys.argv[3])) as client:
         found = list(globals()[sys.argv[2]](out, client))
     assert all(job.name == record.name for job, record in found)
@@ -64,10 +65,10 @@ if __name__ == "__main__":
 """
 
 
-def run(out: Path, case: str, workers: int = 2) -> list[list[Any]]:
+def run(out: Path, case: str, workers: int = 2, deaths: int = 1) -> list[list[Any]]:
     """Return name, error and whether it was skipped of every record of ``case``."""
     (out / "script.py").write_text(SCRIPT, encoding="utf-8")
-    command = [sys.executable, str(out / "script.py"), str(out), case, str(workers)]
+    command = [sys.executable, str(out / "script.py"), str(out), case, str(workers), str(deaths)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=240)
     assert (done.returncode, done.stderr) == (0, "")
     found: list[list[Any]] = json.loads(done.stdout)
@@ -98,12 +99,15 @@ def test_a_deadly_file_leaves_its_record(kinds: tuple[Path, list[list[Any]]]) ->
     assert "worker ended" in read_record(kinds[0] / "records" / "deadly.json").error
 
 
-def test_one_worker_begins_with_the_largest_and_blames_no_other(tmp_path: Path) -> None:
-    found = {name: (error, skipped) for name, error, skipped in run(tmp_path, "few", 1)}
-    assert "worker ended" in found.pop("deadly")[0]
-    assert found == {"small": ("", True), "large": ("", True)}
+def test_what_waits_beside_a_deadly_file_is_not_blamed(tmp_path: Path) -> None:
+    # Both are given to the worker at once, and its first death is held against both.
+    found = {n: (error, skipped) for n, error, skipped in run(tmp_path, "few", 1, deaths=0)}
+    assert "worker ended 1 times" in found.pop("deadly")[0]
+    assert found == {"small": ("", True)}
     begun = (tmp_path / "started").read_text(encoding="ascii").split()
-    assert list(dict.fromkeys(begun)) == ["large", "deadly", "small"]
+    # The largest first, then each of them alone.
+    assert begun[0] == "deadly"
+    assert sorted(begun[1:]) == ["deadly", "small"]
 
 
 def test_what_the_cluster_drops_is_a_record_as_well(tmp_path: Path) -> None:
