@@ -34,10 +34,14 @@ def table(head: Row, *rows: Row) -> str:
 
 def number(value: float, digits: int = 3) -> str:
     """Return ``value`` with so many digits, thousands set apart."""
-    if value == 0:
-        return "0"
-    size = len(str(int(abs(value))))
-    return f"{round(value, digits - size):,.{max(0, digits - size if value >= 1 else digits - 1)}f}"
+    if abs(value) >= 10 ** (digits - 1):
+        return f"{value:,.0f}"
+    return f"{value:#.{digits}g}".rstrip(".")
+
+
+def peak(found: Found) -> float:
+    """Return the largest memory of a worker in bytes, of whatever it processed."""
+    return max(part["peak_bytes"] for part in found.values() if "peak_bytes" in part)
 
 
 def rates(found: Found) -> tuple[float, float]:
@@ -105,7 +109,7 @@ def _line(found: Found, workers: int, km_per_h: float, how: str) -> Row:
         duration(NETWORK_KM / km_per_h),
         f"{number(per_s * scale['bytes_in_per_km'] / 1e6)} MB/s",
         f"{number(per_s * scale['bytes_out_per_km'] / 1e6)} MB/s",
-        f"{number(workers * scale['peak_bytes'] / 1e9)} GB",
+        f"{number(workers * peak(found) / 1e9)} GB",
         number(files),
         f"{number(busy, 2)} %",
     )
@@ -131,6 +135,20 @@ def limits(found: Found) -> str:
         ("the scheduler, with these recordings", f"{1 / task / files:,.0f}"),
         ("the scheduler, with the short recordings below", f"{1 / task / short:,.0f}"),
     )
+
+
+def behind(found: Found) -> str:
+    """How long a network takes where the link to its file server may be full."""
+    km = rates(found)[0]
+    each = found["scale"]["bytes_in_per_km"] + found["scale"]["bytes_out_per_km"]
+    rows = [
+        (
+            str(n),
+            *(duration(NETWORK_KM / min(n * km, rate / each) / 3600) for rate in LINKS.values()),
+        )
+        for n in CALCULATED
+    ]
+    return table(("workers", *(f"behind {name}" for name in LINKS)), *rows)
 
 
 def short(found: Found) -> str:
@@ -171,12 +189,11 @@ def taken(found: Found) -> str:
 def lines(found: Found) -> str:
     """The lines of the page on performance."""
     scale, whole = found["scale"], found["corpus"]
-    peak = max(part["peak_bytes"] for part in found.values() if "peak_bytes" in part)
     return table(
         ("what", "measured", "aim"),
         ("two workers against one, start-up left out", f"{scale['ratio']:.2f}", "≥ 1.7"),
         ("the same with it", f"{scale['ratio_with_start']:.2f}", "–"),
-        ("resident memory of a worker, at most", f"{peak / 1e6:.0f} MB", "≤ 600 MB"),
+        ("resident memory of a worker, at most", f"{peak(found) / 1e6:.0f} MB", "≤ 600 MB"),
         ("a km of two wheel paths at 16 kHz", f"{number(scale['cpu_s_per_km'])} s of CPU", "–"),
         (f"{whole['files']:,} short recordings", f"{number(whole['wall_s'])} s", "–"),
     )
@@ -187,6 +204,7 @@ PARTS: dict[str, Callable[[Found], str]] = {
     "km": per_km,
     "expected": expected,
     "limits": limits,
+    "behind": behind,
     "short": short,
     "lines": lines,
 }

@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "batch-scaling.md").read_text(encoding="utf-8")
 MEASURED = json.loads((ROOT / "docs" / "data" / "batch.json").read_text(encoding="utf-8"))
 SCALE, OVERHEAD = MEASURED["scale"], MEASURED["overhead"]
+PEAK = max(part.get("peak_bytes", 0) for part in MEASURED.values())
 WITHIN = 0.01
 """Three digits are shown."""
 
@@ -78,7 +79,7 @@ def test_what_is_expected_of_many_workers_follows_from_two(workers: int) -> None
     assert minutes == pytest.approx(10_000 / km_per_s / 60, rel=WITHIN)
     assert numbers(read) == pytest.approx(km_per_s * SCALE["bytes_in_per_km"] / 1e6, rel=WITHIN)
     assert numbers(written) == pytest.approx(km_per_s * SCALE["bytes_out_per_km"] / 1e6, rel=WITHIN)
-    assert numbers(memory) == pytest.approx(workers * SCALE["peak_bytes"] / 1e9, rel=WITHIN)
+    assert numbers(memory) == pytest.approx(workers * PEAK / 1e9, rel=WITHIN)
     assert numbers(files) == pytest.approx(files_per_s, rel=WITHIN)
     assert numbers(busy) == pytest.approx(share, rel=0.06)
 
@@ -88,6 +89,17 @@ def test_a_link_is_full_where_it_carries_no_more(link: int) -> None:
     (shown,) = rows("What is full first")[f"a file server behind {link} Gbit/s"]
     each = rate_of_one() * (SCALE["bytes_in_per_km"] + SCALE["bytes_out_per_km"])
     assert numbers(shown) == pytest.approx(0.94 * link * 1e9 / 8 / each, abs=0.51, rel=0.01)
+
+
+@pytest.mark.parametrize("workers", [10, 100])
+def test_behind_a_link_the_network_takes_as_long_as_the_slower_of_both(workers: int) -> None:
+    (table,) = re.findall(r"<!-- batch: behind -->\n(.+?)<!-- end -->", PAGE, re.DOTALL)
+    (shown,) = re.findall(rf"^\| {workers} \| (.+) \| (.+) \|$", table, re.MULTILINE)
+    moved = 10_000 * (SCALE["bytes_in_per_km"] + SCALE["bytes_out_per_km"])
+    for link, cell in zip((1e9, 1e10), shown, strict=True):
+        seconds = max(10_000 / (workers * rate_of_one()), moved / (0.94 * link / 8))
+        found = numbers(cell) * (3600 if cell.endswith(" h") else 60)
+        assert found == pytest.approx(seconds, rel=WITHIN)
 
 
 def test_the_scheduler_is_full_where_tasks_come_faster_than_it_takes_them() -> None:
