@@ -4,6 +4,7 @@ from math import isnan
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH, opening, px, worded
+from floatref_conformance.render.worksheet_wording import correlation
 
 WIDEST, HIGHEST = 64.0, 26.0
 """Size of a cell, as long as there is room."""
@@ -59,11 +60,7 @@ def _cell(value: float, limit: float, x: float, y: float, width: float, height: 
     if width < NARROWEST:
         return cell
     middle = f'x="{px(x + width / 2)}" y="{px(y + height / 2)}" dy=".32em"'
-    return f'{cell}<text class="inside {kind}" {middle}>{_told(value)}</text>'
-
-
-def _told(value: float) -> str:
-    return "–" if isnan(value) else f"{value:.3f}".replace("0.", ".", 1).replace("-", "−")
+    return f'{cell}<text class="inside {kind}" {middle}>{correlation(value)}</text>'
 
 
 def _depth(value: float, limit: float) -> float:

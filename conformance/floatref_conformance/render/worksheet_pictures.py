@@ -43,12 +43,11 @@ def close_up(section: SectionSheet, track: str, limits: CertificationLimits, nam
     """Return the roughest stretch of the reference, of `CLOSE_M`, with all runs over it."""
     start = roughest_m(section.reference, track)
     pairs = tuple(_profiles(section, track, limits))
-    lines = tuple(_elevation(*pair, track) for pair in pairs)
-    seen = [line.y[(line.x >= start) & (line.x <= start + CLOSE_M)] for line in lines]
-    held = np.concatenate(seen)
-    panel = Panel("elevation", "mm", lines, 200.0, held=held)
+    end = start + CLOSE_M
+    lines = tuple(_between(_elevation(*pair, track), start, end) for pair in pairs)
+    panel = Panel("elevation", "mm", lines, 200.0)
     title = f"Wheel path {track}: the roughest {CLOSE_M:g} m"
-    return _drawn_along(start, start + CLOSE_M, (panel,), title, name)
+    return _drawn_along(start, end, (panel,), title, name)
 
 
 def roughest_m(reference: Profile, track: str) -> float:
@@ -152,6 +151,12 @@ def _elevation(profile: Profile, label: str, style: str, track: str) -> Line:
     except InputError:
         shown = np.full(elevation.size, np.nan)
     return Line(label, profile.distance_m, 1000.0 * shown, style)
+
+
+def _between(line: Line, start: float, end: float) -> Line:
+    """Return the part of ``line`` from ``start`` to ``end``, so that it keeps all its points."""
+    inside = (line.x >= start) & (line.x <= end)
+    return Line(line.label, line.x[inside], line.y[inside], line.style)
 
 
 def _roughness(profile: Profile, label: str, style: str, track: str) -> Line:

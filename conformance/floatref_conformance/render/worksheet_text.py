@@ -148,8 +148,7 @@ def _pairs(pairs: FloatArray, limit: float) -> Table:
 
 
 def _pair(value: float, limit: float) -> str:
-    digits = wording.number(value, 3).removeprefix("0")
-    return digits + ("*" if value < limit else " ")
+    return wording.correlation(value) + ("*" if value < limit else " ")
 
 
 def _short(name: str) -> str:

@@ -29,9 +29,9 @@ SIGNED = (
 def criteria_of(worksheet: Worksheet) -> tuple[tuple[str, Criterion], ...]:
     """Return every criterion behind the name of what it was judged on; empty: of all."""
     return (
-        *(("", one) for one in worksheet.criteria),
         *((sheet.name, one) for sheet in worksheet.sections for one in sheet.criteria),
         *((sheet.id, one) for sheet in worksheet.stationary for one in sheet.criteria),
+        *(("", one) for one in worksheet.criteria),
     )
 
 
@@ -90,6 +90,11 @@ def number(value: float, digits: int) -> str:
 def signed(value: float, digits: int) -> str:
     """Return ``value`` with its sign and ``digits`` decimals."""
     return NOTHING if isnan(value) else f"{value:+.{digits}f}".replace("-", "−")
+
+
+def correlation(value: float) -> str:
+    """Return a correlation with three decimals, without the zero before the point."""
+    return NOTHING if isnan(value) else f"{value:.3f}".replace("0.", ".", 1).replace("-", "−")
 
 
 def with_error(value: float, sigma: float, digits: int) -> str:

@@ -105,6 +105,14 @@ def test_a_section_shorter_than_the_close_up_is_shown_from_its_start(section_of,
     assert "<svg" in close_up(made, "left", LIMITS, "x")
 
 
+def test_a_close_up_shows_every_point_of_it(section):
+    svg = close_up(section(1, 0), "left", LIMITS, "x")
+    (reference,), (run,) = drawn(svg, "truth"), drawn(svg, "run")
+    points_of_15_m = CLOSE_M / 0.05 + 1
+    assert len(reference) >= points_of_15_m - 1
+    assert len(run) >= points_of_15_m - 1
+
+
 def test_dots_lie_above_their_run_in_the_order_of_their_iri(section):
     svg = iri_by_run(section(2, 1), LIMITS, "x")
     dots, squares = ([at for path in drawn(svg, s) for at in path] for s in ("dot", "square"))
