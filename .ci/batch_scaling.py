@@ -35,7 +35,7 @@ def table(head: Row, *rows: Row) -> str:
 def number(value: float, digits: int = 3) -> str:
     """Return ``value`` with so many digits, thousands set apart."""
     if abs(value) >= 10 ** (digits - 1):
-        return f"{value:,.0f}"
+        return f"{float(f'{value:.{digits}g}'):,.0f}"
     return f"{value:#.{digits}g}".rstrip(".")
 
 
@@ -90,7 +90,6 @@ def expected(found: Found) -> str:
             "read",
             "written",
             "memory of all",
-            "files/s",
             "scheduler busy",
         ),
         *measured,
@@ -110,7 +109,6 @@ def _line(found: Found, workers: int, km_per_h: float, how: str) -> Row:
         f"{number(per_s * scale['bytes_in_per_km'] / 1e6)} MB/s",
         f"{number(per_s * scale['bytes_out_per_km'] / 1e6)} MB/s",
         f"{number(workers * peak(found) / 1e9)} GB",
-        number(files),
         f"{number(busy, 2)} %",
     )
 

@@ -67,9 +67,7 @@ def test_the_ratio_is_that_of_the_times() -> None:
 
 @pytest.mark.parametrize("workers", [10, 100])
 def test_what_is_expected_of_many_workers_follows_from_two(workers: int) -> None:
-    how, km_per_h, hours, read, written, memory, files, busy = rows("1, 10 and 100 workers")[
-        str(workers)
-    ]
+    how, km_per_h, hours, read, written, memory, busy = rows("1, 10 and 100 workers")[str(workers)]
     km_per_s = workers * rate_of_one()
     files_per_s = km_per_s / SCALE["km_per_file"]
     share = 100 * files_per_s * OVERHEAD["scheduler_cpu_s_per_task"]
@@ -80,7 +78,6 @@ def test_what_is_expected_of_many_workers_follows_from_two(workers: int) -> None
     assert numbers(read) == pytest.approx(km_per_s * SCALE["bytes_in_per_km"] / 1e6, rel=WITHIN)
     assert numbers(written) == pytest.approx(km_per_s * SCALE["bytes_out_per_km"] / 1e6, rel=WITHIN)
     assert numbers(memory) == pytest.approx(workers * PEAK / 1e9, rel=WITHIN)
-    assert numbers(files) == pytest.approx(files_per_s, rel=WITHIN)
     assert numbers(busy) == pytest.approx(share, rel=0.06)
 
 
