@@ -171,7 +171,6 @@ def _track(
         height_sigma=told.height_sigma,
         flagged_m=found.flagged_m,
         missing_m=found.missing_m,
-        causes=causes(truth, run, name, told, limits),
     )
     if isnan(found.accuracy) or agrees(track, limits):
         return track

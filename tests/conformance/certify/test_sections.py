@@ -158,3 +158,10 @@ def test_a_copy_of_a_run_is_told(sheet_of, ten_runs):
 def test_a_reference_that_cannot_serve_is_refused_by_the_name_of_its_section(sheet_of, ten_runs):
     with pytest.raises(InputError, match=r"section main: reference: .* reaches beyond"):
         sheet_of(ten_runs[:1], stretch_m=(0.0, 300.0))
+
+
+def test_a_run_that_agrees_has_no_cause_whatever_it_flags(sheet_of, run_over, without):
+    runs = (without(run_over(1), "left", 0, 1000, flags_only=True), run_over(2), run_over(3))
+    sheet = sheet_of(runs)
+    assert sheet.runs[0].tracks[0].flagged_m == pytest.approx(50.0)
+    assert all(track.causes == () for run in sheet.runs for track in run.tracks)
