@@ -22,6 +22,10 @@ NETWORK_KM = 10_000
 CALCULATED = (10, 100)
 LINKS = {"1 Gbit/s": 0.94e9 / 8, "10 Gbit/s": 9.4e9 / 8}
 """Bytes/s of payload that a link to a file server carries."""
+BUSY = (
+    "**Other work kept the machine busy: seconds of a processor, bytes and memory hold, but "
+    "throughputs are disturbed, and two workers cannot be told from one.**"
+)
 Found = dict[str, Any]
 Row = tuple[str, ...]
 
@@ -174,14 +178,16 @@ def short(found: Found) -> str:
 
 
 def taken(found: Found) -> str:
-    """When and where."""
+    """When and where, and whether other work was in the way."""
     at = found["machine"]
     loads = [part["load"] for name, part in found.items() if name != "machine"]
-    return (
+    text = (
         f"Taken on {at['taken']} on {at['cores']} cores of an {at['processor']}, Python "
         f"{at['python']}, numpy {at['numpy']}, distributed {at['dask']}; load average of the "
         f"machine {min(loads):.1f} to {max(loads):.1f}, these runs among it.\n"
     )
+    # A command and its two workers are three at most.
+    return text if max(loads) <= at["cores"] + 1 else f"{text}{BUSY}\n"
 
 
 def lines(found: Found) -> str:
