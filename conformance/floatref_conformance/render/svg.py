@@ -136,14 +136,17 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
 
 
 def _line(line: Line, across: Scale, up: Scale) -> str:
-    """Return the path of ``line``; a point between two missing ones is a dot."""
+    """Return the path of ``line``; a point between two missing ones is a dot.
+
+    A dot has a length, for a square one of none is left out in print.
+    """
     inside = (line.x >= across.low) & (line.x <= across.high)
     inside &= (line.y >= up.low) & (line.y <= up.high)
     strokes = decimated(np.where(inside, line.y, np.nan), MOST_POINTS)
     path = []
     for stroke in strokes:
         points = [f"{px(across(line.x[k]))} {px(up(line.y[k]))}" for k in stroke]
-        path.append(f"M{points[0]}" + ("L" + " ".join(points[1:]) if points[1:] else "h0"))
+        path.append(f"M{points[0]}" + ("L" + " ".join(points[1:]) if points[1:] else "h.1"))
     return f'<path class="line {line.style}" d="{"".join(path)}"/>' if path else ""
 
 
@@ -201,7 +204,7 @@ def _legend(figure: Figure) -> str:
 def _sample(style: str, x: float) -> str:
     """Return the path that shows ``style`` from ``x`` on: a dot, a line, or an area."""
     if style.removeprefix("line ") in DOTS:
-        return f"M{px(x + 9)} 14h0"
+        return f"M{px(x + 9)} 14h.1"
     return f"M{px(x)} 14h18" if style.startswith("line") else f"M{px(x)} 8h18v12h-18z"
 
 

@@ -98,8 +98,8 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
         elevation.append(Line(label, profile.distance_m, 1000.0 * track.elevation, style))
         roughness.append(Line(label, middle, rough, style))
     panels = (
-        Panel("elevation", "mm", tuple(elevation), 120.0),
-        Panel("roughness", "m/km", tuple(roughness), 110.0, True),
+        Panel("elevation", "mm", tuple(elevation), 120.0, held=_counted(elevation, sheet)),
+        Panel("roughness", "m/km", tuple(roughness), 110.0, True, _counted(roughness, sheet)),
     )
     end = max(float(profile.distance_m[-1]), profile.start_m + profile.interval_m)
     reach = () if isnan(sheet.start_m) else ((sheet.start_m, sheet.end_m),)
@@ -109,6 +109,13 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
     return drawn(
         Figure(name, title, told, panels, "distance in m", profile.start_m, end, (counts,))
     )
+
+
+def _counted(lines: list[Line], sheet: StationarySheet) -> FloatArray | None:
+    """Return the values that count, so that what happens beside them does not hide them."""
+    parts = [line.y[(line.x >= sheet.start_m) & (line.x <= sheet.end_m)] for line in lines]
+    held = np.concatenate(parts)
+    return held if np.isfinite(held).any() else None
 
 
 def _drawn_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:

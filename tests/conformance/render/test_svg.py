@@ -96,7 +96,7 @@ def test_a_plot_is_sound_small_and_the_same_every_time(values):
 def test_a_missing_value_lifts_the_pen_and_a_lone_one_is_a_dot():
     (d,) = path(drawn(figure(line([1, 2, np.nan, 3, np.nan, 4, 5]))))
     assert d.count("M") == 3
-    assert d.count("h0") == 1
+    assert d.count("h.1") == 1
 
 
 def test_points_beyond_the_axis_are_not_drawn():
