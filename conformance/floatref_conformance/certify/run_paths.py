@@ -15,6 +15,7 @@ BESIDE = (
 )
 """Suffixes in a directory of runs that are no run: what belongs to one, maps, notes, pictures."""
 PATTERN = re.compile(r"[*?\[]")
+CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+")
 
 
 def runs_of(given: Sequence[str], folder: Path = Path()) -> tuple[Path, ...]:
@@ -35,6 +36,8 @@ def runs_of(given: Sequence[str], folder: Path = Path()) -> tuple[Path, ...]:
 
 def existing(text: str, folder: Path = Path()) -> Path:
     """Return the path that ``text`` means in ``folder``; InputError if there is nothing."""
+    if not text:
+        raise InputError("a path is empty; name a file or a directory")
     path = folder / text
     try:
         there = path.exists()
@@ -53,8 +56,8 @@ def natural(text: str) -> list[tuple[str, int]]:
 
 def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
     """Return a name for every path, all different: no longer a part of it than is needed."""
-    parts = [path.resolve().parts[1:] for path in paths]
-    bare = tuple(_bare(path.name or "run") for path in paths)
+    parts = [[_printed(part) for part in path.resolve().parts[1:]] for path in paths]
+    bare = tuple(_bare(_printed(path.name) or "run") for path in paths)
     longest = max(map(len, parts), default=0)
     deeper = ("/".join(names[-depth:]) for depth in range(1, longest + 1) for names in parts)
     levels = [bare, *zip(*[deeper] * len(paths), strict=True)] if paths else [bare]
@@ -81,11 +84,21 @@ def _within(path: Path) -> Iterator[Path]:
         hidden = child.name.startswith(".")
         if child.is_dir() and not (hidden or child.is_symlink()):
             yield from _within(child)
-        elif child.is_file() and not hidden and child.suffix.lower() not in BESIDE:
+        elif _is_file(child) and not hidden and child.suffix.lower() not in BESIDE:
             yield child
+
+
+def _is_file(path: Path) -> bool:
+    """Tell whether ``path`` is a file, or a link to nothing, which then is a run with an error."""
+    return path.is_file() or (path.is_symlink() and not path.exists())
 
 
 def _bare(name: str) -> str:
     """Return ``name`` without its suffix; what starts with a digit, as in stop_0.20g, is none."""
     stem, dot, suffix = name.rpartition(".")
     return stem if dot and stem and suffix[:1].isalpha() else name
+
+
+def _printed(name: str) -> str:
+    """Return ``name`` on one line."""
+    return CONTROL.sub(" ", name)

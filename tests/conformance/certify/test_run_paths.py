@@ -116,3 +116,17 @@ def test_different_paths_never_share_a_name(parts: list[list[str]]) -> None:
 def test_numbers_in_names_count_as_numbers(numbers: list[int]) -> None:
     names = sorted((f"run-{number}.erd" for number in numbers), key=natural)
     assert names == [f"run-{number}.erd" for number in sorted(numbers)]
+
+
+def test_a_link_to_nothing_is_a_run_that_will_tell_so(folder: Path) -> None:
+    (folder / "more" / "run-2.csv").symlink_to("gone.csv")
+    assert found(folder, "more") == ["more/run-1.csv", "more/run-2.csv"]
+
+
+def test_an_empty_word_is_no_path(folder: Path) -> None:
+    with pytest.raises(InputError, match="a path is empty"):
+        runs_of([""], folder)
+
+
+def test_a_name_stays_on_one_line() -> None:
+    assert names_of([Path("a/new\nline.erd"), Path("a/tab\there")]) == ("new line", "tab here")
