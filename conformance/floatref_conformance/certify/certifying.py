@@ -1,7 +1,7 @@
 """A certification from its plan to its worksheet: read, place, compare, judge."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from floatref_conformance.certify.plan import Plan, Processing, SectionPlan, Sta
 from floatref_conformance.certify.run_paths import names_of
 from floatref_conformance.certify.scales import judge_readings
 from floatref_conformance.certify.second_opinion import confirm_worksheet
-from floatref_conformance.certify.sections import Run, section_sheet
+from floatref_conformance.certify.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.stationary import stationary_sheet
 from floatref_conformance.certify.worksheet import (
     Criterion,
@@ -49,11 +49,15 @@ def certify(
     for section in plan.sections:
         _check_apart(section)
     steps = _Steps(plan, progress)
-    references = dict(_true(converted(_references(plan), processing, steps.read)))
+    read = converted(_references(plan), processing, steps.read)
+    references = dict(_true(read))
     sources = converted(_sources(plan), processing, steps.read)
     _check_usable(plan, sources)
     sections = tuple(
-        _section(section, references[section.reference], sources, limits, steps)
+        replace(
+            _section(section, references[section.reference], sources, limits, steps),
+            reference_said=read[section.reference].said,
+        )
         for section in plan.sections
     )
     stationary = tuple(
@@ -106,18 +110,18 @@ def _section(
     steps: _Steps,
 ) -> SectionSheet:
     """Return the sheet of a section, its runs placed on the reference's axis."""
-    runs = []
+    truth, runs = truth_of(plan, reference), []
     for name, path in zip(names_of(plan.runs), plan.runs, strict=True):
-        runs.append(_run(name, path, sources[path], reference))
+        runs.append(_run(name, path, sources[path], truth))
         steps.placed(name)
-    return section_sheet(plan, reference, runs, limits)
+    return section_sheet(plan, truth, runs, limits)
 
 
-def _run(name: str, path: Path, source: Converted, reference: Profile) -> Run:
+def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
     if source.profile is None:
         return Run(name, str(path), source.said, None, source.error)
     try:
-        placement = place(reference, source.profile)
+        placement = place(truth, source.profile)
         profile = placed(source.profile, placement)
     except InputError as error:
         return Run(name, str(path), source.said, None, f"{path}: {error}")
@@ -149,8 +153,9 @@ def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:
     """Raise InputError with the first reason if no run of any section can be read."""
     runs = [sources[run] for section in plan.sections for run in section.runs]
     if all(run.profile is None for run in runs):
-        first = f", first {runs[0].error}" if len(runs) > 1 else f": {runs[0].error}"
-        raise InputError(f"none of the {len(runs)} runs can be used{first}")
+        what = f"none of the {len(runs)} runs" if len(runs) > 1 else "the only run"
+        verb = "can be used, first" if len(runs) > 1 else "cannot be used:"
+        raise InputError(f"{what} {verb} {runs[0].error}")
 
 
 def _references(plan: Plan) -> Sequence[Path]:

@@ -62,6 +62,7 @@ def _section(sheet: SectionSheet) -> Mapping[str, Any]:
     return {
         "name": sheet.name,
         "reference": sheet.reference_source,
+        "reference_said": list(sheet.reference_said),
         "start_m": sheet.start_m,
         "end_m": sheet.end_m,
         "interval_m": sheet.reference.interval_m,

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from math import isnan
 
 import numpy as np
@@ -26,6 +27,9 @@ from floatref_conformance.certify.plan import SectionPlan
 from floatref_conformance.certify.scales import agrees
 from floatref_conformance.certify.worksheet import RunSheet, RunTrack, SectionSheet
 
+LEAST_IRI = 0.01
+"""IRI in m/km below which a reference is level or in other units; the best roads have 0.3."""
+
 
 @dataclass(frozen=True, eq=False)
 class Run:
@@ -46,20 +50,33 @@ class Run:
     error: str = ""
 
 
-def section_sheet(
-    plan: SectionPlan, reference: Profile, runs: Sequence[Run], limits: CertificationLimits
-) -> SectionSheet:
-    """Return what was measured at a section, and what became of its criteria.
+def truth_of(plan: SectionPlan, reference: Profile) -> Profile:
+    """Return ``reference`` within the section of ``plan``.
 
-    ``reference`` is the whole one; runs come in the natural order of their names, whatever their
-    order here. Raises InputError for a stretch that the reference does not hold, or a reference
-    that is not measured all along it.
+    Raises InputError for a stretch that it does not hold, one that it did not measure all along,
+    and a wheel path that is too even for a road.
     """
     with naming(f"section {plan.name}: {plan.reference}"):
         truth = section_of(reference, plan.stretch_m)
-        truth_iri = {t.name: iri(t.elevation, truth.interval_m) for t in truth.tracks}
-    measured = [_measured(truth, run) for run in sorted(runs, key=_place)]
-    measured = _copies_named(measured)
+        for name, value in _roughness(truth).items():
+            if value < LEAST_IRI:
+                raise InputError(
+                    f"track {name} of the reference has an IRI of {value:.2g} m/km: no road is so "
+                    "even, and no run agrees with it; check the file"
+                )
+    return truth
+
+
+def section_sheet(
+    plan: SectionPlan, truth: Profile, runs: Sequence[Run], limits: CertificationLimits
+) -> SectionSheet:
+    """Return what was measured at a section, and what became of its criteria.
+
+    ``truth`` is that of `truth_of`; runs come in the natural order of their names, whatever their
+    order here.
+    """
+    truth_iri = _roughness(truth)
+    measured = _without_copies(truth, [_measured(truth, run) for run in sorted(runs, key=_place)])
     pairs = correlate_pairs([m.run.profile for m in measured], list(truth_iri))
     others = {name: with_others(pairs[name]) for name in truth_iri}
     sheets = tuple(
@@ -87,6 +104,11 @@ class _Measured:
     tracks: Mapping[str, Comparison]
 
 
+def _roughness(truth: Profile) -> dict[str, float]:
+    """Return the IRI of every wheel path in m/km."""
+    return {track.name: iri(track.elevation, truth.interval_m) for track in truth.tracks}
+
+
 def _place(run: Run) -> tuple[list[tuple[int, str]], str]:
     """Return what sorts run-2 ahead of run-10."""
     parts = re.split(r"(\d+)", run.name)
@@ -108,30 +130,27 @@ def _measured(truth: Profile, run: Run) -> _Measured:
     return _Measured(replace(run, profile=cut, said=(*run.said, *errors)), tracks)
 
 
-def _copies_named(measured: Iterable[_Measured]) -> list[_Measured]:
-    """Return ``measured``; a run with an earlier one's very elevations says so."""
-    seen: dict[bytes, str] = {}
-    told = []
+def _without_copies(truth: Profile, measured: Iterable[_Measured]) -> list[_Measured]:
+    """Return ``measured``; one with the very elevations of another, or of ``truth``, is no run."""
+    seen = {_digest(truth, truth): "the reference"}
+    kept = []
     for one in measured:
-        print_ = _print(one.run.profile)
-        if print_ and print_ in seen:
-            said = f"has the same elevations as {seen[print_]}, bit for bit: is it a copy?"
-            one = replace(one, run=replace(one.run, said=(*one.run.said, said)))
-        elif print_:
-            seen[print_] = one.run.name
-        told.append(one)
-    return told
+        profile = one.run.profile
+        digest = b"" if profile is None else _digest(truth, profile)
+        if digest in seen:
+            error = f"has the same elevations as {seen[digest]}, bit for bit: a copy is no run"
+            one = _Measured(replace(one.run, profile=None, error=error), {})
+        elif profile is not None:
+            seen[digest] = one.run.name
+        kept.append(one)
+    return kept
 
 
-def _print(profile: Profile | None) -> bytes:
-    """Return what two profiles with the same elevations share; nothing for no profile."""
-    if profile is None:
-        return b""
-    from hashlib import sha256
-
+def _digest(truth: Profile, profile: Profile) -> bytes:
+    """Return what two profiles share that have the same elevations in the wheel paths of truth."""
     digest = sha256()
-    for track in profile.tracks:
-        digest.update(np.ascontiguousarray(track.elevation).tobytes())
+    for track in truth.tracks:
+        digest.update(np.ascontiguousarray(profile.track(track.name).elevation).tobytes())
     return digest.digest()
 
 

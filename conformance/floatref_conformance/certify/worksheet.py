@@ -126,6 +126,7 @@ class SectionSheet:
         pairs: by wheel path, the cross correlation of run j with run i in row i and column j > i,
             shape (runs, runs) in the order of ``runs``; NaN elsewhere.
         reference: within the section.
+        reference_said: how the reference was made, and warnings.
     """
 
     name: str
@@ -137,6 +138,7 @@ class SectionSheet:
     pairs: Mapping[str, FloatArray]
     criteria: tuple[Criterion, ...]
     reference: Profile
+    reference_said: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify import sections
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import SectionPlan
-from floatref_conformance.certify.sections import Run, section_sheet
+from floatref_conformance.certify.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.worksheet import SectionSheet
 from floatref_conformance.proving_ground.road import Road
 from floatref_conformance.proving_ground.sayers import sayers_road
@@ -121,7 +121,7 @@ def sheet_of(reference: Profile) -> Iterator[SheetMaker]:
             for k, run in enumerate(runs, 1)
         ]
         plan = SectionPlan("main", Path("reference"), (), stretch_m)
-        return section_sheet(plan, reference, placed, limits)
+        return section_sheet(plan, truth_of(plan, reference), placed, limits)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sections, "fit", cache(sections.fit))

@@ -16,6 +16,7 @@ from floatref.errors import InputError
 from floatref.files import read_profile, write_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.certifying import certify
+from floatref_conformance.certify.cutting import within
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import (
     DistancePlan,
@@ -103,7 +104,7 @@ def test_a_reference_that_cannot_be_read_ends_it(written: Path, tmp_path: Path) 
 def test_runs_of_which_none_can_be_read_end_it(written: Path, tmp_path: Path) -> None:
     (tmp_path / "bad").mkdir()
     (tmp_path / "bad" / "profile.json").write_text("{")
-    with pytest.raises(InputError, match=r"none of the 1 runs can be used: .*not JSON"):
+    with pytest.raises(InputError, match=r"the only run cannot be used: .*not JSON"):
         certified(section(written, tmp_path / "bad"))
 
 
@@ -120,6 +121,15 @@ def test_a_run_that_starts_elsewhere_is_moved_and_said(
     run = only(certified(section(written, tmp_path / "late")))
     assert any("37.50 m farther along" in line for line in run.said)
     assert min(track.accuracy for track in run.tracks) > 0.98
+
+
+def test_a_run_over_the_section_alone_is_taken_as_it_is(
+    written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
+) -> None:
+    write_profile(within(ten_runs[0], 60.0, 140.0), tmp_path / "short")
+    run = only(certified(section(written, tmp_path / "short", stretch_m=(60.0, 140.0))))
+    assert (run.said, run.error) == ((), "")
+    assert max(track.missing_m for track in run.tracks) == 0.0
 
 
 def test_a_run_the_other_way_in_millimetres_is_turned_and_said(

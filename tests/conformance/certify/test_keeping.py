@@ -14,7 +14,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.certify.keeping import check_report, folders_of, write_report
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import SectionPlan
-from floatref_conformance.certify.sections import Run, section_sheet
+from floatref_conformance.certify.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.worksheet import StationarySheet, Worksheet
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.verdict import Verdict
@@ -30,7 +30,7 @@ def worksheet(reference: Profile, ten_runs: tuple[Profile, ...]) -> Worksheet:
         SectionPlan("a/b", Path("r"), (), (20.0, 150.0)),
         SectionPlan("A:B", Path("r"), ()),
     )
-    sections = tuple(section_sheet(plan, reference, runs, limits) for plan in plans)
+    sections = tuple(section_sheet(plan, truth_of(plan, reference), runs, limits) for plan in plans)
     still = StationarySheet("quiescent", "s", 0.0, 1.0, {}, (), (), ten_runs[0])
     return Worksheet("", DeviceClass.NOMINAL, limits, Verdict.FAIL, sections, (still,))
 

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from floatref.cli.main import main
 from floatref.errors import InputError
 from floatref.files import write_profile
+from floatref.values.arrays import frozen
 from floatref_conformance.certify.sections import Run
 
 
@@ -149,10 +150,22 @@ def test_what_a_run_flags_or_lacks_is_measured_in_m(sheet_of, ten_runs, without,
     assert np.array(lengths) == pytest.approx(np.array(expected), abs=1e-9)
 
 
-def test_a_copy_of_a_run_is_told(sheet_of, ten_runs):
-    sheet = sheet_of((ten_runs[0], ten_runs[1], ten_runs[0]))
-    assert "same elevations as run-1" in sheet.runs[2].said[0]
-    assert sheet.runs[0].said == sheet.runs[1].said == ()
+def test_a_copy_of_a_run_or_of_the_reference_is_no_run(sheet_of, ten_runs, reference):
+    moved = replace(ten_runs[0], start_m=0.5)
+    sheet = sheet_of((ten_runs[0], ten_runs[1], moved, reference))
+    assert "same elevations as run-1," in sheet.runs[2].error
+    assert "same elevations as the reference," in sheet.runs[3].error
+    assert [run.error for run in sheet.runs[:2]] == ["", ""]
+    assert [bool(run.tracks) for run in sheet.runs] == [True, True, False, False]
+    assert np.count_nonzero(np.isfinite(sheet.pairs["left"])) == 1
+    assert sheet.criteria[0].value == 2.0
+
+
+def test_a_level_reference_is_refused(sheet_of, ten_runs, reference):
+    left, right = reference.tracks
+    level = replace(right, elevation=frozen(1e-4 * right.elevation))
+    with pytest.raises(InputError, match=r"section main: .*track right .*no road is so even"):
+        sheet_of(ten_runs[:1], reference=replace(reference, tracks=(left, level)))
 
 
 def test_a_reference_that_cannot_serve_is_refused_by_the_name_of_its_section(sheet_of, ten_runs):

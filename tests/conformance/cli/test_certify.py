@@ -120,7 +120,7 @@ def test_incomplete_is_exit_4(call: Callable[..., Result]) -> None:
         (["runs", "--reference", "reference", "--report", "plan.toml"], "is not a folder"),
         (["runs", "--reference", "reference", "--report", "runs"], "holds other files"),
         (["empty", "--reference", "reference"], "empty: holds no run"),
-        (["bad", "--reference", "reference"], "none of the 1 runs can be used"),
+        (["bad", "--reference", "reference"], "the only run cannot be used"),
     ],
 )
 def test_wrong_usage_is_one_line_and_exit_2(
