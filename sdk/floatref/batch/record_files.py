@@ -21,6 +21,11 @@ def read_record(path: Path) -> Record:
     """Return the record in the JSON file ``path``; InputError unless it is one."""
     document = read_document(path, MOST_BYTES)
     enforce(document, SCHEMA, path)
+    return of_document(document)
+
+
+def of_document(document: Mapping[str, Any]) -> Record:
+    """Return the record that ``document`` holds, which obeys the schema."""
     return Record(
         name=document["name"],
         source=document["source"],
@@ -39,14 +44,19 @@ def read_record(path: Path) -> Record:
 def write_record(record: Record, path: Path) -> None:
     """Write ``record`` to ``path`` in place of what is there; folders are made.
 
-    NaN is written as null. Raises InputError if it cannot be written.
+    Raises InputError if it cannot be written.
     """
-    described = asdict(record)
-    del described["skipped"]
-    document = plain({"format": FORMAT, **described}, "record")
+    document = as_document(record)
     make_folder_of(path)
     with replacing_file(path, overwrite=True) as beside:
         write_document(document, beside)
+
+
+def as_document(record: Record) -> dict[str, Any]:
+    """Return ``record`` in plain JSON values, NaN as None; InputError if it has an infinity."""
+    described = asdict(record)
+    del described["skipped"]
+    return {**plain({"format": FORMAT, **described}, "record")}
 
 
 def make_folder_of(path: Path) -> None:

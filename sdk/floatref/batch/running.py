@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from secrets import token_hex
 from shutil import rmtree
 from typing import TYPE_CHECKING
@@ -39,11 +40,11 @@ def run_jobs(
         if _worker_died(future):
             suspects.append(job)
         else:
-            yield job, _record(job, future)
+            yield job, _record(job, future, resume)
         future.release()
     for suspect in suspects:
         for job, future in _done(client, [suspect], resume, chosen):
-            yield job, _record(job, future)
+            yield job, _record(job, future, resume)
 
 
 def _run_job(job: Job, resume: bool) -> Record:
@@ -80,16 +81,25 @@ def _worker_died(future: "Future[Record]") -> bool:
     return future.status == "error" and isinstance(future.exception(), KilledWorker)
 
 
-def _record(job: Job, future: "Future[Record]") -> Record:
+def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
     """Return what the task returned, or a record of why it returned nothing."""
+    # What a worker did and took with it is done once more, and waited for here.
+    with suppress(Exception):
+        return future.result()
     if _worker_died(future):
         return _given_up(job, KILLED.format(future.exception().args[2] + 1))
-    if future.status not in ("finished", "error"):
-        return _failed(job, LOST)
-    try:
-        return future.result()
-    except Exception as error:
+    if future.status == "error":
+        error = future.exception()
         return _failed(job, f"{type(error).__name__}: {error}")
+    return _written(job, resume) or _failed(job, LOST)
+
+
+def _written(job: Job, resume: bool) -> Record | None:
+    """Return what a task has written of ``job`` and nobody passed on; None if that is nothing."""
+    from floatref.batch.task import kept
+
+    found = kept(job)
+    return found and replace(found, skipped=resume)
 
 
 def _given_up(job: Job, reason: str) -> Record:

@@ -31,8 +31,8 @@ def run_job(job: Job, resume: bool = False) -> Record:
     goes wrong is the record's error, and the profile of an earlier run goes.
     """
     with _reports_apart():
-        kept = _kept(job) if resume else None
-        return _worked(job) if kept is None else kept
+        old = kept(job) if resume else None
+        return _worked(job) if old is None else old
 
 
 def failed(job: Job, reason: str) -> Record:
@@ -55,8 +55,8 @@ def _reports_apart() -> Iterator[None]:
         del reports[count:]
 
 
-def _kept(job: Job) -> Record | None:
-    """Return what was done before if it still holds; None if it has to be done again."""
+def kept(job: Job) -> Record | None:
+    """Return what was done of ``job`` if it still holds; None if it has to be done again."""
     try:
         old = read_record(job.record)
         if not holds(old, job):

@@ -1,6 +1,6 @@
 """What `floatref batch` does: a folder, a cluster, every file, and one summary of them all."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import monotonic
@@ -12,8 +12,8 @@ from floatref.batch.defaults import Defaults
 from floatref.batch.folder import not_given, prepared
 from floatref.batch.inputs import Found
 from floatref.batch.job import Job
-from floatref.batch.record import Record
-from floatref.batch.record_files import read_record
+from floatref.batch.patience import patient
+from floatref.batch.returned import Returned, returned_records
 from floatref.batch.running import run_jobs
 from floatref.batch.silence import silence
 from floatref.batch.summary import write_summary
@@ -56,13 +56,12 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
 
     Raises InputError for a folder or a cluster that cannot be used.
     """
-    with prepared(work.out, work.resume):
-        failed: dict[str, Record] = {}
-        workers = _processed(found.jobs, work, tally, failed)
+    with prepared(work.out, work.resume), returned_records(work.out) as returned:
+        workers = _processed(found.jobs, work, tally, returned)
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
-        write_summary(_records(found.jobs, failed), work.out)
+        write_summary(returned.of(found.jobs), work.out)
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
         write_batch_document(document, work.out)
@@ -71,16 +70,19 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
     return document
 
 
-def _processed(jobs: Sequence[Job], work: Work, tally: Tally, failed: dict[str, Record]) -> int:
-    """Fill ``tally``, and ``failed`` by name; return how many workers there were."""
-    with silence() as shown, connect(work.out, work.jobs, work.cluster) as client:
+def _processed(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
+    """Fill ``tally`` and ``returned``; return how many workers there were."""
+    with (
+        silence() as shown,
+        connect(work.out, work.jobs, work.cluster) as client,
+        patient(client),
+    ):
         workers = count_workers(client)
         tally.begin(jobs, monotonic())
         with progress(tally, shown, lambda: count_workers(client)) as tell:
             for job, record in run_jobs(client, jobs, work.resume):
                 tally.add(job, record)
-                if record.error:
-                    failed[job.name] = record
+                returned.add(record)
                 tell()
         return max(workers, count_workers(client))
 
@@ -90,9 +92,3 @@ def _draw(out: Path, plot: Path) -> None:
     from floatref.plots import SUMMARY_COLUMNS, draw_summary
 
     draw_summary(read_columns(out, SUMMARY_COLUMNS), plot)
-
-
-def _records(jobs: Iterable[Job], failed: Mapping[str, Record]) -> Iterator[Record]:
-    """Yield the record of every job in the order of the inputs, from disk one by one."""
-    for job in jobs:
-        yield failed[job.name] if job.name in failed else read_record(job.record)

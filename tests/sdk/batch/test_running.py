@@ -17,6 +17,7 @@ from pathlib import Path
 
 from floatref.batch.cluster import LOCAL, connect
 from floatref.batch.job import Job
+from floatref.batch.patience import patient
 from floatref.batch.record import Record
 from floatref.batch.running import run_jobs
 from floatref.batch.silence import silence
@@ -52,6 +53,13 @@ def cancelled(out, client):
     for job, record in run_jobs(client, jobs(out, {f"r{i}": i for i in range(40)}), False, task):
         client.cancel([Future(key, client) for key in list(client.futures)])
         yield job, record
+
+
+def deserted(out, client):
+    # What is begun and what waits, with nobody left to do it.
+    client.cluster.scale(0)
+    with patient(client, patience_s=0.5):
+        yield from run_jobs(client, jobs(out, {f"r{i}": i for i in range(4)}), False, task)
 
 
 if __name__ == "__main__":
@@ -115,3 +123,10 @@ def test_what_the_cluster_drops_is_a_record_as_well(tmp_path: Path) -> None:
     assert sorted(name for name, *_ in found) == sorted(f"r{index}" for index in range(40))
     errors = {error for _, error, *_ in found if error}
     assert errors == {"the cluster was lost before this file was done; go on with --resume"}
+
+
+def test_a_cluster_that_stays_without_workers_is_not_waited_for(tmp_path: Path) -> None:
+    found = run(tmp_path, "deserted")
+    assert sorted(name for name, *_ in found) == [f"r{index}" for index in range(4)]
+    assert all("the cluster was lost" in error for _, error, _ in found)
+    assert not (tmp_path / "started").exists()
