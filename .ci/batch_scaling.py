@@ -78,6 +78,22 @@ def _throughput(row: Found) -> str:
     return f"{rate} km/h after {start} s of start-up"
 
 
+def pipelines(found: Found) -> str:
+    """What a km costs in several pipelines."""
+    return table(
+        ("pipeline", "seconds of a processor", "written", "memory, at most"),
+        *(
+            (
+                f"`{name}`",
+                f"{number(cost['cpu_s_per_km'])} s",
+                f"{number(cost['bytes_out_per_km'] / 1e6)} MB",
+                f"{cost['largest_bytes'] / 1e6:.0f} MB",
+            )
+            for name, cost in found["pipelines"]["of"].items()
+        ),
+    )
+
+
 def expected(found: Found) -> str:
     """What one, two, ten and a hundred workers do."""
     measured = [
@@ -206,6 +222,7 @@ def lines(found: Found) -> str:
 PARTS: dict[str, Callable[[Found], str]] = {
     "taken": taken,
     "km": per_km,
+    "pipelines": pipelines,
     "expected": expected,
     "limits": limits,
     "behind": behind,

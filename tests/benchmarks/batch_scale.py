@@ -15,6 +15,10 @@ from bench_memory import write_document, write_samples
 ROUNDS = 2
 TASKS = 3000
 SECONDS = 300.0
+PIPELINES = ("temporal-basic", "temporal-adaptive-hpf-spatial-backward", "road-prior-smoother")
+"""The conventional one, and those recommended to nominal sensors."""
+FEW = 2
+"""Long recordings that every pipeline is given."""
 
 
 def write_drives(folder: Path, count: int, seconds: float = SECONDS) -> Path:
@@ -55,8 +59,21 @@ def scale(work: Path, count: int, jobs: Sequence[int] = (1, 2)) -> dict[str, Any
     }
 
 
-def _run(source: Path, out: Path, jobs: int, peaks: list[int]) -> float:
-    run = batch([source, "--out", out, "--jobs", str(jobs)])
+def by_pipeline(work: Path) -> dict[str, Any]:
+    """Return what a km costs one worker, by pipeline."""
+    drives, found = write_drives(work / "pipelines", FEW), {}
+    for name in PIPELINES:
+        peaks: list[int] = []
+        out = work / f"out-{name}"
+        _run(drives, out, 1, peaks, "--pipeline", name)
+        costs = _costs(efforts(out))
+        kept = ("cpu_s_per_km", "bytes_out_per_km")
+        found[name] = {**{key: costs[key] for key in kept}, "largest_bytes": max(peaks)}
+    return {"recordings": FEW, "recording_s": SECONDS, "of": found}
+
+
+def _run(source: Path, out: Path, jobs: int, peaks: list[int], *more: str) -> float:
+    run = batch([source, "--out", out, "--jobs", str(jobs), *more])
     if run.code:
         raise RuntimeError(f"exit {run.code}: {run.stderr}")
     peaks.extend(run.peaks.values())

@@ -7,6 +7,7 @@
     resume     SIGKILL of everything in mid-run, then --resume: no finished file is done again
     cluster    against a scheduler and two workers that were started on loopback
     scale      long recordings by one worker and by two, in turn: throughput, memory, seconds per km
+    pipelines  what a km costs in three pipelines, by one worker
     overhead   what a task costs the scheduler
 
 Without a part all of them. A line that fails begins with FAILS, and the exit code is 1.
@@ -26,7 +27,7 @@ import numpy as np
 from batch_checks import compared, efforts, placed, summary, wrong_rows
 from batch_corpus import MANIFEST, Item, write_corpus, write_manifest
 from batch_runs import Run, batch, cluster, end_all, end_worker, records_in
-from batch_scale import machine, overhead, scale
+from batch_scale import by_pipeline, machine, overhead, scale
 
 LIMIT_MB = 600
 LEAST_RATIO = 1.7
@@ -169,6 +170,16 @@ def scaled(bench: Bench) -> dict[str, Any]:
     return {**found, "ratio": ratio, "ratio_with_start": whole}
 
 
+def pipelines(bench: Bench) -> dict[str, Any]:
+    """Long recordings in several pipelines."""
+    found = by_pipeline(bench.work)
+    for name, cost in found["of"].items():
+        memory = cost["largest_bytes"] / 1e6
+        text = f"{cost['cpu_s_per_km']:.2f} s of the processor for a km, {memory:.0f} MB at most"
+        bench.held(memory <= LIMIT_MB, f"pipelines: {name}: {text}")
+    return found
+
+
 def empty_tasks(bench: Bench) -> dict[str, Any]:
     """Tasks that do nothing."""
     found = overhead(bench.work)
@@ -183,6 +194,7 @@ PARTS: dict[str, Callable[[Bench], dict[str, Any]]] = {
     "resume": resume,
     "cluster": existing,
     "scale": scaled,
+    "pipelines": pipelines,
     "overhead": empty_tasks,
 }
 
@@ -218,7 +230,7 @@ def main() -> int:
     found: dict[str, Any] = {"machine": machine()}
     with tempfile.TemporaryDirectory(prefix="floatref-bench-") as name:
         bench = Bench(Path(name), [], [], given.identical, given.drives)
-        if set(parts) - {"scale", "overhead"}:
+        if set(parts) - {"scale", "pipelines", "overhead"}:
             folder, jobs = bench.manifest.parent, os.cpu_count() or 1
             bench.items = write_corpus(folder, given.files, given.corrupt, jobs=jobs)
             bench.some = bench.items[: given.some]
