@@ -29,7 +29,7 @@ from floatref_conformance.certify.plan import Processing
 SOURCES = {
     "profiles": ("made", "made.csv", "made.erd"),
     "recordings": ("run",),
-    "neither": ("damaged.erd", "noise.bin", "table.csv", "hollow", "gone.erd"),
+    "neither": ("damaged.erd", "table.csv", "hollow", "gone.erd"),
 }
 
 
@@ -114,7 +114,7 @@ def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Conver
     ("name", "said"),
     [
         ("damaged.erd", "no profile ("),
-        ("noise.bin", "no recording (no adapter recognises it"),
+        ("damaged.erd", "no recording (no adapter recognises it"),
         ("table.csv", "no profile (columns are"),
         ("hollow", ""),
         ("gone.erd", "No such file"),
