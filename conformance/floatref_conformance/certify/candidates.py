@@ -47,7 +47,6 @@ class Candidate:
     mirrored: bool
     pairing: Pairing
     needed: float = LEAST_SCORE
-    places: int = 1
 
     @property
     def found(self) -> bool:

@@ -81,7 +81,7 @@ def _suspects(
     if out.sum() * reference.interval_m >= LEAST_MISSING_M:
         now = now.without(out)
         share = f"{out.sum() * reference.interval_m:.1f} m of {reference.length_m:.1f} m"
-        yield _Suspect("missing", f"{share} missing or not valid", now, True)
+        yield _Suspect("missing", f"{share} missing or not valid", now, False)
     yield from _heights(now, fit, limits)
 
 

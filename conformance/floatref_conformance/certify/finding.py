@@ -8,6 +8,7 @@ import numpy as np
 
 from floatref.values.profile import Profile
 from floatref_conformance.certify.candidates import (
+    APART_M,
     SURE_SCORE,
     Candidate,
     Piece,
@@ -32,11 +33,11 @@ SHORTEST_M = 20.0
 
 @dataclass(frozen=True)
 class Find:
-    """A candidate, the unit of distance in which it was found, and equally good ones."""
+    """A candidate, the unit of distance in which it was found, and how many places fit as well."""
 
     candidate: Candidate
     unit: str
-    others: tuple[Candidate, ...]
+    others: int
 
 
 def pieces_of(reference: Profile) -> list[Piece]:
@@ -110,8 +111,16 @@ def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
     needed = chance(piece, [slopes[0].end_m - slopes[0].start_m], ways)
     found = search(piece, slopes, scales, (False, True), piece.middle_m)
     if found:
-        marked = [replace(c, needed=needed) for c in found]
-        yield Find(marked[0], unit, tuple(marked[1:]))
+        yield Find(replace(found[0], needed=needed), unit, _other_places(found))
+
+
+def _other_places(found: Sequence[Candidate]) -> int:
+    """Return at how many places but the first's ``found`` lie; a neighbouring scale is none."""
+    places: list[float] = []
+    for c in found:
+        if all(abs(c.run_m - place) > APART_M for place in places):
+            places.append(c.run_m)
+    return len(places) - 1
 
 
 def find_forward(pieces: Sequence[Piece], slopes: Sequence[Slope]) -> Candidate | None:

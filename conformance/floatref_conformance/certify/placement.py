@@ -20,7 +20,7 @@ class Placement:
         said: all of it in sentences; empty for a run that lies right.
         tracks: wheel path of the reference → that of the run; without those that it lacks.
         reversed: whether the run's axis points against the reference's.
-        inverted: whether its heights are upside down.
+        inverted: whether its heights are upside down; they stay so, for that is a fault.
         distance_unit, distance_factor: of its axis, and m per unit.
         height_unit, height_factor: of its elevation, and m per unit.
         height_gain: by how much higher it takes the road after that, at a first glance.
@@ -48,7 +48,7 @@ class Placement:
         """Whether the run has to be changed before it can be compared."""
         same_names = all(mine == its for mine, its in self.tracks.items())
         scales = self.distance_factor, self.height_factor
-        turned = self.reversed or self.inverted or not same_names
+        turned = self.reversed or not same_names
         return self.found and (turned or scales != (1.0, 1.0) or self.offset_m != 0.0)
 
 
@@ -73,14 +73,12 @@ def placed(run: Profile, placement: Placement) -> Profile:
 
 
 def _track(track: ProfileTrack, name: str, placement: Placement) -> ProfileTrack:
-    """Return ``track`` in m, forward and upright, under ``name``."""
+    """Return ``track`` in m and forward, under ``name``."""
     order = slice(None, None, -1 if placement.reversed else 1)
     factor = placement.height_factor
     sigma = None if track.sigma is None else _scaled(track.sigma[order], factor)
-    upright = -factor if placement.inverted else factor
-    return ProfileTrack.of(
-        name, _scaled(track.elevation[order], upright), track.valid[order], sigma
-    )
+    elevation = _scaled(track.elevation[order], factor)
+    return ProfileTrack.of(name, elevation, track.valid[order], sigma)
 
 
 def _scaled(values: FloatArray, factor: float) -> FloatArray:

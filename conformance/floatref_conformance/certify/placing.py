@@ -87,9 +87,9 @@ def _refined(reference: Profile, run: Profile, best: Find) -> Placement:
         inverted=c.score < 0,
         distance_unit=best.unit,
         distance_factor=DISTANCE_UNITS[best.unit],
-        alternatives=len(best.others),
+        alternatives=best.others,
     )
-    forward = placed(run, replace(turned, inverted=False))
+    forward = placed(run, turned)
     line, sign = _line(c, forward), math.copysign(1.0, c.score)
     known = [_follow(reference, forward, name, line, sign) for name in turned.tracks]
     surest = max(known, key=lambda k: k.correlation)

@@ -71,7 +71,7 @@ def _heights(placement: Placement) -> Iterator[str]:
     if placement.height_unit != METRE:
         yield f"elevation is in {placement.height_unit}, not in m: converted"
     if placement.inverted:
-        yield "heights are upside down: turned"
+        yield "heights are upside down: compared as they are"
     unit = reference_unit(placement.height_gain)
     if unit is not None:
         yield (

@@ -91,6 +91,13 @@ def test_a_stretch_that_is_missing_is_named_with_its_length(road, flagged) -> No
     assert "height-scale" not in found
 
 
+def test_flags_that_explain_nothing_are_not_blamed(road) -> None:
+    run = road.run(gain=1.05, noise=0.05)
+    valid = np.arange(run.tracks[0].elevation.size) >= 1000
+    flagged = replace(run, tracks=(ProfileTrack.of("left", run.track("left").elevation, valid),))
+    assert set(told(road.reference(), flagged)) == {"height-scale"}
+
+
 def test_short_waves_that_a_footprint_takes_are_not_blamed_on_the_heights(road, changed) -> None:
     def averaged(name, z):
         padded = np.pad(z, 6, mode="reflect", reflect_type="odd")

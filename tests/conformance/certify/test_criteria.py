@@ -41,6 +41,13 @@ def test_perfect_runs_pass_every_class_with_a_correlation_of_one(
         assert criterion(sheet, "iri-bias", track).value == pytest.approx(0.0, abs=1e-6)
 
 
+def test_of_the_errors_of_the_iri_the_largest_comes_first_whatever_its_sign(sheet_of, run_over):
+    runs = [run_over(k, height=h) for k, h in enumerate((1.03, 0.9, 1.06), 1)]
+    sheet = sheet_of(tuple(runs), CertificationLimits(runs=3, iri_bias_percent=1.0))
+    named = criterion(sheet, "iri-bias", "left").reason
+    assert named.index("run-2") < named.index("run-3") < named.index("run-1")
+
+
 def test_the_averages_are_over_all_pairs_and_over_all_runs(sheet_of, ten_runs):
     sheet = sheet_of(ten_runs)
     pairs = sheet.pairs["left"]

@@ -41,27 +41,40 @@ def test_a_run_that_lies_right_comes_back_as_the_same_object(road, start_m) -> N
     interval_m=st.sampled_from([0.005, 0.0254, 0.04, 0.1]),
     gain=st.floats(0.9, 1.1),
     mirrored=st.booleans(),
-    inverted=st.booleans(),
     distance=st.sampled_from(["m", "ft", "in", "yd", "cm"]),
     height=st.sampled_from(sorted(HEIGHT_UNITS)),
 )
 def test_all_that_was_done_to_a_run_is_undone(
-    road, changed, start_m, interval_m, gain, mirrored, inverted, distance, height
+    road, changed, start_m, interval_m, gain, mirrored, distance, height
 ) -> None:
     reference = road.reference()
     run = road.run(start_m, 300.0, interval_m, gain=gain, noise=0.1)
     names = {"left": "right", "right": "left"} if mirrored else {}
-    unit = (-1.0 if inverted else 1.0) / HEIGHT_UNITS[height]
+    unit = 1.0 / HEIGHT_UNITS[height]
     order = slice(None, None, -1 if mirrored else 1)
     given_run = changed(run, lambda name, z: (names.get(name, name), unit * z[order]))
     given_run = replace(given_run, interval_m=interval_m / DISTANCE_UNITS[distance])
     placement, result = put(reference, given_run)
     assert placement.reversed == mirrored
-    assert placement.inverted == inverted
+    assert not placement.inverted
     assert (placement.distance_unit, placement.height_unit) == (distance, height)
     assert placement.offset_m == pytest.approx(-start_m, abs=0.1)
     assert min(correlations(reference, result)) > 0.85
     assert place(reference, result).said == ()
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_heights_upside_down_are_said_and_stay_a_fault(road, changed, mirrored) -> None:
+    reference, run = road.reference(), road.run(-20.0, 250.0, noise=0.1)
+    order = slice(None, None, -1 if mirrored else 1)
+    turned = changed(run, lambda name, z: (name, -1000.0 * z[order]))
+    placement, result = put(reference, turned)
+    assert placement.inverted
+    assert (placement.reversed, placement.height_unit) == (mirrored, "mm")
+    assert any("upside down" in line for line in placement.said)
+    assert max(correlations(reference, result)) < 0.5
+    upright = changed(result, lambda name, z: (name, -z))
+    assert min(correlations(reference, upright)) > 0.85
 
 
 @pytest.mark.parametrize("unit", sorted(DISTANCE_UNITS))
@@ -169,6 +182,14 @@ def test_of_the_repeats_of_a_road_the_nearest_is_taken_and_said() -> None:
     assert any("the road repeats itself" in s for s in placement.said)
 
 
+@settings(max_examples=15, deadline=None)
+@given(percent=st.floats(0.2, 5.0), length_m=st.sampled_from([160.0, 400.0]))
+def test_a_road_that_does_not_repeat_itself_is_not_said_to(road, percent, length_m) -> None:
+    run = road.run(-30.0, length_m + 60.0, scale=1.0 + percent / 100.0, noise=0.5)
+    placement, _ = put(road.reference(length_m=length_m), run)
+    assert placement.alternatives == 0
+
+
 def test_a_reference_that_is_not_in_metres_is_told(road, changed) -> None:
     reference = changed(road.reference(), lambda name, z: (name, 1000.0 * z))
     placement, _ = put(reference, road.run())
@@ -190,4 +211,4 @@ def test_validity_and_sigma_follow_their_points(road) -> None:
     for before, after in zip(tracks, result.tracks, strict=True):
         assert np.array_equal(after.valid, before.valid[::-1])
         assert after.sigma == pytest.approx(before.sigma[::-1] / 1000.0)
-        assert after.elevation == pytest.approx(-before.elevation[::-1] / 1000.0)
+        assert after.elevation == pytest.approx(before.elevation[::-1] / 1000.0)
