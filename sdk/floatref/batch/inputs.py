@@ -82,6 +82,8 @@ class _Search:
 
     def _take_path(self, path: Path) -> None:
         _check_kind(path)
+        if self._is_ours(path):
+            raise InputError(f"{path}: is, or lies in, the folder of --out; choose another for one")
         if path.is_dir():
             if not self._take_folder(path, path, self._defaults):
                 raise InputError(f"{path}: no recording in it; name its files, or another folder")

@@ -13,6 +13,7 @@ from floatref.batch.positions import is_located
 from floatref.batch.record import Record
 from floatref.batch.record_files import make_folder_of, read_record, write_record
 from floatref.batch.rows import measured
+from floatref.batch.stamps import check_unchanged, stamps_of
 from floatref.batch.unchanged import asked, holds
 from floatref.errors import FloatrefError, one_line
 from floatref.files import fingerprint_native, read_profile, write_profile
@@ -98,10 +99,12 @@ def _worked(job: Job) -> Record:
 
 def _made(job: Job) -> Record:
     """Write the profile of ``job``; return its record, effort apart."""
+    before = stamps_of(job)
     read = recording_of(job.source, job.adapter, job.channel_map)
     result = profiled(read, job.pipeline, job.settings)
     profile = result.profile
     rows, remarks = measured(profile, job.segment_m, read.recording)
+    check_unchanged(before, read.inputs)
     _make_room(job.profile)
     write_profile(profile, job.profile, overwrite=True)
     more = {

@@ -20,7 +20,7 @@ def walked(
     while waiting:
         entry = waiting.pop()
         path = Path(entry.path)
-        if not entry.is_dir():
+        if not os.path.isdir(entry):
             yield path, kind_of_file(path, file_adapter)
         elif entry.is_symlink():
             yield path, Kind.OTHER

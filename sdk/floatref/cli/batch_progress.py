@@ -27,41 +27,46 @@ def progress(
     """Show ``tally`` on ``stream`` as it grows; yield what is to be called when it has."""
     from rich.console import Console
 
-    def line() -> str:
-        return f"{said(tally)}, {workers()} workers"
-
     console = Console(file=stream)
     if console.is_terminal:
-        with _bar(tally, console) as show, _regularly(lambda: show(line()), REFRESH_S):
-            yield lambda: show(None)
+        with _bar(tally, console) as show, _regularly(lambda: show(workers()), REFRESH_S):
+            yield show
         return
-    with _regularly(lambda: print(line(), file=stream, flush=True), every_s):
+    with _regularly(lambda: print(said(tally, workers()), file=stream, flush=True), every_s):
         yield lambda: None
 
 
 @contextmanager
-def _bar(tally: Tally, console: "Console") -> Iterator[Callable[[str | None], None]]:
-    """Yield what moves a bar to where ``tally`` is, with a line beside it if there is one."""
+def _bar(tally: Tally, console: "Console") -> Iterator[Callable[..., None]]:
+    """Yield what moves a bar to where ``tally`` is; it keeps the number of workers if given."""
     from rich.progress import BarColumn, Progress, TextColumn
 
     columns = (BarColumn(), TextColumn("{task.description}"))
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(said(tally), total=1.0)
-        yield lambda line: bar.update(task, completed=tally.part, description=line or said(tally))
+        known: list[int] = []
+
+        def show(*workers: int) -> None:
+            known[:] = workers or known
+            bar.update(task, completed=tally.part, description=said(tally, *known))
+
+        yield show
 
 
-def said(tally: Tally) -> str:
-    """Return one line: files, failures, rate and time left."""
+def said(tally: Tally, workers: int | None = None) -> str:
+    """Return one line, what matters least last: a narrow terminal cuts it off."""
     now_s = monotonic()
     parts = [f"{tally.seen} of {tally.files} files", f"{len(tally.failed)} failed"]
-    if tally.skipped:
-        parts.append(f"{tally.skipped} done before")
-    if tally.processed:
-        parts.append(f"{tally.files_per_minute(now_s):.1f} files/min")
-        parts.append(f"{tally.km_per_hour(now_s):.1f} km/h")
     left_s = tally.left_s(now_s)
     if tally.processed and not isnan(left_s):
         parts.append(f"{duration(left_s)} left")
+    if tally.processed:
+        parts.append(f"{tally.files_per_minute(now_s):.1f} files/min")
+        parts.append(f"{tally.km_per_hour(now_s):.1f} km/h")
+    if tally.skipped:
+        parts.append(f"{tally.skipped} done before")
+    if workers is not None:
+        parts.append("1 worker" if workers == 1 else f"{workers} workers")
     return ", ".join(parts)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from floatref.cli.outputs import open_outputs
 from floatref.errors import FloatrefError
 
 
@@ -50,6 +51,7 @@ class LazyGroup(click.Group):
 
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Parse the arguments, with `--help`; errors as those of `invoke`."""
+        open_outputs()
         with _one_line():
             return super().make_context(*args, **kwargs)
 

@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from io import BufferedReader
 from pathlib import Path
 
-from floatref.errors import InputError
+from floatref.errors import InputError, one_line
 
 
 @contextmanager
@@ -33,10 +33,12 @@ def document_path(path: Path, name: str) -> Path:
 
 @contextmanager
 def naming(where: object) -> Iterator[None]:
-    """Put ``where: `` in front of the text of any InputError raised inside."""
+    """Put ``where: `` in front of the text of any InputError raised inside, unless it is there."""
     try:
         yield
     except InputError as error:
+        if str(error).startswith(one_line(f"{where}: ")):
+            raise
         raise InputError(f"{where}: {error}") from error
 
 

@@ -185,3 +185,11 @@ def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
 def test_a_link_that_leads_nowhere_is_a_source_that_cannot_be_read(tree, find):
     (tree / "csv" / "gone.mf4").symlink_to(tree / "nowhere.mf4")
     assert names(find(tree / "csv")) == ["gone.mf4", "run.csv"]
+
+
+def test_a_ring_of_links_is_a_source_that_cannot_be_read(tree, find):
+    for one, other in (("a.csv", "b.csv"), ("b.csv", "a.csv"), ("a", "a")):
+        (tree / "ours" / one).symlink_to(other)
+    found = find(tree / "ours")
+    assert names(found) == ["a.csv", "b.csv", "run"]
+    assert found.passed_over == (tree / "ours" / "a",)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from floatref.batch.inputs import Defaults, find_jobs
 from floatref.errors import InputError
 
 
@@ -46,6 +47,20 @@ def test_one_file_in_two_ways_is_refused(tree, find):
     (tree / "list").write_text("file,pipeline\ncsv/run.csv,temporal-hpf\n")
     with pytest.raises(InputError, match=r"run.csv: given twice, with different options"):
         find(tree / "csv", tree / "list")
+
+
+@pytest.mark.parametrize("name", ["csv", "csv/run.csv", "csv/ours"])
+def test_what_lies_in_the_output_is_no_source(tree, name):
+    (tree / "csv" / "ours").mkdir()
+    with pytest.raises(InputError, match="is, or lies in, the folder of --out"):
+        find_jobs([str(tree / name)], tree / "csv", Defaults())
+
+
+def test_a_manifest_is_named_once(tree, find):
+    (tree / "list.csv").write_text("file,colour\ncsv/run.csv,red\n")
+    with pytest.raises(InputError) as caught:
+        find(tree / "list.csv")
+    assert str(caught.value).count("list.csv") == 1
 
 
 def test_a_folder_that_cannot_be_listed_is_told(tree, find, monkeypatch):

@@ -2,8 +2,11 @@
 
 import signal
 import sys
+from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
+from threading import Event
+from time import monotonic, sleep
 
 import click
 import pytest
@@ -90,8 +93,7 @@ def tallied(done: int, failed: int) -> Tally:
 def test_progress_tells_files_failures_and_rate() -> None:
     text = said(tallied(3, 2))
     assert text.startswith("5 of 6 files, 2 failed, ")
-    assert "files/min" in text
-    assert text.endswith(" left")
+    assert text.index(" left, ") < text.index(" files/min, ") < text.index(" km/h")
 
 
 def test_where_nobody_watches_progress_is_plain_lines() -> None:
@@ -111,10 +113,31 @@ def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FORCE_COLOR", "1")
     stream = StringIO()
     assert Console(file=stream).is_terminal
-    tally = tallied(2, 1)
-    with progress(tally, stream, lambda: 1) as tell:
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr("floatref.cli.batch_progress.REFRESH_S", 0.001)
+    tally, over = tallied(2, 1), Event()
+    answers = iter([7])
+
+    def workers() -> int:
+        # Asked once more, it does not answer before the end.
+        return next(answers, 0) or int(over.wait(10.0))
+
+    def drawn(start: str) -> bool:
+        return any(start in f and "7 workers" in f for f in stream.getvalue().split("━"))
+
+    with progress(tally, stream, workers) as tell:
+        wait_until(lambda: drawn("3 of 4 files, 1 failed"))
+        tally.failed["late"] = "damaged"
         tell()
-    assert "3 of 4 files, 1 failed" in stream.getvalue()
+        wait_until(lambda: drawn("4 of 4 files, 2 failed"))
+        over.set()
+
+
+def wait_until(is_so: Callable[[], bool]) -> None:
+    end = monotonic() + 10.0
+    while not is_so():
+        assert monotonic() < end, "it never came to that"
+        sleep(0.01)
 
 
 def test_failures_are_listed_up_to_a_number(capsys: pytest.CaptureFixture[str]) -> None:

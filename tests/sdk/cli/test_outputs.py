@@ -1,0 +1,37 @@
+"""Commands run where their standard streams are closed, as some schedulers of jobs leave them."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+WRITES = """
+import os, sys
+from floatref.cli.outputs import open_outputs
+open_outputs()
+number = os.open(sys.argv[1], os.O_WRONLY)
+print("printed", flush=True)
+print("printed", file=sys.stderr, flush=True)
+os.write(number, b"our own")
+"""
+
+
+@pytest.mark.parametrize("closed", [(0,), (1,), (2,), (0, 1, 2)])
+def test_a_closed_stream_is_no_fault_and_no_other_file(
+    tmp_path: Path, closed: tuple[int, ...]
+) -> None:
+    target = tmp_path / "file"
+    target.touch()
+    command = [sys.executable, "-c", WRITES, str(target)]
+    done = subprocess.run(command, preexec_fn=lambda: list(map(os.close, closed)), timeout=60)
+    assert done.returncode == 0
+    assert target.read_bytes() == b"our own"
+
+
+def test_a_command_says_what_it_says_to_nobody(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "floatref", "pipelines"]
+    with (tmp_path / "errors").open("w") as errors:
+        done = subprocess.run(command, stderr=errors, preexec_fn=lambda: os.close(1), timeout=60)
+    assert (done.returncode, (tmp_path / "errors").read_text()) == (0, "")
