@@ -51,12 +51,16 @@ class Told:
 
 def agrees(track: RunTrack, limits: CertificationLimits) -> bool:
     """Return whether a wheel path of a run is within the limits all by itself."""
+    low = track.accuracy < limits.accuracy or track.with_others < limits.repeatability
+    return not low and scales_agree(track, limits)
+
+
+def scales_agree(track: RunTrack, limits: CertificationLimits) -> bool:
+    """Return whether neither scale of a wheel path of a run is surely beyond its limit."""
     distance = Told("", track.distance_percent, track.distance_sigma)
     height = Told("", track.height_percent, track.height_sigma)
     return not (
-        track.accuracy < limits.accuracy
-        or track.with_others < limits.repeatability
-        or distance.beyond(inf if limits.distance_percent is None else limits.distance_percent)
+        distance.beyond(inf if limits.distance_percent is None else limits.distance_percent)
         or height.beyond(inf if limits.height_percent is None else limits.height_percent)
     )
 

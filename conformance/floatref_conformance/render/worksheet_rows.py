@@ -36,11 +36,11 @@ class CriterionRow:
 
 @dataclass(frozen=True)
 class RunRow:
-    """The numbers of a run's wheel path; ``bad`` where it does not agree."""
+    """The numbers of a run's wheel path; ``mark`` where it does not agree or was not used."""
 
     number: int
     name: str
-    bad: bool
+    mark: str
     figures: tuple[str, ...]
 
 
@@ -65,11 +65,12 @@ class TrackPart:
 
 @dataclass(frozen=True)
 class SectionPart:
-    """One test section, or one stationary test, which has no ``tracks``."""
+    """One test section, or one stationary test, which has no ``reference`` and no ``tracks``."""
 
     anchor: str
     title: str
     where: str
+    reference: tuple[str, ...]
     criteria: tuple[CriterionRow, ...]
     tracks: tuple[TrackPart, ...]
     notes: tuple[RunNote, ...]
@@ -152,6 +153,7 @@ def _section(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -> S
         anchor,
         f"Section {sheet.name}",
         wording.where(sheet),
+        wording.reference_lines(sheet),
         tuple(_criterion(sheet.name, one) for one in sheet.criteria),
         tuple(
             TrackPart(track, tuple(_rows(sheet, track, limits)))
@@ -166,8 +168,8 @@ def _rows(sheet: SectionSheet, track: str, limits: CertificationLimits) -> Itera
     nothing = (wording.NOTHING,) * len(wording.FIGURES)
     for number, run in enumerate(sheet.runs, start=1):
         found = [wording.figures(one) for one in run.tracks if one.track == track]
-        bad = wording.is_bad(run, limits, track)
-        yield RunRow(number, run.name, bad, found[0] if found else nothing)
+        mark = wording.mark(run, limits, track)
+        yield RunRow(number, run.name, mark, found[0] if found else nothing)
 
 
 def _note(number: int, run: RunSheet) -> RunNote:
@@ -180,6 +182,7 @@ def _test(sheet: StationarySheet, anchor: str) -> SectionPart:
         anchor,
         f"Test {sheet.id}",
         wording.what_counts(sheet),
+        (),
         tuple(_criterion(sheet.id, one) for one in sheet.criteria),
         (),
         (note,),

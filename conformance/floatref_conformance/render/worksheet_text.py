@@ -69,9 +69,11 @@ def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
 def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console) -> None:
     _say(console, "")
     _say(console, f"Section {section.name}: {wording.where(section)}")
+    for line in wording.reference_lines(section):
+        _say(console, f"  {line}")
     _print_criteria("Criteria", section.criteria, console)
     for track in wording.tracks_of(section):
-        title = f"Runs, wheel path {track} (*: does not agree)"
+        title = f"Runs, wheel path {track} (*: {wording.DISAGREES})"
         _show(title, _runs(section, track, worksheet), console)
     if 1 < len(section.runs) <= MOST_RUNS:
         limit = worksheet.limits.repeatability
@@ -129,7 +131,8 @@ def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:
         table.add_column(head, justify="right", no_wrap=True, vertical="bottom")
     for index, run in enumerate(section.runs, start=1):
         found = [wording.figures(one) for one in run.tracks if one.track == track]
-        star = "*" if wording.is_bad(run, worksheet.limits, track) else " "
+        bad = wording.mark(run, worksheet.limits, track) == wording.DISAGREES
+        star = "*" if bad else " "
         numbers = found[0] if found else (wording.NOTHING,) * len(HEADS)
         table.add_row(_text(f"{index:>2}{star} {_short(run.name)}"), *map(_text, numbers))
     return table

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from math import isnan
 
 from floatref_conformance.certify.limits import CertificationLimits
+from floatref_conformance.certify.scales import scales_agree
 from floatref_conformance.certify.worksheet import (
     Cause,
     Criterion,
@@ -17,6 +18,8 @@ from floatref_conformance.certify.worksheet import (
 
 NOTHING = "–"
 """Stands for a number that could not be had."""
+DISAGREES, NOT_USED = "does not agree", "not used"
+"""What marks a run."""
 COUNTED = "runs"
 """The id of the criterion that is a number of runs."""
 SIGNED = (
@@ -152,14 +155,15 @@ def is_bad(run: RunSheet, limits: CertificationLimits, track: str | None = None)
 
 def _disagrees(track: RunTrack, limits: CertificationLimits) -> bool:
     """Return whether there is a cause, a low correlation, or a scale that is surely wrong."""
-    scales = (
-        (track.distance_percent, track.distance_sigma, limits.distance_percent),
-        (track.height_percent, track.height_sigma, limits.height_percent),
-    )
-    wrong = [
-        limit is not None and abs(percent) - 2.0 * sigma > limit for percent, sigma, limit in scales
-    ]
-    return bool(track.causes) or not track.accuracy >= limits.accuracy or any(wrong)
+    low = not track.accuracy >= limits.accuracy
+    return bool(track.causes) or low or not scales_agree(track, limits)
+
+
+def mark(run: RunSheet, limits: CertificationLimits, track: str) -> str:
+    """Return what marks a wheel path of ``run`` out of the others; nothing if it agrees."""
+    if not any(one.track == track for one in run.tracks):
+        return NOT_USED
+    return DISAGREES if is_bad(run, limits, track) else ""
 
 
 def tracks_of(section: SectionSheet) -> tuple[str, ...]:
@@ -171,6 +175,11 @@ def where(section: SectionSheet) -> str:
     """Return what ``section`` is cut from, and how rough that is."""
     iri = ", ".join(f"{name} {value:.3f} m/km" for name, value in section.reference_iri.items())
     return f"{stretch(section)} of {section.reference_source}; IRI {iri}"
+
+
+def reference_lines(section: SectionSheet) -> tuple[str, ...]:
+    """Return what is said of the reference of ``section``."""
+    return tuple(f"the reference: {line}" for line in section.reference_said)
 
 
 def what_counts(sheet: StationarySheet) -> str:

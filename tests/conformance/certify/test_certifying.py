@@ -15,7 +15,9 @@ from floatref.cli.main import main as floatref_command
 from floatref.errors import InputError
 from floatref.files import read_profile, write_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify import certifying
 from floatref_conformance.certify.certifying import certify
+from floatref_conformance.certify.converting import converted
 from floatref_conformance.certify.cutting import within
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.plan import (
@@ -121,6 +123,20 @@ def test_a_run_that_starts_elsewhere_is_moved_and_said(
     run = only(certified(section(written, tmp_path / "late")))
     assert any("37.50 m farther along" in line for line in run.said)
     assert min(track.accuracy for track in run.tracks) > 0.98
+
+
+def test_what_was_said_of_a_reference_is_in_its_section(
+    written: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def with_warning(paths: Any, *rest: Any) -> Any:
+        return {
+            path: replace(one, said=(f"warning of {path.name}",))
+            for path, one in converted(paths, *rest).items()
+        }
+
+    monkeypatch.setattr(certifying, "converted", with_warning)
+    (sheet,) = certified(section(written, "run-1")).sections
+    assert sheet.reference_said == ("warning of reference",)
 
 
 def test_a_run_over_the_section_alone_is_taken_as_it_is(

@@ -135,6 +135,7 @@ def test_a_run_that_does_not_agree_is_marked_by_a_word(certified):
     assert rows == ["", "", ' class="bad"', ' class="bad"'] * 2
     words = Page(text).text
     assert words.count("run-3 does not agree") == 2
+    assert words.count("run-4 not used") == 2
     assert "not used: holds no profile" in words
 
 

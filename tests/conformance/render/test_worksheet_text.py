@@ -11,6 +11,7 @@ from rich.console import Console
 
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import Cause, Judged
+from floatref_conformance.render.worksheet_page import as_html
 from floatref_conformance.render.worksheet_text import MOST_RUNS, print_worksheet
 from floatref_conformance.render.worksheet_wording import is_bad
 
@@ -121,3 +122,21 @@ def test_without_criteria_nothing_is_called_met(certified, judged):
     missing = judged("runs", 0.0, 10.0, Judged.MISSING)
     made = certified(sections=(), stationary=(), criteria=(missing,))
     assert "0 of 0 criteria that were judged are met; 1 could not" in shown(made)
+
+
+def test_what_is_said_of_the_reference_is_told_in_the_terminal_and_on_the_page(
+    certified, section_of, run_of
+):
+    make, numbers = run_of
+    said = ("processed by temporal-basic", "a gap of 3 m")
+    section = section_of([make(1, [numbers("left")])], tracks=("left",), reference_said=said)
+    made = certified(sections=(section,))
+    for line in said:
+        assert f"the reference: {line}" in shown(made)
+        assert f"the reference: {line}" in as_html(made)
+
+
+def test_only_a_run_that_was_used_bears_a_star(certified):
+    lines = shown(certified()).splitlines()
+    assert sum(line.startswith(" 3* run-3") for line in lines) == 2
+    assert sum(line.startswith(" 4  run-4") for line in lines) == 2
