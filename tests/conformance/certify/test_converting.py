@@ -1,10 +1,12 @@
 """Sources of every kind as profiles in memory, by the floatref command, and what cannot be one."""
 
+import json
 import os
 import tempfile
 import threading
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,17 +14,16 @@ import pytest
 
 from floatref.files import (
     fingerprint_native,
-    read_profile,
     write_profile,
     write_profile_csv,
     write_recording,
 )
 from floatref.values.clock import UniformClock
-from floatref.values.profile import Profile
+from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_adapters.erd.profile_format import Erd
 from floatref_conformance.certify import commands as commands_module
-from floatref_conformance.certify.commands import Commands, Stopped
+from floatref_conformance.certify.commands import Answer, Commands, Stopped
 from floatref_conformance.certify.converting import Converted, converted
 from floatref_conformance.certify.plan import Processing
 
@@ -91,10 +92,18 @@ def test_a_profile_of_any_format_is_the_profile(
     assert one.profile.provenance["sha256"] == fingerprint_native(folder / name)
 
 
-def test_a_profile_does_not_hang_on_its_files(folder: Path, tmp_path: Path) -> None:
-    write_profile(read_profile(folder / "made"), tmp_path / "copy")
+def test_a_profile_keeps_flags_and_sigma_and_does_not_hang_on_its_files(
+    reference: Profile, tmp_path: Path
+) -> None:
+    flags = np.arange(reference.tracks[0].elevation.size) % 3 > 0
+    tracks = (ProfileTrack.of(t.name, t.elevation, flags, 0.1 + flags) for t in reference.tracks)
+    write_profile(replace(reference, tracks=tuple(tracks)), tmp_path / "copy")
     one = only(tmp_path / "copy")
     assert one.profile is not None
+    for track in one.profile.tracks:
+        assert np.array_equal(track.valid, flags)
+        assert track.sigma is not None
+        assert np.array_equal(track.sigma, 0.1 + flags)
     for file in (tmp_path / "copy").glob("*.f64"):
         file.write_bytes(b"\0" * file.stat().st_size)
     assert one.profile.track("left").elevation.any()
@@ -108,6 +117,18 @@ def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Conver
     assert one.profile.interval_m == 0.1
     assert one.profile.provenance["adapter"] == "recording"
     assert one.said[0] == "processed by spatial-basic"
+
+
+def test_warnings_of_processing_are_told(
+    reference: Profile, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def warned(self: Commands, *words: str) -> Answer:
+        write_profile(reference, Path(words[words.index("--out") + 1]))
+        return Answer(json.dumps({"pipeline": "any", "warnings": ["half of it", "is missing"]}))
+
+    monkeypatch.setattr(Commands, "run", warned)
+    (tmp_path / "drive").mkdir()
+    assert only(tmp_path / "drive").said == ("processed by any", "half of it", "is missing")
 
 
 @pytest.mark.parametrize(

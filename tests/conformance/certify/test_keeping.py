@@ -1,5 +1,6 @@
 """The report folder: every profile that was compared, complete or not at all."""
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -103,6 +104,25 @@ def test_a_report_that_fails_leaves_what_was_there(
         write_report(worksheet, tmp_path / "report", failing, page)
     after = {p.relative_to(tmp_path / "report").as_posix() for p in tmp_path.rglob("*")}
     assert before <= after
+    assert [path.name for path in tmp_path.iterdir()] == ["report"]
+
+
+def test_the_earlier_report_comes_back_where_the_new_one_cannot_take_its_place(
+    worksheet: Worksheet, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written(worksheet, tmp_path / "report")
+    (tmp_path / "report" / "worksheet.html").write_text("earlier")
+    renamed = os.rename
+
+    def refusing(old: Path, new: Path) -> None:
+        if Path(new).name == "report" and (Path(old) / "worksheet.html").read_text() == "page":
+            raise OSError(28, "No space left on device")
+        renamed(old, new)
+
+    monkeypatch.setattr(os, "rename", refusing)
+    with pytest.raises(InputError, match="No space left"):
+        written(worksheet, tmp_path / "report")
+    assert (tmp_path / "report" / "worksheet.html").read_text() == "earlier"
     assert [path.name for path in tmp_path.iterdir()] == ["report"]
 
 
