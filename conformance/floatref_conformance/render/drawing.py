@@ -68,7 +68,9 @@ def _plotted(x: FloatArray, speed: FloatArray, across: Scale) -> list[str]:
     """Return the rows of the plot, each column filled from its lowest to its highest speed."""
     up = scale_of([speed], ROWS - 1.0, 0.0, from_zero=True)
     field = [[" "] * COLUMNS for _ in range(ROWS)]
-    edges = np.linspace(across.low, across.high, COLUMNS + 1)
+    middles = np.linspace(across.low, across.high, COLUMNS)
+    half = 0.5 * (middles[1] - middles[0])
+    edges = np.clip([middles[0] - half, *(middles + half)], across.low, across.high)
     for column in range(COLUMNS):
         inside = speed[(x >= edges[column]) & (x <= edges[column + 1])]
         ends = np.interp(edges[column : column + 2], x, speed)

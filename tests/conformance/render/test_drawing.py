@@ -4,7 +4,7 @@ from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref_conformance.proving_ground.parked import plates_of
@@ -42,6 +42,7 @@ def test_every_manoeuvre_fits_a_terminal_and_a_page(manoeuvre):
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(30, 110), st.integers(20, 80), st.integers(300, 420))
+@example(30, 20, 404)
 def test_a_stop_touches_the_ground_where_it_lies_and_nowhere_else(initial, final, at):
     stop = scenario("stop", speed_kmh=initial, final_speed_kmh=final, event_at_m=at, length_m=700.0)
     lines = drawing(stop)
