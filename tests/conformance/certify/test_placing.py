@@ -96,6 +96,13 @@ def test_errors_of_distance_do_not_hide_the_section(road, percent, start_m) -> N
     assert placement.offset_m == pytest.approx(-start_m * scale, abs=0.1)
 
 
+def test_a_run_whose_lag_crosses_the_search_somewhere_stays_where_it_is(road) -> None:
+    run = road.run(-1.5, 250.0, scale=0.98)
+    placement, result = put(road.reference(), run)
+    assert result is run
+    assert placement.offset_m == 0.0
+
+
 def test_exchanged_wheel_paths_are_put_right(road, changed) -> None:
     other = {"left": "right", "right": "left"}
     run = changed(road.run(), lambda name, z: (other[name], z))
