@@ -11,9 +11,9 @@ from itertools import permutations
 
 import numpy as np
 from numpy.fft import irfft, rfft
-from numpy.typing import NDArray
 
 from floatref.values.arrays import FloatArray
+from floatref_conformance.certify.scores import Searched, scores_of
 from floatref_conformance.certify.slopes import STEP_M, Slope
 
 LARGEST_SCALE = 0.06
@@ -130,20 +130,6 @@ def _strangeness(c: Candidate, expected_m: float, best: float) -> tuple[bool, bo
     return c.score < 0, c.mirrored, not ordered, away + (best - abs(c.score)) / TIE
 
 
-class Searched:
-    """A run's slopes and, once asked for, their spectra."""
-
-    def __init__(self, slopes: Sequence[Slope]) -> None:
-        self.slopes = slopes
-        self._spectra: dict[int, list[NDArray[np.complex128]]] = {}
-
-    def spectra(self, padded: int) -> list[NDArray[np.complex128]]:
-        """Return the spectra of all wheel paths, padded with zeros to so many points."""
-        if padded not in self._spectra:
-            self._spectra[padded] = [rfft(slope.values, padded) for slope in self.slopes]
-        return self._spectra[padded]
-
-
 def _at_scale(
     piece: Piece, searched: Searched, scale: float, mirrors: Sequence[bool]
 ) -> Iterator[Candidate]:
@@ -152,7 +138,7 @@ def _at_scale(
     for mirrored in mirrors:
         templates = [piece.template(i, scale, mirrored) for i in range(len(piece.slopes))]
         size = templates[0].size
-        scores = _scores(templates, searched)
+        scores = scores_of(templates, searched)
         for pairing in pairings(len(templates), len(run)):
             mean = _joint(scores, run, pairing)
             for index in _peaks(mean):
@@ -177,44 +163,6 @@ def pairings(count: int, of_run: int) -> list[Pairing]:
     return [
         tuple((i, j) for j, i in enumerate(order)) for order in permutations(range(count), of_run)
     ]
-
-
-def _scores(templates: Sequence[FloatArray], searched: Searched) -> list[list[FloatArray]]:
-    """Return the score of every template in every wheel path, by place.
-
-    Place k has the template's last point on point k of the run; places run over its end.
-    """
-    run, size = searched.slopes, templates[0].size
-    count = run[0].values.size
-    padded = 1 << (count + size - 2).bit_length()
-    energies = [_windowed_energy(slope.values, size) for slope in run]
-    rows = []
-    for template in templates:
-        spectrum = rfft(template[::-1], padded)
-        own = float(np.square(template).sum())
-        rows.append(
-            [
-                _normalised(irfft(spectrum * s, padded)[: count + size - 1], own * energy)
-                for s, energy in zip(searched.spectra(padded), energies, strict=True)
-            ]
-        )
-    return rows
-
-
-def _windowed_energy(values: FloatArray, size: int) -> FloatArray:
-    """Return the sum of squares of the ``size`` points up to every point, and over the end."""
-    total = np.concatenate((np.zeros(size), np.cumsum(np.square(values))))
-    padded = np.concatenate((total, np.full(size - 1, total[-1])))
-    return np.asarray(padded[size:] - padded[: padded.size - size])
-
-
-def _normalised(products: FloatArray, energies: FloatArray) -> FloatArray:
-    """Return ``products`` over the root of ``energies``, 0 where there is next to none."""
-    least = 1e-6 * float(energies.max(initial=0.0))
-    shaped = energies > least
-    out = np.zeros(products.size)
-    np.divide(products, np.sqrt(np.where(shaped, energies, 1.0)), out=out, where=shaped)
-    return out
 
 
 def _peaks(mean: FloatArray) -> list[int]:

@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.values.profile import Profile
+from floatref_conformance.certify.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.fit import Fit
 from floatref_conformance.certify.lags import Line
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.undoing import Compared, compared, not_usable
 from floatref_conformance.certify.worksheet import Cause
 
-MAX_OFFSET_M = 1.0
-"""Offsets within these are found by the cross correlation itself."""
 LEAST_MISSING_M = 1.0
 DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0
 """Errors that count where a worksheet sets no limits."""
@@ -99,7 +98,8 @@ def _displacements(
         yield _Suspect("offset", f"{abs(lags[0]):.2f} m {way}", None, True), moved
     percent, sigma = fit.distance_percent, fit.distance_sigma
     if abs(percent) > 2.0 * sigma:
-        certain = abs(percent) - 2.0 * sigma > (limits.distance_percent or DISTANCE_PERCENT)
+        limit = limits.distance_percent
+        certain = abs(percent) - 2.0 * sigma > (DISTANCE_PERCENT if limit is None else limit)
         way = "long" if percent > 0 else "short"
         text = f"distance {abs(percent):.2f} % too {way}"
         kept = 0.0 if apart else lags[0]
@@ -110,7 +110,8 @@ def _heights(now: Compared, fit: Fit, limits: CertificationLimits) -> Iterator[_
     """Yield errors of heights, of all waves and of some."""
     percent, sigma = fit.height_percent, fit.height_sigma
     if abs(percent) > 2.0 * sigma:
-        certain = abs(percent) - 2.0 * sigma > (limits.height_percent or HEIGHT_PERCENT)
+        limit = limits.height_percent
+        certain = abs(percent) - 2.0 * sigma > (HEIGHT_PERCENT if limit is None else limit)
         way = "high" if percent > 0 else "low"
         now = now.scaled(1.0 + percent / 100.0)
         yield _Suspect("height-scale", f"heights {abs(percent):.1f} % too {way}", now, certain)

@@ -10,6 +10,7 @@ from floatref.values.profile import Profile
 from floatref_conformance import EDITION
 from floatref_conformance.certify.converting import Converted, converted
 from floatref_conformance.certify.criteria import verdict_of
+from floatref_conformance.certify.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.placing import place, placed
 from floatref_conformance.certify.plan import Plan, Processing, SectionPlan, StationaryPlan
@@ -189,7 +190,7 @@ def _all_criteria(
 def _settings(processing: Processing) -> dict[str, object]:
     """Return how the numbers were made, beside the limits."""
     given = {name: str(value) for name, value in asdict(processing).items() if value is not None}
-    return {"filter": "iri", "max_offset_m": 1.0, **given}
+    return {"filter": "iri", "max_offset_m": MAX_OFFSET_M, **given}
 
 
 def _versions() -> Iterator[tuple[str, str]]:

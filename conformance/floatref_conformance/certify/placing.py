@@ -9,19 +9,16 @@ from floatref.errors import InputError
 from floatref.measures import agreement, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.certify.candidates import Candidate
+from floatref_conformance.certify.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.finding import Find, find, pieces_of
 from floatref_conformance.certify.lags import Line, followed, gain, window_lags
 from floatref_conformance.certify.placement import Placement, placed
 from floatref_conformance.certify.slopes import slope_of
 from floatref_conformance.certify.units import DISTANCE_UNITS, HEIGHT_UNITS, METRE, height_unit
-from floatref_conformance.certify.wording import not_found, worded
+from floatref_conformance.certify.wording import COVERED_M, not_found, worded
 
-MAX_OFFSET_M = 1.0
-"""Offsets within these are left to the search of the cross correlation."""
 LIES_RIGHT = 0.9
 """Correlation from which on a run that lies right is not searched for anywhere else."""
-COVERED_M = 0.5
-"""A run that ends so much before the section covers it."""
 SAME_HEIGHT = 1.3
 """Largest ratio of heights that no unit need explain."""
 

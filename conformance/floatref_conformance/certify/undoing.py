@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.measures import agreement
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
+from floatref_conformance.certify.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.lags import Line
 
 MARGIN_M = 5.0
@@ -26,7 +27,9 @@ class Compared:
     def correlation(self) -> float:
         """Return the cross correlation as `floatref compare` gives it, NaN if there is none."""
         try:
-            return agreement(self.reference, self.run, self.interval_m).cross_correlation
+            return agreement(
+                self.reference, self.run, self.interval_m, "iri", MAX_OFFSET_M
+            ).cross_correlation
         except InputError:
             return math.nan
 

@@ -13,6 +13,7 @@ from floatref_conformance.certify.worksheet import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.render import worksheet_marks as marks
 from floatref_conformance.render import worksheet_wording as wording
 from floatref_conformance.render.failures import Picture
 from floatref_conformance.render.worksheet_figures import of_section, of_test
@@ -168,7 +169,7 @@ def _rows(sheet: SectionSheet, track: str, limits: CertificationLimits) -> Itera
     nothing = (wording.NOTHING,) * len(wording.FIGURES)
     for number, run in enumerate(sheet.runs, start=1):
         found = [wording.figures(one) for one in run.tracks if one.track == track]
-        mark = wording.mark(run, limits, track)
+        mark = marks.mark(run, limits, track)
         yield RunRow(number, run.name, mark, found[0] if found else nothing)
 
 

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from math import isnan
 
 from floatref_conformance.certify.limits import CertificationLimits
-from floatref_conformance.certify.scales import scales_agree
 from floatref_conformance.certify.worksheet import (
     Cause,
     Criterion,
@@ -18,8 +17,6 @@ from floatref_conformance.certify.worksheet import (
 
 NOTHING = "–"
 """Stands for a number that could not be had."""
-DISAGREES, NOT_USED = "does not agree", "not used"
-"""What marks a run."""
 COUNTED = "runs"
 """The id of the criterion that is a number of runs."""
 SIGNED = (
@@ -145,25 +142,6 @@ def run_lines(run: RunSheet) -> tuple[str, ...]:
         f"{track.track}: {cause_in_words(cause)}" for track in run.tracks for cause in track.causes
     )
     return (*fault, *run.said, *causes)
-
-
-def is_bad(run: RunSheet, limits: CertificationLimits, track: str | None = None) -> bool:
-    """Return whether a wheel path of ``run``, or any of them, does not agree."""
-    judged = [one for one in run.tracks if track in (None, one.track)]
-    return not judged or any(_disagrees(one, limits) for one in judged)
-
-
-def _disagrees(track: RunTrack, limits: CertificationLimits) -> bool:
-    """Return whether there is a cause, a low correlation, or a scale that is surely wrong."""
-    low = not track.accuracy >= limits.accuracy
-    return bool(track.causes) or low or not scales_agree(track, limits)
-
-
-def mark(run: RunSheet, limits: CertificationLimits, track: str) -> str:
-    """Return what marks a wheel path of ``run`` out of the others; nothing if it agrees."""
-    if not any(one.track == track for one in run.tracks):
-        return NOT_USED
-    return DISAGREES if is_bad(run, limits, track) else ""
 
 
 def tracks_of(section: SectionSheet) -> tuple[str, ...]:

@@ -46,6 +46,14 @@ def test_a_scale_of_heights_is_named_and_explains_what_is_lost(road, percent, si
     assert found["height-scale"].explains > 0.7
 
 
+def test_a_limit_of_nothing_is_a_limit_and_no_limit_is_the_usual_one(road) -> None:
+    run = road.run(scale=1.0005, gain=1.005, noise=0.02)
+    nothing = CertificationLimits(distance_percent=0.0, height_percent=0.0)
+    assert set(told(road.reference(), run, nothing)) == {"distance", "height-scale"}
+    none = CertificationLimits(distance_percent=None, height_percent=None)
+    assert told(road.reference(), run, none) == told(road.reference(), run) == {}
+
+
 def test_two_causes_are_told_apart(road) -> None:
     found = told(road.reference(), road.run(scale=1.01, gain=1.03, noise=0.1))
     assert set(found) == {"distance", "height-scale"}

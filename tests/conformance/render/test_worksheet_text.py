@@ -11,9 +11,9 @@ from rich.console import Console
 
 from floatref_conformance.certify.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import Cause, Judged
+from floatref_conformance.render.worksheet_marks import is_bad
 from floatref_conformance.render.worksheet_page import as_html
 from floatref_conformance.render.worksheet_text import MOST_RUNS, print_worksheet
-from floatref_conformance.render.worksheet_wording import is_bad
 
 
 def shown(worksheet, width=80, terminal=True):
