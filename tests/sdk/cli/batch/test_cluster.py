@@ -9,9 +9,6 @@ from typing import Any
 import pytest
 
 FILES = {"a": ("ready", 300), "b": ("ready", 200), "c": ("ready", 100), "bad": ("odd", 50)}
-OTHER_VERSION = (
-    "import floatref; floatref.__version__ = '0.0.0'\nfrom dask.__main__ import main; main()"
-)
 IMPATIENT = (
     "import floatref.batch.cluster as cluster; cluster.WORKERS_S = cluster.ANSWER_S = 0.5\n"
     "from floatref.cli.main import main; main()"
@@ -72,17 +69,6 @@ def test_a_scheduler_that_dies_leaves_rows_that_say_so(bench: Any, address: str)
     assert report["files"]["done"] + report["files"]["failed"] == 2
     errors = {failure["name"]: failure["error"] for failure in report["failures"]}
     assert "the cluster was lost before this file was done" in errors["w0.gate"]
-
-
-def test_workers_of_another_version_are_refused(bench: Any, address: str) -> None:
-    bench.put(**FILES)
-    program = (sys.executable, "-c", OTHER_VERSION)
-    bench.start("worker", address, "--nthreads", "1", "--no-nanny", program=program)
-    code, out, err = bench.ended(bench.batch("--cluster", address))
-    assert (code, out) == (2, "")
-    assert err.count("\n") == 0
-    assert "has floatref 0.0.0, and we " in err
-    assert not bench.out.exists()
 
 
 @pytest.mark.parametrize(("there", "text"), [(True, "has no workers"), (False, "no scheduler")])
