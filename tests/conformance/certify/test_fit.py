@@ -125,3 +125,8 @@ def test_what_covers_too_little_has_no_scale(road) -> None:
 def test_a_wheel_path_that_is_not_there_is_refused(road) -> None:
     with pytest.raises(InputError, match="track middle"):
         fit(road.reference(), road.run(), "middle")
+
+
+def test_a_run_that_was_not_put_on_the_section_is_not_laid_on_it(road) -> None:
+    assert fit(road.reference(), road.run(-10.0, 250.0), "left").found
+    assert not fit(road.reference(), road.run(-30.0, 250.0), "left").found
