@@ -136,3 +136,10 @@ def test_files_that_are_no_longer_given_are_named(tmp_path: Path) -> None:
         (tmp_path / "records" / "A1" / "c.json").touch()
     jobs = [Job(Path("/in/b.mf4"), "b.mf4", tmp_path)]
     assert not_given(tmp_path, jobs) == ("A1/c", "a.mf4")
+
+
+def test_a_command_begins_without_what_another_left_half_written(tmp_path: Path) -> None:
+    (tmp_path / "records").mkdir()
+    (tmp_path / "profiles" / ".floatref-0a").mkdir(parents=True)
+    with prepared(tmp_path, resume=True):
+        assert list((tmp_path / "profiles").iterdir()) == []
