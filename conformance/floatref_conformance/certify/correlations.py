@@ -47,7 +47,9 @@ def judge_repeatability(
         return made
     tracks = {run.name: track for run, track in of_track(runs, name)}
     told = [
-        with_causes(f"{runs[k].name} {tracks[runs[k].name].with_others:.3f}", tracks[runs[k].name])
+        with_causes(
+            f"{runs[k].name} at {tracks[runs[k].name].with_others:.3f}", tracks[runs[k].name]
+        )
         for k in blamed
     ]
     return replace(made, reason=f"the other runs agree to {rest:.3f} without {listed(told)}")
@@ -108,7 +110,7 @@ def _correlation(
     value, limit, name, lacking = figures
     absent = [run.name for run, _, score in scores if isnan(score)]
     below = sorted((s for s in scores if s[2] < limit), key=lambda s: s[2])
-    told = [with_causes(f"{run.name} {score:.3f}", track) for run, track, score in below]
+    told = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
     judged = judged_by(value, limit, value < limit)
     if absent and judged is Judged.PASS:
         judged = Judged.MISSING

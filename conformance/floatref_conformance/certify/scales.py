@@ -45,7 +45,7 @@ class Told:
     def __str__(self) -> str:
         if isnan(self.percent) or isnan(self.sigma):
             return f"{self.who} (not known)"
-        doubt = f" ± {2.0 * self.sigma:.2f} %" if self.sigma else ""
+        doubt = f" ± {2.0 * self.sigma:.2g} %" if self.sigma else ""
         return f"{self.who} {self.percent:+.2f} %{doubt}"
 
 

@@ -84,7 +84,7 @@ def test_a_run_below_the_limit_is_named_though_the_average_passes(sheet_of, ten_
     sheet = sheet_of((*ten_runs[:9], run_over(10, noise_m=1e-3)))
     found = criterion(sheet, "accuracy", "left")
     assert found.judged is Judged.PASS
-    assert found.reason.startswith("below 0.9 by itself: run-10 0.")
+    assert found.reason.startswith("below 0.9 by itself: run-10 at 0.")
     assert "run-1 " not in found.reason
 
 
@@ -95,7 +95,7 @@ def test_one_bad_run_is_blamed_for_the_pairs_of_all_others(sheet_of, ten_runs, r
     found = criterion(sheet_of((bad, spoilt, *good)), "repeatability", "left")
     assert found.judged is Judged.FAIL
     assert found.reason.startswith("the other runs agree to 0.99")
-    assert " without spoilt 0." in found.reason
+    assert " without spoilt at 0." in found.reason
     assert "run-" not in found.reason
 
 
@@ -105,7 +105,7 @@ def test_of_many_runs_below_the_worst_are_named_and_the_rest_counted(sheet_of, r
     scores = {run.name: t.accuracy for run in sheet.runs for t in run.tracks if t.track == "right"}
     worst = sorted(scores, key=scores.get)
     assert found.judged is Judged.FAIL
-    told = [found.reason.find(f"{name} {scores[name]:.3f}") for name in worst]
+    told = [found.reason.find(f"{name} at {scores[name]:.3f}") for name in worst]
     assert told[:5] == sorted(told[:5])
     assert min(told[:5]) > 0
     assert found.reason.endswith("; and 3 more")

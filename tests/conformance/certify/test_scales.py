@@ -93,7 +93,7 @@ def test_heights_that_nobody_tells_are_reported_and_leave_the_verdict_alone():
 def test_three_per_cent_of_height_fails_by_name_of_the_run():
     found = by_height((0.1, 0.3), (3.0, 0.3), (-0.1, 0.3))
     assert (found.judged, found.value, found.track) == (Judged.FAIL, 3.0, "left")
-    assert found.reason == "beyond the limit: run-2 +3.00 % ± 0.60 %"
+    assert found.reason == "beyond the limit: run-2 +3.00 % ± 0.6 %"
 
 
 def test_an_error_that_is_large_beyond_all_doubt_fails_though_it_is_vague():
