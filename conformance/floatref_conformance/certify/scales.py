@@ -26,6 +26,10 @@ HEIGHT = (
 )
 
 
+FINEST = 0.001
+"""Percent; a smaller doubt is told as this one."""
+
+
 @dataclass(frozen=True)
 class Told:
     """An error of scale in percent and its 1-sigma, and whose it is."""
@@ -45,7 +49,7 @@ class Told:
     def __str__(self) -> str:
         if isnan(self.percent) or isnan(self.sigma):
             return f"{self.who} (not known)"
-        doubt = f" ± {2.0 * self.sigma:.2g} %" if self.sigma else ""
+        doubt = f" ± {max(2.0 * self.sigma, FINEST):.2g} %" if self.sigma else ""
         return f"{self.who} {self.percent:+.2f} %{doubt}"
 
 
