@@ -113,6 +113,8 @@ def main() -> None:
     options.add_argument("--runs", type=int, default=10, help="drives [10]")
     options.add_argument("--folder", type=Path, help="keeps profiles and reports [none]")
     given = options.parse_args()
+    if given.folder is not None:
+        given.folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as temporary:
         _print(given.runs, given.folder or Path(temporary), Console(width=110))
 

@@ -48,6 +48,8 @@ def summary(worksheet: Worksheet) -> str:
         judged.count(kind) for kind in (Judged.PASS, Judged.FAIL, Judged.MISSING)
     )
     parts = [f"{passed} of {passed + failed} criteria that were judged are met"]
+    if not passed + failed:
+        parts = ["nothing was judged"]
     if missing:
         parts.append(f"{missing} could not be judged")
     return "; ".join(parts)

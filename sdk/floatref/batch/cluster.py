@@ -5,6 +5,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from floatref import __version__
@@ -94,13 +95,18 @@ def _local(jobs: int | None) -> Iterator["Client"]:
     from distributed import Client, LocalCluster
 
     with ExitStack() as stack:
-        stack.enter_context(dask.config.set(LOCAL))
+        # What a worker that is killed leaves of temporary files goes with the command.
+        scratch = stack.enter_context(
+            TemporaryDirectory(prefix="floatref-batch-", ignore_cleanup_errors=True)
+        )
+        stack.enter_context(dask.config.set({**LOCAL, "temporary-directory": scratch}))
         try:
             cluster = LocalCluster(
                 n_workers=jobs or CPU_COUNT,
                 processes=True,
                 threads_per_worker=1,
                 dashboard_address=None,
+                env={"TMPDIR": scratch},
                 silence_logs=logging.CRITICAL + 1,
             )
             stack.callback(cluster.close)

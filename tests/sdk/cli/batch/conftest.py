@@ -24,6 +24,7 @@ PLUGIN = """
 import os
 import time
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import floatref
 from floatref.architectures.hookspecs import hookimpl
@@ -41,8 +42,9 @@ class Gate:
             stream.write(f"{source.name} {os.getpid()}\\n")
         if how == "odd":
             raise floatref.InputError(f"{source}: damaged at byte 7; copy it again")
-        while how == "wait" and not (source.parent.parent / "open").exists():
-            time.sleep(0.02)
+        with TemporaryDirectory():
+            while how == "wait" and not (source.parent.parent / "open").exists():
+                time.sleep(0.02)
         return floatref.read_recording(Path(recording))
 
 
@@ -68,6 +70,11 @@ class Bench:
     def out(self) -> Path:
         return self.folder / "out"
 
+    @property
+    def temporary(self) -> Path:
+        """The folder for temporary files of the commands."""
+        return self.folder / "temporary"
+
     def put(self, **files: tuple[str, int]) -> None:
         """Write a file for each name, ``how`` it is to be read, and how large it is."""
         for name, (how, size) in files.items():
@@ -77,10 +84,11 @@ class Bench:
     def start(self, *arguments: str, program: tuple[str, ...] = FLOATREF) -> Started:
         """Start the command in a session of its own."""
         path = os.pathsep.join([str(self.folder / "plugin"), os.environ.get("PYTHONPATH", "")])
+        self.temporary.mkdir(exist_ok=True)
         process = subprocess.Popen(
             [*program, *arguments],
             cwd=self.folder,
-            env={**os.environ, "PYTHONPATH": path},
+            env={**os.environ, "PYTHONPATH": path, "TMPDIR": str(self.temporary)},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

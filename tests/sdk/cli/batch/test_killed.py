@@ -36,6 +36,7 @@ def test_a_worker_killed_in_mid_file_costs_nothing(bench: Any) -> None:
     # Once by the worker that was killed.
     assert len(bench.begun()["held"]) >= 2
     assert list(bench.out.rglob(".floatref-*")) == []
+    assert list(bench.temporary.iterdir()) == []
 
 
 @dataclass(frozen=True)
