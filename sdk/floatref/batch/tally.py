@@ -10,6 +10,8 @@ from floatref.batch.record import Effort, Record, Row
 
 ROUGHEST = 5
 """Rows that are kept of all those with the largest IRI."""
+OPENING = 16 << 20
+"""Bytes of a recording that take about as long as it takes to open a file at all."""
 
 
 @dataclass
@@ -76,7 +78,7 @@ class Tally:
 
     @property
     def part(self) -> float:
-        """Part of the bytes that is done, from 0 to 1."""
+        """Part of the work that is done, from 0 to 1."""
         return self._weight_done / max(self._weight_of_all, 1)
 
     def files_per_minute(self, now_s: float) -> float:
@@ -88,16 +90,19 @@ class Tally:
         return _ratio(3.6 * self.new_m, now_s - self.began_s)
 
     def left_s(self, now_s: float) -> float:
-        """Return how long the rest will take at the rate of bytes until now; NaN if unknown."""
+        """Return how long the rest will take at the rate until now; NaN if unknown."""
         worked = self._weight_done - self._weight_skipped
         return _ratio((now_s - self.began_s) * (self._weight_of_all - self._weight_done), worked)
 
     @property
     def _weight_of_all(self) -> int:
-        return self.size_bytes + self.files
+        return self.size_bytes + OPENING * self.files
 
     def _keep_roughest(self, record: Record) -> None:
-        rows = [(r.iri_m_per_km, record.name, r) for r in record.rows if not isnan(r.iri_m_per_km)]
+        """Keep the largest IRI; what is left of a profile behind its last segment is none."""
+        half_m = max((row.length_m for row in record.rows), default=0.0) / 2
+        whole = [row for row in record.rows if row.length_m >= half_m]
+        rows = [(r.iri_m_per_km, record.name, r) for r in whole if not isnan(r.iri_m_per_km)]
         self.roughest = heapq.nlargest(ROUGHEST, self.roughest + rows, key=lambda item: item[0])
 
 
@@ -113,8 +118,8 @@ def total(one: Effort, other: Effort) -> Effort:
 
 
 def _weight(size_bytes: int) -> int:
-    """Return what a file counts for: its bytes, and something if they are not known."""
-    return size_bytes + 1
+    """Return what a file counts for: its bytes, and what it costs whatever they are."""
+    return size_bytes + OPENING
 
 
 def _ratio(part: float, whole: float) -> float:

@@ -44,26 +44,27 @@ def test_every_file_is_counted_once(outcomes: list[str]) -> None:
 
 
 def test_time_left_follows_the_bytes_that_were_worked_at() -> None:
-    jobs = [job("old", 5_000_000), job("large", 3_000_000), job("small", 1_000_000)]
+    jobs = [job("old", 5 * 10**12), job("large", 3 * 10**12), job("small", 10**12)]
     tally = Tally()
     tally.begin(jobs, 100.0)
     assert isnan(tally.left_s(100.0))
     tally.add(jobs[0], record("old", skipped=True))
     assert isnan(tally.left_s(101.0))
     tally.add(jobs[1], record("large"))
-    # Three megabytes have taken 30 s, what was done before nothing; one megabyte is left.
-    assert tally.left_s(130.0) == pytest.approx(10.0, rel=1e-5)
+    # Three terabytes have taken 30 s, what was done before nothing; one is left.
+    assert tally.left_s(130.0) == pytest.approx(10.0, rel=1e-4)
     assert tally.files_per_minute(130.0) == pytest.approx(2.0)
     assert tally.km_per_hour(130.0) == pytest.approx(60.0)
 
 
-def test_files_of_unknown_size_count_alike() -> None:
-    jobs = [job(name, 0) for name in "abcd"]
+@pytest.mark.parametrize("sizes", [(0, 0, 0, 0), (30_000, 10_000, 8_000, 100)])
+def test_small_files_and_those_of_unknown_size_count_alike(sizes: tuple[int, ...]) -> None:
+    jobs = [job(name, size) for name, size in zip("abcd", sizes, strict=True)]
     tally = Tally()
     tally.begin(jobs, 0.0)
     tally.add(jobs[0], record("a"))
-    assert tally.part == 0.25
-    assert tally.left_s(8.0) == pytest.approx(24.0)
+    assert tally.part == pytest.approx(0.25, rel=0.01)
+    assert tally.left_s(8.0) == pytest.approx(24.0, rel=0.01)
 
 
 def test_effort_is_summed_and_the_peak_of_memory_is_the_largest() -> None:
@@ -85,3 +86,12 @@ def test_the_roughest_rows_are_kept_in_order(values: list[float]) -> None:
     known = sorted((value for value in values if not isnan(value)), reverse=True)
     assert [iri for iri, _, _ in tally.roughest] == known[:ROUGHEST]
     assert all(values[int(name)] == iri for iri, name, _ in tally.roughest)
+
+
+def test_what_is_left_behind_the_last_segment_is_not_among_the_roughest() -> None:
+    tally = Tally()
+    rest = replace(ROW, segment=1, start_m=100.0, length_m=0.2, iri_m_per_km=99.0)
+    short = replace(ROW, length_m=0.2, iri_m_per_km=5.0)
+    tally.add(job("a"), record("a", rows=(ROW, rest)))
+    tally.add(job("b"), record("b", rows=(short,)))
+    assert [iri for iri, _, _ in tally.roughest] == [5.0, 1.0]
