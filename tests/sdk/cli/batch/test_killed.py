@@ -3,6 +3,7 @@
 import csv
 import os
 import signal
+import sys
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from matplotlib.image import imread
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes")
+COMMAND = which("floatref", path=os.pathsep.join([str(Path(sys.executable).parent), os.defpath]))
 READY = {f"r{index}": ("ready", 900 - index) for index in range(6)}
 WAITING = {"w": ("wait", 400)}
 """Smaller, so that it is begun last; with it a single worker is at work until the gate opens."""
@@ -126,12 +128,11 @@ def test_a_second_command_stays_out_of_the_folder(story: Story) -> None:
     assert err == "Error: out: another batch works there; wait for it or choose another"
 
 
-@pytest.mark.skipif(which("floatref") is None, reason="the command is not installed")
+@pytest.mark.skipif(COMMAND is None, reason="the command is not installed")
 def test_the_installed_command_starts_workers_as_well(bench: Any) -> None:
     bench.put(one=("ready", 10))
-    command = which("floatref")
     arguments = ("batch", "in", "--out", "out", "--jobs", "1", "--plot", "out/map.png")
-    code, out, err = bench.ended(bench.start(*arguments, program=(command,)))
+    code, out, err = bench.ended(bench.start(*arguments, program=(COMMAND,)))
     assert (code, err) == (0, "")
     assert "summary.parquet" in out
     assert imread(bench.out / "map.png").shape[0] > 400
