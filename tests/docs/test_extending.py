@@ -12,7 +12,7 @@ from floatref import Channel, InputError, Profile, ProfileTrack, Recording, Unif
 from floatref.architectures import hookspecs
 from floatref.architectures.fall_back import DropOut
 from floatref.architectures.plugins import Plugins
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_conformance import hookspecs as conformance_hookspecs
@@ -59,8 +59,8 @@ def test_the_pipeline_is_known_and_the_point_is_answered(plugins: Plugins) -> No
     header = Header(Axis.TIME, 1e-3, 0.0, Fraction(1000), frozenset({ELEVATION}), tracks=("main",))
     for name in ("temporal-basic", "my-profiler"):
         pipeline = plugins.pipeline(name)
-        question = Question("temporal_finish", pipeline, pipeline.resolve({}), header, origin_m=0.0)
-        assert {stage.cutoff for stage in plugins.ask(question)} == {1 / 60.0}
+        context = Context("temporal_finish", pipeline, pipeline.resolve({}), header, origin_m=0.0)
+        assert {stage.cutoff for stage in plugins.ask(context)} == {1 / 60.0}
     assert plugins.reports == []
 
 

@@ -3,7 +3,7 @@
 from floatref.architectures import spatial_steps as spatial
 from floatref.architectures import steps
 from floatref.architectures import suppression_steps as temporal
-from floatref.architectures.question import Answer, Pipeline
+from floatref.architectures.pipeline import Answer, Pipeline
 
 VALIDITY: dict[str, float | None] = {
     "slow_mps": 4.444444,

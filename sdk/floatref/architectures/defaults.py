@@ -12,7 +12,7 @@ from floatref.architectures.profile_format import (
     ProfileFormat,
     ProfileTable,
 )
-from floatref.architectures.question import Answer, Pipeline, Question
+from floatref.architectures.pipeline import Answer, Pipeline, Context
 from floatref.architectures.registration import POINTS
 from floatref.architectures.response_fall_back import road_from_response
 from floatref.architectures.response_pipelines import RESPONSE
@@ -118,7 +118,7 @@ class Defaults:
 
 
 def _answering(point: str, default: Answer) -> Answer:
-    def answer(context: Question) -> Sequence[Stage]:
+    def answer(context: Context) -> Sequence[Stage]:
         try:
             return context.pipeline.answers.get(point, default)(context)
         except FloatrefError:

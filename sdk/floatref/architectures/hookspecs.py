@@ -12,7 +12,7 @@ import pluggy
 from floatref.architectures.adapter import Adapter
 from floatref.architectures.fall_back import DropOut
 from floatref.architectures.profile_format import ProfileFormat
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
 
@@ -43,37 +43,37 @@ def floatref_register_pipelines(register: Callable[[Pipeline], None]) -> None:
 
 
 @spec
-def temporal_condition(context: Question) -> Answer:
+def temporal_condition(context: Context) -> Answer:
     """From raw channels in time to `vertical_acceleration` and `height`."""
 
 
 @spec
-def temporal_first_integration(context: Question) -> Answer:
+def temporal_first_integration(context: Context) -> Answer:
     """From `vertical_acceleration` to `vertical_velocity`."""
 
 
 @spec
-def temporal_second_integration(context: Question) -> Answer:
+def temporal_second_integration(context: Context) -> Answer:
     """From `vertical_velocity` to `floating_reference_height`."""
 
 
 @spec
-def temporal_estimate(context: Question) -> Answer:
+def temporal_estimate(context: Context) -> Answer:
     """In place of both integrations: an estimator of `floating_reference_height`."""
 
 
 @spec
-def temporal_combine(context: Question) -> Answer:
+def temporal_combine(context: Context) -> Answer:
     """From `floating_reference_height` and `height` to `elevation`."""
 
 
 @spec
-def temporal_project(context: Question) -> Answer:
+def temporal_project(context: Context) -> Answer:
     """From the time axis to the distance axis."""
 
 
 @spec
-def temporal_finish(context: Question) -> Answer:
+def temporal_finish(context: Context) -> Answer:
     """What is done to `elevation` over distance at the end of the run."""
 
 
@@ -83,70 +83,70 @@ def temporal_fall_back(context: DropOut) -> Profile | None:
 
 
 @spec
-def spatial_condition(context: Question) -> Answer:
+def spatial_condition(context: Context) -> Answer:
     """What happens to the analog signals, in time, before the encoder triggers."""
 
 
 @spec
-def spatial_trigger(context: Question) -> Answer:
+def spatial_trigger(context: Context) -> Answer:
     """One sample of every channel, with its `time`, per profile interval."""
 
 
 @spec
-def spatial_time_step(context: Question) -> Answer:
+def spatial_time_step(context: Context) -> Answer:
     """From `time` to `time_step`, the step of integration."""
 
 
 @spec
-def spatial_first_integration(context: Question) -> Answer:
+def spatial_first_integration(context: Context) -> Answer:
     """From `vertical_acceleration` to `vertical_velocity`, over the triggers."""
 
 
 @spec
-def spatial_second_integration(context: Question) -> Answer:
+def spatial_second_integration(context: Context) -> Answer:
     """From `vertical_velocity` to `floating_reference_height`, over the triggers."""
 
 
 @spec
-def spatial_estimate(context: Question) -> Answer:
+def spatial_estimate(context: Context) -> Answer:
     """In place of `time_step` and both integrations: as in time, from and to the triggers."""
 
 
 @spec
-def spatial_combine(context: Question) -> Answer:
+def spatial_combine(context: Context) -> Answer:
     """From `floating_reference_height` and `height` to `elevation`."""
 
 
 @spec
-def response_condition(context: Question) -> Answer:
+def response_condition(context: Context) -> Answer:
     """From raw channels in time to accelerations, speed and cut-off."""
 
 
 @spec
-def response_first_integration(context: Question) -> Answer:
+def response_first_integration(context: Context) -> Answer:
     """From accelerations to velocities, where no displacement is measured."""
 
 
 @spec
-def response_second_integration(context: Question) -> Answer:
+def response_second_integration(context: Context) -> Answer:
     """From velocities to displacements; what is measured is filtered as they are."""
 
 
 @spec
-def response_estimate(context: Question) -> Answer:
+def response_estimate(context: Context) -> Answer:
     """From readings to the road under every tyre, with its 1-σ, at a rate of its own."""
 
 
 @spec
-def response_project(context: Question) -> Answer:
+def response_project(context: Context) -> Answer:
     """From the time axis to the distance axis."""
 
 
 @spec
-def response_finish(context: Question) -> Answer:
+def response_finish(context: Context) -> Answer:
     """From the roads under the tyres to `elevation` and `elevation_sigma` where a laser looks."""
 
 
 @spec
-def spatial_finish(context: Question) -> Answer:
+def spatial_finish(context: Context) -> Answer:
     """What is done to `elevation` at the end of the run."""

@@ -1,7 +1,7 @@
 """The five pipelines of chapter 6 by name, with their settings."""
 
 from floatref.architectures.kalman_steps import NOISE, Estimator, answers
-from floatref.architectures.question import Pipeline
+from floatref.architectures.pipeline import Pipeline
 from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import GNSS, IMU
 

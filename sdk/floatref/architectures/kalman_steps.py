@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from floatref.architectures import steps
-from floatref.architectures.question import Answer, Question
+from floatref.architectures.pipeline import Answer, Context
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.dropping import Drop
@@ -39,26 +39,26 @@ NOISE = {
 """From settings to what they are in `Noise`."""
 
 
-def condition(question: Question) -> Sequence[Stage]:
+def condition(context: Context) -> Sequence[Stage]:
     """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
     stages: list[Stage] = [RemoveGravity()]
-    if question.header.rate > steps.LEAST_RATE_HZ:
-        cutoff = steps.cutoff_setting(question, "anti_alias_hz")
+    if context.header.rate > steps.LEAST_RATE_HZ:
+        cutoff = steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
     return (*stages, TravelSpeed())
 
 
-def noise_of(question: Question) -> Noise:
+def noise_of(context: Context) -> Noise:
     """Return what the settings say of sensors and references."""
-    return Noise(**{field: question.setting(name) for name, field in NOISE.items()})
+    return Noise(**{field: context.setting(name) for name, field in NOISE.items()})
 
 
 def answers(plan: Plan, estimator: Estimator) -> dict[str, Answer]:
     """Return the answers of the pipeline that observes what ``plan`` says."""
 
-    def estimate(question: Question) -> Sequence[Stage]:
-        wavelength_m = question.setting("cutoff_wavelength_m")
-        return estimator(plan, noise_of(question), wavelength_m), Seams(), Drop(TRAVEL_SPEED)
+    def estimate(context: Context) -> Sequence[Stage]:
+        wavelength_m = context.setting("cutoff_wavelength_m")
+        return estimator(plan, noise_of(context), wavelength_m), Seams(), Drop(TRAVEL_SPEED)
 
     return {"temporal_condition": condition, "temporal_estimate": estimate}

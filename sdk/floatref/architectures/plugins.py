@@ -11,7 +11,7 @@ from floatref.architectures import hookspecs
 from floatref.architectures.adapter import Adapter
 from floatref.architectures.fall_back import DropOut
 from floatref.architectures.profile_format import ProfileFormat
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.registration import (
     Register,
     check_adapter,
@@ -99,12 +99,12 @@ class Plugins:
             raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
         return known[name]
 
-    def ask(self, question: Question) -> Sequence[Stage]:
-        """Return the stages for ``question``: a third party's if one answers, else the default.
+    def ask(self, context: Context) -> Sequence[Stage]:
+        """Return the stages for ``context``: a third party's if one answers, else the default.
 
         Raises PluginError, with both names, if two third parties answer.
         """
-        answer = self._answer(question.point, question, partial(_stages, question=question))
+        answer = self._answer(context.point, context, partial(_stages, context=context))
         return () if answer is None else answer
 
     def fall_back(self, asked: DropOut) -> Profile | None:
@@ -160,11 +160,11 @@ def _profile(answer: Any, plugin: str) -> Profile:
     raise PluginError(f"plug-in {plugin}: answered temporal_fall_back with {kind}, no profile")
 
 
-def _stages(answer: Any, plugin: str, question: Question) -> Sequence[Stage]:
+def _stages(answer: Any, plugin: str, context: Context) -> Sequence[Stage]:
     if isinstance(answer, Sequence) and all(isinstance(stage, Stage) for stage in answer):
         return answer
-    who = f"pipeline {question.pipeline.name}" if plugin == BUILT_IN else f"plug-in {plugin}"
-    raise PluginError(f"{who}: answered {question.point} with {type(answer).__name__}, no stages")
+    who = f"pipeline {context.pipeline.name}" if plugin == BUILT_IN else f"plug-in {plugin}"
+    raise PluginError(f"{who}: answered {context.point} with {type(answer).__name__}, no stages")
 
 
 @cache

@@ -14,7 +14,7 @@ from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.fall_back import DropOut, bridged
 from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.architectures.plugins import Plugins, plugins
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.registration import NEEDS, SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points
@@ -52,7 +52,7 @@ def process(
 
     ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`, raises
     InputError for a recording, pipeline or setting that cannot be used and PluginError if two
-    plug-ins answer the same question.
+    plug-ins answer the same point.
     """
     result = run(recording, pipeline, settings)
     for line in result.warnings:
@@ -141,8 +141,8 @@ def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Rec
 def _stages(
     loaded: Plugins, chosen: Pipeline, resolved: Mapping[str, float | None], source: Source
 ) -> list[Stage]:
-    question = partial(
-        Question,
+    context = partial(
+        Context,
         pipeline=chosen,
         settings=resolved,
         header=source.header,
@@ -150,7 +150,7 @@ def _stages(
         fastest_mps=source.fastest_mps,
         ends_m=source.ends_m,
     )
-    return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(question(point=point)))
+    return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(context(point=point)))
 
 
 def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:

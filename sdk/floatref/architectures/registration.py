@@ -6,7 +6,7 @@ from typing import Any
 
 from floatref.architectures import response, spatial, temporal
 from floatref.architectures.profile_format import ProfileDirectory
-from floatref.architectures.question import Pipeline
+from floatref.architectures.pipeline import Pipeline
 from floatref.architectures.response_needs import response_needs
 from floatref.errors import PluginError
 from floatref.values.needs import nominal_needs

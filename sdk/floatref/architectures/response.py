@@ -7,7 +7,7 @@ the readings into the road under every tyre. The defaults are those of
 """
 
 from floatref.architectures import response_steps as steps
-from floatref.architectures.question import Ask, Defaults
+from floatref.architectures.pipeline import Ask, Defaults
 from floatref.stages.protocol import Stage
 
 DEFAULTS: Defaults = {

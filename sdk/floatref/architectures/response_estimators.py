@@ -6,7 +6,7 @@ from math import hypot
 
 import numpy as np
 
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.errors import InputError
 from floatref.response import Hold, Kind, Reading, VehicleModel
 from floatref.stages.response.estimators import RoadEstimator, WithPlaces
@@ -18,7 +18,7 @@ LASTING_S = 0.1
 
 
 def joint_filter(
-    question: Question, model: VehicleModel, readings: Sequence[Reading], step_s: float
+    context: Context, model: VehicleModel, readings: Sequence[Reading], step_s: float
 ) -> RoadEstimator:
     """Return the joint input-state filter, steps (a) to (c) of Zhu, of these readings.
 
@@ -31,7 +31,7 @@ def joint_filter(
 
     wheels = {tyre.freedom for tyre in model.tyres}
     off = np.array([freedom.name not in wheels for freedom in model.freedoms], dtype=np.float64)
-    a = off * question.setting("body_disturbance")
+    a = off * context.setting("body_disturbance")
     disturbance = np.concatenate((a**2 * step_s**4 / 4.0, a**2 * LASTING_S * step_s))
     initial = np.repeat([INITIAL_M**2, INITIAL_MPS**2], len(model.freedoms))
     known = [_disturbed(reading, a[model.index(reading.freedom)]) for reading in readings]
@@ -39,7 +39,7 @@ def joint_filter(
 
 
 def observer(
-    question: Question, model: VehicleModel, readings: Sequence[Reading], step_s: float
+    context: Context, model: VehicleModel, readings: Sequence[Reading], step_s: float
 ) -> RoadEstimator:
     """Return the observer with unknown inputs, (8) to (15) of Imine, of these readings.
 
@@ -52,7 +52,7 @@ def observer(
     measured = [readings[k] for k in places]
     wheels = [_acceleration_of(model, readings, tyre.freedom) for tyre in model.tyres]
     gains = default_gains(
-        model, measured, question.setting("position_gain_hz"), question.setting("rate_gain_hz")
+        model, measured, context.setting("position_gain_hz"), context.setting("rate_gain_hz")
     )
     sigma = readings[wheels[0]].sigma
     found = UnknownInputObserver.of(model, step_s, gains, measured, sigma)

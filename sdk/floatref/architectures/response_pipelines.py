@@ -1,7 +1,7 @@
 """The pipelines without a height sensor by name, with their settings."""
 
 from floatref.architectures.catalogue import ADAPTIVE
-from floatref.architectures.question import Answer, Pipeline
+from floatref.architectures.pipeline import Answer, Pipeline
 from floatref.architectures.response_steps import estimate_observing
 
 SETTINGS: dict[str, float | None] = {

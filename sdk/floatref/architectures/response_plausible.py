@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.errors import InputError
 from floatref.response import VehicleModel, state_space
 from floatref.values.channels import STANDARD_GRAVITY
@@ -18,9 +18,9 @@ MOST = {"contact_m": 2.0, "denoise_window_s": 5.0}
 """No tyre levels the road over more; a longer window takes a memory that grows with its square."""
 
 
-def short(question: Question, name: str) -> float:
+def short(context: Context, name: str) -> float:
     """Return setting ``name``, one of `MOST`; InputError if it is above what that has for it."""
-    value = question.setting(name)
+    value = context.setting(name)
     if value > MOST[name]:
         unit = name.rpartition("_")[2]
         raise InputError(f"setting {name} is {value:g}; give it in {unit}, up to {MOST[name]:g}")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
 
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.architectures.response_needs import (
     DEFLECTION,
     FORCE,
@@ -25,7 +25,7 @@ from floatref.values.channels import ChannelId
 STEPS_PER_HZ = 10
 """Rates are whole multiples of a tenth of a hertz."""
 
-MakeEstimator = Callable[[Question, VehicleModel, Sequence[Reading], float], RoadEstimator]
+MakeEstimator = Callable[[Context, VehicleModel, Sequence[Reading], float], RoadEstimator]
 
 
 @dataclass(frozen=True)
@@ -37,38 +37,38 @@ class Signal:
     reading: Reading
 
 
-def calculation_rate_of(question: Question) -> Fraction:
+def calculation_rate_of(context: Context) -> Fraction:
     """Return the rate in Hz: ``points_per_m`` at the run's fastest speed, section 4.3 of Zhu.
 
     At least `SAMPLES_PER_PERIOD` of the model's fastest mode, and at most the stream's own.
     InputError if that is too slow for the model.
     """
-    points = question.setting("points_per_m") / POINTS_PER_M
-    rate = points * calculation_rate(question.fastest_mps)
-    model = vehicle_model(question.header.setup)
-    rate = max(rate, least_rate(model, question.header.rate, FORCE))
-    if rate >= float(question.header.rate):
-        return question.header.rate
+    points = context.setting("points_per_m") / POINTS_PER_M
+    rate = points * calculation_rate(context.fastest_mps)
+    model = vehicle_model(context.header.setup)
+    rate = max(rate, least_rate(model, context.header.rate, FORCE))
+    if rate >= float(context.header.rate):
+        return context.header.rate
     return Fraction(round(STEPS_PER_HZ * rate), STEPS_PER_HZ)
 
 
-def groups_of(question: Question, make: MakeEstimator) -> tuple[Group, ...]:
+def groups_of(context: Context, make: MakeEstimator) -> tuple[Group, ...]:
     """Return an estimator for every wheel path, or one for all if the model has them all."""
-    model = vehicle_model(question.header.setup)
+    model = vehicle_model(context.header.setup)
     together = any(tyre.track for tyre in model.tyres)
-    tracks = question.header.tracks[:1] if together else question.header.tracks
-    return tuple(_group(question, model, track, make) for track in tracks)
+    tracks = context.header.tracks[:1] if together else context.header.tracks
+    return tuple(_group(context, model, track, make) for track in tracks)
 
 
-def _group(question: Question, model: VehicleModel, track: str, make: MakeEstimator) -> Group:
-    found = {m.quantity: m for m in motions(question.header, model)}
-    signals = list(_signals(question, model, found, track))
-    step_s = float(1 / calculation_rate_of(question))
-    density = question.setting("acceleration_density")
+def _group(context: Context, model: VehicleModel, track: str, make: MakeEstimator) -> Group:
+    found = {m.quantity: m for m in motions(context.header, model)}
+    signals = list(_signals(context, model, found, track))
+    step_s = float(1 / calculation_rate_of(context))
+    density = context.setting("acceleration_density")
     wheels = [model.freedoms[model.index(tyre.freedom)] for tyre in model.tyres]
     return Group(
         model,
-        make(question, model, [signal.reading for signal in signals], step_s),
+        make(context, model, [signal.reading for signal in signals], step_s),
         tuple((signal.channel, signal.sign) for signal in signals),
         tuple(tyre.track or track for tyre in model.tyres),
         tuple(density * found[wheel.quantity].integrated_twice for wheel in wheels),
@@ -76,17 +76,17 @@ def _group(question: Question, model: VehicleModel, track: str, make: MakeEstima
 
 
 def _signals(
-    question: Question, model: VehicleModel, found: dict[str, Motion], track: str
+    context: Context, model: VehicleModel, found: dict[str, Motion], track: str
 ) -> Iterator[Signal]:
     for freedom in model.freedoms:
         motion, own = found[freedom.quantity], freedom.track or track
         for kind, name in _named(motion):
-            sigma = _sigma(question, motion, kind)
+            sigma = _sigma(context, motion, kind)
             reading = Reading(kind, freedom.name, sigma)
             yield Signal(ChannelId(name, own), freedom.sign, reading)
-    if has_deflection(model) and is_there(question.header, DEFLECTION):
+    if has_deflection(model) and is_there(context.header, DEFLECTION):
         body, wheel = (freedom.name for freedom in model.freedoms)
-        sigma = question.setting("deflection_sigma_m")
+        sigma = context.setting("deflection_sigma_m")
         yield Signal(
             ChannelId(DEFLECTION, track), 1.0, Reading(Kind.DISPLACEMENT, body, sigma, wheel)
         )
@@ -101,15 +101,15 @@ def _named(motion: Motion) -> Iterator[tuple[Kind, str]]:
         yield Kind.ACCELERATION, motion.acceleration_name
 
 
-def _sigma(question: Question, motion: Motion, kind: Kind) -> float:
+def _sigma(context: Context, motion: Motion, kind: Kind) -> float:
     """Return the standard deviation of one sample at the rate of the calculation."""
     prefix = "angular_" if motion.angular else ""
-    density = question.setting(f"{prefix}acceleration_density")
+    density = context.setting(f"{prefix}acceleration_density")
     if kind is Kind.ACCELERATION:
-        return density * sqrt(calculation_rate_of(question))
+        return density * sqrt(calculation_rate_of(context))
     if kind is Kind.VELOCITY:
-        return question.setting(f"{prefix}velocity_sigma")
+        return context.setting(f"{prefix}velocity_sigma")
     if motion.integrated_twice:
-        cutoff_hz = question.fastest_mps / question.setting("cutoff_wavelength_m")
+        cutoff_hz = context.fastest_mps / context.setting("cutoff_wavelength_m")
         return float(drift_sigma(density, cutoff_hz)[()])
-    return question.setting(f"{prefix}displacement_sigma")
+    return context.setting(f"{prefix}displacement_sigma")

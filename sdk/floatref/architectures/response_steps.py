@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.architectures.response_needs import (
     DEFLECTION,
     FORCE,
@@ -44,63 +44,63 @@ from floatref.values.channels import ChannelId
 from floatref.values.recording import TrackSetup
 
 
-def condition(question: Question) -> Sequence[Stage]:
+def condition(context: Context) -> Sequence[Stage]:
     """Remove 1 g from every accelerometer, mark the drive, add speed and cut-off (5.7)."""
-    found = [m for m in _motions(question) if m.acceleration and not m.angular]
+    found = [m for m in _motions(context) if m.acceleration and not m.angular]
     gravity = [RemoveGravity(m.force_name, m.acceleration_name) for m in found]
     wheel = next(m.acceleration_name for m in found if m.force_name == FORCE)
-    transition = question.setting("transition_speed_mps")
+    transition = context.setting("transition_speed_mps")
     slow = max(
-        question.setting("slow_mps"), transition + 4.0 / question.setting("transition_steepness")
+        context.setting("slow_mps"), transition + 4.0 / context.setting("transition_steepness")
     )
-    marks = MarkDrive(slow, question.setting("stopping_time_s"), wheel)
-    return (*gravity, marks, TravelSpeed(), ScheduleCutOff(_schedule(question)))
+    marks = MarkDrive(slow, context.setting("stopping_time_s"), wheel)
+    return (*gravity, marks, TravelSpeed(), ScheduleCutOff(_schedule(context)))
 
 
-def first_integration(question: Question) -> Sequence[Stage]:
+def first_integration(context: Context) -> Sequence[Stage]:
     """HPF_B3S1 of (5.7) on accelerations, and of those that give a displacement the integral."""
-    return [stage for motion in _motions(question) for stage in _first(motion)]
+    return [stage for motion in _motions(context) for stage in _first(motion)]
 
 
-def second_integration(question: Question) -> Sequence[Stage]:
+def second_integration(context: Context) -> Sequence[Stage]:
     """HPF_B3S2 of (5.7), and the integral; what is measured passes both stages as they do.
 
     Accelerations pass them, too: all signals of a linear model then come from the road high-passed
     alike, and what bias and tilt leave below the cut-off is no force on a tyre.
     """
-    stages = [stage for motion in _motions(question) for stage in _second(motion)]
-    if _uses_deflection(question):
+    stages = [stage for motion in _motions(context) for stage in _second(motion)]
+    if _uses_deflection(context):
         stages.append(VaryingHighPassB3(DEFLECTION))
     return stages
 
 
-def estimate_jointly(question: Question) -> Sequence[Stage]:
+def estimate_jointly(context: Context) -> Sequence[Stage]:
     """The joint input-state filter, steps (a) to (c) of Zhu, at the rate that follows the speed."""
     from floatref.architectures.response_estimators import joint_filter
 
-    return _estimate(question, groups_of(question, joint_filter))
+    return _estimate(context, groups_of(context, joint_filter))
 
 
-def estimate_observing(question: Question) -> Sequence[Stage]:
+def estimate_observing(context: Context) -> Sequence[Stage]:
     """The observer with unknown inputs, (8) to (15) of Imine, at that rate."""
     from floatref.architectures.response_estimators import observer
 
-    return _estimate(question, groups_of(question, observer))
+    return _estimate(context, groups_of(context, observer))
 
 
-def project(question: Question) -> Sequence[Stage]:
+def project(context: Context) -> Sequence[Stage]:
     """Decimate by encoder distance (5.3)."""
-    return (ToDistance(question.setting("interval_m"), question.ends_m[0]),)
+    return (ToDistance(context.setting("interval_m"), context.ends_m[0]),)
 
 
-def finish(question: Question) -> Sequence[Stage]:
+def finish(context: Context) -> Sequence[Stage]:
     """The backward stages (5.7), the way from wheel to laser, and all tyres of a track as one.
 
     What the tyres level over their contact is given back as far as it can be.
     """
-    tyres = _tyres(question)
+    tyres = _tyres(context)
     most = max(len(places) for places in tyres.values())
-    setup, vehicle = question.header.setup, question.header.setup.vehicle
+    setup, vehicle = context.header.setup, context.header.setup.vehicle
     ahead = 0.0 if vehicle is None else vehicle.x_m
     shifts = {}
     for track, places in tyres.items():
@@ -111,26 +111,26 @@ def finish(question: Question) -> Sequence[Stage]:
                 shifts[ChannelId(name, track)] = ahead + x_m - laser
     backward = [VaryingHighPassB3R(elevation_under(k)) for k in range(most)]
     numbers = {track: range(len(places)) for track, places in tyres.items()}
-    schedule = ScheduleWaveNumber(_schedule(question)), Drop(TRAVEL_SPEED)
-    restored = RestoreContact(short(question, "contact_m"))
+    schedule = ScheduleWaveNumber(_schedule(context)), Drop(TRAVEL_SPEED)
+    restored = RestoreContact(short(context, "contact_m"))
     return (*schedule, *backward, Drop(CUTOFF), ShiftAlong(shifts), JoinTyres(numbers), restored)
 
 
-def _motions(question: Question) -> tuple[Motion, ...]:
-    return motions(question.header, vehicle_model(question.header.setup))
+def _motions(context: Context) -> tuple[Motion, ...]:
+    return motions(context.header, vehicle_model(context.header.setup))
 
 
-def _uses_deflection(question: Question) -> bool:
-    model = vehicle_model(question.header.setup)
-    return has_deflection(model) and is_there(question.header, DEFLECTION)
+def _uses_deflection(context: Context) -> bool:
+    model = vehicle_model(context.header.setup)
+    return has_deflection(model) and is_there(context.header, DEFLECTION)
 
 
-def _schedule(question: Question) -> AdaptiveCutOff:
+def _schedule(context: Context) -> AdaptiveCutOff:
     return AdaptiveCutOff(
-        question.setting("low_speed_cutoff_hz"),
-        question.setting("cutoff_wavelength_m"),
-        question.setting("transition_speed_mps"),
-        question.setting("transition_steepness"),
+        context.setting("low_speed_cutoff_hz"),
+        context.setting("cutoff_wavelength_m"),
+        context.setting("transition_speed_mps"),
+        context.setting("transition_steepness"),
     )
 
 
@@ -158,30 +158,30 @@ def _second(motion: Motion) -> Iterator[Stage]:
         yield VaryingHighPassB3(motion.displacement_name)
 
 
-def _estimate(question: Question, groups: Sequence[Group]) -> Sequence[Stage]:
-    stages: list[Stage] = [ToRate(calculation_rate_of(question), question.ends_m[1])]
-    stages += _watching(question)
-    components = question.settings.get("denoise_components")
+def _estimate(context: Context, groups: Sequence[Group]) -> Sequence[Stage]:
+    stages: list[Stage] = [ToRate(calculation_rate_of(context), context.ends_m[1])]
+    stages += _watching(context)
+    components = context.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)
-        window_s = short(question, "denoise_window_s")
+        window_s = short(context, "denoise_window_s")
         stages.append(Denoise(tuple(names), round(components), window_s))
-    return (*stages, EstimateRoad(groups, question.setting("parameter_sigma")), Drop(CUTOFF))
+    return (*stages, EstimateRoad(groups, context.setting("parameter_sigma")), Drop(CUTOFF))
 
 
-def _watching(question: Question) -> list[Stage]:
+def _watching(context: Context) -> list[Stage]:
     """Hold the deflection against the heights of body and wheel, where all are known."""
-    placed = {m.quantity: m.displacement_name for m in _motions(question) if m.placed}
-    if not (_uses_deflection(question) and {"sprung", "unsprung"} <= set(placed)):
+    placed = {m.quantity: m.displacement_name for m in _motions(context) if m.placed}
+    if not (_uses_deflection(context) and {"sprung", "unsprung"} <= set(placed)):
         return []
-    sigma_m = question.setting("deflection_sigma_m")
+    sigma_m = context.setting("deflection_sigma_m")
     return [CompareTravel(DEFLECTION, placed["sprung"], placed["unsprung"], sigma_m)]
 
 
-def _tyres(question: Question) -> dict[str, list[float]]:
+def _tyres(context: Context) -> dict[str, list[float]]:
     """Return of every wheel path where its tyres are, in m ahead of the model's own point."""
-    found: dict[str, list[float]] = {track: [] for track in question.header.tracks}
-    for tyre in vehicle_model(question.header.setup).tyres:
-        for track in (tyre.track,) if tyre.track else question.header.tracks:
+    found: dict[str, list[float]] = {track: [] for track in context.header.tracks}
+    for tyre in vehicle_model(context.header.setup).tyres:
+        for track in (tyre.track,) if tyre.track else context.header.tracks:
             found[track].append(tyre.x_m)
     return found

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from floatref.architectures import steps
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.road_prior_pipeline import EXPECTED, ROAD_PRIOR
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.kalman.inputs import IMU
@@ -17,11 +17,11 @@ NOTHING = 1e-9
 """1-σ of what is known."""
 
 
-def _condition(question: Question) -> Sequence[Stage]:
+def _condition(context: Context) -> Sequence[Stage]:
     """Level; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
-    stages: list[Stage] = [Level(question.setting("attitude_blend_s"))]
-    if question.header.rate > steps.LEAST_RATE_HZ:
-        cutoff = steps.cutoff_setting(question, "anti_alias_hz")
+    stages: list[Stage] = [Level(context.setting("attitude_blend_s"))]
+    if context.header.rate > steps.LEAST_RATE_HZ:
+        cutoff = steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
     return (*stages, TravelSpeed())

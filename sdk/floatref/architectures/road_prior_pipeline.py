@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from floatref.architectures.kalman_steps import condition
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.stages.dropping import Drop
 from floatref.stages.protocol import Stage
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
@@ -36,9 +36,9 @@ EXPECTED = "lean_expected_rad", "tilt_expected"
 _USUAL = vars(RoadPrior())
 
 
-def _estimate(question: Question) -> Sequence[Stage]:
-    constants = RoadPrior(**{field: question.setting(name) for name, field in CONSTANTS.items()})
-    smoother = RoadPriorSmoother(constants, question.setting("cutoff_wavelength_m"))
+def _estimate(context: Context) -> Sequence[Stage]:
+    constants = RoadPrior(**{field: context.setting(name) for name, field in CONSTANTS.items()})
+    smoother = RoadPriorSmoother(constants, context.setting("cutoff_wavelength_m"))
     return smoother, Seams(), Drop(TRAVEL_SPEED)
 
 

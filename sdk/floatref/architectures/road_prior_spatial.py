@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import pi
 
 from floatref.architectures import steps
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.road_prior_pipeline import CONSTANTS, EXPECTED, ROAD_PRIOR
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.conditioning import RemoveGravity
@@ -26,33 +26,33 @@ SETTINGS = {name: value for name, value in ROAD_PRIOR[0].settings.items() if nam
 """At a standstill there is no reading, so none that could tell of an edge."""
 
 
-def _condition(question: Question) -> Sequence[Stage]:
+def _condition(context: Context) -> Sequence[Stage]:
     """Remove 1 g; LPF_B3 on both sensors, which stands for what is analog before the trigger.
 
     The accelerometer's is slower: its converter waits until the filter has caught up.
     """
     stages: list[Stage] = [RemoveGravity()]
     height_s = force_s = 0.0
-    if question.header.rate > steps.LEAST_RATE_HZ:
-        cutoff = steps.cutoff_setting(question, "anti_alias_hz")
+    if context.header.rate > steps.LEAST_RATE_HZ:
+        cutoff = steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(HEIGHT, cutoff)
         height_s = DELAY / cutoff
-    if question.header.rate > FILTERED_HZ:
-        cutoff = steps.cutoff_setting(question, "acceleration_anti_alias_hz")
+    if context.header.rate > FILTERED_HZ:
+        cutoff = steps.cutoff_setting(context, "acceleration_anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         force_s = DELAY / cutoff
     return *stages, Advance(ACCELERATION, max(0.0, force_s - height_s))
 
 
-def _estimate(question: Question) -> Sequence[Stage]:
+def _estimate(context: Context) -> Sequence[Stage]:
     """Go back to time, estimate there, and take what the triggers get."""
-    known = {CONSTANTS[name]: question.setting(name) for name in SETTINGS if name in CONSTANTS}
+    known = {CONSTANTS[name]: context.setting(name) for name in SETTINGS if name in CONSTANTS}
     return (
-        ToTime(question.setting("unknown_after_s")),
-        RoadPriorSmoother(RoadPrior(**known), question.setting("cutoff_wavelength_m")),
+        ToTime(context.setting("unknown_after_s")),
+        RoadPriorSmoother(RoadPrior(**known), context.setting("cutoff_wavelength_m")),
         Seams(),
         Drop(MISSING_SHARE),
-        ToDistance(question.setting("interval_m"), question.origin_m),
+        ToDistance(context.setting("interval_m"), context.origin_m),
     )
 
 

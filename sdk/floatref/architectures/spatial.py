@@ -6,7 +6,7 @@ three) → combine → finish. Before the trigger the signals exist in analog fo
 """
 
 from floatref.architectures import steps
-from floatref.architectures.question import Ask, Defaults
+from floatref.architectures.pipeline import Ask, Defaults
 from floatref.stages.protocol import Stage
 
 DEFAULTS: Defaults = {

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.errors import InputError
 from floatref.stages.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.combining import Combine
@@ -22,25 +22,25 @@ LEAST_RATE_HZ = 4000.0
 """Up to this sampling rate the sensors' own bandwidth has to be the anti-alias filter."""
 
 
-def nothing(question: Question) -> Sequence[Stage]:
+def nothing(context: Context) -> Sequence[Stage]:
     """Leave the point empty."""
     return ()
 
 
-def condition(question: Question) -> Sequence[Stage]:
+def condition(context: Context) -> Sequence[Stage]:
     """Remove 1 g, mark the drive; LPF_B3 at 1000 Hz on both sensors where the rate allows it."""
-    stopping = question.settings.get("stopping_time_s") or STOPPING_TIME_S
-    stages: list[Stage] = [RemoveGravity(), MarkDrive(_slow_mps(question), stopping)]
-    if question.header.rate > LEAST_RATE_HZ:
-        cutoff = cutoff_setting(question, "anti_alias_hz")
+    stopping = context.settings.get("stopping_time_s") or STOPPING_TIME_S
+    stages: list[Stage] = [RemoveGravity(), MarkDrive(_slow_mps(context), stopping)]
+    if context.header.rate > LEAST_RATE_HZ:
+        cutoff = cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
     return stages
 
 
-def _slow_mps(question: Question) -> float:
+def _slow_mps(context: Context) -> float:
     """Return the speed in m/s below which the pipeline gives the profile up."""
-    given = {name: value for name, value in question.settings.items() if value}
+    given = {name: value for name, value in context.settings.items() if value}
     speeds = [
         given.get("slow_mps", SLOW_MPS),
         given.get("suppression_speed_mps", 0.0),
@@ -52,9 +52,9 @@ def _slow_mps(question: Question) -> float:
     return max(speeds)
 
 
-def cutoff_setting(question: Question, name: str) -> float:
+def cutoff_setting(context: Context, name: str) -> float:
     """Return cut-off ``name`` in Hz; InputError if it is not below half the rate."""
-    value, limit = question.setting(name), float(question.header.rate) / 2
+    value, limit = context.setting(name), float(context.header.rate) / 2
     if not value < limit:
         raise InputError(
             f"setting {name}: {value:g} Hz; give it below {limit:g} Hz, half the sampling rate"
@@ -62,46 +62,46 @@ def cutoff_setting(question: Question, name: str) -> float:
     return value
 
 
-def first_integration(question: Question) -> Sequence[Stage]:
+def first_integration(context: Context) -> Sequence[Stage]:
     """Trapezoidal, from zero velocity."""
     return (Integrate(ACCELERATION, VELOCITY),)
 
 
-def second_integration(question: Question) -> Sequence[Stage]:
+def second_integration(context: Context) -> Sequence[Stage]:
     """Trapezoidal, from the first height: the datum is arbitrary, so elevation starts at 0."""
     return (Integrate(VELOCITY, REFERENCE_HEIGHT, starts_at=HEIGHT),)
 
 
-def first_integration_without_mean(question: Question) -> Sequence[Stage]:
+def first_integration_without_mean(context: Context) -> Sequence[Stage]:
     """Remove the mean acceleration of the run before the first integration (5.4)."""
-    return (RemoveMean(ACCELERATION), *first_integration(question))
+    return (RemoveMean(ACCELERATION), *first_integration(context))
 
 
-def second_integration_without_mean(question: Question) -> Sequence[Stage]:
+def second_integration_without_mean(context: Context) -> Sequence[Stage]:
     """Remove the mean velocity of the run before the second integration (5.4)."""
-    return (RemoveMean(VELOCITY), *second_integration(question))
+    return (RemoveMean(VELOCITY), *second_integration(context))
 
 
-def combine(question: Question) -> Sequence[Stage]:
+def combine(context: Context) -> Sequence[Stage]:
     """Floating reference height minus height (1.2)."""
     return (Combine(),)
 
 
-def project(question: Question) -> Sequence[Stage]:
+def project(context: Context) -> Sequence[Stage]:
     """Decimate by encoder distance (5.3)."""
-    return (ToDistance(question.setting("interval_m"), question.origin_m),)
+    return (ToDistance(context.setting("interval_m"), context.origin_m),)
 
 
-def trigger(question: Question) -> Sequence[Stage]:
+def trigger(context: Context) -> Sequence[Stage]:
     """Capture all channels, and the time, at each profile interval (5.8)."""
-    return (ToDistance(question.setting("interval_m"), question.origin_m, keep_time=True),)
+    return (ToDistance(context.setting("interval_m"), context.origin_m, keep_time=True),)
 
 
-def time_step(question: Question) -> Sequence[Stage]:
+def time_step(context: Context) -> Sequence[Stage]:
     """Elapsed time between triggers (5.4)."""
     return (TimeStep(),)
 
 
-def finish(question: Question) -> Sequence[Stage]:
+def finish(context: Context) -> Sequence[Stage]:
     """HPF_B3x2 over distance (5.3)."""
-    return high_pass_b3x2(ELEVATION, 1.0 / question.setting("cutoff_wavelength_m"))
+    return high_pass_b3x2(ELEVATION, 1.0 / context.setting("cutoff_wavelength_m"))

@@ -5,7 +5,7 @@ combine with height → project to distance → finish. The defaults are those o
 """
 
 from floatref.architectures import steps
-from floatref.architectures.question import Ask, Defaults
+from floatref.architectures.pipeline import Ask, Defaults
 from floatref.stages.protocol import Stage
 
 DEFAULTS: Defaults = {

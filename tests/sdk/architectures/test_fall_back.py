@@ -39,7 +39,7 @@ def estimate_of(elevation: FloatArray, sigma: float | None = None) -> Profile:
 
 
 def asked(gaps: FloatArray, profile: Profile) -> DropOut:
-    """Return the question for one wheel path."""
+    """Return the drop-out of one wheel path."""
     return DropOut(RECORDING, profile, {"main": gaps})
 
 
@@ -78,8 +78,8 @@ def test_bridged_points_are_invalid_and_no_others() -> None:
     gaps = np.array([[150.0, 160.0], [200.0, 203.0]])
     profile = profile_of(gaps)
     sound = replace(profile.tracks[0], valid=np.ones(POINTS, np.bool_))
-    question = asked(gaps, replace(profile, tracks=(sound,)))
-    found, _ = bridged(question, estimate_of(TRUE))
+    drop_out = asked(gaps, replace(profile, tracks=(sound,)))
+    found, _ = bridged(drop_out, estimate_of(TRUE))
     np.testing.assert_array_equal(found.tracks[0].valid, profile.tracks[0].valid)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from floatref.architectures import hookspecs
 from floatref.architectures.plugins import Plugins
-from floatref.architectures.question import Pipeline, Question
+from floatref.architectures.pipeline import Pipeline, Context
 from floatref.errors import PluginError
 from floatref.stages.combining import Combine
 from floatref.stages.mean_removal import RemoveMean
@@ -49,36 +49,36 @@ class Point:
 
 
 @pytest.fixture
-def question():
+def context():
     pipeline = Plugins().pipeline("temporal-basic")
-    return Question("temporal_combine", pipeline, pipeline.settings, None, 0.0)
+    return Context("temporal_combine", pipeline, pipeline.settings, None, 0.0)
 
 
-def test_without_others_the_default_answers(question):
-    (stage,) = Plugins().ask(question)
+def test_without_others_the_default_answers(context):
+    (stage,) = Plugins().ask(context)
     assert isinstance(stage, Combine)
 
 
-def test_one_third_party_replaces_the_default(question):
+def test_one_third_party_replaces_the_default(context):
     loaded = Plugins()
     mine = RemoveMean("elevation")
     loaded.add(Answering(mine), "vendor")
     loaded.add(Answering(), "silent")
-    assert list(loaded.ask(question)) == [mine]
+    assert list(loaded.ask(context)) == [mine]
 
 
-def test_two_answers_stop_with_both_names(question):
+def test_two_answers_stop_with_both_names(context):
     loaded = Plugins()
     loaded.add(Answering(Combine()), "one")
     loaded.add(Answering(Combine()), "two")
     with pytest.raises(PluginError, match="one and two both answer temporal_combine"):
-        loaded.ask(question)
+        loaded.ask(context)
 
 
-def test_a_raising_plugin_is_reported_and_the_default_answers(question):
+def test_a_raising_plugin_is_reported_and_the_default_answers(context):
     loaded = Plugins()
     loaded.add(Broken(), "cracked")
-    (stage,) = loaded.ask(question)
+    (stage,) = loaded.ask(context)
     assert isinstance(stage, Combine)
     assert loaded.reports == ["plug-in cracked skipped: ZeroDivisionError: by a plug-in"]
 
@@ -183,7 +183,7 @@ def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
 
 
 @pytest.mark.parametrize("answer", ["text", 7, (1, 2)])
-def test_an_answer_that_is_no_stages_is_named(question, answer):
+def test_an_answer_that_is_no_stages_is_named(context, answer):
     class Odd:
         @hookspecs.hookimpl
         def temporal_combine(self, context):
@@ -192,17 +192,17 @@ def test_an_answer_that_is_no_stages_is_named(question, answer):
     loaded = Plugins()
     loaded.add(Odd(), "odd")
     with pytest.raises(PluginError, match="plug-in odd: answered temporal_combine with"):
-        loaded.ask(question)
+        loaded.ask(context)
 
 
-def test_a_pipeline_whose_answer_raises_is_named(question):
+def test_a_pipeline_whose_answer_raises_is_named(context):
     def broken(context):
         raise ZeroDivisionError("of a pipeline")
 
     answers = {"temporal_combine": broken}
     pipeline = Pipeline("mine", "temporal", "of a plug-in", {}, answers)
     with pytest.raises(PluginError, match="pipeline mine: temporal_combine: ZeroDivisionError: of"):
-        Plugins().ask(Question("temporal_combine", pipeline, {}, None, 0.0))
+        Plugins().ask(Context("temporal_combine", pipeline, {}, None, 0.0))
 
 
 def test_the_same_name_twice_stops_with_both_names():

@@ -121,7 +121,7 @@ class Other:
 
 
 def asked(drive: Simulation) -> DropOut:
-    """Return a question to the plug-ins."""
+    """Return a drop-out."""
     gaps: Mapping[str, FloatArray] = {"left": np.array([[BEGIN_M, END_M]])}
     return DropOut(without_response(drive.recording), drive.truth, gaps)
 
@@ -134,10 +134,10 @@ def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
 
 def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
     recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
-    question = DropOut(recording, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = DropOut(recording, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
     loaded = Plugins()
     loaded.add(Other(drive.truth), "other")
-    assert loaded.fall_back(question) is drive.truth
+    assert loaded.fall_back(drop_out) is drive.truth
 
 
 def test_two_plug_ins_that_answer_are_named(drive: Simulation) -> None:
@@ -165,6 +165,6 @@ def test_a_broken_plug_in_is_reported_and_ours_answers(drive: Simulation) -> Non
 def test_what_makes_the_estimate_impossible_is_raised(drive: Simulation) -> None:
     recording = dropped(drive.recording)
     unknown = replace(recording, setup=replace(recording.setup, vehicle=None))
-    question = DropOut(unknown, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = DropOut(unknown, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
     with pytest.raises(InputError, match=r"setup\.vehicle"):
-        plugins().fall_back(question)
+        plugins().fall_back(drop_out)

@@ -12,7 +12,7 @@ import pytest
 import floatref
 from floatref.architectures import flow
 from floatref.architectures.plugins import plugins
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
 from floatref.architectures.source import Source
@@ -120,9 +120,7 @@ def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
     blocks = [whole.part(i, j) for i, j in pairwise(cuts)]
     loaded = plugins()
     stages = SIGNAL_FLOWS["spatial"](
-        lambda point: loaded.ask(
-            Question(point, PIPELINE, settings, source.header, source.origin_m)
-        )
+        lambda point: loaded.ask(Context(point, PIPELINE, settings, source.header, source.origin_m))
     )
     _, out = flow.run(stages, source.header, blocks)
     found, marked = joined(list(out)), ChannelId(ELEVATION, "left")

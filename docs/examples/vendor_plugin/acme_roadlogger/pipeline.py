@@ -5,17 +5,17 @@ from dataclasses import replace
 
 from acme_roadlogger.spikes import RemoveSpikes
 from floatref.architectures.catalogue import PIPELINES
-from floatref.architectures.question import Question
+from floatref.architectures.pipeline import Context
 from floatref.stages.protocol import Stage
 
 NAME = "acme-roadlogger"
 BASE = next(p for p in PIPELINES if p.name == "temporal-adaptive-hpf-spatial-backward")
 
 
-def condition(question: Question) -> Sequence[Stage]:
+def condition(context: Context) -> Sequence[Stage]:
     """Remove spikes first: a filter would spread them."""
-    spikes = RemoveSpikes(question.setting("spike_m"))
-    return (spikes, *BASE.answers["temporal_condition"](question))
+    spikes = RemoveSpikes(context.setting("spike_m"))
+    return (spikes, *BASE.answers["temporal_condition"](context))
 
 
 PIPELINE = replace(

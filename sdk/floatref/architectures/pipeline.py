@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
 
-Answer = Callable[["Question"], Sequence[Stage]]
+Answer = Callable[["Context"], Sequence[Stage]]
 Ask = Callable[[str], Sequence[Stage]]
 Defaults = Mapping[str, Answer]
 
@@ -56,7 +56,7 @@ class Pipeline:
 
 
 @dataclass(frozen=True)
-class Question:
+class Context:
     """What a point of the signal flow needs to know to choose its stages.
 
     ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
