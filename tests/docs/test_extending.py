@@ -11,8 +11,8 @@ import pytest
 from floatref import Channel, InputError, Profile, ProfileTrack, Recording, UniformClock
 from floatref.architectures import hookspecs
 from floatref.architectures.fall_back import DropOut
-from floatref.architectures.plugins import Plugins
 from floatref.architectures.pipeline import Context
+from floatref.architectures.plugins import Plugins
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_conformance import hookspecs as conformance_hookspecs

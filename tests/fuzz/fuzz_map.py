@@ -22,8 +22,7 @@ import atheris
 import numpy as np
 
 with atheris.instrument_imports(include=["floatref", "tomllib"]):
-    from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream
-    from floatref.architectures import hookspecs
+    from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream, hookimpl
     from floatref.architectures.plugins import plugins
     from floatref.mapping import read_map, read_native
     from floatref.mapping.draft import draft_map
@@ -126,7 +125,7 @@ ADAPTER = Memory()
 class Plugin:
     """Makes the adapter known."""
 
-    @hookspecs.hookimpl
+    @hookimpl
     def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
         """Register it."""
         register(ADAPTER)

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from floatref.architectures import hookspecs, plugins, processing, readers
+from floatref import hookimpl
+from floatref.architectures import plugins, processing, readers
 
 
 @pytest.fixture
@@ -13,7 +14,7 @@ def know(monkeypatch: pytest.MonkeyPatch) -> Callable[[object], None]:
 
     def install(adapter: object) -> None:
         class Plugin:
-            @hookspecs.hookimpl
+            @hookimpl
             def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
                 register(adapter)
 

@@ -4,6 +4,8 @@ from floatref.architectures import spatial_steps as spatial
 from floatref.architectures import steps
 from floatref.architectures import suppression_steps as temporal
 from floatref.architectures.pipeline import Answer, Pipeline
+from floatref.architectures.stage_calls import StageCall
+from floatref.stages.signals import ACCELERATION, CUTOFF, HEIGHT, REFERENCE_HEIGHT, VELOCITY
 
 VALIDITY: dict[str, float | None] = {
     "slow_mps": 4.444444,
@@ -44,14 +46,14 @@ TEMPORAL_HPF: dict[str, Answer] = {
     "temporal_first_integration": temporal.first_integration_filtered,
     "temporal_second_integration": temporal.second_integration_filtered,
     "temporal_combine": temporal.combine_filtered,
-    "temporal_finish": steps.nothing,
+    "temporal_finish": (),
 }
 TEMPORAL_ADAPTIVE: dict[str, Answer] = {
     "temporal_condition": temporal.condition_adaptive,
     "temporal_first_integration": temporal.first_integration_adaptive,
     "temporal_second_integration": temporal.second_integration_adaptive,
     "temporal_combine": temporal.combine_adaptive,
-    "temporal_finish": steps.nothing,
+    "temporal_finish": (),
 }
 SPATIAL_HPF: dict[str, Answer] = {
     "spatial_trigger": spatial.trigger_from_datum,
@@ -70,8 +72,14 @@ PIPELINES = (
         "the run's mean removed before each integration (section 5.4)",
         BASIC,
         {
-            "temporal_first_integration": steps.first_integration_without_mean,
-            "temporal_second_integration": steps.second_integration_without_mean,
+            "temporal_first_integration": (
+                StageCall("RemoveMean", ACCELERATION),
+                StageCall("Integrate", ACCELERATION, VELOCITY),
+            ),
+            "temporal_second_integration": (
+                StageCall("RemoveMean", VELOCITY),
+                StageCall("Integrate", VELOCITY, REFERENCE_HEIGHT, starts_at=HEIGHT),
+            ),
         },
     ),
     Pipeline(
@@ -118,7 +126,7 @@ PIPELINES = (
         ADAPTIVE,
         {
             "temporal_condition": temporal.condition_matched,
-            "temporal_estimate": temporal.observe,
+            "temporal_estimate": (StageCall("MatchedHighPass"), StageCall("Drop", CUTOFF)),
             "temporal_finish": temporal.finish_matched,
         },
     ),

@@ -5,76 +5,25 @@ from collections.abc import Callable, Sequence
 from floatref.architectures.adapter import Adapter, RecordingDirectory
 from floatref.architectures.catalogue import PIPELINES as PIPELINES
 from floatref.architectures.fall_back import DropOut
-from floatref.architectures.hookspecs import hookimpl
 from floatref.architectures.kalman_pipelines import KALMAN
+from floatref.architectures.markers import hookimpl
+from floatref.architectures.pipeline import Answer, Context, Pipeline, stages_of
 from floatref.architectures.profile_format import (
     ProfileDirectory,
     ProfileFormat,
     ProfileTable,
 )
-from floatref.architectures.pipeline import Answer, Pipeline, Context
+from floatref.architectures.registered_stages import STAGES
 from floatref.architectures.registration import POINTS
 from floatref.architectures.response_fall_back import road_from_response
 from floatref.architectures.response_pipelines import RESPONSE
 from floatref.architectures.road_prior_imu import ROAD_PRIOR_IMU
 from floatref.architectures.road_prior_pipeline import ROAD_PRIOR
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
+from floatref.architectures.stage_calls import StageCall
 from floatref.errors import FloatrefError, PluginError
-from floatref.stages import (
-    butterworth,
-    combining,
-    conditioning,
-    datum,
-    drive_marks,
-    dropping,
-    integration,
-    mean_removal,
-    observer,
-    reflection,
-    resampling,
-    schedule,
-    speed,
-    suppression,
-    timer,
-    varying,
-)
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
-
-STAGES: tuple[type[Stage], ...] = (
-    butterworth.HighPassB3S1,
-    butterworth.HighPassB3S2,
-    butterworth.HighPassB3S1R,
-    butterworth.HighPassB3S2R,
-    butterworth.LowPassB3S1,
-    butterworth.LowPassB3S2,
-    butterworth.LowPassB3S1R,
-    butterworth.LowPassB3S2R,
-    combining.Combine,
-    conditioning.RemoveGravity,
-    datum.FromFirst,
-    drive_marks.MarkDrive,
-    dropping.Drop,
-    integration.Integrate,
-    mean_removal.RemoveMean,
-    observer.MatchedHighPass,
-    reflection.IntegrateReflecting,
-    resampling.TimeStep,
-    resampling.ToDistance,
-    schedule.ScheduleCutOff,
-    schedule.ScheduleWaveNumber,
-    speed.TravelSpeed,
-    suppression.SuppressLocally,
-    timer.DistortTimer,
-    varying.StateHighPassB3S1R,
-    varying.StateHighPassB3S2R,
-    varying.VaryingHighPassB3,
-    varying.VaryingHighPassB3R,
-    varying.VaryingHighPassB3S1,
-    varying.VaryingHighPassB3S1R,
-    varying.VaryingHighPassB3S2,
-    varying.VaryingHighPassB3S2R,
-)
 
 
 class Defaults:
@@ -118,9 +67,9 @@ class Defaults:
 
 
 def _answering(point: str, default: Answer) -> Answer:
-    def answer(context: Context) -> Sequence[Stage]:
+    def answer(context: Context) -> Sequence[Stage | StageCall]:
         try:
-            return context.pipeline.answers.get(point, default)(context)
+            return stages_of(context.pipeline.answers.get(point, default), context)
         except FloatrefError:
             raise
         except Exception as error:

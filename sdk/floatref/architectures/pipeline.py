@@ -1,16 +1,19 @@
-"""What a pipeline is, and the question an architecture asks at each of its points."""
+"""What a pipeline is, and the context in which each of its points is answered."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from numbers import Real
 from typing import Any
 
+from floatref.architectures.stage_calls import StageCall
 from floatref.errors import InputError
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
 
-Answer = Callable[["Context"], Sequence[Stage]]
+Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
+"""What a pipeline puts at a point: calls of registered stages, or a function that returns stages
+or calls."""
 Ask = Callable[[str], Sequence[Stage]]
 Defaults = Mapping[str, Answer]
 
@@ -19,7 +22,8 @@ Defaults = Mapping[str, Answer]
 class Pipeline:
     """A named way through an architecture.
 
-    ``answers`` replaces the architecture's own stages at the points it names; ``settings`` are
+    ``answers`` replaces the architecture's own stages at the points it names, and gives way to a
+    plug-in that answers such a point and names this pipeline; ``settings`` are
     the pipeline's numbers with their defaults, all above zero but those ``signed``. None is a
     number that the recording decides. ``channels`` are those of the recording that it takes
     beside the nominal ones, for every track or shared, and ``readings`` those of GNSS;
@@ -54,10 +58,43 @@ class Pipeline:
         }
         return {**self.settings, **chosen}
 
+    def stages_at(self, context: "Context") -> Sequence[Stage | StageCall]:
+        """Return what this pipeline puts at the point of ``context``, for an answer to add to.
+
+        Raises InputError if it leaves the point to its architecture, which no pipeline that was
+        looked up by its name does.
+        """
+        if context.point not in self.answers:
+            raise InputError(
+                f"pipeline {self.name}: leaves {context.point} to its architecture; "
+                f"take floatref.pipeline({self.name!r}), which has every point"
+            )
+        return stages_of(self.answers[context.point], context)
+
+    def with_answers(
+        self,
+        *,
+        name: str,
+        summary: str,
+        settings: Mapping[str, float | None] | None = None,
+        **answers: Answer,
+    ) -> "Pipeline":
+        """Return a pipeline of another ``name`` with these ``answers``, by point.
+
+        ``settings`` are added to those that it has, or replace their defaults.
+        """
+        return replace(
+            self,
+            name=name,
+            summary=summary,
+            settings={**self.settings, **(settings or {})},
+            answers={**self.answers, **answers},
+        )
+
 
 @dataclass(frozen=True)
 class Context:
-    """What a point of the signal flow needs to know to choose its stages.
+    """What a point of the signal flow is answered from; every hook of a point takes one.
 
     ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
     encoder distance of its first sample, ``ends_m`` the first and the last that the encoder tells
@@ -78,6 +115,11 @@ class Context:
         if value is None:
             raise InputError(f"setting {name}: pipeline {self.pipeline.name} needs it")
         return value
+
+
+def stages_of(answer: Answer, context: Context) -> Sequence[Stage | StageCall]:
+    """Return the stages of ``answer`` in ``context``."""
+    return answer(context) if callable(answer) else answer
 
 
 def _number(name: str, value: Any, signed: bool) -> float:

@@ -1,24 +1,32 @@
 """Loading plug-ins one at a time, and asking them one at a time."""
 
-from collections.abc import Callable, Sequence
-from functools import cache, partial
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 from importlib.metadata import EntryPoint, entry_points
+from threading import RLock
 from typing import Any, TypeVar
 
 import pluggy
 
 from floatref.architectures import hookspecs
 from floatref.architectures.adapter import Adapter
+from floatref.architectures.answer_checks import check_profile, check_stages
 from floatref.architectures.fall_back import DropOut
+from floatref.architectures.markers import PROJECT
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.profile_format import ProfileFormat
-from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.registration import (
     Register,
     check_adapter,
     check_pipeline,
     check_profile_format,
     check_stage,
+    complete_pipeline,
 )
+from floatref.architectures.scopes import check_scopes, scope_of, unknown_scopes
+from floatref.architectures.trace import listed, trace_hook
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
@@ -26,6 +34,15 @@ from floatref.values.profile import Profile
 T = TypeVar("T")
 BUILT_IN = "floatref"
 """Name of the plug-in that holds the defaults."""
+
+
+@dataclass(frozen=True)
+class _Caller:
+    """One plug-in's implementation of a hook; the scope is empty where all is in it."""
+
+    plugin: str
+    scope: tuple[str, ...]
+    call: Callable[..., Any]
 
 
 class Plugins:
@@ -39,7 +56,10 @@ class Plugins:
         from floatref.architectures import defaults
 
         self.reports: list[str] = []
-        self._manager = pluggy.PluginManager(hookspecs.PROJECT)
+        self._lock = RLock()
+        self._loading = False
+        self._registering: dict[str, Register] = {}
+        self._manager = pluggy.PluginManager(PROJECT)
         self._manager.add_hookspecs(hookspecs)
         self.add(defaults.Defaults(), BUILT_IN)
 
@@ -51,6 +71,8 @@ class Plugins:
         try:
             self._manager.register(plugin, name)
             self._manager.check_pending()
+            if name != BUILT_IN:
+                check_scopes(self._manager, name)
         except Exception as error:
             self._skip(name, error)
             if self._manager.has_plugin(name):
@@ -58,6 +80,7 @@ class Plugins:
 
     def load(self, points: Sequence[EntryPoint]) -> None:
         """Load each entry point; one that fails is reported and skipped."""
+        self._loading = True
         for point in points:
             try:
                 plugin = point.load()
@@ -65,20 +88,30 @@ class Plugins:
                 self._skip(point.name, error)
             else:
                 self.add(plugin, point.name)
+        self._loading = False
 
     def registered(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
         """Return what all plug-ins registered through ``hook``, by name.
 
-        Raises PluginError if two plug-ins registered the same name.
+        A plug-in that asks while it registers gets what was registered before. Raises PluginError
+        if two plug-ins registered the same name.
         """
-        register = Register(check)
-        for plugin, call in self._callers(hook):
-            self._guarded(plugin, partial(call, register=register.of(plugin)))
-        return register.found
+        with self._lock:
+            if hook in self._registering:
+                return dict(self._registering[hook].found)
+            with self._register(hook, check) as register:
+                for caller in self._callers(hook):
+                    before = set(register.found)
+                    call = partial(caller.call, register=register.of(caller.plugin))
+                    self._guarded(caller.plugin, call)
+                    new = listed(name for name in register.found if name not in before)
+                    trace_hook(caller.plugin, hook, f"registered {new}")
+            return register.found
 
     def pipelines(self) -> dict[str, Pipeline]:
-        """Return every pipeline by name."""
-        return self.registered("floatref_register_pipelines", check_pipeline)
+        """Return every pipeline by name, each with an answer for every point."""
+        found = self.registered("floatref_register_pipelines", check_pipeline)
+        return {name: complete_pipeline(pipeline) for name, pipeline in found.items()}
 
     def stages(self) -> dict[str, Callable[..., Stage]]:
         """Return every stage's class by name."""
@@ -95,48 +128,66 @@ class Plugins:
     def pipeline(self, name: str) -> Pipeline:
         """Return the pipeline called ``name``; InputError if there is none."""
         known = self.pipelines()
+        if not (self._loading or self._registering):
+            for line in unknown_scopes(self._manager, known):
+                self._report(line)
         if name not in known:
             raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
         return known[name]
 
     def ask(self, context: Context) -> Sequence[Stage]:
-        """Return the stages for ``context``: a third party's if one answers, else the default.
+        """Return the stages for ``context``.
 
-        Raises PluginError, with both names, if two third parties answer.
+        A third party that names the pipeline goes before the pipeline's own answer, and that
+        before the architecture's. Raises PluginError, with both names, if two third parties answer.
         """
-        answer = self._answer(context.point, context, partial(_stages, context=context))
+        checked = partial(check_stages, context=context, known=self.stages)
+        answer = self._answer(context.point, context.pipeline.name, context, checked)
         return () if answer is None else answer
 
     def fall_back(self, asked: DropOut) -> Profile | None:
         """Return another profile of a recording whose heights have gaps, or None; as `ask`."""
-        return self._answer("temporal_fall_back", asked, _profile)
+        return self._answer("temporal_fall_back", asked.profile.pipeline, asked, check_profile)
 
-    def _answer(self, hook: str, context: object, checked: Callable[[Any, str], T]) -> T | None:
+    def _answer(
+        self, hook: str, pipeline: str, context: object, checked: Callable[[Any, str], T]
+    ) -> T | None:
         answers: dict[str, T] = {}
         # The built-in comes last, and only where no third party has answered.
-        for plugin, call in sorted(self._callers(hook), key=lambda c: c[0] == BUILT_IN):
-            if plugin == BUILT_IN and answers:
+        for caller in sorted(self._callers(hook), key=lambda c: c.plugin == BUILT_IN):
+            if caller.plugin == BUILT_IN and answers:
                 break
-            answer = self._guarded(plugin, partial(call, context=context))
-            if answer:
-                answers[plugin] = checked(answer[0], plugin)
+            where = f"{hook} of {pipeline}"
+            if caller.scope and pipeline not in caller.scope:
+                trace_hook(caller.plugin, where, f"not asked, it names {listed(caller.scope)}")
+                continue
+            found = self._guarded(caller.plugin, partial(caller.call, context=context))
+            if found:
+                answers[caller.plugin] = checked(found[0], _who(caller.plugin, pipeline))
+            trace_hook(caller.plugin, where, _shown(answers.get(caller.plugin)))
         if len(answers) > 1:
             both = " and ".join(answers)
-            raise PluginError(f"plug-ins {both} both answer {hook}; remove one")
+            raise PluginError(f"plug-ins {both} both answer {hook} of {pipeline}; remove one")
         return next(iter(answers.values()), None)
 
-    def _callers(self, hook: str) -> list[tuple[str, pluggy.HookCaller]]:
+    def _callers(self, hook: str) -> list[_Caller]:
+        """Return who implements ``hook``, the built-in plug-in first."""
         everyone = dict(self._manager.list_name_plugin())
-        names = [impl.plugin_name for impl in getattr(self._manager.hook, hook).get_hookimpls()]
-        return [
-            (
-                name,
-                self._manager.subset_hook_caller(
-                    hook, [p for n, p in everyone.items() if n != name and p is not None]
-                ),
-            )
-            for name in names
-        ]
+        found = []
+        for implementation in getattr(self._manager.hook, hook).get_hookimpls():
+            name = implementation.plugin_name
+            others = [p for n, p in everyone.items() if n != name and p is not None]
+            call = self._manager.subset_hook_caller(hook, others)
+            found.append(_Caller(name, scope_of(implementation), call))
+        return sorted(found, key=lambda caller: caller.plugin != BUILT_IN)
+
+    @contextmanager
+    def _register(self, hook: str, check: Callable[..., str]) -> Iterator[Register]:
+        self._registering[hook] = Register(check)
+        try:
+            yield self._registering[hook]
+        finally:
+            del self._registering[hook]
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:
@@ -148,28 +199,35 @@ class Plugins:
             return None
 
     def _skip(self, name: str, error: BaseException) -> None:
-        line = f"plug-in {name} skipped: {type(error).__name__}: {' '.join(str(error).split())}"
+        reason = " ".join(str(error).split())
+        self._report(f"plug-in {name} skipped: {type(error).__name__}: {reason}")
+
+    def _report(self, line: str) -> None:
         if line not in self.reports:
             self.reports.append(line)
 
 
-def _profile(answer: Any, plugin: str) -> Profile:
-    if isinstance(answer, Profile):
-        return answer
-    kind = type(answer).__name__
-    raise PluginError(f"plug-in {plugin}: answered temporal_fall_back with {kind}, no profile")
+def _who(plugin: str, pipeline: str) -> str:
+    return f"pipeline {pipeline}" if plugin == BUILT_IN else f"plug-in {plugin}"
 
 
-def _stages(answer: Any, plugin: str, context: Context) -> Sequence[Stage]:
-    if isinstance(answer, Sequence) and all(isinstance(stage, Stage) for stage in answer):
-        return answer
-    who = f"pipeline {context.pipeline.name}" if plugin == BUILT_IN else f"plug-in {plugin}"
-    raise PluginError(f"{who}: answered {context.point} with {type(answer).__name__}, no stages")
+def _shown(answer: object) -> str:
+    if answer is None:
+        return "no answer"
+    return listed(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
 
 
-@cache
+_LOCK = RLock()
+_loaded: list[Plugins] = []
+
+
 def plugins() -> Plugins:
-    """Return the plug-ins of this process, loaded once from their entry points."""
-    loaded = Plugins()
-    loaded.load(tuple(entry_points(group=hookspecs.PROJECT)))
-    return loaded
+    """Return the plug-ins of this process, loaded once from their entry points.
+
+    A plug-in that asks while it is loaded gets those that were loaded before it.
+    """
+    with _LOCK:
+        if not _loaded:
+            _loaded.append(Plugins())
+            _loaded[0].load(tuple(entry_points(group=PROJECT)))
+        return _loaded[0]

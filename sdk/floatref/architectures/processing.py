@@ -13,8 +13,8 @@ from floatref.architectures.axis_error import add_axis_error, add_contact_error
 from floatref.architectures.collecting import Gathered, collected
 from floatref.architectures.fall_back import DropOut, bridged
 from floatref.architectures.kinematic_checks import check_kinematics
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.plugins import Plugins, plugins
-from floatref.architectures.pipeline import Pipeline, Context
 from floatref.architectures.registration import NEEDS, SIGNAL_FLOWS
 from floatref.architectures.source import Source
 from floatref.architectures.validity import Reach, valid_points

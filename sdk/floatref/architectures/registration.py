@@ -1,13 +1,15 @@
 """What a plug-in may register: checked when it does, so that nothing breaks later."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from floatref.architectures import response, spatial, temporal
-from floatref.architectures.profile_format import ProfileDirectory
 from floatref.architectures.pipeline import Pipeline
+from floatref.architectures.profile_format import ProfileDirectory
 from floatref.architectures.response_needs import response_needs
+from floatref.architectures.stage_calls import StageCall
 from floatref.errors import PluginError
 from floatref.values.needs import nominal_needs
 
@@ -16,7 +18,12 @@ SIGNAL_FLOWS = {
     "spatial": spatial.signal_flow,
     "response": response.signal_flow,
 }
-POINTS = {**temporal.DEFAULTS, **spatial.DEFAULTS, **response.DEFAULTS}
+DEFAULTS = {
+    "temporal": temporal.DEFAULTS,
+    "spatial": spatial.DEFAULTS,
+    "response": response.DEFAULTS,
+}
+POINTS = {point: answer for points in DEFAULTS.values() for point, answer in points.items()}
 NEEDS = {"temporal": nominal_needs, "spatial": nominal_needs, "response": response_needs}
 
 
@@ -26,10 +33,21 @@ def check_pipeline(pipeline: Any) -> str:
         raise TypeError(f"{type(pipeline).__name__} is no Pipeline")
     if pipeline.architecture not in SIGNAL_FLOWS:
         raise TypeError(f"pipeline {pipeline.name}: no architecture {pipeline.architecture!r}")
-    unknown = [point for point in pipeline.answers if point not in POINTS]
-    if unknown:
-        raise TypeError(f"pipeline {pipeline.name}: no point {unknown[0]!r} to answer")
+    for point, answer in pipeline.answers.items():
+        if point not in DEFAULTS[pipeline.architecture]:
+            raise TypeError(f"pipeline {pipeline.name}: no point {point!r} to answer")
+        if not callable(answer) and not _are_calls(answer):
+            raise TypeError(f"pipeline {pipeline.name}: {point}: give StageCalls, or a function")
     return _described(pipeline)
+
+
+def complete_pipeline(pipeline: Pipeline) -> Pipeline:
+    """Return ``pipeline`` with its architecture's answer at every point that it has none for."""
+    return replace(pipeline, answers={**DEFAULTS[pipeline.architecture], **pipeline.answers})
+
+
+def _are_calls(answer: Any) -> bool:
+    return isinstance(answer, Sequence) and all(isinstance(call, StageCall) for call in answer)
 
 
 def check_adapter(adapter: Any) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from floatref.architectures import steps
-from floatref.architectures.pipeline import Pipeline, Context
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.road_prior_pipeline import EXPECTED, ROAD_PRIOR
 from floatref.stages.butterworth import low_pass_b3
 from floatref.stages.kalman.inputs import IMU

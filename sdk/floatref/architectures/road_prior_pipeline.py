@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from floatref.architectures.kalman_steps import condition
-from floatref.architectures.pipeline import Pipeline, Context
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.stages.dropping import Drop
 from floatref.stages.protocol import Stage
 from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother

@@ -15,7 +15,7 @@ DEFAULTS: Defaults = {
     "spatial_time_step": steps.time_step,
     "spatial_first_integration": steps.first_integration,
     "spatial_second_integration": steps.second_integration,
-    "spatial_estimate": steps.nothing,
+    "spatial_estimate": (),
     "spatial_combine": steps.combine,
     "spatial_finish": steps.finish,
 }

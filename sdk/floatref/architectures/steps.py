@@ -1,4 +1,4 @@
-"""The stages that the basic algorithms (5.3, 5.4, 5.8) put at the points of a signal flow."""
+"""The stages that the basic algorithms (5.3, 5.8) put at the points of a signal flow."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,6 @@ from floatref.stages.combining import Combine
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.drive_marks import SLOW_MPS, STOPPING_TIME_S, MarkDrive
 from floatref.stages.integration import Integrate
-from floatref.stages.mean_removal import RemoveMean
 from floatref.stages.protocol import Stage
 from floatref.stages.resampling import TimeStep, ToDistance
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, REFERENCE_HEIGHT, VELOCITY
@@ -20,11 +19,6 @@ TRANSITION_WIDTH = 4.0
 """The cut-off (5.3) is that of travel at speed beyond v_0 by this over its steepness."""
 LEAST_RATE_HZ = 4000.0
 """Up to this sampling rate the sensors' own bandwidth has to be the anti-alias filter."""
-
-
-def nothing(context: Context) -> Sequence[Stage]:
-    """Leave the point empty."""
-    return ()
 
 
 def condition(context: Context) -> Sequence[Stage]:
@@ -70,16 +64,6 @@ def first_integration(context: Context) -> Sequence[Stage]:
 def second_integration(context: Context) -> Sequence[Stage]:
     """Trapezoidal, from the first height: the datum is arbitrary, so elevation starts at 0."""
     return (Integrate(VELOCITY, REFERENCE_HEIGHT, starts_at=HEIGHT),)
-
-
-def first_integration_without_mean(context: Context) -> Sequence[Stage]:
-    """Remove the mean acceleration of the run before the first integration (5.4)."""
-    return (RemoveMean(ACCELERATION), *first_integration(context))
-
-
-def second_integration_without_mean(context: Context) -> Sequence[Stage]:
-    """Remove the mean velocity of the run before the second integration (5.4)."""
-    return (RemoveMean(VELOCITY), *second_integration(context))
 
 
 def combine(context: Context) -> Sequence[Stage]:

@@ -16,7 +16,6 @@ from floatref.stages.combining import Combine
 from floatref.stages.datum import FromFirst
 from floatref.stages.dropping import Drop
 from floatref.stages.integration import Integrate
-from floatref.stages.observer import MatchedHighPass
 from floatref.stages.protocol import Stage
 from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
 from floatref.stages.signals import (
@@ -147,8 +146,3 @@ def finish_matched(context: Context) -> Sequence[Stage]:
         StateHighPassB3S1R(ELEVATION),
         Drop(CUTOFF),
     )
-
-
-def observe(context: Context) -> Sequence[Stage]:
-    """The matched high-pass in place of both integrations."""
-    return MatchedHighPass(), Drop(CUTOFF)

@@ -12,7 +12,7 @@ DEFAULTS: Defaults = {
     "temporal_condition": steps.condition,
     "temporal_first_integration": steps.first_integration,
     "temporal_second_integration": steps.second_integration,
-    "temporal_estimate": steps.nothing,
+    "temporal_estimate": (),
     "temporal_combine": steps.combine,
     "temporal_project": steps.project,
     "temporal_finish": steps.finish,

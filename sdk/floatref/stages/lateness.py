@@ -5,7 +5,7 @@ from typing import ClassVar
 from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 ALL = 1 << 62
@@ -41,7 +41,7 @@ class Advance(Stage):
     def advance(self, block: Block) -> Block:
         """Return the samples whose channel has come."""
         waiting: Block | None = self.memory["waiting"]
-        wide = block if waiting is None else joined((waiting, block))
+        wide = block if waiting is None else join_blocks((waiting, block))
         ready = max(0, len(wide) - self._samples)
         self.memory["waiting"] = wide.part(ready, len(wide))
         return self._shifted(wide, ready)
@@ -52,7 +52,7 @@ class Advance(Stage):
         if waiting is None or len(waiting) == 0:
             return ()
         last = waiting.part(len(waiting) - 1, len(waiting))
-        wide = joined((waiting, *[last] * self._samples))
+        wide = join_blocks((waiting, *[last] * self._samples))
         return (self._shifted(wide, len(waiting)),)
 
     def _shifted(self, wide: Block, ready: int) -> Block:

@@ -17,7 +17,7 @@ from floatref.values.arrays import (
     IndexArray,
     frozen,
 )
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 NEAR_S = 1e-3
@@ -72,7 +72,7 @@ class ToTime(Stage):
         if len(block) == 0:
             return Block(self.memory["next"], dict.fromkeys(self._made, frozen(())))
         carry: Block | None = self.memory["carry"]
-        wide = block if carry is None else joined((carry, block))
+        wide = block if carry is None else join_blocks((carry, block))
         if carry is None:
             self.memory["start"] = self._counted(wide)[0]
         places, cut = self._places(wide)

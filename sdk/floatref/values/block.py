@@ -132,7 +132,7 @@ class Block:
         )
 
 
-def joined(blocks: Sequence[Block]) -> Block:
+def join_blocks(blocks: Sequence[Block]) -> Block:
     """Return ``blocks``, one or more and each behind the one before, as one."""
     if len(blocks) == 1:
         return blocks[0]

@@ -12,7 +12,7 @@ import pytest
 import floatref
 from floatref.architectures.kalman_pipelines import KALMAN, SETTINGS
 from floatref.architectures.kalman_steps import NOISE, noise_of
-from floatref.architectures.pipeline import Pipeline, Context
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.source import Source
 from floatref.errors import InputError
 from floatref.stages.kalman import Noise

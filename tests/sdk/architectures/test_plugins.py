@@ -2,9 +2,10 @@
 
 import pytest
 
+from floatref import answers, hookimpl
 from floatref.architectures import hookspecs
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.plugins import Plugins
-from floatref.architectures.pipeline import Pipeline, Context
 from floatref.errors import PluginError
 from floatref.stages.combining import Combine
 from floatref.stages.mean_removal import RemoveMean
@@ -18,13 +19,13 @@ class Answering:
     def __init__(self, *stages):
         self._stages = stages
 
-    @hookspecs.hookimpl
+    @answers("temporal-basic")
     def temporal_combine(self, context):
         return self._stages or None
 
 
 class Broken:
-    @hookspecs.hookimpl
+    @answers("temporal-basic")
     def temporal_combine(self, context):
         raise ZeroDivisionError("by a plug-in")
 
@@ -33,7 +34,7 @@ class Registering:
     def __init__(self, name):
         self._name = name
 
-    @hookspecs.hookimpl
+    @hookimpl
     def floatref_register_pipelines(self, register):
         register(Pipeline(self._name, "temporal", "of a plug-in"))
 
@@ -92,7 +93,7 @@ def test_one_broken_entry_point_does_not_hide_the_others():
 
 def test_a_plugin_with_a_wrong_argument_is_reported():
     class Misfit:
-        @hookspecs.hookimpl
+        @answers("temporal-basic")
         def temporal_combine(self, context, colour):
             return None
 
@@ -169,7 +170,7 @@ def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
         register(*item)
 
     loaded = Plugins()
-    namespace = {hook: staticmethod(hookspecs.hookimpl(registering))}
+    namespace = {hook: staticmethod(hookimpl(registering))}
     loaded.add(type("Vendor", (), namespace)(), "vendor")
     found = (
         loaded.pipelines(),
@@ -185,7 +186,7 @@ def test_what_cannot_work_is_left_out_when_it_registers(hook, item, message):
 @pytest.mark.parametrize("answer", ["text", 7, (1, 2)])
 def test_an_answer_that_is_no_stages_is_named(context, answer):
     class Odd:
-        @hookspecs.hookimpl
+        @answers("temporal-basic")
         def temporal_combine(self, context):
             return answer
 

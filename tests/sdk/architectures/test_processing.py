@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.architectures import hookspecs, plugins, processing
+from floatref import answers
+from floatref.architectures import plugins, processing
 from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.stages.conditioning import RemoveGravity
@@ -114,7 +115,7 @@ class Doubling(RemoveGravity):
 
 
 class Vendor:
-    @hookspecs.hookimpl
+    @answers("temporal-basic")
     def temporal_condition(self, context):
         return (Doubling(),)
 

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floatref.architectures import hookspecs, plugins, reading, writing
+from floatref import hookimpl
+from floatref.architectures import plugins, reading, writing
 from floatref.architectures.reading import profile_of
 from floatref.architectures.writing import format_of, write_as
 from floatref.errors import InputError, PluginError
@@ -42,7 +43,7 @@ def known(monkeypatch):
 
     def add(*formats):
         class Vendor:
-            @hookspecs.hookimpl
+            @hookimpl
             def floatref_register_profile_formats(self, register):
                 for form in formats:
                     register(form)

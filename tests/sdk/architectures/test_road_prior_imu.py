@@ -12,7 +12,7 @@ from floatref.architectures.source import Source
 from floatref.measures import high_pass
 from floatref.stages.kalman.inputs import IMU
 from floatref.stages.levelling import Level
-from floatref.values.block import joined
+from floatref.values.block import join_blocks
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, SensorSuite, Simulation, simulate
@@ -46,7 +46,7 @@ def driven(manoeuvre: str = "stop", **numbers: float) -> Simulation:
 def levelled(recording: Recording) -> np.ndarray:
     source, stage = Source(recording, IMU), Level()
     _, blocks = flow.run([stage], source.header, source.blocks())
-    return joined(list(blocks))[ChannelId("vertical_acceleration", "left")]
+    return join_blocks(list(blocks))[ChannelId("vertical_acceleration", "left")]
 
 
 def slow(values: np.ndarray) -> np.ndarray:

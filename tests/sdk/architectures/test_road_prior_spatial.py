@@ -11,14 +11,14 @@ import pytest
 
 import floatref
 from floatref.architectures import flow
-from floatref.architectures.plugins import plugins
 from floatref.architectures.pipeline import Context
+from floatref.architectures.plugins import plugins
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
 from floatref.architectures.source import Source
 from floatref.measures import agreement, high_pass, iri
 from floatref.stages.signals import ELEVATION, SIGMA
-from floatref.values.block import joined
+from floatref.values.block import join_blocks
 from floatref.values.channels import ChannelId
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -113,7 +113,7 @@ def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
 def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
     """Return elevation, 1-σ and flags of the points if the run comes in such blocks."""
     settings = PIPELINE.resolve({"interval_m": 0.02})
-    whole = joined(list(source.blocks()))
+    whole = join_blocks(list(source.blocks()))
     cuts = [0]
     while cuts[-1] < len(whole):
         cuts.append(min(cuts[-1] + sizes(), len(whole)))
@@ -123,7 +123,7 @@ def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
         lambda point: loaded.ask(Context(point, PIPELINE, settings, source.header, source.origin_m))
     )
     _, out = flow.run(stages, source.header, blocks)
-    found, marked = joined(list(out)), ChannelId(ELEVATION, "left")
+    found, marked = join_blocks(list(out)), ChannelId(ELEVATION, "left")
     flags = found.flags.get(marked, np.zeros(len(found), np.uint8))
     return found[marked], found[ChannelId(SIGMA, "left")], flags
 

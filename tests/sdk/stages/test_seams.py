@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.stages.seams import Seams
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 RATE, COUNT = 100, 600
@@ -33,7 +33,7 @@ def through(values, cuts=()):
     for begin, end in pairwise([0, *sorted(cuts), COUNT]):
         out.append(stage.push(Block(begin, {c: v[begin:end].copy() for c, v in values.items()})))
     assert stage.finish() == ()
-    return joined(out)[REFERENCE]
+    return join_blocks(out)[REFERENCE]
 
 
 def lost(values, begin, length, told_m):

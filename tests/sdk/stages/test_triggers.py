@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref.stages.resampling import ToDistance
 from floatref.stages.triggers import JOLT_M_S, LONGEST_S, ToTime
 from floatref.values.arrays import Flag
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws, Stream
 
@@ -40,7 +40,7 @@ def triggers(intervals_s, seed=0):
 def through(stage, given_header, block):
     out_header = stage.start(given_header)
     out = [stage.push(block), *stage.finish()]
-    return out_header, joined([each for each in out if len(each)])
+    return out_header, join_blocks([each for each in out if len(each)])
 
 
 @laws
@@ -168,7 +168,7 @@ def test_lost_travel_is_the_same_wherever_blocks_are_cut(intervals_s, where, cut
     _, whole = through(ToTime(), header(), block)
     stage.start(header())
     parts = [block.part(0, min(cut, len(block))), block.part(min(cut, len(block)), len(block))]
-    cuts = joined([b for b in [*map(stage.push, parts), *stage.finish()] if len(b)])
+    cuts = join_blocks([b for b in [*map(stage.push, parts), *stage.finish()] if len(b)])
     np.testing.assert_array_equal(cuts[DISTANCE], whole[DISTANCE])
 
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.values.block import Axis, Block, Event, Header, joined
+from floatref.values.block import Axis, Block, Event, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 A = ChannelId("vertical_specific_force", "left")
@@ -97,15 +97,15 @@ def test_parts_joined_are_the_block(count: int, cuts: set[int]) -> None:
     assert [part.first for part in parts] == [100 + a for a in edges[:-1]]
     assert [len(part) for part in parts] == np.diff(edges).tolist()
     assert [part.events for part in parts[1:]] == [()] * (len(parts) - 1)
-    _same(joined(parts), block)
+    _same(join_blocks(parts), block)
 
 
 def test_where_one_of_the_joined_has_no_mask_its_samples_are_fresh_and_trusted(
     block: Block,
 ) -> None:
     bare = Block(10, {A: np.zeros(2), H: np.zeros(2)})
-    whole = joined([block, bare])
+    whole = join_blocks([block, bare])
     assert whole.fresh[H].tolist() == [True, False, True, True, True]
     assert whole.flags[H].tolist() == [0, 1, 0, 0, 0]
     assert (set(whole.fresh), set(whole.flags)) == ({H}, {H})
-    assert joined([block]) is block
+    assert join_blocks([block]) is block

@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray, frozen
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 EXACT = 1e-6
@@ -55,7 +55,7 @@ class ShiftAlong(Stage):
         waiting: Block | None = self.memory["waiting"]
         if waiting is None:
             self.memory["begun"] = self.memory["next"] = block.first
-        wide = block if waiting is None else joined((waiting, block))
+        wide = block if waiting is None else join_blocks((waiting, block))
         return self._until(wide, wide.first + len(wide) - self._ahead)
 
     def close(self) -> tuple[Block, ...]:

@@ -9,7 +9,7 @@ from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ELEVATION
 from floatref.values.arrays import Flag, FloatArray
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 FULL, NONE = 0.5, 0.8
@@ -56,7 +56,7 @@ class RestoreContact(Stage):
     def advance(self, block: Block) -> Block:
         """Return the points whose neighbours are all known."""
         waiting: Block | None = self.memory["waiting"]
-        wide = block if waiting is None else joined((waiting, block))
+        wide = block if waiting is None else join_blocks((waiting, block))
         if self.memory["next"] is None:
             self.memory["next"] = wide.first
         return self._until(wide, wide.first + len(wide) - self._taps.size + 1)

@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.response.denoising import denoised
 from floatref.stages.marking import flags_of
 from floatref.stages.protocol import Declared, Stage
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 
@@ -55,7 +55,7 @@ class Denoise(Stage):
         """Return the whole run."""
         if not self.memory["blocks"]:
             return ()
-        whole = joined(self.memory["blocks"])
+        whole = join_blocks(self.memory["blocks"])
         window = min(self._window, len(whole) // 2)
         values, flags = {}, {}
         for channel in self._channels:

@@ -12,7 +12,7 @@ from floatref.response.resampling import Resampling, Waiting
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import CUTOFF, DISTANCE, TRAVEL_SPEED
 from floatref.values.arrays import FlagArray, FloatArray, frozen
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 LINEAR = DISTANCE, TRAVEL_SPEED, CUTOFF
@@ -56,7 +56,7 @@ class ToRate(Stage):
         if self.memory["waiting"] is None:
             self._begin(block)
         waiting: Block | None = self.memory["waiting"]
-        wide = block if waiting is None else joined((waiting, block))
+        wide = block if waiting is None else join_blocks((waiting, block))
         runs: dict[ChannelId, Waiting] = self.memory["runs"]
         found = {c: self._resampling.advance(runs[c], block[c]) for c in runs}
         return self._out(wide, found)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from floatref.stages.kalman.inputs import GNSS, IMU, QUALITY
-from floatref.values.block import Axis, Block, Event, Header, joined
+from floatref.values.block import Axis, Block, Event, Header, join_blocks
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup, TrackSetup
 from floatref_reference.chapter_6.section_6_3_6_system import h as measured
@@ -90,7 +90,7 @@ def run(stage, drive, cuts=()):
     """Return all that comes out of ``stage``, joined."""
     stage.start(drive.header)
     out = [stage.push(block) for block in drive.blocks(cuts)]
-    return joined([block for block in (*out, *stage.finish()) if len(block)])
+    return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
 
 
 def heights(stage, drive, cuts=()):

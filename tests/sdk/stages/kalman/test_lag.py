@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.measures import high_pass
 from floatref.stages.kalman import KalmanSmoother, Noise, Plan
-from floatref.values.block import joined
+from floatref.values.block import join_blocks
 from floatref.values.channels import ChannelId
 
 RATE, SEGMENT = 50, 256
@@ -24,7 +24,7 @@ def run(drive, stage):
         out.append(stage.push(block))
         kept.append(len(stage.memory["backlog"].lines["left"].segments))
     out += stage.finish()
-    return joined([block for block in out if len(block)]), kept
+    return join_blocks([block for block in out if len(block)]), kept
 
 
 def over_distance(drive, samples):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.stages.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.stages.kalman.inputs import IMU
-from floatref.values.block import Axis, joined
+from floatref.values.block import Axis, join_blocks
 from floatref_conformance.testing import StageLaws
 
 laws = settings(deadline=None, max_examples=4)
@@ -74,7 +74,9 @@ def test_4_saving_and_restoring_changes_nothing(drive, through, name, seed, plan
     other.restore(saved)
     out += [other.push(block) for block in blocks[at:]]
     out += other.finish()
-    assert_same(joined([block for block in out if len(block)]), through(STAGES[name](plan), drawn))
+    assert_same(
+        join_blocks([block for block in out if len(block)]), through(STAGES[name](plan), drawn)
+    )
 
 
 @laws

@@ -13,7 +13,7 @@ from floatref.stages.kalman.inputs import IMU
 from floatref.stages.levelling import Level
 from floatref.stages.levelling.attitude import BIN_S, NEAR_S, PATIENCE_S
 from floatref.values.arrays import Flag
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws
 from floatref_reference.road_prior.levelling import Smoothing, Unit, level
@@ -47,7 +47,7 @@ def run(values, rate, cuts=(), flags=None):
     for i, j in pairwise([0, *sorted(set(cuts)), n]):
         marks = {c: f[i:j] for c, f in (flags or {}).items()}
         out.append(stage.push(Block(i, {c: v[i:j].copy() for c, v in values.items()}, {}, marks)))
-    return joined([block for block in (*out, *stage.finish()) if len(block)])
+    return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
 
 
 def literal(values, rate):

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from floatref.values.block import Axis, Block, Header, joined
+from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 UP, RANGE = ChannelId("vertical_acceleration", "left"), ChannelId("height", "left")
@@ -57,7 +57,7 @@ def run(stage, drive, cuts=()):
     """Return all that comes out of ``stage``, joined."""
     stage.start(drive.header)
     out = [stage.push(block) for block in drive.blocks(cuts)]
-    return joined([block for block in (*out, *stage.finish()) if len(block)])
+    return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,35 @@
+"""What a plug-in looks up by name: pipelines to derive its own from, and registered stages."""
+
+from typing import Any, NoReturn
+
+from floatref.architectures.pipeline import Pipeline
+from floatref.architectures.plugins import plugins
+from floatref.architectures.stage_calls import StageCall
+from floatref.errors import InputError
+from floatref.stages.protocol import Stage
+
+
+def pipeline(name: str) -> Pipeline:
+    """Return the pipeline called ``name``, with an answer for every point of its architecture.
+
+    While plug-ins are loaded, these are the built-in ones and those of plug-ins loaded before.
+    Raises InputError for a name that is not known.
+    """
+    return plugins().pipeline(name)
+
+
+def stage_names() -> tuple[str, ...]:
+    """Return the names of all registered stages."""
+    return tuple(plugins().stages())
+
+
+def make_stage(name: str, /, *arguments: Any, **keywords: Any) -> Stage:
+    """Return a new stage by its registered name, made from these arguments.
+
+    Raises InputError for a name that is not known or arguments that do not fit.
+    """
+    return StageCall(name, *arguments, **keywords).make(plugins().stages(), _no_setting)
+
+
+def _no_setting(name: str) -> NoReturn:
+    raise InputError(f"setting {name}: no pipeline runs; give the number, or use a StageCall")

@@ -1,0 +1,71 @@
+"""A stage by its registered name, with what it is made from: one call makes one for each run."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from inspect import signature
+from typing import Any
+
+from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.stages.protocol import Stage
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Stands in a `StageCall` for the number of a setting of the pipeline that runs."""
+
+    name: str
+
+
+@dataclass(frozen=True, init=False)
+class StageCall:
+    """A registered stage and its arguments, such as ``StageCall("FromFirst", "height")``.
+
+    An argument may be a `Setting`. A call may stand wherever a point is answered with a stage.
+    """
+
+    name: str
+    arguments: tuple[Any, ...]
+    keywords: Mapping[str, Any]
+
+    def __init__(self, name: str, /, *arguments: Any, **keywords: Any) -> None:
+        """Call stage ``name`` with these arguments, by position or by keyword."""
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "arguments", arguments)
+        object.__setattr__(self, "keywords", keywords)
+
+    def make(
+        self, known: Mapping[str, Callable[..., Stage]], setting: Callable[[str], float]
+    ) -> Stage:
+        """Return a new stage; ``known`` are the classes by name, ``setting`` finds a number.
+
+        Raises InputError for an unknown name, a missing setting or arguments that do not fit.
+        """
+        if self.name not in known:
+            close = get_close_matches(self.name, known, n=3, cutoff=0.4) or sorted(known)[:3]
+            raise InputError(f"stage {self.name}: unknown; there are {', '.join(close)} and others")
+        arguments = [_resolve(value, setting) for value in self.arguments]
+        keywords = {name: _resolve(value, setting) for name, value in self.keywords.items()}
+        return _made(self.name, known[self.name], arguments, keywords)
+
+
+def _resolve(value: Any, setting: Callable[[str], float]) -> Any:
+    return setting(value.name) if isinstance(value, Setting) else value
+
+
+def _made(
+    name: str, kind: Callable[..., Stage], arguments: list[Any], keywords: dict[str, Any]
+) -> Stage:
+    try:
+        signature(kind).bind(*arguments, **keywords)
+    except TypeError as error:
+        raise InputError(f"stage {name}: {error}; it takes {signature(kind)}") from error
+    try:
+        stage = kind(*arguments, **keywords)
+    except FloatrefError:
+        raise
+    except Exception as error:
+        raise PluginError(f"stage {name}: {type(error).__name__}: {error}") from error
+    if not isinstance(stage, Stage):
+        raise PluginError(f"stage {name}: made {type(stage).__name__}, which is no Stage")
+    return stage
