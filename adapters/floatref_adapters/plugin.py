@@ -2,8 +2,7 @@
 
 from collections.abc import Callable
 
-import pluggy
-
+from floatref import Adapter, ProfileFormat, hookimpl
 from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
 from floatref_adapters.can_log.adapter import CanLog
 from floatref_adapters.csv_table.adapter import CsvTable
@@ -15,11 +14,9 @@ from floatref_adapters.novatel.adapter import NovAtel
 from floatref_adapters.parquet_profile import ParquetProfile
 from floatref_adapters.tdms.adapter import Tdms
 
-hookimpl = pluggy.HookimplMarker("floatref")
-
 
 @hookimpl
-def floatref_register_adapters(register: Callable[[object], None]) -> None:
+def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
     """Register every adapter of this package."""
     adapters = (CsvTable, Parquet, ArrowIpc, Hdf5, Mdf4, Tdms, Nmea, NovAtel, CanLog)
     for adapter in adapters:
@@ -27,7 +24,7 @@ def floatref_register_adapters(register: Callable[[object], None]) -> None:
 
 
 @hookimpl
-def floatref_register_profile_formats(register: Callable[[Erd | ParquetProfile], None]) -> None:
+def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
     """Register every format of profile files of this package."""
     register(Erd())
     register(ParquetProfile())

@@ -5,5 +5,29 @@ test what a profiler's sensors would have recorded, and measures the profile tha
 Units and axes are those of `floatref`: SI, ISO 8855, IRI in m/km.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from floatref_conformance.checks.interface import Check as Check
+    from floatref_conformance.devices.interface import DeviceKind as DeviceKind
+    from floatref_conformance.hookspecs import hookimpl as hookimpl
+
 EDITION = "2026.1"
 """Edition of the checks: it fixes the manoeuvres and the limits; the seed draws the rest."""
+
+# Imported on first use: a module that wants the edition alone loads no check.
+_PUBLIC = {"Check": "checks.interface", "DeviceKind": "devices.interface", "hookimpl": "hookspecs"}
+__all__ = ["EDITION", *_PUBLIC]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the public name ``name``."""
+    if name not in _PUBLIC:
+        raise AttributeError(f"module floatref_conformance has no attribute {name!r}")
+    return getattr(import_module(f"floatref_conformance.{_PUBLIC[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names."""
+    return sorted(__all__)

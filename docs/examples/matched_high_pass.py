@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import floatref
-from floatref.measures import short_interval_roughness
+from floatref import short_interval_roughness
 
 RATE_HZ, INTERVAL_M, G = 4000.0, 0.025, 9.80665
 TOP_MPS, TO_START_S, TO_STOP_S, STANDING_S = 20.0, 8.0, 5.0, 4.0

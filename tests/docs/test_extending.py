@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from floatref import Channel, InputError, Profile, ProfileTrack, Recording, UniformClock
+from floatref import Channel, InputError, Profile, ProfileTrack, Recording, Stage, UniformClock
 from floatref.architectures import hookspecs
 from floatref.architectures.fall_back import DropOut
 from floatref.architectures.pipeline import Context
@@ -55,13 +55,28 @@ def test_every_point_is_in_the_signal_flows_of_the_architecture_page() -> None:
     assert re.findall(r"^\| `((?:temporal|spatial)_\w+)` \|", page, re.M) == points
 
 
-def test_the_pipeline_is_known_and_the_point_is_answered(plugins: Plugins) -> None:
+def stages_at(plugins: Plugins, name: str, point: str) -> list[Stage]:
+    """Return what runs at ``point`` of pipeline ``name``."""
     header = Header(Axis.TIME, 1e-3, 0.0, Fraction(1000), frozenset({ELEVATION}), tracks=("main",))
-    for name in ("temporal-basic", "my-profiler"):
-        pipeline = plugins.pipeline(name)
-        context = Context("temporal_finish", pipeline, pipeline.resolve({}), header, origin_m=0.0)
-        assert {stage.cutoff for stage in plugins.ask(context)} == {1 / 60.0}
+    pipeline = plugins.pipeline(name)
+    return list(plugins.ask(Context(point, pipeline, pipeline.resolve({}), header, origin_m=0.0)))
+
+
+def test_the_point_is_answered_in_the_pipelines_that_are_named(plugins: Plugins) -> None:
+    for name in ("temporal-basic", "temporal-mean-removal"):
+        cutoffs = [stage.cutoff for stage in stages_at(plugins, name, "temporal_finish")]
+        assert cutoffs == 4 * [1 / 60.0]
+    others = stages_at(plugins, "kalman-smoother", "temporal_finish")
+    assert {stage.cutoff for stage in others} == {1 / 105.91}
     assert plugins.reports == []
+
+
+def test_the_pipelines_are_known_and_bring_their_answers(plugins: Plugins) -> None:
+    first, second = stages_at(plugins, "my-profiler", "temporal_first_integration")
+    assert (first.cutoff, second.name) == (0.05, "Integrate")
+    assert stages_at(plugins, "my-profiler", "temporal_finish") == []
+    stages = stages_at(plugins, "my-smoother", "temporal_finish")
+    assert [stage.cutoff for stage in stages] == 4 * [1 / 105.91] + 2 * [1 / 60.0]
 
 
 def test_a_gap_of_the_heights_is_answered_from_what_was_recorded(

@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from floatref.stages.protocol import Declared, Stage
-from floatref.values.block import Block, Header
-from floatref.values.channels import ChannelId
+from floatref import Block, ChannelId, Declared, Header, Stage
 from floatref_conformance.testing import DeviceChecks, StageLaws
 
 HEIGHT = "height"

@@ -1,9 +1,10 @@
 """What a plug-in looks up by name: pipelines to derive its own from, and registered stages."""
 
+from functools import cache
 from typing import Any, NoReturn
 
 from floatref.architectures.pipeline import Pipeline
-from floatref.architectures.plugins import plugins
+from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.stage_calls import StageCall
 from floatref.errors import InputError
 from floatref.stages.protocol import Stage
@@ -12,10 +13,17 @@ from floatref.stages.protocol import Stage
 def pipeline(name: str) -> Pipeline:
     """Return the pipeline called ``name``, with an answer for every point of its architecture.
 
-    While plug-ins are loaded, these are the built-in ones and those of plug-ins loaded before.
-    Raises InputError for a name that is not known.
+    A plug-in may look up a built-in one anywhere, at import as well; one of another plug-in is
+    known once that is loaded. Raises InputError for a name that is not known.
     """
-    return plugins().pipeline(name)
+    # Loading the plug-ins here would import the module that asks for a second time.
+    built_in = _built_in()
+    return built_in[name] if name in built_in else plugins().pipeline(name)
+
+
+@cache
+def _built_in() -> dict[str, Pipeline]:
+    return Plugins().pipelines()
 
 
 def stage_names() -> tuple[str, ...]:

@@ -101,11 +101,7 @@ class Plugins:
                 return dict(self._registering[hook].found)
             with self._register(hook, check) as register:
                 for caller in self._callers(hook):
-                    before = set(register.found)
-                    call = partial(caller.call, register=register.of(caller.plugin))
-                    self._guarded(caller.plugin, call)
-                    new = listed(name for name in register.found if name not in before)
-                    trace_hook(caller.plugin, hook, f"registered {new}")
+                    self._fill(register, hook, caller)
             return register.found
 
     def pipelines(self) -> dict[str, Pipeline]:
@@ -188,6 +184,16 @@ class Plugins:
             yield self._registering[hook]
         finally:
             del self._registering[hook]
+
+    def _fill(self, register: Register, hook: str, caller: _Caller) -> None:
+        before = set(register.found)
+        call = partial(caller.call, register=register.of(caller.plugin))
+        try:
+            self._guarded(caller.plugin, call)
+        except InputError as error:
+            self._skip(caller.plugin, error)
+        new = [name for name in register.found if name not in before]
+        trace_hook(caller.plugin, hook, f"registered {listed(new)}")
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:

@@ -23,9 +23,7 @@ version = "1.0"
 [tool.hatch.build.targets.wheel]
 packages = ["{name}.py"]
 """
-REGISTERING = """import pluggy
-
-hookimpl = pluggy.HookimplMarker("floatref")
+REGISTERING = """from floatref import hookimpl
 
 
 @hookimpl
@@ -38,6 +36,9 @@ BROKEN = {
     "misses_a_module": "import a_module_that_is_nowhere\n",
     "ends_the_program": "import sys\n\nsys.exit(7)\n",
     "registers_nonsense": REGISTERING.format(what="42"),
+    "names_no_pipeline": REGISTERING.format(what="42").replace(
+        "floatref_register_adapters(register)", "temporal_finish(context)"
+    ),
     "misfits_the_hook": REGISTERING.replace("adapters(register)", "adapters(register, colour)"),
 }
 """What the module of each plug-in holds."""
@@ -47,11 +48,10 @@ SAID = {
     "misses_a_module": "ModuleNotFoundError: No module named 'a_module_that_is_nowhere'",
     "ends_the_program": "SystemExit: 7",
     "registers_nonsense": "TypeError: int has no method recognises",
+    "names_no_pipeline": "PluginError: temporal_finish names no pipeline that it answers; write ",
     "misfits_the_hook": "PluginValidationError: ",
 }
-FAILING = """import pluggy
-
-hookimpl = pluggy.HookimplMarker("floatref")
+FAILING = """from floatref import hookimpl
 
 
 class Failing:

@@ -1,27 +1,23 @@
 """The RoadLogger's pipeline: one of floatref's, with our stage before its first."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
-from acme_roadlogger.spikes import RemoveSpikes
-from floatref.architectures.catalogue import PIPELINES
-from floatref.architectures.pipeline import Context
-from floatref.stages.protocol import Stage
+import floatref
+from floatref import Context, Setting, Stage, StageCall
 
 NAME = "acme-roadlogger"
-BASE = next(p for p in PIPELINES if p.name == "temporal-adaptive-hpf-spatial-backward")
+BASE = floatref.pipeline("temporal-adaptive-hpf-spatial-backward")
 
 
-def condition(context: Context) -> Sequence[Stage]:
+def condition(context: Context) -> Sequence[Stage | StageCall]:
     """Remove spikes first: a filter would spread them."""
-    spikes = RemoveSpikes(context.setting("spike_m"))
-    return (spikes, *BASE.answers["temporal_condition"](context))
+    spikes = StageCall("RemoveSpikes", Setting("spike_m"))
+    return (spikes, *BASE.stages_at(context))
 
 
-PIPELINE = replace(
-    BASE,
+PIPELINE = BASE.with_answers(
     name=NAME,
     summary="adaptive cut-off, after the spikes of our laser are removed",
-    settings={**BASE.settings, "spike_m": 0.01},
-    answers={**BASE.answers, "temporal_condition": condition},
+    settings={"spike_m": 0.01},
+    temporal_condition=condition,
 )

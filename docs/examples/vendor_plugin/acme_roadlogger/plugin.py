@@ -2,28 +2,25 @@
 
 from collections.abc import Callable
 
-import pluggy
-
 from acme_roadlogger.adapter import RoadLogger
 from acme_roadlogger.pipeline import PIPELINE
 from acme_roadlogger.spikes import RemoveSpikes
-
-hookimpl = pluggy.HookimplMarker("floatref")
+from floatref import Adapter, Pipeline, Stage, hookimpl
 
 
 @hookimpl
-def floatref_register_adapters(register: Callable[[RoadLogger], None]) -> None:
+def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
     """Read our files."""
     register(RoadLogger())
 
 
 @hookimpl
-def floatref_register_stages(register: Callable[[str, type[RemoveSpikes]], None]) -> None:
+def floatref_register_stages(register: Callable[[str, Callable[..., Stage]], None]) -> None:
     """Offer our stage to other pipelines."""
     register("RemoveSpikes", RemoveSpikes)
 
 
 @hookimpl
-def floatref_register_pipelines(register: Callable[[object], None]) -> None:
+def floatref_register_pipelines(register: Callable[[Pipeline], None]) -> None:
     """Add our pipeline."""
     register(PIPELINE)

@@ -4,10 +4,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from floatref.stages.protocol import Declared, Stage
-from floatref.values.arrays import Flag
-from floatref.values.block import Block, Header, joined
-from floatref.values.channels import ChannelId
+from floatref import Block, ChannelId, Declared, Flag, Header, Stage, join_blocks
 
 HALF = 5
 """Samples on either side with which a reading is compared.
@@ -43,7 +40,7 @@ class RemoveSpikes(Stage):
     def advance(self, block: Block) -> Block:
         """Return the samples that have `HALF` others behind them."""
         waiting = self.memory["waiting"]
-        wide = block if waiting is None else joined((waiting, block))
+        wide = block if waiting is None else join_blocks((waiting, block))
         ready = max(0, len(wide) - HALF)
         self.memory["waiting"] = wide.part(ready, len(wide))
         return self._cleaned(wide, ready, 0)

@@ -14,9 +14,16 @@ from acme_roadlogger.writer import packed_block, packed_header, write_blocks, wr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref import Channel, InputError, NativeFile, Recording, Stream, UniformClock
-from floatref.values.arrays import Flag
-from floatref.values.channels import ChannelId
+from floatref import (
+    Channel,
+    ChannelId,
+    Flag,
+    InputError,
+    NativeFile,
+    Recording,
+    Stream,
+    UniformClock,
+)
 from floatref_conformance.testing import StageLaws
 
 BLOCKS = st.lists(
