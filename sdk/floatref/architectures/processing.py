@@ -7,7 +7,6 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any
 
-from floatref import __version__
 from floatref.architectures import flow
 from floatref.architectures.axis_error import add_axis_error, add_contact_error
 from floatref.architectures.collecting import Gathered, collected
@@ -27,6 +26,7 @@ from floatref.values.needs import profiled_tracks
 from floatref.values.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, check_interval
+from floatref.version import __version__
 
 Progress = Callable[[float], None]
 
