@@ -120,10 +120,19 @@ class Other:
         return self.answer
 
 
+def question_of(recording: Recording, drive: Simulation, gaps: Mapping[str, FloatArray]) -> DropOut:
+    """Return a question about ``recording``, which runs other pipelines on it."""
+
+    def process(pipeline: str, settings: Mapping[str, object] | None = None) -> Profile:
+        return run(recording, pipeline, settings).profile
+
+    return DropOut(recording, drive.truth, gaps, process)
+
+
 def asked(drive: Simulation) -> DropOut:
     """Return a question to the plug-ins."""
     gaps: Mapping[str, FloatArray] = {"left": np.array([[BEGIN_M, END_M]])}
-    return DropOut(without_response(drive.recording), drive.truth, gaps)
+    return question_of(without_response(drive.recording), drive, gaps)
 
 
 def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
@@ -134,7 +143,7 @@ def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
 
 def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
     recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
-    question = DropOut(recording, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
+    question = question_of(recording, drive, {"left": np.array([[BEGIN_M, END_M]])})
     loaded = Plugins()
     loaded.add(Other(drive.truth), "other")
     assert loaded.fall_back(question) is drive.truth
@@ -165,6 +174,6 @@ def test_a_broken_plug_in_is_reported_and_ours_answers(drive: Simulation) -> Non
 def test_what_makes_the_estimate_impossible_is_raised(drive: Simulation) -> None:
     recording = dropped(drive.recording)
     unknown = replace(recording, setup=replace(recording.setup, vehicle=None))
-    question = DropOut(unknown, drive.truth, {"left": np.array([[BEGIN_M, END_M]])})
+    question = question_of(unknown, drive, {"left": np.array([[BEGIN_M, END_M]])})
     with pytest.raises(InputError, match=r"setup\.vehicle"):
         plugins().fall_back(question)
