@@ -17,6 +17,8 @@ missing. IRI is in m/km.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from floatref.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from floatref.architectures.adapter import Adapter as Adapter
     from floatref.architectures.adapter import NativeAdapter as NativeAdapter
@@ -94,8 +96,6 @@ if TYPE_CHECKING:
     from floatref.values.recording import Setup as Setup
     from floatref.values.recording import TrackSetup as TrackSetup
     from floatref.values.vehicle import VehicleSetup as VehicleSetup
-
-__version__ = "0.1.0"
 
 # Imported on first use, so that `import floatref` loads neither numba nor scipy.
 _PUBLIC = {

@@ -14,7 +14,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from floatref.architectures.kinematic_checks import check_kinematics
+from floatref.architectures.kinematic_checks import ImuUse, check_kinematics
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
@@ -168,7 +169,9 @@ def recordings(drive: str, seeds: int) -> Iterator[Recording]:
 def answer(recording: Recording, words: tuple[str, ...]) -> str:
     """Return "refused", "warned", "other" for another channel, or "silent"."""
     try:
-        lines = check_kinematics(recording, recording.tracks[0], True, True)
+        lines = check_kinematics(
+            recording, ImuUse(recording.tracks[:1], True, True), gnss_faults(recording)
+        )
     except InputError as error:
         return "refused" if words and all(w in str(error) for w in words) else "other"
     if words and any(all(w in line for w in words) for line in lines):

@@ -8,6 +8,7 @@ from unittest import mock
 import numpy as np
 
 import floatref
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import BLOCK, Source
 from floatref.kernels import kalman
 from floatref.stages.butterworth import low_pass_b3
@@ -39,7 +40,7 @@ class Prepared:
     @classmethod
     def of(cls, recording: floatref.Recording, more: Sequence[str] = IMU) -> "Prepared":
         """Pass ``recording`` through what comes before the stage in its pipelines."""
-        source = Source(recording, more)
+        source = Source(Screening.of(recording), more)
         header, blocks = source.header, list(source.blocks(BLOCK))
         filters = low_pass_b3(ACCELERATION, 1000.0), low_pass_b3(HEIGHT, 1000.0)
         for stage in (RemoveGravity(), *filters[0], *filters[1], TravelSpeed()):

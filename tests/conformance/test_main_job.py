@@ -5,6 +5,7 @@ import pytest
 
 import floatref
 from floatref.architectures import flow
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.measures import agreement, high_pass, iri, short_interval_roughness
 from floatref.stages.conditioning import RemoveGravity
@@ -93,7 +94,7 @@ def test_they_fail_with_the_errors_of_other_seeds_too(other_stop, pipeline):
 
 def velocity_error(simulation, track, at):
     """Error of the SDK's integrated velocity at sample ``at``, in m/s."""
-    source = Source(simulation.recording)
+    source = Source(Screening.of(simulation.recording))
     stages = [RemoveGravity(), Integrate("vertical_acceleration", "vertical_velocity")]
     _, blocks = flow.run(stages, source.header, source.blocks())
     channel = ChannelId("vertical_velocity", track)

@@ -2,7 +2,7 @@
 
 import click
 
-from floatref import __version__
+from floatref.version import __version__
 from floatref_conformance.cli.no_verdict import VerdictGroup
 
 COMMANDS = {

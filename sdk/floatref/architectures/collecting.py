@@ -1,16 +1,23 @@
-"""Gathering the blocks at the end of a signal flow, without holding them twice."""
+"""Collecting the blocks at the end of a signal flow in a profile, without holding them twice."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from importlib.metadata import version
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from floatref.architectures.axis_error import add_axis_error, add_contact_error
+from floatref.architectures.pipeline import Pipeline
+from floatref.architectures.validity import Reach, valid_points
+from floatref.errors import InputError
 from floatref.stages.signals import ELEVATION, SIGMA
 from floatref.values.arrays import FlagArray, FloatArray
-from floatref.values.block import Block
+from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.version import __version__
 
 SPARE = 16
 """An array that grows gets room for one more in so many samples."""
@@ -77,3 +84,48 @@ def collected(
     known += [None] * (len(tracks) - len(known))
     grown = zip(tracks, elevations, flags, known, strict=True)
     return {track: Gathered(z.close(), marks.close(), s) for track, z, marks, s in grown}
+
+
+def collect_profile(
+    header: Header,
+    blocks: Iterable[Block],
+    chosen: Pipeline,
+    resolved: Mapping[str, Any],
+    room: int,
+) -> Profile:
+    """Return the profile that ``blocks``, described by ``header``, amount to.
+
+    ``room`` is about how many points to expect. Raises InputError if they are still in time.
+    """
+    if header.axis is not Axis.DISTANCE:
+        raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
+    known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
+    found = collected(blocks, header.tracks, room, known)
+    reach = Reach.of(resolved)
+    tracks = tuple(
+        _track(name, found.pop(name), header.step, reach, resolved) for name in header.tracks
+    )
+    return Profile(
+        interval_m=header.step,
+        tracks=tracks,
+        start_m=header.origin,
+        pipeline=chosen.name,
+        settings=resolved,
+        provenance={
+            "architecture": chosen.architecture,
+            "floatref": __version__,
+            "numpy": version("numpy"),
+        },
+    )
+
+
+def _track(
+    name: str, found: Gathered, interval_m: float, reach: Reach, resolved: Mapping[str, Any]
+) -> ProfileTrack:
+    valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
+    if sigma is not None:
+        scale = resolved.get("distance_scale_sigma") or 0.0
+        add_axis_error(sigma, found.elevation, interval_m, scale)
+        if contact_m := resolved.get("contact_m"):
+            add_contact_error(sigma, found.elevation, interval_m, contact_m)
+    return ProfileTrack.of(name, found.elevation, valid, sigma)

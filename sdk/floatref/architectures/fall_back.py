@@ -8,6 +8,7 @@ correction takes that back.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -25,6 +26,13 @@ FEWEST = 0.5
 """So much of these metres has to be known of both."""
 
 
+class Process(Protocol):
+    """Runs another pipeline on the recording of a `DropOut`."""
+
+    def __call__(self, pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
+        """Return the profile by ``pipeline``; errors are those of `floatref.process`."""
+
+
 @dataclass(frozen=True, eq=False)
 class DropOut:
     """What a fall-back is asked: another profile of ``recording``, whose heights have gaps.
@@ -33,20 +41,23 @@ class DropOut:
         recording: with every channel that it has.
         profile: what the pipeline made of it, the gaps bridged by straight lines.
         gaps: begin and end of every gap in m of distance by wheel path, shape (k, 2).
+        process: runs another pipeline on ``recording`` and returns its profile. What has been
+            found out about the recording is not computed again, and no fall-back is asked for.
     """
 
     recording: Recording
     profile: Profile
     gaps: Mapping[str, FloatArray]
+    process: Process
 
-    @classmethod
-    def of(
-        cls, recording: Recording, profile: Profile, gone: Mapping[ChannelId, IndexArray]
-    ) -> "DropOut":
-        """Return the question about a profile; ``gone`` are damaged stretches of channels."""
-        names = [track.name for track in profile.tracks]
-        found = {t: height_gaps(recording, t, gone[ChannelId(HEIGHT, t)]) for t in names}
-        return cls(recording, profile, {t: gaps for t, gaps in found.items() if len(gaps)})
+
+def gaps_of(
+    recording: Recording, profile: Profile, gone: Mapping[ChannelId, IndexArray]
+) -> dict[str, FloatArray]:
+    """Return the gaps of the heights as in `DropOut`; ``gone`` are damaged stretches."""
+    names = [track.name for track in profile.tracks]
+    found = {t: height_gaps(recording, t, gone[ChannelId(HEIGHT, t)]) for t in names}
+    return {track: gaps for track, gaps in found.items() if len(gaps)}
 
 
 def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:

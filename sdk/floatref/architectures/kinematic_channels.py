@@ -1,6 +1,6 @@
 """IMU channels that a pipeline needs: whether they are there, where they are silent or wild."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -47,15 +47,14 @@ def check_present(recording: Recording, track: str, uses_gnss: bool, uses_attitu
     )
 
 
-def imu_silences(recording: Recording, track: str) -> Iterator[str]:
-    """Yield one line for each IMU channel that is silent for more than `SILENT_S`.
+def imu_silences(channels: Iterable[Channel]) -> Iterator[str]:
+    """Yield one line for each of the IMU's ``channels`` that is silent for more than `SILENT_S`.
 
     Raises InputError for a channel with more than half of its samples missing, or with samples
     that no sensor in a vehicle gives.
     """
-    for name in IMU:
-        channel = recording.channel(name, track)
-        _check_range(channel, HIGHEST_RATE if name in RATES else HIGHEST_FORCE)
+    for channel in channels:
+        _check_range(channel, HIGHEST_RATE if channel.id.name in RATES else HIGHEST_FORCE)
         silences = silent(channel)
         if silences.size:
             lengths = silences[:, 1] - silences[:, 0]

@@ -5,19 +5,20 @@ contradicts beyond doubt is refused; what it makes likely, and what is bridged, 
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from floatref.architectures.kinematic_alive import check_alive
-from floatref.architectures.kinematic_channels import check_present, check_readings, imu_silences
-from floatref.architectures.kinematic_forces import check_curves, check_travel_force
-from floatref.architectures.kinematic_gnss import (
-    faults_told,
-    fixed_told,
-    gnss_faults,
-    jumps_told,
+from floatref.architectures.kinematic_channels import (
+    IMU,
+    check_present,
+    check_readings,
+    imu_silences,
 )
+from floatref.architectures.kinematic_forces import check_course, check_curves, check_travel_force
+from floatref.architectures.kinematic_gnss import faults_told, fixed_told, jumps_told
 from floatref.architectures.kinematic_lever import check_antenna
 from floatref.architectures.kinematic_rates import check_plausible_rates, check_rates
-from floatref.architectures.kinematic_series import Motion
+from floatref.architectures.kinematic_series import RATES, Motion
 from floatref.architectures.kinematic_timing import (
     check_epoch,
     check_velocity,
@@ -25,65 +26,114 @@ from floatref.architectures.kinematic_timing import (
     delay_told,
     on_time,
 )
-from floatref.values.needs import profiled_tracks
-from floatref.values.recording import Recording
-
-__all__ = ["check_kinematics", "gnss_faults"]
+from floatref.values.arrays import IndexArray
+from floatref.values.recording import Channel, Recording
 
 
-def check_kinematics(
-    recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool
-) -> tuple[str, ...]:
-    """Return warnings about the IMU and GNSS channels of ``track``, one line each.
+@dataclass(frozen=True)
+class ImuUse:
+    """What a pipeline reads of IMU and GNSS.
 
-    What each track's accelerometers measure of the antenna, its place and its delay, differs by
-    their noise; it is told with the first track.
+    Attributes:
+        tracks: wheel paths, in order; channels without one are shared.
+        gnss: whether it reads gnss_height and gnss_vertical_velocity.
+        attitude: whether it reads gnss_pitch and gnss_roll.
+    """
+
+    tracks: tuple[str, ...]
+    gnss: bool
+    attitude: bool
+
+
+def check_kinematics(recording: Recording, use: ImuUse, faults: IndexArray) -> tuple[str, ...]:
+    """Return warnings about the IMU and GNSS channels that are used, one line each.
+
+    What wheel paths share is checked with the first one. What each path's accelerometers measure
+    of the antenna, its place and its delay, differs by their noise, so the first path tells it.
 
     Args:
         recording: one that `examine` has found plausible.
-        track: a wheel path; channels without one are shared.
-        uses_gnss: whether the pipeline reads gnss_height and gnss_vertical_velocity.
-        uses_attitude: whether it reads gnss_pitch and gnss_roll.
+        use: what is read.
+        faults: stuck readings of gnss_height, as `gnss_faults` returns them.
 
     Raises InputError with one line naming the channel, the value and what to do, for channels that
     are missing, silent for most of the run or beyond what a vehicle does, GNSS of another time
     base, and a sign, unit or axis that is certainly wrong.
     """
-    check_present(recording, track, uses_gnss, uses_attitude)
-    span_s = recording.channel("distance", track).span_s
+    for track in use.tracks:
+        check_present(recording, track, use.gnss, use.attitude)
     check_readings(recording)
-    warnings = list(imu_silences(recording, track))
-    if uses_gnss:
-        warnings += check_epoch(recording, *span_s)
-    motion = Motion.of(recording, track)
-    if motion is not None:
-        check_alive(recording, track, motion)
-        check_plausible_rates(recording, track, motion)
-        if uses_gnss:
-            delay_s = delay(recording, motion)
-            told = tuple(delay_told(delay_s))
-            warnings += told if _is_first(recording, track) else ()
-            recording = on_time(recording, delay_s)
-        warnings += check_travel_force(recording, track, motion)
-        warnings += check_curves(recording, track, motion)
-        warnings += check_rates(recording, track, motion, uses_attitude)
-    if uses_gnss:
-        warnings += _gnss(recording, track, motion, span_s)
-    return tuple(warnings)
+    first, *others = _paths(recording, use.tracks)
+    lines = list(imu_silences(first.own))
+    if use.gnss:
+        lines += check_epoch(recording, *first.span_s(recording))
+    motion = Motion.of(recording, first.track)
+    late_s = delay(recording, motion) if use.gnss and motion is not None else 0.0
+    aligned = on_time(recording, late_s)
+    lines += _of_imu(aligned, first, motion, use, late_s)
+    if use.gnss:
+        lines += _of_gnss(aligned, first, motion, faults)
+    for path in others:
+        lines += _of_another(aligned, path, use)
+    return tuple(dict.fromkeys(lines))
 
 
-def _gnss(
-    recording: Recording, track: str, motion: Motion | None, span_s: tuple[float, float]
+@dataclass(frozen=True)
+class _Path:
+    """A wheel path and ``own``, the IMU channels that no path before it shares."""
+
+    track: str
+    own: tuple[Channel, ...]
+
+    def has_own(self, *names: str) -> bool:
+        """Return whether one of the channels called ``names`` is its own."""
+        return any(channel.id.name in names for channel in self.own)
+
+    def span_s(self, recording: Recording) -> tuple[float, float]:
+        """Return when the run begins and ends by the encoder, in s."""
+        return recording.channel("distance", self.track).span_s
+
+
+def _paths(recording: Recording, tracks: tuple[str, ...]) -> Iterator[_Path]:
+    seen: set[object] = set()
+    for track in tracks:
+        channels = [recording.channel(name, track) for name in IMU]
+        yield _Path(track, tuple(c for c in channels if c.id not in seen))
+        seen.update(channel.id for channel in channels)
+
+
+def _of_another(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
+    """Yield what a wheel path behind the first one adds."""
+    yield from imu_silences(path.own)
+    motion = Motion.of(recording, path.track)
+    yield from _of_imu(recording, path, motion, use)
+    if use.gnss and motion is not None:
+        yield from check_velocity(recording, motion)
+
+
+def _of_imu(
+    recording: Recording, path: _Path, motion: Motion | None, use: ImuUse, late_s: float = 0.0
 ) -> Iterator[str]:
-    faults = gnss_faults(recording)
-    yield from fixed_told(recording, *span_s)
+    """Yield warnings about the channels that are the path's own, and about a GNSS that is late."""
+    if motion is None or not path.own:
+        return
+    check_alive(recording, path.track, motion)
+    if path.has_own(*RATES):
+        check_plausible_rates(recording, path.track, motion)
+    yield from delay_told(late_s)
+    yield from check_travel_force(recording, path.track, motion)
+    if path.has_own(*RATES):
+        yield from check_course(recording, path.track, motion)
+    yield from check_curves(recording, path.track, motion)
+    yield from check_rates(recording, path.track, motion, use.attitude)
+
+
+def _of_gnss(
+    recording: Recording, first: _Path, motion: Motion | None, faults: IndexArray
+) -> Iterator[str]:
+    yield from fixed_told(recording, *first.span_s(recording))
     yield from faults_told(recording, faults)
     if motion is not None:
         yield from check_velocity(recording, motion)
-        if _is_first(recording, track):
-            yield from check_antenna(recording, track, motion, faults)
+        yield from check_antenna(recording, first.track, motion, faults)
     yield from jumps_told(recording, faults)
-
-
-def _is_first(recording: Recording, track: str) -> bool:
-    return track == profiled_tracks(recording)[0]

@@ -59,11 +59,10 @@ def check_travel_force(recording: Recording, track: str, motion: Motion) -> Iter
 
 
 def check_curves(recording: Recording, track: str, motion: Motion) -> Iterator[str]:
-    """Yield a warning if yaw rate, lateral force or the course of GNSS seem to disagree.
+    """Yield a warning if yaw rate and lateral force seem to disagree.
 
     Raises InputError where that is certain.
     """
-    yield from _check_course(recording, track, motion)
     speed, across = smoothed(motion.speed, SMOOTH_S), smoothed(motion.forces[1], SMOOTH_S)
     evidence = weigh(
         motion.times,
@@ -90,7 +89,11 @@ def check_curves(recording: Recording, track: str, motion: Motion) -> Iterator[s
     )
 
 
-def _check_course(recording: Recording, track: str, motion: Motion) -> Iterator[str]:
+def check_course(recording: Recording, track: str, motion: Motion) -> Iterator[str]:
+    """Yield a warning if the yaw rate and the course of GNSS seem to disagree.
+
+    Raises InputError where that is certain.
+    """
     told = course(recording, motion)
     if told is None:
         return

@@ -1,31 +1,29 @@
-"""The main job: a recording through a pipeline to a profile."""
+"""The main job: a recording through a pipeline to a profile.
+
+`run` takes a recording that was read through the steps in order: settle what is asked for, screen,
+prepare its blocks, ask the plug-ins for stages, run these, collect the profile. Then the gaps of
+its heights are bridged.
+"""
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
-from importlib.metadata import version
 from typing import Any
 
-from floatref import __version__
 from floatref.architectures import flow
-from floatref.architectures.axis_error import add_axis_error, add_contact_error
-from floatref.architectures.collecting import Gathered, collected
-from floatref.architectures.fall_back import DropOut, bridged
-from floatref.architectures.kinematic_checks import check_kinematics
-from floatref.architectures.pipeline import Context, Pipeline
+from floatref.architectures.collecting import collect_profile
+from floatref.architectures.fall_back import DropOut, bridged, gaps_of
+from floatref.architectures.kinematic_checks import ImuUse
+from floatref.architectures.pipeline import Context
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.registration import NEEDS, SIGNAL_FLOWS
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
-from floatref.architectures.validity import Reach, valid_points
 from floatref.errors import InputError
 from floatref.stages.protocol import Stage
-from floatref.stages.signals import SIGMA
-from floatref.values.block import Axis, Block, Header
-from floatref.values.channels import ChannelId
-from floatref.values.needs import profiled_tracks
-from floatref.values.plausibility import examine
-from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.block import Axis, Block
+from floatref.values.profile import Profile
 from floatref.values.recording import Recording, check_interval
 
 Progress = Callable[[float], None]
@@ -37,10 +35,11 @@ class FloatrefWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Result:
-    """A profile, and one line for each thing its user should know."""
+    """A profile, one line for each thing its user should know, and what the recording showed."""
 
     profile: Profile
     warnings: tuple[str, ...]
+    screening: Screening = field(repr=False, compare=False)
 
 
 def process(
@@ -81,76 +80,98 @@ def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | 
     return plugins().pipeline(name).resolve(given)
 
 
+@dataclass(frozen=True)
+class _Order:
+    """What is to be done: a recording at the interval of its profile, and how it is processed."""
+
+    plugins: Plugins
+    recording: Recording
+    pipeline: Pipeline
+    settings: Mapping[str, float | None]
+
+
 def run(
     recording: Recording,
     pipeline: str,
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    known: Screening | None = None,
 ) -> Result:
-    """Return the profile and the warnings; ``progress`` is called with the fraction read."""
-    loaded = plugins()
+    """Return the profile and the warnings; ``progress`` is called with the fraction read.
+
+    What ``known``, the screening of an earlier run, has found out about the same channels is not
+    computed again.
+    """
+    order = _settle(plugins(), recording, pipeline, settings)
+    result, source = _processed(order, known, progress)
+    if order.pipeline.architecture == "temporal":
+        result = _bridge_gaps(order, result, source)
+    return replace(result, warnings=(*result.warnings, *order.plugins.reports))
+
+
+def _processed(
+    order: _Order, known: Screening | None = None, progress: Progress | None = None
+) -> tuple[Result, Source]:
+    """Take the way of a recording, as far as to a profile whose gaps are bridged by lines."""
+    screening = _screen(order, known)
+    cautions = screening.cautions  # Raises if the recording cannot be processed.
+    source = Source(screening, order.pipeline.channels)
+    stages = _ask(order, source)
+    profile = _run_and_collect(order, source, stages, progress)
+    told = (*cautions, *source.warnings, *flow.told(stages))
+    return Result(profile, told, screening), source
+
+
+def _settle(
+    loaded: Plugins, recording: Recording, pipeline: str, settings: Mapping[str, Any] | None
+) -> _Order:
+    """Settle pipeline, settings and interval: the setting's, else the setup's."""
     chosen = loaded.pipeline(pipeline)
     resolved = chosen.resolve(settings or {})
-    recording = _at_interval(recording, resolved)
-    needs = NEEDS[chosen.architecture](recording)
-    cautions = (*examine(recording, needs), *_kinematic_cautions(recording, chosen))
-    source = Source(recording, chosen.channels, needs)
-    stages = _stages(loaded, chosen, resolved, source)
-    header, blocks = flow.run(stages, source.header, _counted(source, progress))
-    room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
-    profile = _collect(header, blocks, chosen, resolved, room)
-    if learned := flow.learned(stages):
-        profile = replace(profile, provenance={**profile.provenance, "learned": learned})
-    told = (*cautions, *source.warnings, *flow.told(stages))
-    if chosen.architecture == "temporal":
-        profile, lines = _fallen_back(loaded, DropOut.of(recording, profile, source.gone))
-        told = (*told, *lines)
-    return Result(profile, (*told, *loaded.reports))
-
-
-def _fallen_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
-    """Return the profile with the gaps of its heights bridged, if a plug-in can tell the road."""
-    if not asked.gaps:
-        return asked.profile, ()
-    try:
-        estimate = loaded.fall_back(asked)
-    except InputError as error:
-        return asked.profile, (f"the height's gaps are bridged by lines alone: {error}",)
-    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)
-
-
-def _kinematic_cautions(recording: Recording, chosen: Pipeline) -> Iterator[str]:
-    if not chosen.channels:
-        return
-    gnss, attitude = bool(chosen.readings), "gnss_pitch" in chosen.readings
-    tracks = profiled_tracks(recording)
-    lines = (line for t in tracks for line in check_kinematics(recording, t, gnss, attitude))
-    yield from dict.fromkeys(lines)
-
-
-def _at_interval(recording: Recording, resolved: dict[str, float | None]) -> Recording:
-    """Settle the interval of a pipeline that has one: the setting's, else the setup's."""
     if "interval_m" not in resolved:
-        return recording
+        return _Order(loaded, recording, chosen, resolved)
     interval_m = resolved["interval_m"] or recording.setup.profile_interval_m
     check_interval(interval_m, "setting interval_m")
+    setup = replace(recording.setup, profile_interval_m=interval_m)
     resolved["interval_m"] = interval_m
-    return replace(recording, setup=replace(recording.setup, profile_interval_m=interval_m))
+    return _Order(loaded, replace(recording, setup=setup), chosen, resolved)
 
 
-def _stages(
-    loaded: Plugins, chosen: Pipeline, resolved: Mapping[str, float | None], source: Source
-) -> list[Stage]:
+def _screen(order: _Order, known: Screening | None) -> Screening:
+    """Return what the recording shows of itself, for the channels that the pipeline takes."""
+    chosen = order.pipeline
+    needs = NEEDS[chosen.architecture](order.recording)
+    imu = None
+    if chosen.channels:
+        imu = ImuUse(needs.tracks, bool(chosen.readings), "gnss_pitch" in chosen.readings)
+    return Screening.of(order.recording, needs, imu, known)
+
+
+def _ask(order: _Order, source: Source) -> list[Stage]:
+    """Return the stages that the plug-ins answer at each point of the signal flow."""
     context = partial(
         Context,
-        pipeline=chosen,
-        settings=resolved,
+        pipeline=order.pipeline,
+        settings=order.settings,
         header=source.header,
         origin_m=source.origin_m,
         fastest_mps=source.fastest_mps,
         ends_m=source.ends_m,
     )
-    return SIGNAL_FLOWS[chosen.architecture](lambda point: loaded.ask(context(point=point)))
+    flow_of = SIGNAL_FLOWS[order.pipeline.architecture]
+    return flow_of(lambda point: order.plugins.ask(context(point=point)))
+
+
+def _run_and_collect(
+    order: _Order, source: Source, stages: list[Stage], progress: Progress | None
+) -> Profile:
+    """Push the blocks through the stages and return the profile that comes out."""
+    header, blocks = flow.run(stages, source.header, _counted(source, progress))
+    room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
+    profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
+    if learned := flow.learned(stages):
+        profile = replace(profile, provenance={**profile.provenance, "learned": learned})
+    return profile
 
 
 def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:
@@ -160,42 +181,24 @@ def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:
             progress((block.first + len(block)) / source.length)
 
 
-def _collect(
-    header: Header,
-    blocks: Iterable[Block],
-    chosen: Pipeline,
-    resolved: Mapping[str, Any],
-    room: int,
-) -> Profile:
-    if header.axis is not Axis.DISTANCE:
-        raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
-    known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
-    found = collected(blocks, header.tracks, room, known)
-    reach = Reach.of(resolved)
-    tracks = tuple(
-        _track(name, found.pop(name), header.step, reach, resolved) for name in header.tracks
-    )
-    return Profile(
-        interval_m=header.step,
-        tracks=tracks,
-        start_m=header.origin,
-        pipeline=chosen.name,
-        settings=resolved,
-        provenance={
-            "architecture": chosen.architecture,
-            "floatref": __version__,
-            "numpy": version("numpy"),
-        },
-    )
+def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
+    """Return the result with the gaps of its heights bridged, if a plug-in can tell the road."""
+    gaps = gaps_of(order.recording, result.profile, source.gone)
+    if not gaps:
+        return result
+
+    def process(pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
+        other = _settle(order.plugins, order.recording, pipeline, settings)
+        return _processed(other, result.screening)[0].profile
+
+    asked = DropOut(order.recording, result.profile, gaps, process)
+    profile, lines = _fallen_back(order.plugins, asked)
+    return replace(result, profile=profile, warnings=(*result.warnings, *lines))
 
 
-def _track(
-    name: str, found: Gathered, interval_m: float, reach: Reach, resolved: Mapping[str, Any]
-) -> ProfileTrack:
-    valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
-    if sigma is not None:
-        scale = resolved.get("distance_scale_sigma") or 0.0
-        add_axis_error(sigma, found.elevation, interval_m, scale)
-        if contact_m := resolved.get("contact_m"):
-            add_contact_error(sigma, found.elevation, interval_m, contact_m)
-    return ProfileTrack.of(name, found.elevation, valid, sigma)
+def _fallen_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
+    try:
+        estimate = loaded.fall_back(asked)
+    except InputError as error:
+        return asked.profile, (f"the height's gaps are bridged by lines alone: {error}",)
+    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)

@@ -12,9 +12,6 @@ def road_from_response(asked: DropOut) -> Profile | None:
 
     Raises InputError as the pipeline does, for a setup without a vehicle among others.
     """
-    # The defaults are part of what processing is made of.
-    from floatref.architectures.processing import run
-
     if not any(asked.recording.find(FORCE, track) for track in asked.gaps):
         return None
-    return run(asked.recording, PIPELINE, {"interval_m": asked.profile.interval_m}).profile
+    return asked.process(PIPELINE, {"interval_m": asked.profile.interval_m})

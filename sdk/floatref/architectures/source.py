@@ -18,12 +18,11 @@ from floatref.architectures.covering import covering
 from floatref.architectures.damage import Damage
 from floatref.architectures.encoder_damage import encoder_damage
 from floatref.architectures.events import GnssEvents
-from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.architectures.saturation import damaged_force
+from floatref.architectures.screening import Screening
 from floatref.architectures.steady import holes_told, steady_clock
 from floatref.architectures.stuck import damaged_height
 from floatref.architectures.stuck_force import stuck_force, together
-from floatref.architectures.travel import fastest_speed
 from floatref.errors import InputError
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -31,7 +30,7 @@ from floatref.values.arrays import Flag, FlagArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
-from floatref.values.needs import VERTICAL_FORCES, Needs, nominal_needs
+from floatref.values.needs import VERTICAL_FORCES, Needs
 from floatref.values.recording import Channel, Recording
 
 BLOCK = 65_536
@@ -51,16 +50,13 @@ class Source:
     kind of damage.
     """
 
-    def __init__(
-        self, recording: Recording, more: Sequence[str] = (), needs: Needs | None = None
-    ) -> None:
-        """Find the channels of ``needs``, and the time that all of them cover.
+    def __init__(self, screening: Screening, more: Sequence[str] = ()) -> None:
+        """Find the channels that are needed, and the time that all of them cover.
 
-        Without ``needs`` they are the nominal ones of every wheel path that has a height. Channels
-        called one of ``more`` are taken beside them. Raises InputError if a
-        channel is missing.
+        Channels called one of ``more`` are taken beside them. Raises InputError if a channel is
+        missing.
         """
-        needs = nominal_needs(recording) if needs is None else needs
+        recording, needs = screening.recording, screening.needs
         self._tracks = needs.tracks
         found = dict(_needed(recording, needs))
         clock = steady_clock(found[ChannelId(needs.force, self._tracks[0])])
@@ -86,11 +82,11 @@ class Source:
             tracks=self._tracks,
             setup=recording.setup,
         )
-        self._events = GnssEvents(recording, gnss_faults(recording))
+        self._events = GnssEvents(recording, screening.gnss_faults)
         self.origin_m = self._distance(0)
         self.distance_m = np.fmax(self._distance(self.length - 1) - self.origin_m, 0.0)
         self.ends_m = self._ends(found[ChannelId(DISTANCE)])
-        self.fastest_mps = fastest_speed(recording)
+        self.fastest_mps = screening.travel.fastest_mps
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
         """Yield the run in blocks of ``size`` samples, each let go of before the next."""

@@ -6,11 +6,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from floatref import __version__
 from floatref.batch.tally import Tally
 from floatref.files.atomic import replacing_file
 from floatref.files.document import plain, write_document
 from floatref.files.schema import enforce
+from floatref.version import __version__
 
 FORMAT = "floatref-batch/1"
 SCHEMA = "floatref-batch-1"

@@ -8,9 +8,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from floatref import __version__
 from floatref.errors import InputError
 from floatref.files.atomic import replacing_file
+from floatref.version import __version__
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -156,6 +156,7 @@ def _answer_of_scheduler(client: "Client") -> Any:
 
 def _hello(token: str = "") -> tuple[str, bool]:
     """Return the version of floatref here, and whether file ``token`` is seen here."""
+    # The package's own name: a worker of any version has it.
     from floatref import __version__ as here
 
     return here, Path(token).is_file()

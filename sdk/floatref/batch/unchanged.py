@@ -5,7 +5,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from floatref import __version__
 from floatref.architectures.plugins import plugins
 from floatref.batch.job import Job
 from floatref.batch.record import Record
@@ -14,6 +13,7 @@ from floatref.files import fingerprint_native
 from floatref.files.document import plain
 from floatref.files.fingerprint import sha256
 from floatref.files.recording import DOCUMENT
+from floatref.version import __version__
 
 LIBRARIES = ("numpy", "numba", "scipy")
 """Another version of these may round otherwise."""

@@ -2,8 +2,8 @@
 
 import click
 
-from floatref import __version__
 from floatref.cli.lazy import LazyGroup
+from floatref.version import __version__
 
 COMMANDS = {
     "process": ("floatref.cli.process:process", "turn a recording into a road profile"),

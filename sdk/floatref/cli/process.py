@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from math import nan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,7 +18,9 @@ from floatref.files.settings import read_settings
 from floatref.mapping.profiling import profiled
 from floatref.mapping.sources import recording_of
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Recording
+
+if TYPE_CHECKING:
+    from floatref.architectures.processing import Result
 
 
 @click.command("process")
@@ -65,7 +67,7 @@ def process(
         result = profiled(read, pipeline, chosen, shown)
     profile = result.profile
     report = _report(profile, out, result.warnings)
-    with _drawn(profile, read.recording, plot):
+    with _drawn(result, plot):
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
@@ -86,16 +88,15 @@ def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) 
 
 
 @contextmanager
-def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterator[None]:
+def _drawn(result: "Result", plot: Path | None) -> Iterator[None]:
     """Draw beside ``plot``; the drawing gets its name once all else is written."""
     if plot is None:
         yield
         return
-    from floatref.architectures.travel import travel_speed
     from floatref.plots import draw_profile
 
     with replacing_file(plot, overwrite=True) as beside:
-        draw_profile(profile, beside, travel_speed(recording))
+        draw_profile(result.profile, beside, result.screening.travel)
         yield
 
 

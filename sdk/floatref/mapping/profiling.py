@@ -23,10 +23,11 @@ def profiled(
     the part of the recording that is through. Raises InputError with one line naming the source
     for a recording, pipeline or setting that cannot be used.
     """
-    from floatref.architectures.processing import Result, run
+    from floatref.architectures.processing import run
 
     with naming(read.path), read.named():
         result = run(read.recording, pipeline, settings, progress)
     provenance = {**result.profile.provenance, **read.origin}
     told = (*read.warnings, *map(read.said, result.warnings))
-    return Result(replace(result.profile, provenance=provenance), told)
+    profile = replace(result.profile, provenance=provenance)
+    return replace(result, profile=profile, warnings=told)

@@ -26,7 +26,7 @@ class TravelSpeed:
     every one of them. A chunk given twice is a distance that goes back, and refused.
     """
 
-    def __init__(self, rate_hz: float | Fraction, window_s: float = 0.05) -> None:
+    def __init__(self, rate_hz: float | Fraction, window_s: float = speed.WINDOW_S) -> None:
         """Take distances sampled at ``rate_hz``.
 
         Raises InputError for an unlikely rate, or a window not within 0 to `WIDEST_S`.

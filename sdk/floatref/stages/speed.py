@@ -10,6 +10,18 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
+WINDOW_S = 0.05
+"""The encoder's progress over this time is the travel speed (5.6)."""
+
+
+def progress_speed(distance: FloatArray, samples: int, duration_s: float) -> FloatArray:
+    """Return the progress of ``distance``, shape (N,), over ``samples`` of it, as a speed in m/s.
+
+    That is (d_k - d_{k-n}) / T for every k from n on, shape (N - n,), n samples lasting T =
+    ``duration_s``.
+    """
+    return np.asarray((distance[samples:] - distance[: distance.size - samples]) / duration_s)
+
 
 class TravelSpeed(Stage):
     """Adds `travel_speed`: the encoder's progress over the preceding ``window_s`` (5.6, 5.7).
@@ -23,7 +35,7 @@ class TravelSpeed(Stage):
 
     declared = Declared(shift_invariant=True)
 
-    def __init__(self, window_s: float = 0.05) -> None:
+    def __init__(self, window_s: float = WINDOW_S) -> None:
         """Look back over ``window_s`` seconds."""
         super().__init__()
         self.window_s = window_s
@@ -56,7 +68,7 @@ class TravelSpeed(Stage):
             distance[: int(np.argmax(~np.isnan(distance)))] = known[0]
         wide = np.concatenate((self.memory["past"], distance))
         self.memory["past"] = wide[wide.size - self._samples :].copy()
-        speed: FloatArray = (distance - wide[: distance.size]) / self._duration
+        speed = progress_speed(wide, self._samples, self._duration)
         if np.isnan(wide.sum()):
             speed = self._kept(speed, np.isnan(wide))
         self.memory["speed"] = float(speed[-1]) if speed.size else self.memory["speed"]

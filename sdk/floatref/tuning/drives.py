@@ -5,10 +5,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from floatref.architectures.travel import PROGRESS_S, travel_speed
+from floatref.architectures.travel import Travel
+from floatref.stages.speed import WINDOW_S
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.recording import Recording
 
 LOW_KMH, HIGH_KMH = 12.0, 60.0
 """Constant speeds up to the first are low, from the second on high."""
@@ -71,12 +71,12 @@ class Drive:
     critical_m: tuple[float, ...]
 
 
-def drive_of(recording: Recording, begin_m: float, end_m: float) -> Drive:
-    """Return how ``recording`` was driven between two encoder distances in m.
+def drive_of(travel: Travel, begin_m: float, end_m: float) -> Drive:
+    """Return how a vehicle that travelled so was driven between two encoder distances in m.
 
     A brake that is released there counts, and so does a stop there.
     """
-    distance, speed = travel_speed(recording)
+    distance, speed = travel
     smooth = _smoothed(speed)
     inside = (distance > begin_m) & (distance < end_m)
     brakes = [
@@ -112,9 +112,9 @@ def _kind(speed: FloatArray, hardest_g: float, longest_s: float) -> Kind:
 def _stops(distance: FloatArray, speed: FloatArray, inside: BoolArray) -> list[tuple[float, float]]:
     """Return duration in s and place in m of every stop inside."""
     return [
-        ((end - begin) * PROGRESS_S, float(distance[begin]))
+        ((end - begin) * WINDOW_S, float(distance[begin]))
         for begin, end in stretches((speed < STANDING_MPS) & inside)
-        if (end - begin) * PROGRESS_S >= LEAST_STOP_S
+        if (end - begin) * WINDOW_S >= LEAST_STOP_S
     ]
 
 
@@ -125,9 +125,9 @@ def _brakes(distance: FloatArray, smooth: FloatArray) -> list[tuple[float, float
     """
     if not smooth.size:
         return []
-    half = round(SMOOTHED_S / PROGRESS_S) // 2
+    half = round(SMOOTHED_S / WINDOW_S) // 2
     padded = np.pad(smooth, half, mode="edge")
-    slowing = (padded[: -2 * half] - padded[2 * half :]) / (2 * half * PROGRESS_S)
+    slowing = (padded[: -2 * half] - padded[2 * half :]) / (2 * half * WINDOW_S)
     found = []
     for begin, end in stretches(slowing > RELEASED_G * STANDARD_GRAVITY):
         part = slowing[begin:end]
@@ -139,7 +139,7 @@ def _brakes(distance: FloatArray, smooth: FloatArray) -> list[tuple[float, float
 
 def _smoothed(speed: FloatArray) -> FloatArray:
     """Return the mean speed over half a second around, of as much as there is at both ends."""
-    window = np.ones(round(SMOOTHED_S / PROGRESS_S))
+    window = np.ones(round(SMOOTHED_S / WINDOW_S))
     if speed.size < window.size:
         return speed
     sums = np.convolve(speed, window, "same")

@@ -93,14 +93,14 @@ def _preliminary(
     result = run(recording, pipeline, given)
     _check_tracks(reference, result.profile)
     begin_m, end_m = section(reference, result.profile)
-    drive = drive_of(recording, begin_m, end_m)
+    drive = drive_of(result.screening.travel, begin_m, end_m)
     comparison = Comparison(reference, begin_m, end_m, drive, max_offset_m)
-    return Preliminary(name, recording, comparison), result.warnings
+    return Preliminary(name, recording, result.screening, comparison), result.warnings
 
 
 def _nominal(made: Preliminary, given: Mapping[str, Any]) -> Scores:
     settings = {k: v for k, v in given.items() if k == "interval_m"}
-    return made.comparison.scores(run(made.recording, NOMINAL, settings).profile)
+    return made.comparison.scores(made.profile(NOMINAL, settings))
 
 
 def _check_tracks(reference: Profile, profile: Profile) -> None:
@@ -127,7 +127,7 @@ def _check_high_speed(prepared: Prepared) -> None:
         tracks = [track.name for track in made.comparison.reference.tracks]
         for index, score in enumerate(prepared.nominal[name]):
             if score.cross_correlation < LEAST_CORRELATION:
-                hint = _hint(made.comparison, made.recording, index)
+                hint = _hint(made, index)
                 raise InputError(
                     f"{name}: track {tracks[index]} correlates by {score.cross_correlation:.2f} "
                     f"with the reference at high speed, where {LEAST_CORRELATION:g} is the least; "
@@ -135,11 +135,12 @@ def _check_high_speed(prepared: Prepared) -> None:
                 )
 
 
-def _hint(comparison: Comparison, recording: Recording, index: int) -> str:
+def _hint(made: Preliminary, index: int) -> str:
     """Return what to do about a run that does not follow the reference."""
+    comparison = made.comparison
     length_m = comparison.end_m - comparison.begin_m
     wider = replace(comparison, max_offset_m=min(FARTHEST_M, length_m / 5))
-    score = wider.scores(run(recording, NOMINAL).profile)[index]
+    score = wider.scores(made.profile(NOMINAL))[index]
     if score.cross_correlation < LEAST_CORRELATION:
         return "give one of the same road, wheel path and start of distance"
     return (

@@ -8,19 +8,26 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from floatref.architectures.processing import run
+from floatref.architectures.screening import Screening
 from floatref.errors import FloatrefError
 from floatref.tuning.levels import Levels, Point
 from floatref.tuning.scores import HOPELESS, Comparison, Scores
+from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 
 
 @dataclass(frozen=True)
 class Preliminary:
-    """A preliminary run, and what its profiles are compared with."""
+    """A preliminary run, what was found out about it, and what its profiles are compared with."""
 
     name: str
     recording: Recording
+    screening: Screening
     comparison: Comparison
+
+    def profile(self, pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
+        """Return the profile by ``pipeline``."""
+        return run(self.recording, pipeline, settings, known=self.screening).profile
 
 
 @dataclass
@@ -82,8 +89,7 @@ class Trials:
     def _scored(self, name: str, settings: Mapping[str, Any]) -> Scores:
         chosen = self.runs[name]
         try:
-            profile = run(chosen.recording, self.pipeline, settings).profile
-            return chosen.comparison.scores(profile)
+            return chosen.comparison.scores(chosen.profile(self.pipeline, settings))
         except FloatrefError:
             # The same recording went through before, so it is these values that give no profile.
             return (HOPELESS,) * len(chosen.comparison.reference.tracks)

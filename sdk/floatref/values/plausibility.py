@@ -1,6 +1,6 @@
 """Whether a recording can be what it says: units, signs, gaps and spans of its channels."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -36,23 +36,33 @@ MISREADINGS = (
 )
 """Mean of a vertical accelerometer, how near it has to be, and what that means."""
 
+Examine = Callable[[Channel, float], tuple[str, ...]]
+"""What examines a channel of a recording with a profile interval in m, as `examine_channel`."""
 
-def examine(recording: Recording, needs: Needs | None = None) -> tuple[str, ...]:
+
+def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
+    """Return warnings about ``channel``; ``interval_m`` is that of the profile.
+
+    Raises InputError as `examine`.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        return tuple(_examined(channel, interval_m))
+
+
+def examine(
+    recording: Recording, needs: Needs | None = None, look: Examine = examine_channel
+) -> tuple[str, ...]:
     """Return warnings about ``recording``, one line each, for what can be processed all the same.
 
     Without ``needs``, every wheel path that has a height needs an accelerometer and the distance.
-    Raises InputError with one line naming the channel, the value and what to do for missing
-    channels, channels without samples or with more than half of them missing, implausible units
-    and signs, samples that no sensor gives, an accelerometer that never moves, a distance that
-    goes backwards, jumps or stands still, and truncated channels.
+    ``look`` examines each channel. Raises InputError with one line naming the channel, the value
+    and what to do for missing channels, channels without samples or with more than half of them
+    missing, implausible units and signs, samples that no sensor gives, an accelerometer that never
+    moves, a distance that goes backwards, jumps or stands still, and truncated channels.
     """
     needed = (nominal_needs(recording) if needs is None else needs).channels(recording)
-    with np.errstate(over="ignore", invalid="ignore"):
-        warnings = [
-            warning
-            for channel in needed
-            for warning in _examined(channel, recording.setup.profile_interval_m)
-        ]
+    interval_m = recording.setup.profile_interval_m
+    warnings = [warning for channel in needed for warning in look(channel, interval_m)]
     _check_spans(recording)
     return (*warnings, *_unused_setup(recording))
 

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import floatref
 from floatref.architectures.damage import Runs, Usual, within
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.errors import InputError
 from floatref.values import scanning
@@ -83,7 +84,7 @@ def test_damage_is_bridged_and_flagged_in_any_blocks(steady, size):
         height=Channel.of(HEIGHT, pinned, CLOCK),
         vertical_specific_force=Channel.of(FORCE, limited, CLOCK),
     )
-    source = Source(recording)
+    source = Source(Screening.of(recording))
     assert len(source.warnings) == 2
     blocks = list(source.blocks(size))
     for name, at, values, kind in (
@@ -121,4 +122,4 @@ def test_a_sensor_of_which_nothing_is_left_is_refused(steady, missing):
         vertical_specific_force=Channel.of(FORCE, swung, CLOCK),
     )
     with pytest.raises(InputError, match="channel height: no sample measures anything"):
-        Source(recording)
+        Source(Screening.of(recording))

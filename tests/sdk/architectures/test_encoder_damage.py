@@ -6,6 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.architectures.encoder_damage import encoder_damage
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.values.arrays import Flag
 from floatref.values.channels import ChannelId
@@ -33,7 +34,7 @@ def taken(steady, values, size=4096):
     recording = steady(
         seconds=COUNT / RATE, distance=Channel.of("distance", values, UniformClock.of(RATE))
     )
-    blocks = list(Source(recording).blocks(size))
+    blocks = list(Source(Screening.of(recording)).blocks(size))
     flags = [b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks]
     return np.concatenate([b[DISTANCE] for b in blocks]), np.concatenate(flags)
 

@@ -40,7 +40,7 @@ def estimate_of(elevation: FloatArray, sigma: float | None = None) -> Profile:
 
 def asked(gaps: FloatArray, profile: Profile) -> DropOut:
     """Return the drop-out of one wheel path."""
-    return DropOut(RECORDING, profile, {"main": gaps})
+    return DropOut(RECORDING, profile, {"main": gaps}, lambda pipeline, settings=None: profile)
 
 
 @given(

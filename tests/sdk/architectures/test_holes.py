@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.architectures.steady import holes_told
 from floatref.values.clock import StampedClock
@@ -35,7 +36,7 @@ def test_holes_are_told_with_their_number_and_length(begins, count, steady):
     lost_s = len(begins) * (count + 1) * float(np.diff(channel.times_s).mean())
     assert f"no samples for {lost_s:.4g} s in {len(begins)} places" in line
     holed = Recording(tuple(stamped(c, kept) for c in recording.channels))
-    assert line in Source(holed).warnings
+    assert line in Source(Screening.of(holed)).warnings
 
 
 def test_where_no_sample_is_missing_nothing_is_told(steady):

@@ -13,6 +13,7 @@ import floatref
 from floatref.architectures.kalman_pipelines import KALMAN, SETTINGS
 from floatref.architectures.kalman_steps import NOISE, noise_of
 from floatref.architectures.pipeline import Context, Pipeline
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.errors import InputError
 from floatref.stages.kalman import Noise
@@ -119,7 +120,7 @@ def test_every_field_of_the_noise_is_a_setting_and_has_its_value(name: str) -> N
     pipeline = PIPELINES[name]
     assert sorted(NOISE.values()) == sorted(field.name for field in fields(Noise))
     given = {setting: 0.5 + k for k, setting in enumerate(NOISE)}
-    source = Source(driven(), pipeline.channels)
+    source = Source(Screening.of(driven()), pipeline.channels)
     context = Context("temporal_estimate", pipeline, given, source.header, source.origin_m)
     noise = noise_of(context)
     for k, field in enumerate(NOISE.values()):

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kinematic_checks import check_kinematics
+from floatref.architectures.kinematic_checks import ImuUse, check_kinematics
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.errors import InputError
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate
@@ -50,6 +51,12 @@ def driven(drive: str, seed: int = 0) -> Recording:
     return simulate(scenario).recording
 
 
+def warnings_of(
+    recording: Recording, *tracks: str, gnss: bool = True, attitude: bool = True
+) -> tuple[str, ...]:
+    return check_kinematics(recording, ImuUse(tracks, gnss, attitude), gnss_faults(recording))
+
+
 def each(names: str | tuple[str, ...], change: Callable[[Channel], Channel]) -> Change:
     chosen = (names,) if isinstance(names, str) else names
 
@@ -76,9 +83,8 @@ def no_gnss(recording: Recording) -> Recording:
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_sound_recording_gives_no_warning(drive: str) -> None:
-    for track in ("left", "right"):
-        assert check_kinematics(driven(drive), track, True, True) == ()
-    assert check_kinematics(no_gnss(driven(drive)), "left", False, False) == ()
+    assert warnings_of(driven(drive), "left", "right") == ()
+    assert warnings_of(no_gnss(driven(drive)), "left", gnss=False, attitude=False) == ()
 
 
 @dataclass(frozen=True)
@@ -121,7 +127,7 @@ FAULTS = (
 @given(fault=st.sampled_from(FAULTS), seed=st.integers(0, 3))
 def test_a_wrong_sign_unit_or_axis_is_refused_by_name(fault: Fault, seed: int) -> None:
     with pytest.raises(InputError) as caught:
-        check_kinematics(fault.change(driven(fault.drive, seed)), "left", True, True)
+        warnings_of(fault.change(driven(fault.drive, seed)), "left")
     line = str(caught.value)
     assert line.startswith(fault.begins)
     assert fault.advice in line
@@ -131,7 +137,7 @@ def test_a_wrong_sign_unit_or_axis_is_refused_by_name(fault: Fault, seed: int) -
 @pytest.mark.parametrize("names", [(ROLL, PITCH), ("gnss_roll", "gnss_pitch")])
 def test_gravity_tells_which_pair_is_exchanged(names: tuple[str, str]) -> None:
     with pytest.raises(InputError, match=rf"^channels {names[0]} and {names[1]}: exchanged"):
-        check_kinematics(exchanged(*names)(driven("hill")), "left", True, True)
+        warnings_of(exchanged(*names)(driven("hill")), "left")
 
 
 @settings(deadline=None, max_examples=8)
@@ -139,15 +145,15 @@ def test_gravity_tells_which_pair_is_exchanged(names: tuple[str, str]) -> None:
 def test_without_gnss_gravity_tells_what_braking_does(seed: int, fault: str) -> None:
     change = times(PITCH, -1.0 if fault == "sign" else 10.0 * DEG)
     with pytest.raises(InputError, match=r"^channel pitch_rate: "):
-        check_kinematics(no_gnss(change(driven("hill", seed))), "left", False, False)
+        warnings_of(no_gnss(change(driven("hill", seed))), "left", gnss=False, attitude=False)
 
 
 def test_rate_and_attitude_that_are_both_inverted_are_found_by_gravity() -> None:
     both = times((PITCH, "gnss_pitch"), -1.0)(driven("hill"))
     with pytest.raises(InputError, match=r"^channels pitch_rate and gnss_pitch: agree, but turn"):
-        check_kinematics(both, "left", True, True)
+        warnings_of(both, "left")
 
 
 def test_the_attitude_is_no_obstacle_to_a_pipeline_that_does_without() -> None:
-    (line,) = check_kinematics(times("gnss_pitch", -1.0)(driven("hill")), "left", True, False)
+    (line,) = warnings_of(times("gnss_pitch", -1.0)(driven("hill")), "left", attitude=False)
     assert line.startswith("channel gnss_pitch: the sign is inverted")

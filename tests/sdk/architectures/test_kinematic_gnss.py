@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kinematic_checks import gnss_faults
-from floatref.architectures.kinematic_gnss import faults_told, fixed_told, jumps_told
+from floatref.architectures.kinematic_gnss import faults_told, fixed_told, gnss_faults, jumps_told
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 

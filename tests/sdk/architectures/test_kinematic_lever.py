@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kinematic_checks import gnss_faults
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.architectures.kinematic_lever import check_antenna, located
 from floatref.architectures.kinematic_series import Motion
 from floatref.values.recording import Recording, Setup

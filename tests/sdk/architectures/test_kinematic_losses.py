@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kinematic_checks import check_kinematics
+from floatref.architectures.kinematic_checks import ImuUse, check_kinematics
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
@@ -32,6 +33,12 @@ DRIVES: dict[str, dict[str, Any]] = {
 def driven(drive: str) -> Recording:
     scenario = Scenario.from_dict({**DRIVES[drive], "rate_hz": 1000.0})
     return simulate(scenario).recording
+
+
+def warnings_of(
+    recording: Recording, *tracks: str, gnss: bool = True, attitude: bool = True
+) -> tuple[str, ...]:
+    return check_kinematics(recording, ImuUse(tracks, gnss, attitude), gnss_faults(recording))
 
 
 def each(name: str, change: Callable[[Channel], Channel]) -> Change:
@@ -61,14 +68,14 @@ def test_all_channels_that_are_missing_are_named_at_once(
     gone: tuple[str, ...], gnss: bool, attitude: bool, text: str
 ) -> None:
     with pytest.raises(InputError, match=rf"^{text}"):
-        check_kinematics(without(*gone)(driven("hill")), "left", gnss, attitude)
+        warnings_of(without(*gone)(driven("hill")), "left", gnss=gnss, attitude=attitude)
 
 
 def test_what_a_pipeline_does_not_read_may_be_missing() -> None:
     recording = driven("hill")
-    assert check_kinematics(without("gnss_roll")(recording), "left", True, False) == ()
-    assert check_kinematics(without("gnss_height")(recording), "left", False, False) == ()
-    (line,) = check_kinematics(without("gnss_quality")(recording), "left", True, True)
+    assert warnings_of(without("gnss_roll")(recording), "left", attitude=False) == ()
+    assert warnings_of(without("gnss_height")(recording), "left", gnss=False, attitude=False) == ()
+    (line,) = warnings_of(without("gnss_quality")(recording), "left")
     assert (
         line == "channel gnss_quality: missing; every reading of gnss_height is taken as RTK fixed"
     )
@@ -97,7 +104,7 @@ def test_a_silent_gyro_is_told_and_survived(name: str, at: int, length: int, sta
 
     recording = driven("curve")
     size = next(c.values.size for c in recording.channels if c.id.name == name)
-    (line,) = check_kinematics(each(name, silenced)(recording), "left", True, True)
+    (line,) = warnings_of(each(name, silenced)(recording), "left")
     seconds = min(length, size - at) / 100
     assert line == (
         f"channel {name}: no samples for {seconds:.4g} s in 1 place, at most {seconds:.4g} s from "
@@ -113,7 +120,7 @@ def test_a_wild_rate_is_refused(value: float) -> None:
         return replace(channel, values=values)
 
     with pytest.raises(InputError, match=rf"^channel yaw_rate: sample 77 is {value:.4g} rad/s"):
-        check_kinematics(each(YAW, wild)(driven("hill")), "left", True, True)
+        warnings_of(each(YAW, wild)(driven("hill")), "left")
 
 
 @pytest.mark.parametrize("change", [lambda c: 0.0 * c.values + np.nan, lambda c: c.values])
@@ -123,11 +130,11 @@ def test_a_run_of_a_second_is_checked_for_what_it_has(change: Callable[[Channel]
     rng = np.random.default_rng(0)
     channels = tuple(Channel.of(n, rng.standard_normal(100), clock) for n in names)
     short = Recording(channels)
-    assert check_kinematics(short, "main", False, False) == ()
+    assert warnings_of(short, "main", gnss=False, attitude=False) == ()
     gone = each(ROLL, lambda c: replace(c, values=change(c)))(short)
     if np.isnan(change(channels[0])).all():
         with pytest.raises(InputError, match=r"^channel roll_rate: no samples for 1 of"):
-            check_kinematics(gone, "main", False, False)
+            warnings_of(gone, "main", gnss=False, attitude=False)
 
 
 NAMES = (LONG, LAT, ROLL, PITCH, YAW, "distance", "vertical_specific_force", "gnss_height",
@@ -176,7 +183,7 @@ def test_whatever_is_damaged_gets_lines_or_a_refusal(
                 recording
             )
     try:
-        lines = check_kinematics(recording, "left", True, True)
+        lines = warnings_of(recording, "left")
     except InputError as error:
         lines = (str(error),)
     assert all(line.startswith(("channel", "setup.")) and "\n" not in line for line in lines)

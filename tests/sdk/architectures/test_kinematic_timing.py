@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kinematic_checks import check_kinematics
+from floatref.architectures.kinematic_checks import ImuUse, check_kinematics
+from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
@@ -32,7 +33,8 @@ def stamped(by_s: float) -> Callable[[Channel], Channel]:
 
 
 def checked(recording: Recording) -> tuple[str, ...]:
-    return check_kinematics(recording, "left", True, True)
+    use = ImuUse(("left",), gnss=True, attitude=True)
+    return check_kinematics(recording, use, gnss_faults(recording))
 
 
 @settings(deadline=None, max_examples=12)

@@ -125,10 +125,19 @@ def profile_of(drive: Simulation) -> Profile:
     return replace(drive.truth, pipeline="temporal-basic")
 
 
+def drop_out_of(recording: Recording, drive: Simulation, gaps: Mapping[str, FloatArray]) -> DropOut:
+    """Return the drop-out of ``recording``, which runs other pipelines on it."""
+
+    def process(pipeline: str, settings: Mapping[str, object] | None = None) -> Profile:
+        return run(recording, pipeline, settings).profile
+
+    return DropOut(recording, profile_of(drive), gaps, process)
+
+
 def asked(drive: Simulation) -> DropOut:
     """Return a drop-out."""
     gaps: Mapping[str, FloatArray] = {"left": np.array([[BEGIN_M, END_M]])}
-    return DropOut(without_response(drive.recording), profile_of(drive), gaps)
+    return drop_out_of(without_response(drive.recording), drive, gaps)
 
 
 def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
@@ -139,7 +148,7 @@ def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
 
 def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
     recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
-    drop_out = DropOut(recording, profile_of(drive), {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = drop_out_of(recording, drive, {"left": np.array([[BEGIN_M, END_M]])})
     loaded = Plugins()
     loaded.add(Other(drive.truth), "other")
     assert loaded.fall_back(drop_out) is drive.truth
@@ -170,6 +179,6 @@ def test_a_broken_plug_in_is_reported_and_ours_answers(drive: Simulation) -> Non
 def test_what_makes_the_estimate_impossible_is_raised(drive: Simulation) -> None:
     recording = dropped(drive.recording)
     unknown = replace(recording, setup=replace(recording.setup, vehicle=None))
-    drop_out = DropOut(unknown, profile_of(drive), {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = drop_out_of(unknown, drive, {"left": np.array([[BEGIN_M, END_M]])})
     with pytest.raises(InputError, match=r"setup\.vehicle"):
         plugins().fall_back(drop_out)

@@ -8,6 +8,7 @@ import pytest
 
 import floatref
 from floatref.architectures import flow
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.measures import high_pass
 from floatref.stages.kalman.inputs import IMU
@@ -44,7 +45,7 @@ def driven(manoeuvre: str = "stop", **numbers: float) -> Simulation:
 
 
 def levelled(recording: Recording) -> np.ndarray:
-    source, stage = Source(recording, IMU), Level()
+    source, stage = Source(Screening.of(recording), IMU), Level()
     _, blocks = flow.run([stage], source.header, source.blocks())
     return join_blocks(list(blocks))[ChannelId("vertical_acceleration", "left")]
 

@@ -15,6 +15,7 @@ from floatref.architectures.pipeline import Context
 from floatref.architectures.plugins import plugins
 from floatref.architectures.registration import SIGNAL_FLOWS
 from floatref.architectures.road_prior_spatial import ROAD_PRIOR_SPATIAL
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.measures import agreement, high_pass, iri
 from floatref.stages.signals import ELEVATION, SIGMA
@@ -129,7 +130,7 @@ def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
 
 
 def test_blocks_of_any_size_give_the_same_bits() -> None:
-    source, rng = Source(damaged()), np.random.default_rng(0)
+    source, rng = Source(Screening.of(damaged())), np.random.default_rng(0)
     whole = taken(source, lambda: 1 << 40)
     for sizes in (lambda: 997, lambda: int(rng.integers(1, 60_000))):
         for one, other in zip(taken(source, sizes), whole, strict=True):

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from floatref.architectures.screening import Screening
 from floatref.architectures.source import Source
 from floatref.architectures.steady import steady_clock
 from floatref.errors import InputError
@@ -20,6 +21,10 @@ laws = settings(
 )
 
 
+def source_of(recording):
+    return Source(Screening.of(recording))
+
+
 def whole(source, size=300):
     blocks = list(source.blocks(size))
     return {
@@ -29,7 +34,7 @@ def whole(source, size=300):
 
 def test_channels_on_one_clock_pass_through(steady):
     recording = steady()
-    values, blocks = whole(Source(recording))
+    values, blocks = whole(source_of(recording))
     np.testing.assert_array_equal(values[HEIGHT], recording.channel("height").values)
     assert not any(block.flags or block.fresh for block in blocks)
 
@@ -43,7 +48,7 @@ def test_another_clock_is_linear_in_between(steady, rate, start):
     count = int(5.0 * rate)
     times = start + np.arange(count) / rate
     slow = Channel.of("distance", 3.0 + 20.0 * times, UniformClock.of(rate, start))
-    source = Source(steady(distance=slow))
+    source = source_of(steady(distance=slow))
     values, blocks = whole(source)
     at = source.header.origin + np.arange(source.length) / 1000.0
     np.testing.assert_allclose(values[DISTANCE], 3.0 + 20.0 * at, atol=1e-9)
@@ -63,7 +68,7 @@ def test_any_split_gives_the_same_samples(steady, seed, cut):
     heights[rng.integers(1, 899, 60)] = np.nan
     own = Channel.of("height", heights, StampedClock.of(stamps))
     recording = steady(height=own)
-    one, two = whole(Source(recording), cut)[0], whole(Source(recording), 4000)[0]
+    one, two = whole(source_of(recording), cut)[0], whole(source_of(recording), 4000)[0]
     np.testing.assert_array_equal(one[HEIGHT], two[HEIGHT])
 
 
@@ -72,7 +77,7 @@ def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
     heights = recording.channel("height").values.copy()
     heights[1000:1400] = np.nan
     lost = steady(height=Channel.of("height", heights, UniformClock.of(1000.0)))
-    values, blocks = whole(Source(lost))
+    values, blocks = whole(source_of(lost))
     line = np.interp(np.arange(1000, 1400), [999, 1400], heights[[999, 1400]])
     np.testing.assert_allclose(values[HEIGHT][1000:1400], line, atol=1e-15)
     flags = np.concatenate(
@@ -88,7 +93,7 @@ def test_a_long_gap_of_the_accelerometer_is_flagged_as_drift(steady, size, count
     forces = steady().channel("vertical_specific_force").values.copy()
     forces[5 : 5 + count] = np.nan
     lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
-    blocks = Source(steady(vertical_specific_force=lost)).blocks(size)
+    blocks = source_of(steady(vertical_specific_force=lost)).blocks(size)
     flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
     assert set(flags[5 : 5 + count].tolist()) == {int(kind)}
     assert not flags[:5].any()
@@ -100,7 +105,7 @@ def test_a_gap_at_the_end_of_a_run_is_long_since_nobody_knows_its_end(steady, pa
     forces = steady().channel("vertical_specific_force").values.copy()
     forces[part] = np.nan
     lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
-    blocks = Source(steady(vertical_specific_force=lost)).blocks(100)
+    blocks = source_of(steady(vertical_specific_force=lost)).blocks(100)
     flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
     assert (flags[part] == Flag.MISSING | Flag.DRIFT).all()
 
@@ -108,7 +113,7 @@ def test_a_gap_at_the_end_of_a_run_is_long_since_nobody_knows_its_end(steady, pa
 def test_a_hole_between_time_stamps_of_a_laser_is_a_gap(steady):
     stamps = np.concatenate((np.arange(0.0, 2.0, 0.002), np.arange(2.5, 4.1, 0.002)))
     own = Channel.of("height", 0.3 + 1e-3 * np.cos(stamps), StampedClock.of(stamps))
-    (block,) = Source(steady(height=own)).blocks(10_000)
+    (block,) = source_of(steady(height=own)).blocks(10_000)
     at = np.arange(len(block)) / 1000.0
     inside = (at > 1.9985) & (at < 2.4995)
     np.testing.assert_array_equal(block.flags[HEIGHT] != 0, inside)
@@ -117,7 +122,7 @@ def test_a_hole_between_time_stamps_of_a_laser_is_a_gap(steady):
 def test_pulses_of_an_encoder_far_apart_are_no_gap(steady):
     stamps = np.array([0.0, 0.1, 0.2, 3.0, 3.1, 4.5])
     own = Channel.of("distance", np.arange(6) * 0.5, StampedClock.of(stamps))
-    (block,) = Source(steady(distance=own)).blocks(10_000)
+    (block,) = source_of(steady(distance=own)).blocks(10_000)
     assert not block.flags
 
 
@@ -129,7 +134,7 @@ def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
         name: Channel.of(name, steady().channel(name).values, UniformClock.of(1000.0, 7.0))
         for name in ("height", "distance")
     }
-    assert Source(steady(vertical_specific_force=own, **shifted)).length == 4000
+    assert source_of(steady(vertical_specific_force=own, **shifted)).length == 4000
 
 
 @pytest.mark.parametrize("rate", [1000.0, 16_000.0])
@@ -142,7 +147,7 @@ def test_a_hole_between_time_stamps_of_an_accelerometer_is_a_gap(steady, rate, h
         name: Channel.of(name, 9.8 + np.arange(count) * step, StampedClock.of(stamps))
         for name, step in (("vertical_specific_force", 0.0), ("height", 0.0), ("distance", 1e-3))
     }
-    source = Source(steady(**channels))
+    source = source_of(steady(**channels))
     assert float(source.header.rate) == rate
     (block,) = source.blocks(10**6)
     at = np.arange(len(block)) / rate
@@ -156,7 +161,7 @@ def test_an_accelerometer_of_changing_rate_is_refused(steady):
     stamps = np.concatenate((np.arange(3000) / 1000.0, 3.0 + np.arange(1000) / 1100.0))
     own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
     with pytest.raises(InputError, match=r"s off a constant rate of .* record it at a constant"):
-        Source(steady(vertical_specific_force=own))
+        source_of(steady(vertical_specific_force=own))
 
 
 def test_an_accelerometer_with_more_holes_than_samples_is_refused(steady):
@@ -164,7 +169,7 @@ def test_an_accelerometer_with_more_holes_than_samples_is_refused(steady):
     own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
     message = r"0.0025 s without a sample after time stamp \d+; fill gaps with NaN at"
     with pytest.raises(InputError, match=message):
-        Source(steady(vertical_specific_force=own))
+        source_of(steady(vertical_specific_force=own))
 
 
 def test_an_accelerometer_that_jitters_is_refused(steady):
@@ -172,7 +177,7 @@ def test_an_accelerometer_that_jitters_is_refused(steady):
     stamps[1::2] += 0.0001
     own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
     with pytest.raises(InputError, match=r"999\.975 Hz; record it at a constant rate"):
-        Source(steady(vertical_specific_force=own))
+        source_of(steady(vertical_specific_force=own))
 
 
 @pytest.mark.parametrize("rate", [1000.0, 3240.0, 4000.0, 16_000.0, 44_100.0, 48_000.0])
@@ -186,21 +191,21 @@ def test_only_the_time_that_all_channels_cover_is_used(steady):
     late = Channel.of(
         "height", 0.3 + 1e-6 * np.cos(np.arange(3000.0)), UniformClock.of(1000.0, 0.5)
     )
-    source = Source(steady(height=late))
+    source = source_of(steady(height=late))
     assert (source.header.origin, source.length) == (0.5, 3000)
 
 
 def test_channels_that_never_meet_are_refused(steady):
     late = Channel.of("height", np.full(100, 0.3), UniformClock.of(1000.0, 99.0))
     with pytest.raises(InputError, match="no stretch of time in common; check start_s"):
-        Source(steady(height=late))
+        source_of(steady(height=late))
 
 
 def test_gnss_samples_are_events_at_their_own_times(steady):
     stamps = StampedClock.of([-1.0, 0.0, 0.05, 0.3004, 3.9, 9.0])
     height = Channel.of("gnss_height", [0, 1, np.nan, 3, 4, 5], stamps)
     quality = Channel.of("gnss_quality", [4, 4, 0, 5, 4, 4], stamps)
-    blocks = list(Source(steady(gnss_height=height, gnss_quality=quality)).blocks(300))
+    blocks = list(source_of(steady(gnss_height=height, gnss_quality=quality)).blocks(300))
     events = [event for block in blocks for event in block.events]
     assert [event.time_s for event in events] == [0.0, 0.05, 0.3004, 3.9]
     assert events[1].values == {ChannelId("gnss_quality"): 0.0}
@@ -213,7 +218,7 @@ def test_gnss_samples_are_events_at_their_own_times(steady):
 def test_gnss_of_a_constant_rate_comes_once_each(steady, rate, start):
     clock = UniformClock.of(rate, start / 1000.0)
     height = Channel.of("gnss_height", np.arange(60.0), clock)
-    blocks = list(Source(steady(gnss_height=height)).blocks(170))
+    blocks = list(source_of(steady(gnss_height=height)).blocks(170))
     times = [event.time_s for block in blocks for event in block.events]
     inside = [t for t in clock.times(60).tolist() if 0.0 <= t < 4.0 - 1e-12]
     assert times == pytest.approx(inside)
@@ -225,7 +230,7 @@ def test_a_leap_between_two_samples_of_a_slower_accelerometer_is_flagged(steady,
     times = np.arange(20_000) / 4000.0
     travel = 20.0 * times
     travel[sample:] += 1.0
-    source = Source(steady(distance=Channel.of("distance", travel, UniformClock.of(4000))))
+    source = source_of(steady(distance=Channel.of("distance", travel, UniformClock.of(4000))))
     blocks = list(source.blocks(cut))
     flags = np.concatenate([b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks])
     values = np.concatenate([block[DISTANCE] for block in blocks])
@@ -238,12 +243,12 @@ def test_a_leap_between_two_samples_of_a_slower_accelerometer_is_flagged(steady,
 def test_the_ends_are_those_of_the_encoder_less_than_a_sample_away(steady):
     times = np.arange(16_000) / 4000.0 - 0.0005
     clock = UniformClock.of(4000, -0.0005)
-    source = Source(steady(distance=Channel.of("distance", 3.0 + 20.0 * times, clock)))
+    source = source_of(steady(distance=Channel.of("distance", 3.0 + 20.0 * times, clock)))
     assert source.ends_m[0] == 3.0 + 20.0 * times[0] < source.origin_m
     assert source.ends_m[1] == 3.0 + 20.0 * times[-1] > source.origin_m + source.distance_m
 
 
 def test_an_encoder_that_goes_on_alone_does_not_move_the_ends(steady):
     times = np.arange(40_000) / 4000.0
-    source = Source(steady(distance=Channel.of("distance", 20.0 * times, UniformClock.of(4000))))
+    source = source_of(steady(distance=Channel.of("distance", 20.0 * times, UniformClock.of(4000))))
     assert source.ends_m == (source.origin_m, source.origin_m + source.distance_m)
