@@ -15,7 +15,7 @@ from floatref.architectures import flow
 from floatref.architectures.collecting import collect_profile
 from floatref.architectures.fall_back import DropOut, bridged, gaps_of
 from floatref.architectures.kinematic_checks import ImuUse
-from floatref.architectures.pipeline import Context
+from floatref.architectures.pipeline import Context, Pipeline
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.registration import NEEDS, SIGNAL_FLOWS
 from floatref.architectures.screening import Screening
