@@ -9,7 +9,6 @@ from floatref.architectures.kinematic_channels import STEPS, told_spans
 from floatref.architectures.kinematic_readings import RTK_FIXED, fixed_readings, usual_step
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import StampedClock
-from floatref.values.needs import profiled_tracks
 from floatref.values.recording import Channel, Recording
 
 UNFIXED_S = 1.0
@@ -99,7 +98,8 @@ def _moves(recording: Recording, begin_s: float, end_s: float) -> bool:
     for name, limit in limits.items():
         if _spread(recording.find(name), begin_s, end_s) > limit:
             return True
-    track = profiled_tracks(recording)[0]
+    # A recording of the vehicle's response may have no height.
+    track = next((t for t in recording.tracks if recording.find("height", t)), recording.tracks[0])
     force = _spread(recording.find("vertical_specific_force", track), begin_s, end_s)
     return force > ALIVE and _spread(recording.find("distance", track), begin_s, end_s) > TRAVEL_M
 

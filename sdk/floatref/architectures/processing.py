@@ -103,13 +103,13 @@ def run(
     computed again.
     """
     order = _settle(plugins(), recording, pipeline, settings)
-    result, source = _processed(order, known, progress)
+    result, source = _make_profile(order, known, progress)
     if order.pipeline.architecture == "temporal":
         result = _bridge_gaps(order, result, source)
     return replace(result, warnings=(*result.warnings, *order.plugins.reports))
 
 
-def _processed(
+def _make_profile(
     order: _Order, known: Screening | None = None, progress: Progress | None = None
 ) -> tuple[Result, Source]:
     """Take the way of a recording, as far as to a profile whose gaps are bridged by lines."""
@@ -118,8 +118,8 @@ def _processed(
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
     profile = _run_and_collect(order, source, stages, progress)
-    told = (*cautions, *source.warnings, *flow.told(stages))
-    return Result(profile, told, screening), source
+    lines = (*cautions, *source.warnings, *flow.told(stages))
+    return Result(profile, lines, screening), source
 
 
 def _settle(
@@ -166,7 +166,7 @@ def _run_and_collect(
     order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
     """Push the blocks through the stages and return the profile that comes out."""
-    header, blocks = flow.run(stages, source.header, _counted(source, progress))
+    header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
     if learned := flow.learned(stages):
@@ -174,7 +174,8 @@ def _run_and_collect(
     return profile
 
 
-def _counted(source: Source, progress: Progress | None) -> Iterator[Block]:
+def _report_progress(source: Source, progress: Progress | None) -> Iterator[Block]:
+    """Yield the blocks; ``progress`` is called with the fraction that is through."""
     for block in source.blocks():
         yield block
         if progress is not None:
@@ -189,14 +190,15 @@ def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
 
     def process(pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
         other = _settle(order.plugins, order.recording, pipeline, settings)
-        return _processed(other, result.screening)[0].profile
+        return _make_profile(other, result.screening)[0].profile
 
     asked = DropOut(order.recording, result.profile, gaps, process)
-    profile, lines = _fallen_back(order.plugins, asked)
+    profile, lines = _ask_fall_back(order.plugins, asked)
     return replace(result, profile=profile, warnings=(*result.warnings, *lines))
 
 
-def _fallen_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
+def _ask_fall_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
+    """Return the bridged profile and lines on it; the same profile if there is no estimate."""
     try:
         estimate = loaded.fall_back(asked)
     except InputError as error:

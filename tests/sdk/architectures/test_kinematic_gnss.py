@@ -115,6 +115,13 @@ def test_a_height_may_rest_where_nothing_moves() -> None:
     assert gnss_faults(with_values(recording, HEIGHT, None)).size == 0
 
 
+def test_a_recording_without_a_height_sensor_is_searched_as_well() -> None:
+    recording = with_height(swaying(), 100, 300, 199.0)
+    still = with_values(recording, VELOCITY, None)
+    others = tuple(c for c in still.channels if c.id.name != "height")
+    assert gnss_faults(replace(still, channels=others)).tolist() == [[100, 400]]
+
+
 @laws
 @given(
     seed=st.integers(0, 99),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from floatref import answers
+from floatref.architectures import processing
 from floatref.architectures.fall_back import DropOut
 from floatref.architectures.plugins import Plugins, plugins
 from floatref.architectures.processing import Result, run
@@ -182,3 +183,28 @@ def test_what_makes_the_estimate_impossible_is_raised(drive: Simulation) -> None
     drop_out = drop_out_of(unknown, drive, {"left": np.array([[BEGIN_M, END_M]])})
     with pytest.raises(InputError, match=r"setup\.vehicle"):
         plugins().fall_back(drop_out)
+
+
+class Same:
+    """A plug-in that runs a temporal pipeline again, which has the same gaps."""
+
+    def __init__(self) -> None:
+        """Begin without questions."""
+        self.asked: list[DropOut] = []
+
+    @answers("temporal-basic")
+    def temporal_fall_back(self, context: DropOut) -> Profile:
+        """Return what another temporal pipeline makes of the recording."""
+        self.asked.append(context)
+        return context.process("temporal-hpf")
+
+
+def test_a_pipeline_that_a_fall_back_runs_asks_for_no_other(
+    drive: Simulation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    loaded, same = Plugins(), Same()
+    loaded.add(same, "same")
+    monkeypatch.setattr(processing, "plugins", lambda: loaded)
+    result = run(dropped(drive.recording), "temporal-basic")
+    assert len(same.asked) == 1
+    assert any("temporal-hpf gives the elevation" in line for line in result.warnings)
