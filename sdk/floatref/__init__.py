@@ -71,9 +71,12 @@ if TYPE_CHECKING:
     from floatref.retrofit import SpatialHighPass as SpatialHighPass
     from floatref.retrofit import TimerDistortion as TimerDistortion
     from floatref.retrofit import TravelSpeed as TravelSpeed
+    from floatref.stages.kalman import Noise as Noise
+    from floatref.stages.kalman import Plan as Plan
     from floatref.stages.protocol import Declared as Declared
     from floatref.stages.protocol import Direction as Direction
     from floatref.stages.protocol import Stage as Stage
+    from floatref.stages.road_prior import RoadPrior as RoadPrior
     from floatref.values.arrays import Flag as Flag
     from floatref.values.block import Axis as Axis
     from floatref.values.block import Block as Block
@@ -128,7 +131,9 @@ _PUBLIC = {
     "NativeAdapter": "architectures.adapter",
     "NativeClock": "values.native",
     "NativeFile": "values.native",
+    "Noise": "stages.kalman",
     "Pipeline": "architectures.pipeline",
+    "Plan": "stages.kalman",
     "PluginError": "errors",
     "Profile": "values.profile",
     "ProfileFormat": "architectures.profile_format",
@@ -136,6 +141,7 @@ _PUBLIC = {
     "Reading": "response",
     "Recording": "values.recording",
     "RecordingAdapter": "architectures.adapter",
+    "RoadPrior": "stages.road_prior",
     "Rows": "values.native",
     "Setting": "architectures.stage_calls",
     "Setup": "values.recording",

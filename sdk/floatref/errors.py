@@ -23,4 +23,4 @@ class StageError(FloatrefError, RuntimeError):
 
 
 class PluginError(FloatrefError, RuntimeError):
-    """Two plug-ins answered the same question, or a name was registered twice."""
+    """Two plug-ins answered the same point, a name was registered twice, or an answer is unfit."""

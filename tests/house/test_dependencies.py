@@ -13,7 +13,7 @@ ALLOWED = {
     "sdk": {"click", "jsonschema", "numba", "numpy", "pluggy", "rich", "scipy"},
     "sdk/floatref/plots": {"matplotlib"},
     "sdk/floatref/batch": {"dask", "distributed", "pyarrow"},
-    "adapters": {"numpy", "pluggy"},
+    "adapters": {"numpy"},
     "adapters/floatref_adapters": {
         "asammdf",
         "can",

@@ -3,6 +3,7 @@
 import importlib
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
@@ -32,3 +33,12 @@ def test_the_readme_lists_every_source_file_once():
     files = re.findall(r"`(\w+\.c)`", re.search(r"\| file .*?\n\n", readme, re.S)[0])
     unlisted = {"failure.c"}
     assert sorted(files) == sorted({file.name for file in SOURCE.glob("*.c")} - unlisted)
+
+
+def test_the_commands_of_the_readme_work_from_the_top_of_the_tree(tmp_path):
+    readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+    shutil.copytree(SOURCE, tmp_path / SOURCE.relative_to(ROOT))
+    (commands,) = re.findall(r"^```sh\n(.*?)^```$", readme, re.M | re.S)
+    subprocess.run(["sh", "-e"], input=commands, text=True, cwd=tmp_path, check=True)
+    built = {path.name for path in (tmp_path / SOURCE.relative_to(ROOT)).iterdir()}
+    assert {"firmware", "hello", "golden"} <= built
