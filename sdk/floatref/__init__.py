@@ -18,10 +18,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from floatref.architectures.processing import FloatrefWarning as FloatrefWarning
-    from floatref.architectures.processing import pipeline_capabilities as pipeline_capabilities
-    from floatref.architectures.processing import pipelines as pipelines
-    from floatref.architectures.processing import process as process
+    from floatref.engine.run import FloatrefWarning as FloatrefWarning
+    from floatref.engine.run import pipeline_capabilities as pipeline_capabilities
+    from floatref.engine.run import pipelines as pipelines
+    from floatref.engine.run import process as process
     from floatref.errors import FloatrefError as FloatrefError
     from floatref.errors import InputError as InputError
     from floatref.errors import StageError as StageError
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from floatref.values.recording import Recording as Recording
     from floatref.values.recording import Setup as Setup
     from floatref.values.recording import TrackSetup as TrackSetup
-    from floatref.values.vehicle import VehicleSetup as VehicleSetup
+    from floatref.values.vehicle_setup import VehicleSetup as VehicleSetup
 
 __version__ = "0.1.0"
 
@@ -66,7 +66,7 @@ _PUBLIC = {
     "Column": "values.native",
     "Epoch": "values.native",
     "FloatrefError": "errors",
-    "FloatrefWarning": "architectures.processing",
+    "FloatrefWarning": "engine.run",
     "HeightReflection": "retrofit",
     "HighPass": "retrofit",
     "InputError": "errors",
@@ -87,10 +87,10 @@ _PUBLIC = {
     "TrackSetup": "values.recording",
     "TravelSpeed": "retrofit",
     "UniformClock": "values.clock",
-    "VehicleSetup": "values.vehicle",
-    "pipeline_capabilities": "architectures.processing",
-    "pipelines": "architectures.processing",
-    "process": "architectures.processing",
+    "VehicleSetup": "values.vehicle_setup",
+    "pipeline_capabilities": "engine.run",
+    "pipelines": "engine.run",
+    "process": "engine.run",
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",

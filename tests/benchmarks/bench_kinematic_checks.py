@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from floatref.architectures.kinematic_checks import check_kinematics
 from floatref.errors import InputError
+from floatref.screening.imu_and_gnss import check_kinematics
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate

@@ -7,12 +7,12 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from floatref.engine.question import Question
 
 from floatref import Channel, InputError, Profile, ProfileTrack, Recording, UniformClock
-from floatref.architectures import hookspecs
-from floatref.architectures.fall_back import DropOut
-from floatref.architectures.plugins import Plugins
-from floatref.architectures.question import Question
+from floatref.engine.fall_back import DropOut
+from floatref.engine.plugins import Plugins
+from floatref.interfaces import hookspecs
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_conformance import hookspecs as conformance_hookspecs

@@ -8,15 +8,13 @@ from typing import Any
 
 import click
 
-from floatref.architectures.writing import format_of, write_as
-from floatref.cli.formats import FormatName
-from floatref.cli.printing import number, print_json, print_settings, print_table
-from floatref.cli.progress import progress_bar
+from floatref.cli.format_option import FormatName
+from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
+from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
-from floatref.files.settings import read_settings
-from floatref.mapping.profiling import profiled
-from floatref.mapping.sources import recording_of
+from floatref.files.settings_file import read_settings
+from floatref.mapping.sources import profiled, recording_of
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -91,8 +89,8 @@ def _drawn(profile: Profile, recording: Recording, plot: Path | None) -> Iterato
     if plot is None:
         yield
         return
-    from floatref.architectures.travel import travel_speed
     from floatref.plots import draw_profile
+    from floatref.screening.travel import travel_speed
 
     with replacing_file(plot, overwrite=True) as beside:
         draw_profile(profile, beside, travel_speed(recording))

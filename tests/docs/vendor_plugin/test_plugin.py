@@ -53,7 +53,7 @@ def test_it_is_found(installed):
 
 
 def test_the_stage_is_found(installed):
-    code = "from floatref.architectures.plugins import plugins; print(plugins().stages().keys())"
+    code = "from floatref.engine.plugins import plugins; print(plugins().stages().keys())"
     assert "'RemoveSpikes'" in installed.run("python", "-c", code).stdout
 
 

@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from floatref.engine.question import Question
+
 from acme_roadlogger.spikes import RemoveSpikes
-from floatref.architectures.catalogue import PIPELINES
-from floatref.architectures.question import Question
+from floatref.pipelines.chapter_5 import PIPELINES
 from floatref.stages.protocol import Stage
 
 NAME = "acme-roadlogger"

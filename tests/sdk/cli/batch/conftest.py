@@ -27,7 +27,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import floatref
-from floatref.architectures.hookspecs import hookimpl
+from floatref.interfaces.hookspecs import hookimpl
 
 
 class Gate:
