@@ -99,7 +99,7 @@ def no_such_slip(row: Row) -> Iterator[str]:
 
 def pipeline_faults(row: Row) -> Iterator[str]:
     """Yield what ``row`` of a pipeline lacks."""
-    from floatref.architectures.plugins import plugins
+    from floatref.engine.plugins import plugins
     from floatref_conformance.table.published import published_table
 
     pipeline = plugins().pipelines().get(row["pipeline"])

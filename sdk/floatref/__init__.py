@@ -20,48 +20,42 @@ from typing import TYPE_CHECKING, Any
 from floatref.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from floatref.architectures.adapter import Adapter as Adapter
-    from floatref.architectures.adapter import NativeAdapter as NativeAdapter
-    from floatref.architectures.adapter import RecordingAdapter as RecordingAdapter
-    from floatref.architectures.fall_back import DropOut as DropOut
-    from floatref.architectures.lookup import make_stage as make_stage
-    from floatref.architectures.lookup import pipeline as pipeline
-    from floatref.architectures.lookup import stage_names as stage_names
-    from floatref.architectures.markers import answers as answers
-    from floatref.architectures.markers import hookimpl as hookimpl
-    from floatref.architectures.pipeline import Context as Context
-    from floatref.architectures.pipeline import Pipeline as Pipeline
-    from floatref.architectures.processing import FloatrefWarning as FloatrefWarning
-    from floatref.architectures.processing import pipeline_capabilities as pipeline_capabilities
-    from floatref.architectures.processing import pipelines as pipelines
-    from floatref.architectures.processing import process as process
-    from floatref.architectures.profile_format import ProfileFormat as ProfileFormat
-    from floatref.architectures.stage_calls import Setting as Setting
-    from floatref.architectures.stage_calls import StageCall as StageCall
+    from floatref.engine.fall_back import DropOut as DropOut
+    from floatref.engine.lookup import make_stage as make_stage
+    from floatref.engine.lookup import pipeline as pipeline
+    from floatref.engine.lookup import stage_names as stage_names
+    from floatref.engine.run import FloatrefWarning as FloatrefWarning
+    from floatref.engine.run import pipeline_capabilities as pipeline_capabilities
+    from floatref.engine.run import pipelines as pipelines
+    from floatref.engine.run import process as process
     from floatref.errors import FloatrefError as FloatrefError
     from floatref.errors import InputError as InputError
     from floatref.errors import PluginError as PluginError
     from floatref.errors import StageError as StageError
+    from floatref.estimators.kalman import Noise as Noise
+    from floatref.estimators.kalman import Plan as Plan
+    from floatref.estimators.road_prior import RoadPrior as RoadPrior
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
+    from floatref.interfaces.adapter import Adapter as Adapter
+    from floatref.interfaces.adapter import NativeAdapter as NativeAdapter
+    from floatref.interfaces.adapter import RecordingAdapter as RecordingAdapter
+    from floatref.interfaces.markers import answers as answers
+    from floatref.interfaces.markers import hookimpl as hookimpl
+    from floatref.interfaces.pipeline import Context as Context
+    from floatref.interfaces.pipeline import Pipeline as Pipeline
+    from floatref.interfaces.profile_format import ProfileFormat as ProfileFormat
+    from floatref.interfaces.stage_calls import Setting as Setting
+    from floatref.interfaces.stage_calls import StageCall as StageCall
     from floatref.mapping import read_native as read_native
     from floatref.measures import agreement as agreement
     from floatref.measures import channel_noise as channel_noise
     from floatref.measures import high_pass as high_pass
     from floatref.measures import on_common_grid as on_common_grid
     from floatref.measures import short_interval_roughness as short_interval_roughness
-    from floatref.response import IMINE_TRAILER as IMINE_TRAILER
-    from floatref.response import ZHU_HALF_CAR as ZHU_HALF_CAR
-    from floatref.response import JointInputState as JointInputState
-    from floatref.response import Kind as Kind
-    from floatref.response import Reading as Reading
-    from floatref.response import UnknownInputObserver as UnknownInputObserver
-    from floatref.response import check_readings as check_readings
-    from floatref.response import default_gains as default_gains
-    from floatref.response import hold_error_of as hold_error_of
     from floatref.retrofit import AdaptiveCutOff as AdaptiveCutOff
     from floatref.retrofit import AdaptiveHighPass as AdaptiveHighPass
     from floatref.retrofit import HeightReflection as HeightReflection
@@ -71,12 +65,9 @@ if TYPE_CHECKING:
     from floatref.retrofit import SpatialHighPass as SpatialHighPass
     from floatref.retrofit import TimerDistortion as TimerDistortion
     from floatref.retrofit import TravelSpeed as TravelSpeed
-    from floatref.stages.kalman import Noise as Noise
-    from floatref.stages.kalman import Plan as Plan
     from floatref.stages.protocol import Declared as Declared
     from floatref.stages.protocol import Direction as Direction
     from floatref.stages.protocol import Stage as Stage
-    from floatref.stages.road_prior import RoadPrior as RoadPrior
     from floatref.values.arrays import Flag as Flag
     from floatref.values.block import Axis as Axis
     from floatref.values.block import Block as Block
@@ -98,11 +89,20 @@ if TYPE_CHECKING:
     from floatref.values.recording import Recording as Recording
     from floatref.values.recording import Setup as Setup
     from floatref.values.recording import TrackSetup as TrackSetup
-    from floatref.values.vehicle import VehicleSetup as VehicleSetup
+    from floatref.values.vehicle_setup import VehicleSetup as VehicleSetup
+    from floatref.vehicle_response import IMINE_TRAILER as IMINE_TRAILER
+    from floatref.vehicle_response import ZHU_HALF_CAR as ZHU_HALF_CAR
+    from floatref.vehicle_response import JointInputState as JointInputState
+    from floatref.vehicle_response import Kind as Kind
+    from floatref.vehicle_response import Reading as Reading
+    from floatref.vehicle_response import UnknownInputObserver as UnknownInputObserver
+    from floatref.vehicle_response import check_readings as check_readings
+    from floatref.vehicle_response import default_gains as default_gains
+    from floatref.vehicle_response import hold_error_of as hold_error_of
 
 # Imported on first use, so that `import floatref` loads neither numba nor scipy.
 _PUBLIC = {
-    "Adapter": "architectures.adapter",
+    "Adapter": "interfaces.adapter",
     "AdaptiveCutOff": "retrofit",
     "AdaptiveHighPass": "retrofit",
     "Axis": "values.block",
@@ -110,44 +110,44 @@ _PUBLIC = {
     "Channel": "values.recording",
     "ChannelId": "values.channels",
     "Column": "values.native",
-    "Context": "architectures.pipeline",
+    "Context": "interfaces.pipeline",
     "Declared": "stages.protocol",
     "Direction": "stages.protocol",
-    "DropOut": "architectures.fall_back",
+    "DropOut": "engine.fall_back",
     "Epoch": "values.native",
     "Event": "values.block",
     "Flag": "values.arrays",
     "FloatrefError": "errors",
-    "FloatrefWarning": "architectures.processing",
+    "FloatrefWarning": "engine.run",
     "Header": "values.block",
     "HeightReflection": "retrofit",
     "HighPass": "retrofit",
-    "IMINE_TRAILER": "response",
+    "IMINE_TRAILER": "vehicle_response",
     "InputError": "errors",
-    "JointInputState": "response",
-    "Kind": "response",
+    "JointInputState": "vehicle_response",
+    "Kind": "vehicle_response",
     "LocalSuppression": "retrofit",
     "MatchedHighPass": "retrofit",
-    "NativeAdapter": "architectures.adapter",
+    "NativeAdapter": "interfaces.adapter",
     "NativeClock": "values.native",
     "NativeFile": "values.native",
-    "Noise": "stages.kalman",
-    "Pipeline": "architectures.pipeline",
-    "Plan": "stages.kalman",
+    "Noise": "estimators.kalman",
+    "Pipeline": "interfaces.pipeline",
+    "Plan": "estimators.kalman",
     "PluginError": "errors",
     "Profile": "values.profile",
-    "ProfileFormat": "architectures.profile_format",
+    "ProfileFormat": "interfaces.profile_format",
     "ProfileTrack": "values.profile",
-    "Reading": "response",
+    "Reading": "vehicle_response",
     "Recording": "values.recording",
-    "RecordingAdapter": "architectures.adapter",
-    "RoadPrior": "stages.road_prior",
+    "RecordingAdapter": "interfaces.adapter",
+    "RoadPrior": "estimators.road_prior",
     "Rows": "values.native",
-    "Setting": "architectures.stage_calls",
+    "Setting": "interfaces.stage_calls",
     "Setup": "values.recording",
     "SpatialHighPass": "retrofit",
     "Stage": "stages.protocol",
-    "StageCall": "architectures.stage_calls",
+    "StageCall": "interfaces.stage_calls",
     "StageError": "errors",
     "StampedClock": "values.clock",
     "Stream": "values.native",
@@ -155,29 +155,29 @@ _PUBLIC = {
     "TrackSetup": "values.recording",
     "TravelSpeed": "retrofit",
     "UniformClock": "values.clock",
-    "UnknownInputObserver": "response",
-    "VehicleSetup": "values.vehicle",
-    "ZHU_HALF_CAR": "response",
+    "UnknownInputObserver": "vehicle_response",
+    "VehicleSetup": "values.vehicle_setup",
+    "ZHU_HALF_CAR": "vehicle_response",
     "agreement": "measures",
-    "answers": "architectures.markers",
+    "answers": "interfaces.markers",
     "channel_noise": "measures",
-    "check_readings": "response",
-    "default_gains": "response",
+    "check_readings": "vehicle_response",
+    "default_gains": "vehicle_response",
     "high_pass": "measures",
-    "hold_error_of": "response",
-    "hookimpl": "architectures.markers",
+    "hold_error_of": "vehicle_response",
+    "hookimpl": "interfaces.markers",
     "join_blocks": "values.block",
-    "make_stage": "architectures.lookup",
+    "make_stage": "engine.lookup",
     "on_common_grid": "measures",
-    "pipeline": "architectures.lookup",
-    "pipeline_capabilities": "architectures.processing",
-    "pipelines": "architectures.processing",
-    "process": "architectures.processing",
+    "pipeline": "engine.lookup",
+    "pipeline_capabilities": "engine.run",
+    "pipelines": "engine.run",
+    "process": "engine.run",
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
     "short_interval_roughness": "measures",
-    "stage_names": "architectures.lookup",
+    "stage_names": "engine.lookup",
     "write_profile": "files",
     "write_profile_csv": "files",
     "write_recording": "files",

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
 from floatref_adapters.testing import WRITERS
 

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, UniformClock
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.hdf5 import apart
 from floatref_adapters.hdf5.adapter import Hdf5
 from floatref_adapters.hdf5.here import native_file

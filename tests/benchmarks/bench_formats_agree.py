@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from floatref import Profile, Recording, process, read_native
-from floatref.architectures.readers import native_of, reader_of
-from floatref.mapping.draft import draft_map
+from floatref.engine.formats import native_of, reader_of
+from floatref.mapping.draft.drafting import draft_map
 from floatref.measures import iri
 from floatref_adapters.testing import WRITERS
 from floatref_conformance.proving_ground.scenario import scenario_of_run

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.signal
 
 from floatref.measures import cross_correlation, iri
-from floatref.measures.quarter_car import KMH
+from floatref.measures.roughness.quarter_car import KMH
 
 INTERVAL_M = 0.00508
 ROUNDS = 7

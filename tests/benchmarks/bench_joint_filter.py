@@ -12,9 +12,9 @@ import sys
 import numpy as np
 from timing import in_turns, ratio
 
-from floatref.response import ZHU_HALF_CAR, Hold, Kind, Reading
-from floatref.response.disturbance import hold_error_of
-from floatref.response.joint_filter import JointInputState
+from floatref.vehicle_response import ZHU_HALF_CAR, Hold, Kind, Reading
+from floatref.vehicle_response.estimators.disturbance import hold_error_of
+from floatref.vehicle_response.estimators.joint_filter import JointInputState
 
 STEP_S = 0.005
 

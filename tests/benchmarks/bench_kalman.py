@@ -25,8 +25,8 @@ import numpy as np
 from kalman_task import TRACK, Prepared, Task
 from timing import RATE_HZ, in_turns, line, ratio, report_start
 
-from floatref.kernels.kalman_layout import FORGET
-from floatref.stages.kalman import Noise, Plan
+from floatref.estimators.kalman import Noise, Plan
+from floatref.estimators.kalman.layout import FORGET
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 

@@ -137,7 +137,7 @@ def compare(folder: Path, pipeline: str) -> None:
     """Print how far the drive in ``folder`` is from the result of the fixed interval."""
     recording = read_recording(folder)
     ours = floatref.process(recording, pipeline)
-    with mock.patch("floatref.stages.smoothing.backlog.Backlog._ready", return_value=0):
+    with mock.patch("floatref.estimators.smoothing.backlog.Backlog._ready", return_value=0):
         whole = floatref.process(recording, pipeline)
     for a, b in zip(ours.tracks, whole.tracks, strict=True):
         apart = np.abs(a.elevation - b.elevation).max()

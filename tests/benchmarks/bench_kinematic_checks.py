@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from floatref.architectures.kinematic_checks import ImuUse, check_kinematics
-from floatref.architectures.kinematic_gnss import gnss_faults
 from floatref.errors import InputError
+from floatref.screening.gnss_height import gnss_faults
+from floatref.screening.imu_and_gnss import ImuUse, check_kinematics
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate

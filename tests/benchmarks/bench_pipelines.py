@@ -13,7 +13,7 @@ import time
 import numpy as np
 
 import floatref
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 
 RATE_HZ, RESPONSE_HZ, SPEED_MPS = 16_000.0, 1000.0, 20.0
 CORNER = floatref.VehicleSetup(

@@ -23,7 +23,7 @@ from kalman_task import TRACK, Prepared
 from timing import RATE_HZ, in_turns, line, ratio, report_start
 
 import floatref
-from floatref.stages.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.stages.signals import REFERENCE_HEIGHT
 from floatref.values.channels import ChannelId
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run

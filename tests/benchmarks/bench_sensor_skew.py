@@ -11,9 +11,15 @@ os.environ["OMP_NUM_THREADS"] = "1"
 
 import numpy as np
 
-from floatref.measures.sensor_skew import STANDS_M, STANDS_S, WINDOW_S, sensor_skew, skew_warning
-from floatref.measures.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
-from floatref.measures.skew_windows import skew_window
+from floatref.measures.clocks.sensor_skew import (
+    STANDS_M,
+    STANDS_S,
+    WINDOW_S,
+    sensor_skew,
+    skew_warning,
+)
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
+from floatref.measures.clocks.skew_windows import skew_window
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording

@@ -18,10 +18,10 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from floatref.architectures.processing import run
+from floatref.engine.run import run
 from floatref.tuning import tune
 from floatref.tuning.preparation import prepare
-from floatref.tuning.scores import Scores
+from floatref.tuning.run_scores import Scores
 from floatref.tuning.tune import DEFAULT
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording

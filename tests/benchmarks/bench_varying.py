@@ -16,10 +16,10 @@ from fractions import Fraction
 import numpy as np
 import scipy.signal
 
-from floatref.architectures.source import BLOCK
+from floatref.intake.blocks import BLOCK
 from floatref.kernels.adaptive import adaptive_high_pass
-from floatref.stages.schedule import ScheduleCutOff
-from floatref.stages.varying import VaryingHighPassB3, VaryingHighPassB3R
+from floatref.stages.filters.schedule import ScheduleCutOff
+from floatref.stages.filters.varying import VaryingHighPassB3, VaryingHighPassB3R
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 

@@ -16,7 +16,7 @@ from bench_road_prior_limits import write_page
 from rich.console import Console
 from rich.table import Table
 
-from floatref.response import Hold
+from floatref.vehicle_response import Hold
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

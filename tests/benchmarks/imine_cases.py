@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from floatref.response import (
+from floatref.values.arrays import FloatArray
+from floatref.vehicle_response import (
     IMINE_TRAILER,
     Estimate,
     Kind,
@@ -18,7 +19,6 @@ from floatref.response import (
     UnknownInputObserver,
     default_gains,
 )
-from floatref.values.arrays import FloatArray
 from floatref_reference.imine.section_2_trailer import motion
 from floatref_reference.imine.section_5_simulation import F_S, POINTS, chirp
 

@@ -8,13 +8,12 @@ from unittest import mock
 import numpy as np
 
 import floatref
-from floatref.architectures.screening import Screening
-from floatref.architectures.source import BLOCK, Source
-from floatref.kernels import kalman
-from floatref.stages.butterworth import low_pass_b3
+from floatref.estimators.kalman import KalmanSmoother, Noise, Plan, forward
+from floatref.estimators.kalman.inputs import IMU
+from floatref.intake.blocks import BLOCK, Source
+from floatref.screening.findings import Screening
 from floatref.stages.conditioning import RemoveGravity
-from floatref.stages.kalman import KalmanSmoother, Noise, Plan
-from floatref.stages.kalman.inputs import IMU
+from floatref.stages.filters.butterworth import low_pass_b3
 from floatref.stages.protocol import Stage
 from floatref.stages.signals import (
     ACCELERATION,
@@ -78,14 +77,14 @@ class Task:
     def __init__(self, prepared: Prepared, plan: Plan, noise: Noise) -> None:
         """Listen to a run of the stage."""
         heard: list[Any] = []
-        run = kalman.run
+        run = forward.run
 
         def listening(u: Any, first: int, size: int, model: Any, *rest: Any) -> int:
             at, marks, rows, x, p = rest[:5]
             heard.append((u, at, marks, rows, size, model, x.copy(), np.diag(p).copy()))
             return run(u, first, size, model, *rest)
 
-        with mock.patch.object(kalman, "run", listening):
+        with mock.patch.object(forward, "run", listening):
             self.height, self.sigma = prepared.result(plan, noise)
         inputs, at, marks, rows = zip(*(call[:4] for call in heard), strict=True)
         self.sub_block, self.model, self.x, self.variance = heard[0][4:]

@@ -10,9 +10,9 @@ import numpy as np
 from kalman_peers import smoothed_linear
 from kalman_task import TRACK
 
-from floatref.stages.road_prior import RoadPrior
-from floatref.stages.road_prior.excitation import Excitation
-from floatref.stages.road_prior.track import sub_block
+from floatref.estimators.road_prior import RoadPrior
+from floatref.estimators.road_prior.excitation import Excitation
+from floatref.estimators.road_prior.track import sub_block
 from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Header

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.response import (
+from floatref.vehicle_response import (
     ZHU_HALF_CAR,
     Hold,
     JointInputState,
@@ -18,8 +18,8 @@ from floatref.response import (
     Reading,
     hold_error_of,
     joined_at_speed,
-    state_space,
 )
+from floatref.vehicle_response.models import state_space
 
 Array = NDArray[np.float64]
 MODEL = ZHU_HALF_CAR.model()

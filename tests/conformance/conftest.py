@@ -10,7 +10,7 @@ from floatref.files import read_recording, write_profile
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Taken

@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.architectures.validity import Reach, valid_points
+from floatref.engine.validity_and_sigma import Reach, valid_points
 from floatref.errors import InputError
 from floatref.measures import cross_correlation, high_pass, iri, iri_trace
-from floatref.stages import butterworth, varying
+from floatref.stages.filters import butterworth, varying
+from floatref.stages.filters.matched_high_pass import MatchedHighPass
+from floatref.stages.filters.schedule import AdaptiveCutOff
 from floatref.stages.integration import Integrate
-from floatref.stages.observer import MatchedHighPass
-from floatref.stages.reflection import IntegrateReflecting
 from floatref.stages.resampling import TimeStep, ToDistance
-from floatref.stages.schedule import AdaptiveCutOff
 from floatref.stages.signals import (
     ACCELERATION,
     CUTOFF,
@@ -32,7 +31,7 @@ from floatref.stages.signals import (
 )
 from floatref.stages.speed import TravelSpeed
 from floatref.stages.suppression import SuppressLocally
-from floatref.stages.timer import adjusted_time_step
+from floatref.stages.timer_distortion import IntegrateReflecting, adjusted_time_step
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.architectures import flow
-from floatref.architectures.screening import Screening
-from floatref.architectures.source import Source
+from floatref.engine import flow
+from floatref.intake.blocks import Source
 from floatref.measures import agreement, high_pass, iri, short_interval_roughness
+from floatref.screening.findings import Screening
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.integration import Integrate
 from floatref.values.channels import ChannelId

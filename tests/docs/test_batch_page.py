@@ -5,9 +5,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from floatref.batch.manifest import COLUMNS as MANIFEST_COLUMNS
-from floatref.batch.positions import LONGEST_GAP_S
-from floatref.batch.summary import COLUMNS
+from floatref.batch.jobs.manifest import COLUMNS as MANIFEST_COLUMNS
+from floatref.batch.results.positions import LONGEST_GAP_S
+from floatref.batch.results.summary import COLUMNS
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "batch.md").read_text(encoding="utf-8")

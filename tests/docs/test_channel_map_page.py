@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from floatref.mapping import read_map
-from floatref.mapping.guesses import guess
-from floatref.mapping.units import UNITS, known_unit
+from floatref.mapping.channel_map.units import UNITS, known_unit
+from floatref.mapping.draft.guesses import guess
 from floatref.values.native import Column
 
 PAGE = (Path(__file__).parents[2] / "docs" / "channel-map.md").read_text(encoding="utf-8")

@@ -15,14 +15,16 @@ GOOD = {
     "cites": "(2.7)",
     "what": "Moving average",
     "reference": "chapter_2.section_2_1_4_waveband.h_moving_average",
-    "used": "floatref.measures.quarter_car.moving_average_response",
+    "used": "floatref.measures.roughness.quarter_car.moving_average_response",
 }
 BAD = {
     "no reference function given": {"reference": ""},
     "no function given": {"used": []},
     "floatref_reference.chapter_2.lost does not exist": {"reference": "chapter_2.lost"},
     "floatref.measures.lost.f does not exist": {"used": ["floatref.measures.lost.f"]},
-    "the docstring of floatref.measures.gaps does not cite it": {"used": "floatref.measures.gaps"},
+    "the docstring of floatref.measures.roughness.gaps does not cite it": {
+        "used": "floatref.measures.roughness.gaps"
+    },
     "no test that imports floatref_conformance is marked": {
         "used": "floatref_conformance.proving_ground.kinematics"
     },

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from floatref import Channel, InputError, Profile, ProfileTrack, Recording, Stage, UniformClock
-from floatref.architectures import hookspecs
-from floatref.architectures.fall_back import DropOut
-from floatref.architectures.pipeline import Context
-from floatref.architectures.plugins import Plugins
+from floatref.engine.fall_back import DropOut
+from floatref.engine.plugins import Plugins
+from floatref.interfaces import hookspecs
+from floatref.interfaces.pipeline import Context
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_conformance import hookspecs as conformance_hookspecs

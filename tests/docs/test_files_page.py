@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from floatref.files import read_profile, read_recording
-from floatref.files.recording import setup_of
+from floatref.files.recording_directory import setup_of
 from floatref.mapping.reading import read_native
 from floatref.values.channels import CHANNELS
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref.measures import high_pass
 from floatref_conformance.proving_ground import scenario_of_run, simulate
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from floatref import Profile, ProfileTrack
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.erd.header import parse_header
 from floatref_adapters.erd.profile_format import Erd
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from floatref.errors import InputError
-from floatref.response import Kind, QuarterCar, Reading, UnknownInputObserver
-from floatref.response.gains import POSITION_HZ, RATE_HZ
-from floatref.response.stability import TIME_CONSTANTS
+from floatref.vehicle_response import Kind, QuarterCar, Reading, UnknownInputObserver
+from floatref.vehicle_response.estimators.gains import POSITION_HZ, RATE_HZ, TIME_CONSTANTS
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "response-observer.md").read_text(encoding="utf-8")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floatref.response import ZHU_HALF_CAR, Hold
+from floatref.vehicle_response import ZHU_HALF_CAR, Hold
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "response-zhu.md").read_text(encoding="utf-8")

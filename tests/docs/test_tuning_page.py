@@ -3,12 +3,19 @@
 import re
 from pathlib import Path
 
-from floatref.cli.tune_report import FEELS
-from floatref.tuning.drives import HEAVY_G, HIGH_KMH, LONG_STOP_S, LOW_KMH, RECOMMENDED, Kind
+from floatref.cli.tune.tune_report import FEELS
 from floatref.tuning.levels import DENSITY_DOWN, PER_OCTAVE, REACH, TUNED
+from floatref.tuning.preliminary_runs import (
+    HEAVY_G,
+    HIGH_KMH,
+    LONG_STOP_S,
+    LOW_KMH,
+    RECOMMENDED,
+    Kind,
+)
 from floatref.tuning.preparation import LEAST_CORRELATION
 from floatref.tuning.procedure import MOST, PRIORITY, ROUNDS
-from floatref.tuning.scores import AROUND_M, LEAST_M
+from floatref.tuning.run_scores import AROUND_M, LEAST_M
 from floatref.tuning.search import COARSE, LEAST_GAIN, TOLERANCE
 from floatref.tuning.sensitivity import FACTORS
 

@@ -23,11 +23,11 @@ import numpy as np
 
 with atheris.instrument_imports(include=["floatref", "tomllib"]):
     from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream, hookimpl
-    from floatref.architectures.plugins import plugins
+    from floatref.engine.plugins import plugins
     from floatref.mapping import read_map, read_native
-    from floatref.mapping.draft import draft_map
-    from floatref.mapping.entries import ChannelMap
-    from floatref.mapping.taking import UNKNOWN
+    from floatref.mapping.channel_map.entries import ChannelMap
+    from floatref.mapping.columns import UNKNOWN
+    from floatref.mapping.draft.drafting import draft_map
 
 FOLDER = Path(tempfile.mkdtemp(prefix="fuzz-map-"))
 MAP, SOURCE = FOLDER / "map.toml", FOLDER / "run.mem"

@@ -14,8 +14,8 @@ PACKAGES = {
     "reference_impl": "floatref_reference",
     "conformance": "floatref_conformance",
 }
-FALL_BACK = "floatref.architectures.response_fall_back"
-PROCESSING = "floatref.architectures.processing"
+FALL_BACK = "floatref.pipelines.builtin"
+PROCESSING = "floatref.engine.run"
 
 
 def sources() -> dict[str, str]:
@@ -83,7 +83,7 @@ def test_imports_inside_functions_are_among_those_that_count() -> None:
         f"import {PROCESSING}",
         f"def f():\n    from {PROCESSING} import run",
         "def f():\n    from floatref import process",
-        "from floatref.architectures import processing",
+        "from floatref.engine import processing",
     ],
 )
 def test_a_planted_circle_is_found(planted: str) -> None:

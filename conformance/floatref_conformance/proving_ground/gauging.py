@@ -10,7 +10,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import ONLY_TRACK, Channel, Setup
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.noise import drawn, quantize, random_walk, stream, white
 from floatref_conformance.proving_ground.sensors import SensorSuite
 from floatref_conformance.proving_ground.suspended import Gauges

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.plain_model import (
     Contact,
     Coordinate,

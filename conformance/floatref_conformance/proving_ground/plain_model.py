@@ -13,7 +13,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Vector
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.suspended import LARGEST, TYRES, Gauges
 
 ANGULAR = ("pitch", "roll")

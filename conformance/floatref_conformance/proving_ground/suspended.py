@@ -10,7 +10,7 @@ from typing import Protocol
 
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Vector
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 
 LARGEST = 7
 """Most freedoms of a model: the kernel's states have room for no more."""

@@ -15,7 +15,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.suspended import TYRES, Gauges
 
 HEAVE, PITCH, ROLL = 0, 1, 2

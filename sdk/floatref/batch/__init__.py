@@ -4,6 +4,6 @@ A task reads its own input and writes its own profile and record, beside and the
 that it may run again at any time. The summary is made of the records.
 """
 
-from floatref.batch.job import Job
+from floatref.batch.jobs.job import Job
 
 __all__ = ["Job"]

@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from floatref.architectures.reading import profile_of
 from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import naming
 from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid

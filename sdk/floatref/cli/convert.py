@@ -4,10 +4,9 @@ from pathlib import Path
 
 import click
 
-from floatref.architectures.reading import profile_of
-from floatref.architectures.writing import format_of, write_as
-from floatref.cli.formats import FormatName
+from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_table
+from floatref.engine.formats import format_of, profile_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.files.sources import naming

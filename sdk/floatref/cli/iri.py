@@ -6,8 +6,8 @@ from typing import Any
 import click
 import numpy as np
 
-from floatref.architectures.reading import profile_of
 from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.engine.formats import profile_of
 from floatref.files.sources import naming
 from floatref.measures import (
     IriSettings,

@@ -2,8 +2,8 @@
 
 import click
 
-from floatref.architectures.plugins import plugins
 from floatref.cli.printing import print_json, print_table
+from floatref.engine.plugins import plugins
 
 
 @click.command("pipelines")

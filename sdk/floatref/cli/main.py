@@ -13,9 +13,15 @@ COMMANDS = {
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "channels": ("floatref.cli.channels:channels", "list what a native file holds, draft its map"),
-    "allan": ("floatref.cli.allan:allan", "noise of sensors at rest, for the Kalman pipelines"),
-    "tune": ("floatref.cli.tune:tune", "noise settings of a Kalman pipeline, from known runs"),
-    "batch": ("floatref.cli.batch:batch", "process many recordings on a cluster"),
+    "allan": (
+        "floatref.cli.allan.command:allan",
+        "noise of sensors at rest, for the Kalman pipelines",
+    ),
+    "tune": (
+        "floatref.cli.tune.command:tune",
+        "noise settings of a Kalman pipeline, from known runs",
+    ),
+    "batch": ("floatref.cli.batch.command:batch", "process many recordings on a cluster"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),
 }
 

@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from floatref.architectures.writing import format_of, write_as
-from floatref.cli.formats import FormatName
-from floatref.cli.printing import number, print_json, print_settings, print_table
-from floatref.cli.progress import progress_bar
+from floatref.cli.format_option import FormatName
+from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
+from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
-from floatref.files.settings import read_settings
-from floatref.mapping.profiling import profiled
-from floatref.mapping.sources import recording_of
+from floatref.files.settings_file import read_settings
+from floatref.mapping.sources import profiled, recording_of
 from floatref.values.profile import Profile, ProfileTrack
 
 if TYPE_CHECKING:
-    from floatref.architectures.processing import Result
+    from floatref.engine.run import Result
 
 
 @click.command("process")

@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from floatref.architectures.reading import profile_of
 from floatref.cli.printing import print_json, print_table
+from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document

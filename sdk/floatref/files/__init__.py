@@ -5,9 +5,9 @@ enforced on reading and on writing; what is written appears complete or not at a
 """
 
 from floatref.files.fingerprint import fingerprint, fingerprint_native
-from floatref.files.profile import read_profile, write_profile
 from floatref.files.profile_csv import write_profile_csv
-from floatref.files.recording import read_recording, write_recording
+from floatref.files.profile_directory import read_profile, write_profile
+from floatref.files.recording_directory import read_recording, write_recording
 from floatref.files.schema import read_schema
 
 __all__ = [

@@ -3,7 +3,7 @@
 import hashlib
 from pathlib import Path
 
-from floatref.files.recording import DOCUMENT, sample_files
+from floatref.files.recording_directory import DOCUMENT, sample_files
 from floatref.files.sources import document_path, opened
 
 

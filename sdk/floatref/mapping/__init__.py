@@ -4,7 +4,7 @@ Names, units, signs, axes, delays and clocks are settled here; samples go to dis
 units, so that memory does not grow with the file. Nothing is resampled.
 """
 
-from floatref.mapping.document import read_map
+from floatref.mapping.channel_map.map_document import read_map
 from floatref.mapping.reading import Reading, read_native
 
 __all__ = ["Reading", "read_map", "read_native"]

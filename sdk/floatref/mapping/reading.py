@@ -6,24 +6,22 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref.architectures.readers import guarding
+from floatref.engine.formats import guarding
 from floatref.errors import one_line
 from floatref.files.sources import naming
-from floatref.mapping.aligned import Aligned
-from floatref.mapping.aligning import Places, Token, aligned_clocks, auxiliaries
-from floatref.mapping.clock_keys import Key
-from floatref.mapping.conversion import Conversion
-from floatref.mapping.document import read_map
-from floatref.mapping.entries import SOURCE, ChannelEntry, ChannelMap
-from floatref.mapping.gravity import TOLERANCES
-from floatref.mapping.limits import check_limits
-from floatref.mapping.naming import find, full_name
-from floatref.mapping.opening import Opened
-from floatref.mapping.ours import map_of_ours
-from floatref.mapping.shared_time import cut_to_shared
-from floatref.mapping.skews import skews_of
+from floatref.mapping.channel_map.clock_entries import Key
+from floatref.mapping.channel_map.column_names import find, full_name, map_of_ours
+from floatref.mapping.channel_map.conversion import Conversion
+from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap
+from floatref.mapping.channel_map.map_document import read_map
+from floatref.mapping.channel_map.unit_limits import TOLERANCES, check_limits
+from floatref.mapping.clocks.aligning import Places, Token, aligned_clocks, auxiliaries
+from floatref.mapping.clocks.sensor_skews import skews_of
+from floatref.mapping.clocks.shared_time import cut_to_shared
+from floatref.mapping.clocks.stream_clock import Aligned
+from floatref.mapping.columns import Convert, Shown, Taken, Wanted, as_they_are, take
+from floatref.mapping.native_files import Opened
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import Convert, Shown, Taken, Wanted, as_they_are, take
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Stream
 from floatref.values.recording import Channel, Recording

@@ -2,15 +2,16 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from floatref.architectures.adapter import Adapter, RecordingDirectory
-from floatref.architectures.readers import is_native, read_source, reader_of
+from floatref.engine.formats import is_native, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
+from floatref.files.sources import naming
+from floatref.interfaces.adapter import Adapter, RecordingDirectory
 from floatref.values.recording import Recording
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def recording_of(
 
     Raises InputError for a source that cannot be used, and for a map where none is needed.
     """
-    from floatref.mapping.document import read_map
+    from floatref.mapping.channel_map.map_document import read_map
 
     chart = None if channel_map is None else read_map(channel_map)
     stated = adapter or (chart.source.adapter if chart is not None else None)
@@ -121,3 +122,29 @@ def _named(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
         name = path.name if path.name not in found else Path(relpath(path, folder)).as_posix()
         found[name] = value
     return found
+
+
+if TYPE_CHECKING:
+    from floatref.engine.run import Result
+
+
+def profiled(
+    read: Source,
+    pipeline: str,
+    settings: Mapping[str, Any],
+    progress: Callable[[float], None] | None = None,
+) -> "Result":
+    """Return the profile of ``read`` by ``pipeline``, and one line for each thing to know.
+
+    Lines, and those of errors, have the native names of channels. ``progress`` is called with
+    the part of the recording that is through. Raises InputError with one line naming the source
+    for a recording, pipeline or setting that cannot be used.
+    """
+    from floatref.engine.run import run
+
+    with naming(read.path), read.named():
+        result = run(read.recording, pipeline, settings, progress)
+    provenance = {**result.profile.provenance, **read.origin}
+    told = (*read.warnings, *map(read.said, result.warnings))
+    profile = replace(result.profile, provenance=provenance)
+    return replace(result, profile=profile, warnings=told)

@@ -6,14 +6,14 @@ calculated before the first and after the last measured point. Measures of senso
 Allan deviation, take a channel or its samples.
 """
 
-from floatref.measures.alignment import on_common_grid
-from floatref.measures.allan import AllanDeviation, allan_deviation
-from floatref.measures.allan_fit import NoiseCoefficients, NoiseFit, fit_noise
-from floatref.measures.at_rest import ChannelNoise, channel_noise
-from floatref.measures.correlation import Agreement, cross_correlation
-from floatref.measures.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
-from floatref.measures.roughness_index import Segment, iri, iri_segments, iri_trace
-from floatref.measures.roughness_profile import (
+from floatref.measures.allan.at_rest import ChannelNoise, channel_noise
+from floatref.measures.allan.deviation import AllanDeviation, allan_deviation
+from floatref.measures.allan.noise_fit import NoiseCoefficients, NoiseFit, fit_noise
+from floatref.measures.roughness.agreement import Agreement, cross_correlation, on_common_grid
+from floatref.measures.roughness.iri_settings import IriSettings
+from floatref.measures.roughness.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
+from floatref.measures.roughness.roughness_index import Segment, iri, iri_segments, iri_trace
+from floatref.measures.roughness.roughness_profile import (
     LocalizedRoughness,
     in_per_mi,
     localized_roughness,
@@ -21,8 +21,7 @@ from floatref.measures.roughness_profile import (
     mean_roughness_index,
     short_interval_roughness,
 )
-from floatref.measures.settings import IriSettings
-from floatref.measures.thresholds import (
+from floatref.measures.roughness.thresholds import (
     INDICES,
     SAMPLE_ROADS,
     ProfileIndex,
@@ -30,7 +29,13 @@ from floatref.measures.thresholds import (
     WavelengthThresholds,
     wavelength_thresholds,
 )
-from floatref.measures.wavebands import BANDS, WAVEBANDS, agreement, high_pass, waveband_slope
+from floatref.measures.roughness.wavebands import (
+    BANDS,
+    WAVEBANDS,
+    agreement,
+    high_pass,
+    waveband_slope,
+)
 
 __all__ = [
     "BANDS",

@@ -1,10 +1,10 @@
 """Drawings of profiles, networks and sensor noise as files; needs the extra ``floatref[plot]``."""
 
-from floatref.plots.allan import draw_allan
+from floatref.plots.allan_deviation import draw_allan
 from floatref.plots.comparison import draw_comparison
+from floatref.plots.elevation import draw_profile
 from floatref.plots.figure import check_drawing
 from floatref.plots.network import SUMMARY_COLUMNS, draw_summary
-from floatref.plots.profile import draw_profile
 from floatref.plots.sensitivity import draw_sensitivity
 
 __all__ = [

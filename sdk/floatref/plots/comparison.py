@@ -8,14 +8,18 @@ from typing import TYPE_CHECKING
 
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, on_common_grid
-from floatref.plots.figure import check_suffix, legend, new_figure, save, title
-from floatref.plots.traces import (
+from floatref.plots.figure import (
     COLOURS,
     REFERENCE_COLOUR,
+    check_suffix,
     in_readable_unit,
+    legend,
     line,
+    new_figure,
     roughness,
+    save,
     shade,
+    title,
 )
 from floatref.values.profile import Profile, ProfileTrack
 

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from floatref.plots.figure import check_suffix, legend, new_figure, save, title
+from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, title
 from floatref.plots.network_columns import SUMMARY_COLUMNS, Segments, segments_of
-from floatref.plots.traces import COLOURS
 from floatref.values.arrays import BoolArray, FloatArray
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.plots.figure import check_suffix, legend, new_figure, save, shown_name, title
-from floatref.plots.traces import COLOURS
+from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, shown_name, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -23,4 +23,4 @@ from floatref.retrofit.low_speed import LocalSuppression as LocalSuppression
 from floatref.retrofit.low_speed import TimerDistortion as TimerDistortion
 from floatref.retrofit.matched import MatchedHighPass as MatchedHighPass
 from floatref.retrofit.travel import TravelSpeed as TravelSpeed
-from floatref.stages.schedule import AdaptiveCutOff as AdaptiveCutOff
+from floatref.stages.filters.schedule import AdaptiveCutOff as AdaptiveCutOff

@@ -6,18 +6,17 @@ from fractions import Fraction
 from numpy.typing import ArrayLike
 
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
-from floatref.retrofit.calls import Calls
-from floatref.retrofit.cut_off import Band, require_profile
-from floatref.stages.datum import FromFirst
-from floatref.stages.protocol import Stage
-from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
-from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, TRAVEL_SPEED, VELOCITY
-from floatref.stages.varying import (
+from floatref.retrofit.calls import Band, Calls, require_profile
+from floatref.stages.conditioning import FromFirst
+from floatref.stages.filters.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
+from floatref.stages.filters.varying import (
     VaryingHighPassB3,
     VaryingHighPassB3R,
     VaryingHighPassB3S1,
     VaryingHighPassB3S2,
 )
+from floatref.stages.protocol import Stage
+from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, TRAVEL_SPEED, VELOCITY
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Header
 

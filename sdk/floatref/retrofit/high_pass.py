@@ -6,16 +6,15 @@ from numpy.typing import ArrayLike
 
 from floatref.kernels.cut_off import high_pass_setting
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
-from floatref.retrofit.calls import Calls
-from floatref.retrofit.cut_off import require_profile
-from floatref.stages.butterworth import (
+from floatref.retrofit.calls import Calls, require_profile
+from floatref.stages.conditioning import FromFirst
+from floatref.stages.filters.butterworth import (
     HighPassB3S1,
     HighPassB3S1R,
     HighPassB3S2,
     HighPassB3S2R,
     high_pass_b3,
 )
-from floatref.stages.datum import FromFirst
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, VELOCITY
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Header

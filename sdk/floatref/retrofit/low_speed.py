@@ -6,7 +6,6 @@ from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
-from floatref.stages.reflection import IntegrateReflecting
 from floatref.stages.signals import (
     HEIGHT,
     REFERENCE_HEIGHT,
@@ -16,7 +15,7 @@ from floatref.stages.signals import (
     VELOCITY,
 )
 from floatref.stages.suppression import SuppressLocally
-from floatref.stages.timer import adjusted_time_step
+from floatref.stages.timer_distortion import IntegrateReflecting, adjusted_time_step
 from floatref.values.arrays import FloatArray
 from floatref.values.plain import above_zero
 

@@ -6,12 +6,11 @@ from numpy.typing import ArrayLike
 
 from floatref.retrofit.adaptive import backward
 from floatref.retrofit.alone import Alone, chunks, in_time, over_distance
-from floatref.retrofit.calls import Calls
-from floatref.retrofit.cut_off import Band, require_profile
-from floatref.stages.observer import MatchedHighPass as Observer
-from floatref.stages.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
+from floatref.retrofit.calls import Band, Calls, require_profile
+from floatref.stages.filters.matched_high_pass import MatchedHighPass as Observer
+from floatref.stages.filters.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
+from floatref.stages.filters.varying import StateHighPassB3S1R, StateHighPassB3S2R
 from floatref.stages.signals import ACCELERATION, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
-from floatref.stages.varying import StateHighPassB3S1R, StateHighPassB3S2R
 from floatref.values.arrays import FloatArray
 
 BACKWARD = StateHighPassB3S2R, StateHighPassB3S1R

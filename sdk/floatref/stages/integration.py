@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from floatref.stages.marking import flags_of
+from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
-from floatref.stages.signals import TIME_STEP
+from floatref.stages.signals import ELEVATION, HEIGHT, REFERENCE_HEIGHT, TIME_STEP
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
@@ -72,3 +72,63 @@ class Integrate(Stage):
         else:
             motion.integrate(x, y, memory, self._half_step)
         return y
+
+
+class Combine(Stage):
+    """Adds `elevation` = `floating_reference_height` - `height` (1.2) and drops the two."""
+
+    def open(self, header: Header) -> Header:
+        """Ask for both heights of every track."""
+        self._tracks = header.tracks
+        for name in (REFERENCE_HEIGHT, HEIGHT):
+            header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
+        return header.replacing(REFERENCE_HEIGHT, ELEVATION).without(HEIGHT)
+
+    def advance(self, block: Block) -> Block:
+        """Subtract; a flag of either is a flag of the elevation."""
+        values, flags = {}, {}
+        for track in self._tracks:
+            reference, height = ChannelId(REFERENCE_HEIGHT, track), ChannelId(HEIGHT, track)
+            target = ChannelId(ELEVATION, track)
+            values[target] = block[reference] - block[height]
+            marks = flags_of(block, reference, height)
+            if marks is not None:
+                flags[target] = marks
+        return block.setting(values, flags).without(REFERENCE_HEIGHT, HEIGHT)
+
+
+class RemoveMean(Stage):
+    """Subtracts from ``channel`` of every track its mean over the run.
+
+    The mean is that of the samples that are there; it needs the whole run before the first
+    output, so the engine surveys the run first. Missing samples stay missing.
+    """
+
+    surveys = True
+    declared = Declared(shift_invariant=False)
+
+    def __init__(self, channel: str) -> None:
+        """Remove the mean of ``channel``."""
+        super().__init__()
+        self.channel = channel
+
+    def open(self, header: Header) -> Header:
+        """Ask for the channel of every track."""
+        header.require(self.name, *(ChannelId(self.channel, t) for t in header.tracks))
+        self.memory = {track: np.zeros(3) for track in header.tracks}
+        return header
+
+    def survey(self, block: Block) -> None:
+        """Add the block to the sums."""
+        from floatref.kernels import motion
+
+        for track, memory in self.memory.items():
+            motion.add_up(block[ChannelId(self.channel, track)], memory)
+
+    def advance(self, block: Block) -> Block:
+        """Subtract the mean."""
+        values = {}
+        for track, (total, rest, count) in self.memory.items():
+            channel = ChannelId(self.channel, track)
+            values[channel] = block[channel] - (total + rest) / max(count, 1.0)
+        return block.setting(values)

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.stages.marking import flags_of
+from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
 from floatref.values.arrays import LASTING, FlagArray, FloatArray, IndexArray

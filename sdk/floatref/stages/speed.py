@@ -3,7 +3,7 @@
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.stages.marking import flags_of
+from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TRAVEL_SPEED
 from floatref.values.arrays import BoolArray, FloatArray

@@ -4,13 +4,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from floatref.architectures.plugins import plugins
-from floatref.architectures.processing import run
+from floatref.engine.plugins import plugins
+from floatref.engine.run import run
 from floatref.errors import InputError
 from floatref.files.sources import naming
-from floatref.tuning.drives import HIGH_KMH, RECOMMENDED, Kind, drive_of
 from floatref.tuning.levels import TUNED
-from floatref.tuning.scores import Comparison, Scores, section
+from floatref.tuning.preliminary_runs import HIGH_KMH, RECOMMENDED, Kind, drive_of
+from floatref.tuning.run_scores import Comparison, Scores, section
 from floatref.tuning.trials import Preliminary
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording

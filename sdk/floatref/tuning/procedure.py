@@ -3,8 +3,8 @@
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from floatref.tuning.drives import STOPS, Kind
 from floatref.tuning.levels import START, TUNED, Levels, Point, moved
+from floatref.tuning.preliminary_runs import STOPS, Kind
 from floatref.tuning.search import (
     LEAST_GAIN,
     TOLERANCE,

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from floatref.tuning.levels import FIXED, TUNED, rounded
-from floatref.tuning.scores import Scores
+from floatref.tuning.run_scores import Scores
 from floatref.tuning.trials import Trials
 
 FACTORS = (2.0**-0.5, 1.0, 2.0**0.5)

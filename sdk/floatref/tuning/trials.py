@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from floatref.architectures.processing import run
-from floatref.architectures.screening import Screening
+from floatref.engine.run import run
 from floatref.errors import FloatrefError
+from floatref.screening.findings import Screening
 from floatref.tuning.levels import Levels, Point
-from floatref.tuning.scores import HOPELESS, Comparison, Scores
+from floatref.tuning.run_scores import HOPELESS, Comparison, Scores
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 

@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from floatref.architectures.processing import pipeline_capabilities
+from floatref.engine.run import pipeline_capabilities
 from floatref.tuning.levels import START, TUNED, Levels, Point, moved
 from floatref.tuning.preparation import Prepared, check_pipeline, prepare
 from floatref.tuning.procedure import Found, Procedure, first_point
-from floatref.tuning.scores import Scores
+from floatref.tuning.run_scores import Scores
 from floatref.tuning.sensitivity import Sensitivity, sensitivities
 from floatref.tuning.trials import Trials
 from floatref.values.profile import Profile

@@ -12,7 +12,7 @@ from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.scanning import first_where
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 
 Vector = tuple[float, float, float]
 ORIGIN: Vector = (0.0, 0.0, 0.0)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import floatref
 from floatref import InputError, NativeFile
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.csv_table.adapter import CsvTable
 from floatref_adapters.testing.reading import columns_of as columns
 from floatref_adapters.testing.reading import opened

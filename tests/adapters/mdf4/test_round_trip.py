@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Recording
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.mdf4.adapter import Mdf4
 from floatref_adapters.testing.mdf4 import write_mdf4
 from floatref_adapters.testing.mdf4_blocks import MASTER, Stored, StoredGroup, write

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Channel, Recording, UniformClock
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref_adapters.tdms.adapter import Tdms
 from floatref_adapters.testing.tdms import write_tdms
 

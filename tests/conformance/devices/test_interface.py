@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from floatref.values.channels import CHANNELS
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.devices.interface import (
     ARCHITECTURES,
     CAPABILITIES,

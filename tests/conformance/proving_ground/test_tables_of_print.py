@@ -2,7 +2,7 @@
 
 import pytest
 
-from floatref.measures.thresholds import SAMPLE_ROADS
+from floatref.measures.roughness.thresholds import SAMPLE_ROADS
 from floatref_conformance.proving_ground.runs import RUNS
 from floatref_conformance.proving_ground.sayers import CASES
 from floatref_reference.chapter_2.section_2_1_4_1_spectral_models import TABLE_2_2, TABLE_2_3

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from floatref.stages import butterworth, integration, mean_removal
+from floatref.stages import integration
+from floatref.stages.filters import butterworth
 from floatref.stages.protocol import Declared, Stage
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws
@@ -57,7 +58,7 @@ class TestRemoveMean(StageLaws):
     reach = None
 
     def make(self):
-        return mean_removal.RemoveMean("vertical_acceleration")
+        return integration.RemoveMean("vertical_acceleration")
 
 
 class BlockMean(Gain):

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from floatref.architectures.reading import profile_of
 from floatref.cli.main import main
+from floatref.engine.formats import profile_of
 from floatref.files import read_profile, write_profile
 from floatref.values.profile import Profile, ProfileTrack
 

@@ -9,7 +9,7 @@ import pytest
 
 WRITES = """
 import os, sys
-from floatref.cli.outputs import open_outputs
+from floatref.cli.lazy import open_outputs
 open_outputs()
 number = os.open(sys.argv[1], os.O_WRONLY)
 print("printed", flush=True)

@@ -86,7 +86,7 @@ def test_a_failure_of_the_system_leaves_everything_as_it_was(
 def test_running_out_of_space_names_the_target_and_leaves_nothing(
     recording: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import floatref.files.recording as module
+    import floatref.files.recording_directory as module
 
     def full(values: object, path: Path) -> None:
         path.write_bytes(b"half")

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.files import read_profile, read_recording, write_profile, write_profile_csv
-from floatref.values.plausibility import examine
+from floatref.screening.plausibility import examine
 from floatref.values.profile import Profile, ProfileTrack
 
 PATIENT = settings(

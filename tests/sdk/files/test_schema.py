@@ -8,7 +8,7 @@ from jsonschema import Draft202012Validator
 from floatref.errors import InputError
 from floatref.files import read_schema
 from floatref.files.schema import SCHEMAS, enforce
-from floatref.mapping.entries import ChannelEntry, ClockEntry
+from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
 from floatref.values.channels import CHANNELS
 from floatref.values.recording import Setup
 

@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures import flow
+from floatref.engine import flow
 from floatref.kernels import adaptive, state_variable, varying
-from floatref.stages import schedule, signals
-from floatref.stages import varying as stages_varying
+from floatref.stages import signals
+from floatref.stages.filters import schedule
+from floatref.stages.filters import varying as stages_varying
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_reference.appendix_a import varying as literal

@@ -10,9 +10,9 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.mapping import Reading, read_map, read_native
-from floatref.mapping.entries import ClockEntry
+from floatref.mapping.channel_map.entries import ClockEntry
+from floatref.mapping.columns import Taken, Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
-from floatref.mapping.taking import Taken, Wanted, as_they_are, take
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 
 Content = Callable[[Mapping[str, str]], NativeFile]

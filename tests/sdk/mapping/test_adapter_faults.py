@@ -10,7 +10,7 @@ import pytest
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.mapping import read_native
 from floatref.mapping import spool as spools
-from floatref.mapping.entries import ChannelEntry, ChannelMap
+from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
 from floatref.values.native import Column, NativeClock, Rows, Stream
 
 Put = Callable[..., Path]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from floatref.mapping import read_native
-from floatref.mapping.entries import ChannelEntry, ChannelMap, ClockEntry
+from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap, ClockEntry
 from floatref.values.clock import UniformClock
 
 Put = Callable[..., Path]

@@ -11,7 +11,7 @@ import floatref
 from floatref.errors import FloatrefError, InputError
 from floatref.mapping import read_native
 from floatref.mapping import spool as spools
-from floatref.mapping.entries import ChannelEntry, ChannelMap, ClockEntry
+from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap, ClockEntry
 from floatref.values.native import Epoch, NativeFile
 
 Put = Callable[..., Path]

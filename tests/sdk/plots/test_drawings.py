@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 from floatref.errors import InputError
 from floatref.plots import draw_comparison, draw_profile
-from floatref.plots.traces import COLOURS, SHADE
+from floatref.plots.figure import COLOURS, SHADE
 from floatref.values.profile import Profile, ProfileTrack
 
 INTERVAL = 0.05

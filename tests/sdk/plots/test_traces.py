@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from floatref.plots.traces import in_readable_unit, roughness, shade, thinned
+from floatref.plots.figure import in_readable_unit, roughness, shade, thinned
 
 FEW = settings(deadline=None, max_examples=25)
 

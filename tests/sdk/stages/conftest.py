@@ -8,43 +8,35 @@ import numpy as np
 import pytest
 
 from floatref.stages import (
-    butterworth,
-    combining,
     conditioning,
-    datum,
-    drive_marks,
-    dropping,
     integration,
-    mean_removal,
-    observer,
-    reflection,
+    marks,
     resampling,
-    schedule,
     speed,
     suppression,
-    timer,
-    varying,
+    timer_distortion,
 )
+from floatref.stages.filters import butterworth, matched_high_pass, schedule, varying
 from floatref.stages.protocol import Direction
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 TRACKS = ("left", "right")
 MAKERS = {
-    "Combine": combining.Combine,
-    "DistortTimer": lambda: timer.DistortTimer(slow_speed=1.0),
-    "Drop": lambda: dropping.Drop("time_step", "elevation"),
-    "FromFirst": lambda: datum.FromFirst("height"),
-    "IntegrateReflecting": reflection.IntegrateReflecting,
-    "MarkDrive": lambda: drive_marks.MarkDrive(1e-6, 1e-6),
-    "MatchedHighPass": observer.MatchedHighPass,
+    "Combine": integration.Combine,
+    "DistortTimer": lambda: timer_distortion.DistortTimer(slow_speed=1.0),
+    "Drop": lambda: conditioning.Drop("time_step", "elevation"),
+    "FromFirst": lambda: conditioning.FromFirst("height"),
+    "IntegrateReflecting": timer_distortion.IntegrateReflecting,
+    "MarkDrive": lambda: marks.MarkDrive(1e-6, 1e-6),
+    "MatchedHighPass": matched_high_pass.MatchedHighPass,
     "RemoveGravity": conditioning.RemoveGravity,
     "ScheduleCutOff": schedule.ScheduleCutOff,
     "ScheduleWaveNumber": schedule.ScheduleWaveNumber,
     "SuppressLocally": suppression.SuppressLocally,
     "TravelSpeed": lambda: speed.TravelSpeed(0.1),
     "Integrate": lambda: integration.Integrate("vertical_acceleration", "vertical_velocity"),
-    "RemoveMean": lambda: mean_removal.RemoveMean("vertical_acceleration"),
+    "RemoveMean": lambda: integration.RemoveMean("vertical_acceleration"),
     "TimeStep": resampling.TimeStep,
     "ToDistance": lambda: resampling.ToDistance(0.02, 0.0, keep_time=True),
     **{

@@ -5,8 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from floatref.stages.datum import FromFirst
-from floatref.stages.dropping import Drop
+from floatref.stages.conditioning import Drop, FromFirst
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 

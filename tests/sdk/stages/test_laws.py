@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.plugins import plugins
+from floatref.engine.plugins import plugins
 from floatref.errors import InputError, StageError
 from floatref.values.arrays import Flag
 from floatref.values.block import Header

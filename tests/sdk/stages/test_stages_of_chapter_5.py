@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures import flow
-from floatref.stages import observer, reflection, resampling, signals, suppression, timer, varying
-from floatref.stages.schedule import AdaptiveCutOff
+from floatref.engine import flow
+from floatref.stages import resampling, signals, suppression, timer_distortion
+from floatref.stages.filters import matched_high_pass, varying
+from floatref.stages.filters.schedule import AdaptiveCutOff
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_reference.appendix_a import varying as literal
@@ -128,7 +129,7 @@ def test_time_between_triggers():
 def test_time_step_of_a_slow_vehicle(slowness, speed, beta):
     limit = section_5_10.time_step_limit(INTERVAL, speed)
     steps = float(limit) * np.array([0.0, 1.0, 10.0**slowness])
-    out = through(timer.DistortTimer(speed, beta), Axis.DISTANCE, time_step=steps)
+    out = through(timer_distortion.DistortTimer(speed, beta), Axis.DISTANCE, time_step=steps)
     expected = section_5_10.adjusted_time_step(steps, limit, beta)
     assert out["time_step"] == pytest.approx(expected.astype(float), rel=1e-9)
     assert (out["true_time_step"] == steps).all()
@@ -142,7 +143,7 @@ def test_reflected_height(seed):
     v, h = rng.normal(size=(2, 200))
     true = rng.choice([0.0, 1e-3, 0.02, 10.0], 200)
     adjusted = np.minimum(true, 0.01)
-    stage = reflection.IntegrateReflecting()
+    stage = timer_distortion.IntegrateReflecting()
     out = through(
         stage,
         Axis.DISTANCE,
@@ -163,7 +164,7 @@ def test_observer_is_the_filter_of_the_profile(seed):
     a, h = rng.normal(size=(2, 400))
     cutoff = AdaptiveCutOff().frequency(moving(seed))
     out = through(
-        observer.MatchedHighPass(),
+        matched_high_pass.MatchedHighPass(),
         Axis.TIME,
         vertical_acceleration=a,
         height=h,

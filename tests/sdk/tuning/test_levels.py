@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.architectures.kalman_pipelines import KALMAN
+from floatref.pipelines.chapter_6 import KALMAN
 from floatref.tuning.levels import FIXED, START, TUNED, UNITS, Levels, moved
 
 USUAL = dict.fromkeys(TUNED, 1e-4)

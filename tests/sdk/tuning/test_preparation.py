@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from floatref.errors import InputError
-from floatref.tuning.drives import Kind
+from floatref.tuning.preliminary_runs import Kind
 from floatref.tuning.preparation import Prepared, check_pipeline, prepare
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording

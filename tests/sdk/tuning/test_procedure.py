@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.tuning.drives import Kind
 from floatref.tuning.levels import START, TUNED, Levels, Point
+from floatref.tuning.preliminary_runs import Kind
 from floatref.tuning.procedure import MOST, Procedure, first_point
 from floatref.tuning.search import LEAST_GAIN, TOLERANCE
 

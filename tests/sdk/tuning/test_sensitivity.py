@@ -6,7 +6,7 @@ import pytest
 
 from floatref.tuning.levels import Levels
 from floatref.tuning.preparation import check_pipeline, prepare
-from floatref.tuning.scores import Score
+from floatref.tuning.run_scores import Score
 from floatref.tuning.sensitivity import FACTORS, Sensitivity, sensitivities
 from floatref.tuning.trials import Trials
 from floatref_conformance.proving_ground.simulate import Simulation

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from floatref.errors import InputError
+from floatref.screening.plausibility import examine
 from floatref.values.clock import UniformClock
 from floatref.values.needs import Needs, nominal_needs, profiled_tracks, tracks_with
-from floatref.values.plausibility import examine
 from floatref.values.recording import Channel, Recording
 
 CLOCK = UniformClock.of(100)

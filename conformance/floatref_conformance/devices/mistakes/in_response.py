@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from floatref.values.recording import Recording
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.devices.mistakes.mistake import RESPONSE, Before, Mistake
 
 STIFF = 100.0

@@ -4,7 +4,7 @@ import pytest
 
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
-from floatref.values.vehicle import VehicleSetup
+from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.devices.builtin import BuiltinDevice
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.devices.mistakes.in_response import IN_RESPONSE

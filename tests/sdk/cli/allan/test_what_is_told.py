@@ -10,9 +10,9 @@ import pytest
 from click.testing import CliRunner, Result
 from matplotlib.image import imread
 
-from floatref.architectures.plugins import plugins
-from floatref.cli.allan_report import SETTINGS
+from floatref.cli.allan.allan_report import SETTINGS
 from floatref.cli.main import main
+from floatref.engine.plugins import plugins
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Channel
 

@@ -13,12 +13,11 @@ import pytest
 from click.testing import CliRunner
 from rich.console import Console
 
-from floatref.batch.job import Job
-from floatref.batch.record import Record
-from floatref.batch.tally import Tally
-from floatref.cli.batch_progress import progress, said
-from floatref.cli.batch_report import FAILURES, counted, print_report
-from floatref.cli.interruption import interruptible
+from floatref.batch.jobs.job import Job
+from floatref.batch.results.record import Record
+from floatref.batch.results.totals import Tally
+from floatref.cli.batch.batch_report import FAILURES, counted, print_report, progress, said
+from floatref.cli.batch.interruption import interruptible
 from floatref.cli.main import main
 
 
@@ -114,7 +113,7 @@ def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     stream = StringIO()
     assert Console(file=stream).is_terminal
     monkeypatch.setenv("COLUMNS", "200")
-    monkeypatch.setattr("floatref.cli.batch_progress.REFRESH_S", 0.001)
+    monkeypatch.setattr("floatref.cli.batch.batch_report.REFRESH_S", 0.001)
     tally, over = tallied(2, 1), Event()
     answers = iter([7])
 

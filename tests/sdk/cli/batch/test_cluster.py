@@ -10,7 +10,7 @@ import pytest
 
 FILES = {"a": ("ready", 300), "b": ("ready", 200), "c": ("ready", 100), "bad": ("odd", 50)}
 IMPATIENT = (
-    "import floatref.batch.cluster as cluster; cluster.WORKERS_S = cluster.ANSWER_S = 0.5\n"
+    "import floatref.batch.work.cluster as cluster; cluster.WORKERS_S = cluster.ANSWER_S = 0.5\n"
     "from floatref.cli.main import main; main()"
 )
 

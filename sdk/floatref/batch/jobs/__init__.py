@@ -1,0 +1,1 @@
+"""What is to be processed: files found, listed and named."""

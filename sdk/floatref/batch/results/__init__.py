@@ -1,0 +1,1 @@
+"""What came of it: records, rows and the summary."""

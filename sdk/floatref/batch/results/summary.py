@@ -1,0 +1,128 @@
+"""The summary of all files, as CSV and as Parquet: one row for each segment of each wheel path."""
+
+import csv
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import asdict
+from itertools import islice
+from math import isnan
+from pathlib import Path
+from typing import Any
+
+from floatref.batch.jobs.job import PROFILES
+from floatref.batch.results.record import Record
+from floatref.errors import InputError
+from floatref.files.atomic import replacing_file
+
+CSV, PARQUET = "summary.csv", "summary.parquet"
+"""Names of the two files; they hold the same values."""
+COLUMNS: Mapping[str, type] = {
+    "file": str,
+    "name": str,
+    "status": str,
+    "error": str,
+    "track": str,
+    "segment": int,
+    "start_m": float,
+    "length_m": float,
+    "latitude_deg": float,
+    "longitude_deg": float,
+    "iri_m_per_km": float,
+    "mean_roughness_index_m_per_km": float,
+    "flagged_m": float,
+    "warnings": str,
+    "pipeline": str,
+    "settings": str,
+    "versions": str,
+    "adapter": str,
+    "inputs": str,
+    "outputs": str,
+    "profile": str,
+}
+"""Columns and their types; what is not known is null, and empty in CSV."""
+TOGETHER = 4096
+"""Rows that are held at a time, one row group of Parquet."""
+
+
+def write_summary(records: Iterable[Record], out: Path) -> None:
+    """Write `summary.csv` and `summary.parquet` of ``records`` into the folder ``out``.
+
+    A file that failed is one row with its error. Both are complete or not at all, and rows go
+    through in bounded memory. Raises InputError where pyarrow is missing, or if they cannot be
+    written.
+    """
+    pa, parquet = _arrow()
+    kinds = {str: pa.string(), int: pa.int64(), float: pa.float64()}
+    schema = pa.schema([(name, kinds[kind]) for name, kind in COLUMNS.items()])
+    lines = (line for record in records for line in _lines(record))
+    with ExitStack() as stack:
+        text, table = (
+            stack.enter_context(replacing_file(out / name, overwrite=True))
+            for name in (CSV, PARQUET)
+        )
+        stream = stack.enter_context(text.open("w", encoding="utf-8", newline=""))
+        # csv quotes a line feed by itself, a carriage return only if it ends lines.
+        sheet = csv.DictWriter(stream, list(COLUMNS), lineterminator="\r\n")
+        sheet.writeheader()
+        groups = stack.enter_context(parquet.ParquetWriter(table, schema, compression="zstd"))
+        while batch := list(islice(lines, TOGETHER)):
+            sheet.writerows(batch)
+            groups.write_table(pa.Table.from_pylist(batch, schema))
+
+
+def _arrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow as pa
+        import pyarrow.parquet as parquet
+    except ImportError as error:
+        raise InputError("the summary needs pyarrow; install floatref[batch]") from error
+    return pa, parquet
+
+
+def _lines(record: Record) -> Iterator[dict[str, Any]]:
+    """Yield the rows of ``record`` by column; None is not known."""
+    same = {name: _writable(value) for name, value in _common(record).items()}
+    if not record.rows:
+        yield {**dict.fromkeys(COLUMNS), **same}
+    for row in record.rows:
+        numbers = {k: None if v != v else v for k, v in asdict(row).items()}
+        yield {**dict.fromkeys(COLUMNS), **numbers, **same, "track": _writable(row.track)}
+
+
+def _common(record: Record) -> dict[str, str]:
+    """Return what all rows of ``record`` have in common."""
+    asked: Mapping[str, Any] = record.key.get("asked", {})
+    return {
+        "file": record.source,
+        "name": record.name,
+        "status": "failed" if record.error else "done",
+        "error": record.error,
+        "warnings": " | ".join((*record.warnings, *record.remarks)),
+        "pipeline": asked.get("pipeline", ""),
+        "settings": _json(record.key.get("settings", asked.get("settings", {}))),
+        "versions": _json(asked.get("versions", {})),
+        "adapter": record.key.get("adapter") or asked.get("adapter") or "",
+        "inputs": _json(record.inputs),
+        "outputs": _json(record.outputs),
+        "profile": "" if record.error else f"{PROFILES}/{record.name}",
+    }
+
+
+def _json(value: Mapping[str, Any]) -> str:
+    finite = {k: None if isinstance(v, float) and isnan(v) else v for k, v in value.items()}
+    return json.dumps(finite, ensure_ascii=False)
+
+
+def _writable(text: str) -> str:
+    """Return ``text`` as UTF-8 holds it: half a pair, as in odd file names, is written out."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def read_columns(out: Path, names: Sequence[str]) -> dict[str, list[Any]]:
+    """Return the columns ``names`` of the summary in the folder ``out``; None is not known."""
+    from pyarrow import parquet
+
+    table = parquet.read_table(out / PARQUET, columns=list(names))
+    found: dict[str, list[Any]] = table.to_pydict()
+    return found

@@ -1,0 +1,126 @@
+"""What is counted while files are processed: files, bytes, kilometres, time left, the roughest."""
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import isnan, nan
+
+from floatref.batch.jobs.job import Job
+from floatref.batch.results.record import Effort, Record, Row
+
+ROUGHEST = 5
+"""Rows that are kept of all those with the largest IRI."""
+OPENING = 16 << 20
+"""Bytes of a recording that take about as long as it takes to open a file at all."""
+
+
+@dataclass
+class Tally:
+    """Counts of one command; ``began_s`` and every ``now_s`` are on one clock, in seconds.
+
+    Attributes:
+        files: how many there are in all.
+        size_bytes: of all of them.
+        done: files with a profile, those among them that were done before included.
+        skipped: files that were done before and are as they were.
+        failed: name and reason of every file without a profile.
+        warnings: lines of warnings of all files.
+        length_m: of all profiles; ``new_m`` of those that this command has made.
+        effort: of all profiles, whenever they were made: sums, and the largest peak of memory.
+        roughest: IRI in m/km, name and row, the largest first.
+    """
+
+    files: int = 0
+    size_bytes: int = 0
+    began_s: float = 0.0
+    done: int = 0
+    skipped: int = 0
+    failed: dict[str, str] = field(default_factory=dict)
+    warnings: int = 0
+    length_m: float = 0.0
+    new_m: float = 0.0
+    effort: Effort = field(default_factory=Effort)
+    roughest: list[tuple[float, str, Row]] = field(default_factory=list)
+    _weight_done: int = 0
+    _weight_skipped: int = 0
+
+    def begin(self, jobs: Sequence[Job], now_s: float) -> None:
+        """Begin to count ``jobs``."""
+        self.files, self.began_s = len(jobs), now_s
+        self.size_bytes = sum(job.size_bytes for job in jobs)
+
+    def add(self, job: Job, record: Record) -> None:
+        """Count ``record`` of ``job``."""
+        self._weight_done += _weight(job.size_bytes)
+        self.warnings += len(record.warnings)
+        if record.error:
+            self.failed[record.name] = record.error
+            return
+        self.done += 1
+        self.length_m += record.length_m
+        self.effort = total(self.effort, record.effort)
+        self._keep_roughest(record)
+        if record.skipped:
+            self.skipped += 1
+            self._weight_skipped += _weight(job.size_bytes)
+        else:
+            self.new_m += record.length_m
+
+    @property
+    def seen(self) -> int:
+        """Files whose record was counted."""
+        return self.done + len(self.failed)
+
+    @property
+    def processed(self) -> int:
+        """Files that this command has worked at, well or not."""
+        return self.seen - self.skipped
+
+    @property
+    def part(self) -> float:
+        """Part of the work that is done, from 0 to 1."""
+        return self._weight_done / max(self._weight_of_all, 1)
+
+    def files_per_minute(self, now_s: float) -> float:
+        """Return the rate of this command; files that were done before do not count."""
+        return _ratio(60.0 * self.processed, now_s - self.began_s)
+
+    def km_per_hour(self, now_s: float) -> float:
+        """Return kilometres of profile per hour of this command."""
+        return _ratio(3.6 * self.new_m, now_s - self.began_s)
+
+    def left_s(self, now_s: float) -> float:
+        """Return how long the rest will take at the rate until now; NaN if unknown."""
+        worked = self._weight_done - self._weight_skipped
+        return _ratio((now_s - self.began_s) * (self._weight_of_all - self._weight_done), worked)
+
+    @property
+    def _weight_of_all(self) -> int:
+        return self.size_bytes + OPENING * self.files
+
+    def _keep_roughest(self, record: Record) -> None:
+        """Keep the largest IRI; what is left of a profile behind its last segment is none."""
+        half_m = max((row.length_m for row in record.rows), default=0.0) / 2
+        whole = [row for row in record.rows if row.length_m >= half_m]
+        rows = [(r.iri_m_per_km, record.name, r) for r in whole if not isnan(r.iri_m_per_km)]
+        self.roughest = heapq.nlargest(ROUGHEST, self.roughest + rows, key=lambda item: item[0])
+
+
+def total(one: Effort, other: Effort) -> Effort:
+    """Return the sum of both, and the larger peak."""
+    return Effort(
+        one.seconds + other.seconds,
+        one.cpu_s + other.cpu_s,
+        one.bytes_in + other.bytes_in,
+        one.bytes_out + other.bytes_out,
+        max(one.peak_bytes, other.peak_bytes),
+    )
+
+
+def _weight(size_bytes: int) -> int:
+    """Return what a file counts for: its bytes, and what it costs whatever they are."""
+    return size_bytes + OPENING
+
+
+def _ratio(part: float, whole: float) -> float:
+    return part / whole if whole > 0.0 else nan

@@ -1,0 +1,119 @@
+"""Jobs on a cluster: one task each, the largest first, and one record for each, come what may."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from secrets import token_hex
+from shutil import rmtree
+from typing import TYPE_CHECKING
+
+from floatref.batch.jobs.job import Job
+from floatref.batch.results.folder import working
+from floatref.batch.results.record import Record
+from floatref.errors import FloatrefError
+
+if TYPE_CHECKING:
+    from distributed import Client, Future
+
+Task = Callable[[Job, bool], Record]
+"""What is done with one file, given whether what is done already is to be kept."""
+
+KILLED = (
+    "the worker ended {} times while it processed this file alone (out of memory?); give workers "
+    "more memory, or cut the run into shorter ones"
+)
+LOST = "the cluster was lost before this file was done; go on with --resume"
+
+
+def run_jobs(
+    client: "Client", jobs: Sequence[Job], resume: bool, task: Task | None = None
+) -> Iterator[tuple[Job, Record]]:
+    """Yield every one of ``jobs`` exactly once with its record, as they are done.
+
+    A file whose worker died is tried on other workers, and at last alone, so that it is not
+    blamed for another's doing. ``task`` is `floatref.batch.work.task.run_job` unless given.
+    """
+    chosen = task or _run_job
+    ordered = sorted(jobs, key=lambda job: -job.size_bytes)
+    suspects = []
+    for job, future in _done(client, ordered, resume, chosen):
+        if _worker_died(future):
+            suspects.append(job)
+        else:
+            yield job, _record(job, future, resume)
+        future.release()
+    for suspect in suspects:
+        for job, future in _done(client, [suspect], resume, chosen):
+            yield job, _record(job, future, resume)
+
+
+def _run_job(job: Job, resume: bool) -> Record:
+    from floatref.batch.work.task import run_job
+
+    return run_job(job, resume)
+
+
+def _marked(job: Job, resume: bool, task: Task) -> Record:
+    """Do one task on a worker, and let other commands know that it is being done."""
+    with working(job.out):
+        return task(job, resume)
+
+
+def _done(
+    client: "Client", jobs: Sequence[Job], resume: bool, task: Task
+) -> Iterator[tuple[Job, "Future[Record]"]]:
+    """Yield every job with its future, in the order in which they are done."""
+    from distributed import as_completed
+
+    run = token_hex(8)
+    keys = {f"floatref-{run}-{index:09d}": job for index, job in enumerate(jobs)}
+    # In one graph, which the scheduler hands out bit by bit and in this order.
+    futures = client.map(_marked, jobs, key=list(keys), pure=False, resume=resume, task=task)
+    waiting = as_completed(futures)
+    del futures
+    for future in waiting:
+        yield keys[future.key], future
+
+
+def _worker_died(future: "Future[Record]") -> bool:
+    from distributed import KilledWorker
+
+    return future.status == "error" and isinstance(future.exception(), KilledWorker)
+
+
+def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
+    """Return what the task returned, or a record of why it returned nothing."""
+    # What a worker did and took with it is done once more, and waited for here.
+    with suppress(Exception):
+        return future.result()
+    if _worker_died(future):
+        return _given_up(job, KILLED.format(future.exception().args[2] + 1))
+    if future.status == "error":
+        error = future.exception()
+        return _failed(job, f"{type(error).__name__}: {error}")
+    return _written(job, resume) or _failed(job, LOST)
+
+
+def _written(job: Job, resume: bool) -> Record | None:
+    """Return what a task has written of ``job`` and nobody passed on; None if that is nothing."""
+    from floatref.batch.work.task import kept
+
+    found = kept(job)
+    return found and replace(found, skipped=resume)
+
+
+def _given_up(job: Job, reason: str) -> Record:
+    """Return the record of a file that no task could write one of, and leave it in its place."""
+    from floatref.batch.results.record import write_record
+
+    record = _failed(job, reason)
+    rmtree(job.profile, ignore_errors=True)
+    with suppress(FloatrefError, OSError):
+        write_record(record, job.record)
+    return record
+
+
+def _failed(job: Job, reason: str) -> Record:
+    from floatref.batch.work.task import failed
+
+    return failed(job, " ".join(reason.split()))

@@ -1,0 +1,91 @@
+"""An end to waiting for workers that do not come back."""
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from threading import Event, Thread
+from time import monotonic
+from typing import TYPE_CHECKING, TextIO
+
+from floatref.batch.work.cluster import count_workers
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+PATIENCE_S = 600.0
+"""For so long a cluster may be without a worker."""
+
+OFTEN_S = 5.0
+"""From one look at the workers to the next."""
+
+
+@contextmanager
+def patient(client: "Client", patience_s: float = PATIENCE_S) -> Iterator[None]:
+    """Drop all that ``client`` waits for once there was no worker for ``patience_s`` seconds."""
+    over = Event()
+    watch = Thread(target=_watch, args=(client, patience_s, over.wait), daemon=True)
+    watch.start()
+    try:
+        yield
+    finally:
+        over.set()
+        watch.join(timeout=OFTEN_S)
+
+
+def _watch(client: "Client", patience_s: float, over: Callable[[float], bool]) -> None:
+    seen_s = monotonic()
+    while not over(min(OFTEN_S, patience_s)):
+        if count_workers(client):
+            seen_s = monotonic()
+        elif monotonic() - seen_s > patience_s:
+            drop_all(client)
+
+
+def drop_all(client: "Client") -> None:
+    """Cancel every task of ``client``; who waits for one is told so."""
+    from distributed import Future
+
+    with suppress(OSError, RuntimeError, TimeoutError):
+        client.cancel([Future(key, client) for key in list(client.futures)])
+
+
+OUTPUTS = (1, 2)
+"""File descriptors of standard output and standard error."""
+
+
+@contextmanager
+def silence() -> Iterator[TextIO]:
+    """Send what is printed inside nowhere, and yield a stream that still reaches standard error.
+
+    Processes that are started inside are silent for all of their lives, as are libraries that
+    write through the file descriptors.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [os.dup(number) for number in OUTPUTS]
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    shown = _shown(kept[1])
+    try:
+        for number in OUTPUTS:
+            os.dup2(nowhere, number)
+        yield shown
+    finally:
+        shown.flush()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        for number, copy in zip(OUTPUTS, kept, strict=True):
+            os.dup2(copy, number)
+            os.close(copy)
+        os.close(nowhere)
+
+
+def _shown(copy: int) -> TextIO:
+    """Return standard error on descriptor ``copy``; as it is if it is not a descriptor's."""
+    try:
+        if sys.stderr.fileno() != OUTPUTS[1]:
+            return sys.stderr
+    except OSError:
+        return sys.stderr
+    encoding, errors = sys.stderr.encoding, sys.stderr.errors
+    return open(copy, "w", buffering=1, encoding=encoding, errors=errors, closefd=False)

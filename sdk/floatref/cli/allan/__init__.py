@@ -1,0 +1,1 @@
+"""`floatref allan`: the noise of sensors at rest."""

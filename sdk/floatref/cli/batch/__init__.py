@@ -1,0 +1,1 @@
+"""`floatref batch`: many recordings into profiles and one summary."""

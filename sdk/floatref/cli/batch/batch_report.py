@@ -1,0 +1,169 @@
+"""What `floatref batch` prints at its end."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from datetime import timedelta
+from math import isnan
+from pathlib import Path
+from threading import Event, Thread
+from time import monotonic
+from typing import TYPE_CHECKING, Any, TextIO
+
+import click
+
+from floatref.batch.results.summary import CSV, PARQUET
+from floatref.batch.results.totals import Tally
+from floatref.cli.printing import number, print_table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+EVERY_S = 30.0
+"""Between two plain lines."""
+
+REFRESH_S = 5.0
+"""Until a bar is drawn anew, with the number of workers."""
+
+
+@contextmanager
+def progress(
+    tally: Tally, stream: TextIO, workers: Callable[[], int], every_s: float = EVERY_S
+) -> Iterator[Callable[[], None]]:
+    """Show ``tally`` on ``stream`` as it grows; yield what is to be called when it has."""
+    from rich.console import Console
+
+    console = Console(file=stream)
+    if console.is_terminal:
+        with _bar(tally, console) as show, _regularly(lambda: show(workers()), REFRESH_S):
+            yield show
+        return
+    with _regularly(lambda: print(said(tally, workers()), file=stream, flush=True), every_s):
+        yield lambda: None
+
+
+@contextmanager
+def _bar(tally: Tally, console: "Console") -> Iterator[Callable[..., None]]:
+    """Yield what moves a bar to where ``tally`` is; it keeps the number of workers if given."""
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (BarColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(said(tally), total=1.0)
+        known: list[int] = []
+
+        def show(*workers: int) -> None:
+            known[:] = workers or known
+            bar.update(task, completed=tally.part, description=said(tally, *known))
+
+        yield show
+
+
+def said(tally: Tally, workers: int | None = None) -> str:
+    """Return one line, what matters least last: a narrow terminal cuts it off."""
+    now_s = monotonic()
+    parts = [f"{tally.seen} of {tally.files} files", f"{len(tally.failed)} failed"]
+    left_s = tally.left_s(now_s)
+    if tally.processed and not isnan(left_s):
+        parts.append(f"{duration(left_s)} left")
+    if tally.processed:
+        parts.append(f"{tally.files_per_minute(now_s):.1f} files/min")
+        parts.append(f"{tally.km_per_hour(now_s):.1f} km/h")
+    if tally.skipped:
+        parts.append(f"{tally.skipped} done before")
+    if workers is not None:
+        parts.append("1 worker" if workers == 1 else f"{workers} workers")
+    return ", ".join(parts)
+
+
+def duration(seconds: float) -> str:
+    """Return ``seconds`` as hours, minutes and seconds."""
+    return str(timedelta(seconds=round(seconds)))
+
+
+@contextmanager
+def _regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
+    """Call ``act`` every so often, also while no file comes to its end."""
+    over = Event()
+
+    def repeat() -> None:
+        while not over.wait(every_s):
+            act()
+
+    other = Thread(target=repeat, daemon=True)
+    other.start()
+    try:
+        yield
+    finally:
+        over.set()
+        other.join(timeout=1.0)
+
+
+FAILURES = 20
+"""Files without a profile that are listed; all of them are in the summary."""
+
+NAMES = 3
+"""Names that a remark tells of those that there are."""
+
+
+def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
+    """Print counts, the roughest segments, failures with their reasons, and what was written."""
+    _print_counts(document)
+    if tally.roughest:
+        _print_roughest(tally)
+    if tally.failed:
+        _print_failures(document["failures"])
+    click.echo(f"Written: {out / CSV}, {out / PARQUET}")
+
+
+def tell_remarks(passed_over: Sequence[Path], no_longer_given: Sequence[str]) -> None:
+    """Print a warning on files that are no recordings, and on profiles that stay from before."""
+    if passed_over:
+        names = counted([path.name for path in passed_over])
+        click.echo(f"Warning: passed over, no recordings that we know: {names}", err=True)
+    if no_longer_given:
+        names = counted(no_longer_given)
+        click.echo(f"Warning: no longer given, kept, not in the summary: {names}", err=True)
+
+
+def counted(names: Sequence[str]) -> str:
+    """Return how many ``names`` there are, and the first of them."""
+    more = ", ..." if len(names) > NAMES else ""
+    files = "1 file" if len(names) == 1 else f"{len(names)} files"
+    return f"{files} ({', '.join(names[:NAMES])}{more})"
+
+
+def _print_counts(document: Mapping[str, Any]) -> None:
+    files, run = document["files"], document["this_run"]
+    effort = document["effort"]
+    wall_s = run["wall_s"]
+    rows = [
+        ["files", str(files["found"])],
+        ["done", str(files["done"])],
+        ["of these done before", str(files["skipped"])],
+        ["failed", str(files["failed"])],
+        ["warnings", str(document["warnings"])],
+        ["length km", number(document["length_km"], 3)],
+        ["time", duration(wall_s)],
+        ["workers", str(run["workers"])],
+        ["files/min", number(60.0 * run["processed"] / wall_s, 1)],
+        ["km/h", number(3600.0 * run["length_km"] / wall_s, 1)],
+        ["processor s", number(effort["cpu_s"], 1)],
+        ["largest memory MB", number(effort["peak_bytes"] / 1e6, 0)],
+    ]
+    print_table("Batch", ("", "number"), rows)
+
+
+def _print_roughest(tally: Tally) -> None:
+    rows = [
+        [name, row.track, number(row.start_m, 1), number(row.length_m, 1), number(iri)]
+        for iri, name, row in tally.roughest
+    ]
+    columns = ("file", "track", "start m", "length m", "IRI m/km")
+    print_table("Roughest", columns, rows)
+
+
+def _print_failures(failures: Sequence[Mapping[str, str]]) -> None:
+    rows = [[item["name"], item["error"]] for item in failures[:FAILURES]]
+    print_table("Failed", ("file", "why"), rows, numbers=False)
+    if len(failures) > FAILURES:
+        click.echo(f"and {len(failures) - FAILURES} more, in the summary")

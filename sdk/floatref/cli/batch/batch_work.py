@@ -1,0 +1,97 @@
+"""What `floatref batch` does: a folder, a cluster, every file, and one summary of them all."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from floatref.batch.jobs.defaults import Defaults
+from floatref.batch.jobs.inputs import Found
+from floatref.batch.jobs.job import Job
+from floatref.batch.results.batch_document import (
+    Command,
+    Finished,
+    batch_document,
+    write_batch_document,
+)
+from floatref.batch.results.folder import not_given, prepared
+from floatref.batch.results.record import Returned, returned_records
+from floatref.batch.results.summary import write_summary
+from floatref.batch.results.totals import Tally
+from floatref.batch.work.cluster import connect, count_workers
+from floatref.batch.work.running import run_jobs
+from floatref.batch.work.worker_patience import patient, silence
+from floatref.cli.batch.batch_report import progress, tell_remarks
+
+
+@dataclass(frozen=True)
+class Work:
+    """What the command was asked for, as it was typed."""
+
+    given: Sequence[str]
+    defaults: Defaults
+    out: Path
+    resume: bool
+    jobs: int | None
+    cluster: str | None
+    plot: Path | None
+
+    @property
+    def command(self) -> Command:
+        """Return what batch.json tells of it."""
+        options = asdict(self.defaults)
+        chart = options.pop("channel_map")
+        return Command(
+            self.given,
+            {
+                **options,
+                "map": None if chart is None else str(chart),
+                "jobs": self.jobs,
+                "cluster": self.cluster,
+                "resume": self.resume,
+            },
+        )
+
+
+def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
+    """Process what was ``found``, count it in ``tally``, and return what batch.json holds.
+
+    Raises InputError for a folder or a cluster that cannot be used.
+    """
+    with prepared(work.out, work.resume), returned_records(work.out) as returned:
+        workers = _processed(found.jobs, work, tally, returned)
+        wall_s = monotonic() - tally.began_s
+        gone = not_given(work.out, found.jobs)
+        tell_remarks(found.passed_over, gone)
+        write_summary(returned.of(found.jobs), work.out)
+        finished = Finished(wall_s, workers, found.passed_over, gone)
+        document = batch_document(work.command, tally, finished)
+        write_batch_document(document, work.out)
+        if work.plot is not None:
+            _draw(work.out, work.plot)
+    return document
+
+
+def _processed(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
+    """Fill ``tally`` and ``returned``; return how many workers there were."""
+    with (
+        silence() as shown,
+        connect(work.out, work.jobs, work.cluster) as client,
+        patient(client),
+    ):
+        workers = count_workers(client)
+        tally.begin(jobs, monotonic())
+        with progress(tally, shown, lambda: count_workers(client)) as tell:
+            for job, record in run_jobs(client, jobs, work.resume):
+                tally.add(job, record)
+                returned.add(record)
+                tell()
+        return max(workers, count_workers(client))
+
+
+def _draw(out: Path, plot: Path) -> None:
+    from floatref.batch.results.summary import read_columns
+    from floatref.plots import SUMMARY_COLUMNS, draw_summary
+
+    draw_summary(read_columns(out, SUMMARY_COLUMNS), plot)

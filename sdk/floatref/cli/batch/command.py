@@ -1,0 +1,113 @@
+"""`floatref batch`: many recordings into profiles and one summary, on a Dask cluster."""
+
+from pathlib import Path
+
+import click
+
+from floatref.batch.jobs.defaults import Defaults
+from floatref.batch.jobs.inputs import find_jobs
+from floatref.batch.results.totals import Tally
+from floatref.batch.work.cluster import check_installed
+from floatref.cli.batch.batch_report import print_report
+from floatref.cli.batch.batch_work import Work, work_through
+from floatref.cli.batch.interruption import interruptible
+from floatref.cli.printing import print_json
+from floatref.errors import InputError
+from floatref.files.atomic import check_target
+from floatref.files.settings_file import read_settings
+
+SOME_FAILED = 5
+"""Exit code if there is a file without a profile."""
+
+
+@click.command("batch")
+@click.argument("given", metavar="IN...", nargs=-1, required=True)
+@click.option(
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Where to write; a new or empty folder.",
+)
+@click.option("--adapter", metavar="NAME", help="Read every file with this adapter.")
+@click.option(
+    "--map",
+    "channel_map",
+    type=click.Path(path_type=Path),
+    metavar="FILE.toml",
+    help="Channel map of the native files.",
+)
+@click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
+@click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
+@click.option(
+    "--segment",
+    "segment_m",
+    type=float,
+    metavar="METRES",
+    help="Length of a segment in the summary; by default the whole profile is one.",
+)
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Workers on this machine; by default one per processor.",
+)
+@click.option("--cluster", metavar="URL", help="Address of a Dask scheduler, as tcp://HOST:8786.")
+@click.option("--resume", is_flag=True, help="Go on in DIR; keep what is done and unchanged.")
+@click.option(
+    "--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw the summary too."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def batch(
+    given: tuple[str, ...],
+    out: Path,
+    adapter: str | None,
+    channel_map: Path | None,
+    pipeline: str,
+    settings: Path | None,
+    segment_m: float | None,
+    jobs: int | None,
+    cluster: str | None,
+    resume: bool,
+    plot: Path | None,
+    as_json: bool,
+) -> None:
+    """Turn every recording of IN... into a road profile, and all of them into one summary.
+
+    IN is a recording, a native file, a folder of them, a glob in quotes, or a manifest: a text
+    file with one path a line, or a CSV table with a column file. A file that cannot be used is a
+    row of the summary, and the exit code is 5.
+    """
+    if jobs and cluster:
+        raise InputError("--jobs is for workers of this machine; leave it or --cluster out")
+    tally = Tally()
+    with interruptible(lambda: _interrupted(tally)):
+        check_installed()
+        _check_drawing(plot, out)
+        defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
+        found = find_jobs(given, out, defaults)
+        report = work_through(found, Work(given, defaults, out, resume, jobs, cluster, plot), tally)
+    print_json(report) if as_json else print_report(report, tally, out)
+    if tally.failed:
+        raise click.exceptions.Exit(SOME_FAILED)
+
+
+def _check_drawing(plot: Path | None, out: Path) -> None:
+    """Refuse before the work what would be refused after it; ``out`` may have to be made."""
+    if plot is None:
+        return
+    from floatref.plots import check_drawing
+
+    if plot.absolute().parent != out.absolute():
+        check_target(plot, overwrite=True)
+    check_drawing(plot)
+
+
+def _interrupted(tally: Tally) -> str:
+    """Return one line on how far the command came."""
+    if not tally.seen:
+        return "Interrupted before any file was done"
+    return (
+        f"Interrupted: {tally.seen} of {tally.files} files are done; the same command with "
+        "--resume goes on"
+    )

@@ -1,0 +1,27 @@
+"""The choice of a profile format on the command line, from what is registered."""
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from floatref.engine.plugins import plugins
+
+if TYPE_CHECKING:
+    NameType = click.ParamType[str]
+else:
+    # It takes no type argument before click 8.4.
+    NameType = click.ParamType
+
+
+class FormatName(NameType):
+    """The name of a registered format; plug-ins are loaded when one is given or asked for."""
+
+    name = "format"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Return the names, as the help shows a choice."""
+        return f"[{'|'.join(plugins().profile_formats())}]"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return ``value`` if it is the name of a format."""
+        return str(click.Choice(list(plugins().profile_formats())).convert(value, param, ctx))

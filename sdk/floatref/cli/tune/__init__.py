@@ -1,0 +1,1 @@
+"""`floatref tune`: noise settings of a Kalman pipeline."""

@@ -1,0 +1,231 @@
+"""Which adapter reads a source, and what it reads; an adapter's own faults in one line."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from os.path import exists
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from floatref.engine.plugins import plugins
+from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.files import read_profile, write_profile
+from floatref.files.atomic import replacing_file
+from floatref.files.sources import naming
+from floatref.interfaces.adapter import (
+    Adapter,
+    NativeAdapter,
+    RecordingAdapter,
+    RecordingDirectory,
+)
+from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat
+from floatref.values.native import NativeFile
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+
+T = TypeVar("T")
+
+
+def reader_of(source: Path, name: str | None) -> Adapter:
+    """Return the adapter called ``name``, else the one that recognises ``source``.
+
+    Raises InputError if there is no such adapter, none recognises it, or several do.
+    """
+    if name is not None:
+        return named_reader(name)
+    if not exists(source):
+        raise InputError(f"{source}: not found")
+    found = recognising(source)
+    if not found:
+        names = ", ".join(plugins().adapters())
+        raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
+    if len(found) > 1:
+        both = " and ".join(adapter.name for adapter in found)
+        raise InputError(f"{source}: adapters {both} both recognise it; choose with --adapter")
+    return found[0]
+
+
+def recognising(source: Path) -> list[Adapter]:
+    """Return the adapters that recognise ``source``; one that fails at it is reported."""
+    return [adapter for adapter in plugins().adapters().values() if _recognised(adapter, source)]
+
+
+def named_reader(name: str) -> Adapter:
+    """Return the adapter called ``name``; InputError if there is none."""
+    known = plugins().adapters()
+    if name not in known:
+        raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
+    return known[name]
+
+
+def is_native(reader: Adapter) -> bool:
+    """Return whether ``reader`` lists what a file holds, for a channel map."""
+    return callable(getattr(reader, "streams", None))
+
+
+def read_source(reader: Adapter, source: Path) -> Recording:
+    """Return the recording; PluginError if the adapter fails in a way it should not."""
+    with guarding(reader.name, source):
+        found = cast(RecordingAdapter, reader).read(source)
+    return _checked(found, reader, source, Recording, "recording")
+
+
+def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
+    """Return what ``source`` holds; InputError if ``reader`` does not list files."""
+    if not exists(source):
+        raise InputError(f"{source}: not found")
+    if not is_native(reader) or RecordingDirectory().recognises(source):
+        name = RecordingDirectory.name if is_native(reader) else reader.name
+        raise InputError(f"{source}: adapter {name} has our channels; it needs no map")
+    with guarding(reader.name, source):
+        found = cast(NativeAdapter, reader).streams(source, options)
+    native = _checked(found, reader, source, NativeFile, "native file")
+    names = [stream.name for stream in native.streams]
+    if len(set(names)) < len(names):
+        twice = next(name for at, name in enumerate(names) if name in names[:at])
+        raise PluginError(f"adapter {reader.name}: {source}: gave two streams called {twice!r}")
+
+    def close() -> None:
+        with guarding(reader.name, source):
+            native.close()
+
+    return replace(native, close=close)
+
+
+@contextmanager
+def guarding(name: str, source: Path) -> Iterator[None]:
+    """Turn what an adapter called ``name`` should not raise into a PluginError in one line."""
+    try:
+        yield
+    except (FloatrefError, MemoryError):
+        raise
+    except OSError as error:
+        place = error.filename or source
+        raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
+    except (Exception, SystemExit) as error:
+        # contextlib takes a RuntimeError that a StopIteration has caused for that itself.
+        cause = None if isinstance(error, StopIteration) else error
+        raise PluginError(_failure(name, source, error)) from cause
+
+
+def _checked(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
+    if not isinstance(found, kind):
+        raise PluginError(f"adapter {reader.name}: {source}: gave no {said}")
+    return found
+
+
+def _recognised(adapter: Adapter, source: Path) -> bool:
+    try:
+        return bool(adapter.recognises(source))
+    except Exception as error:
+        plugins().reports.append(_failure(adapter.name, source, error))
+        return False
+
+
+def _failure(name: str, source: Path, error: BaseException) -> str:
+    return f"adapter {name}: {source}: {type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def profile_of(path: Path) -> Profile:
+    """Return the profile at ``path``: our directory, its profile.json, or a file of any format.
+
+    A file that no format recognises is read as our CSV, whose errors say what is expected. Raises
+    InputError if ``path`` cannot be used or two formats recognise it, and PluginError if a format
+    fails in a way it should not.
+    """
+    path = Path(path)
+    found = [
+        form for form in plugins().profile_formats().values() if _recognise_profile(form, path)
+    ]
+    if not found:
+        return read_profile(path)
+    if len(found) > 1:
+        both = " and ".join(form.name for form in found)
+        raise InputError(f"{path}: formats {both} both recognise it; remove one plug-in")
+    return _read(found[0], path)
+
+
+def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
+    """Return in one line what went wrong inside ``form``."""
+    reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
+    return f"format {form.name}: {path}: {reason}"
+
+
+def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
+    try:
+        return bool(form.recognises(path))
+    except (OSError, ValueError):
+        # A name that cannot be opened: reading it says so.
+        return False
+    except Exception as error:
+        plugins().reports.append(failure(form, path, error))
+        return False
+
+
+def _read(form: ProfileFormat, path: Path) -> Profile:
+    try:
+        profile = form.read(path)
+    except (FloatrefError, OSError):
+        raise
+    except Exception as error:
+        raise PluginError(failure(form, path, error)) from error
+    if not isinstance(profile, Profile):
+        raise PluginError(f"format {form.name}: {path}: gave no profile")
+    return profile
+
+
+def format_of(out: Path, name: str | None = None) -> ProfileFormat:
+    """Return the format called ``name``, else the one that the suffix of ``out`` asks for.
+
+    Raises InputError, with the formats there are, if it is none or that of two, or if it needs a
+    library that is missing.
+    """
+    form = _chosen(out, name)
+    check = getattr(form, "check_installed", None)
+    if callable(check):
+        with naming(out):
+            check()
+    return form
+
+
+def _chosen(out: Path, name: str | None) -> ProfileFormat:
+    known = plugins().profile_formats()
+    if name is not None and name not in known:
+        raise InputError(f"format {name}: unknown; there are {', '.join(known)}")
+    if name is not None:
+        return known[name]
+    # A suffix has letters only: names of runs hold numbers, as in stop_0.20g.
+    suffix = out.suffix.lower() if out.suffix[1:].isalpha() else ""
+    found = [form for form in known.values() if form.suffix == suffix]
+    if len(found) > 1:
+        both = " and ".join(form.name for form in found)
+        raise InputError(f"{out}: suffix {suffix} is that of {both}; choose with --format")
+    if not found:
+        suffixes = ", ".join(form.suffix for form in known.values() if form.suffix)
+        raise InputError(
+            f"{out}: suffix {out.suffix} is no format; use {suffixes}, no suffix, or --format "
+            f"with one of {', '.join(known)}"
+        )
+    return found[0]
+
+
+def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool = False) -> None:
+    """Write ``profile`` to ``out`` in the format ``form``, complete or not at all.
+
+    Raises InputError if ``out`` exists and ``overwrite`` is false, cannot be written, or if the
+    format cannot hold the profile; PluginError if a format fails in a way it should not.
+    """
+    if isinstance(form, ProfileDirectory):
+        write_profile(profile, out, overwrite)
+        return
+    with replacing_file(out, overwrite) as beside:
+        try:
+            form.write(profile, beside)
+        except InputError as error:
+            raise InputError(str(error).replace(str(beside), str(out))) from error
+        except (FloatrefError, OSError):
+            raise
+        except Exception as error:
+            raise PluginError(failure(form, out, error)) from error
+        if not beside.is_file():
+            raise PluginError(f"format {form.name}: {out}: wrote no file")

@@ -1,0 +1,259 @@
+"""Loading plug-ins one at a time, and asking them one at a time."""
+
+import os
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import EntryPoint, entry_points
+from threading import RLock
+from typing import Any, TypeVar
+
+import pluggy
+
+from floatref.engine.fall_back import DropOut
+from floatref.engine.registration import (
+    Register,
+    check_adapter,
+    check_pipeline,
+    check_profile,
+    check_profile_format,
+    check_scopes,
+    check_stage,
+    check_stages,
+    complete_pipeline,
+    scope_of,
+    unknown_scopes,
+)
+from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.interfaces import hookspecs
+from floatref.interfaces.adapter import Adapter
+from floatref.interfaces.markers import PROJECT
+from floatref.interfaces.pipeline import Context, Pipeline
+from floatref.interfaces.profile_format import ProfileFormat
+from floatref.stages.protocol import Stage
+from floatref.values.profile import Profile
+
+VARIABLE = "FLOATREF_TRACE"
+HOOKS = frozenset({"hooks", "1"})
+
+
+def trace_hook(plugin: str, hook: str, outcome: str) -> None:
+    """Print which plug-in was asked, for what, and what came of it, if hooks are traced."""
+    words = {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}
+    if words & HOOKS:
+        print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return ``names`` as a trace shows them."""
+    return ", ".join(names) or "nothing"
+
+
+T = TypeVar("T")
+BUILT_IN = "floatref"
+"""Name of the plug-in that holds the defaults."""
+
+
+@dataclass(frozen=True)
+class _Caller:
+    """One plug-in's implementation of a hook; the scope is empty where all is in it."""
+
+    plugin: str
+    scope: tuple[str, ...]
+    call: Callable[..., Any]
+
+
+class Plugins:
+    """All plug-ins of a process, and what they registered.
+
+    ``reports`` lists in one line each what was broken and skipped.
+    """
+
+    def __init__(self) -> None:
+        """Load the defaults; `load` adds others."""
+        from floatref.pipelines import builtin
+
+        self.reports: list[str] = []
+        self._lock = RLock()
+        self._loading = False
+        self._registering: dict[str, Register] = {}
+        self._manager = pluggy.PluginManager(PROJECT)
+        self._manager.add_hookspecs(hookspecs)
+        self.add(builtin.Defaults(), BUILT_IN)
+
+    def add(self, plugin: object, name: str) -> None:
+        """Add ``plugin`` under ``name``; one that does not fit the hooks is reported."""
+        if self._manager.has_plugin(name):
+            self._skip(name, ValueError("another plug-in has this name"))
+            return
+        try:
+            self._manager.register(plugin, name)
+            self._manager.check_pending()
+            if name != BUILT_IN:
+                check_scopes(self._manager, name)
+        except Exception as error:
+            self._skip(name, error)
+            if self._manager.has_plugin(name):
+                self._manager.unregister(name=name)
+
+    def load(self, points: Sequence[EntryPoint]) -> None:
+        """Load each entry point; one that fails is reported and skipped."""
+        self._loading = True
+        for point in points:
+            try:
+                plugin = point.load()
+            except (Exception, SystemExit) as error:
+                self._skip(point.name, error)
+            else:
+                self.add(plugin, point.name)
+        self._loading = False
+
+    def registered(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
+        """Return what all plug-ins registered through ``hook``, by name.
+
+        A plug-in that asks while it registers gets what was registered before. Raises PluginError
+        if two plug-ins registered the same name.
+        """
+        with self._lock:
+            if hook in self._registering:
+                return dict(self._registering[hook].found)
+            with self._register(hook, check) as register:
+                for caller in self._callers(hook):
+                    self._fill(register, hook, caller)
+            return register.found
+
+    def pipelines(self) -> dict[str, Pipeline]:
+        """Return every pipeline by name, each with an answer for every point."""
+        found = self.registered("floatref_register_pipelines", check_pipeline)
+        return {name: complete_pipeline(pipeline) for name, pipeline in found.items()}
+
+    def stages(self) -> dict[str, Callable[..., Stage]]:
+        """Return every stage's class by name."""
+        return self.registered("floatref_register_stages", check_stage)
+
+    def adapters(self) -> dict[str, Adapter]:
+        """Return every adapter by name."""
+        return self.registered("floatref_register_adapters", check_adapter)
+
+    def profile_formats(self) -> dict[str, ProfileFormat]:
+        """Return every format of profile files by name."""
+        return self.registered("floatref_register_profile_formats", check_profile_format)
+
+    def pipeline(self, name: str) -> Pipeline:
+        """Return the pipeline called ``name``; InputError if there is none."""
+        known = self.pipelines()
+        if not (self._loading or self._registering):
+            for line in unknown_scopes(self._manager, known):
+                self._report(line)
+        if name not in known:
+            raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
+        return known[name]
+
+    def ask(self, context: Context) -> Sequence[Stage]:
+        """Return the stages for ``context``.
+
+        A third party that names the pipeline goes before the pipeline's own answer, and that
+        before the architecture's. Raises PluginError, with both names, if two third parties answer.
+        """
+        checked = partial(check_stages, context=context, known=self.stages)
+        answer = self._answer(context.point, context.pipeline.name, context, checked)
+        return () if answer is None else answer
+
+    def fall_back(self, asked: DropOut) -> Profile | None:
+        """Return another profile of a recording whose heights have gaps, or None; as `ask`."""
+        return self._answer("temporal_fall_back", asked.profile.pipeline, asked, check_profile)
+
+    def _answer(
+        self, hook: str, pipeline: str, context: object, checked: Callable[[Any, str], T]
+    ) -> T | None:
+        answers: dict[str, T] = {}
+        # The built-in comes last, and only where no third party has answered.
+        for caller in sorted(self._callers(hook), key=lambda c: c.plugin == BUILT_IN):
+            if caller.plugin == BUILT_IN and answers:
+                break
+            where = f"{hook} of {pipeline}"
+            if caller.scope and pipeline not in caller.scope:
+                trace_hook(caller.plugin, where, f"not asked, it names {listed(caller.scope)}")
+                continue
+            found = self._guarded(caller.plugin, partial(caller.call, context=context))
+            if found:
+                answers[caller.plugin] = checked(found[0], _who(caller.plugin, pipeline))
+            trace_hook(caller.plugin, where, _shown(answers.get(caller.plugin)))
+        if len(answers) > 1:
+            both = " and ".join(answers)
+            raise PluginError(f"plug-ins {both} both answer {hook} of {pipeline}; remove one")
+        return next(iter(answers.values()), None)
+
+    def _callers(self, hook: str) -> list[_Caller]:
+        """Return who implements ``hook``, the built-in plug-in first."""
+        everyone = dict(self._manager.list_name_plugin())
+        found = []
+        for implementation in getattr(self._manager.hook, hook).get_hookimpls():
+            name = implementation.plugin_name
+            others = [p for n, p in everyone.items() if n != name and p is not None]
+            call = self._manager.subset_hook_caller(hook, others)
+            found.append(_Caller(name, scope_of(implementation), call))
+        return sorted(found, key=lambda caller: caller.plugin != BUILT_IN)
+
+    @contextmanager
+    def _register(self, hook: str, check: Callable[..., str]) -> Iterator[Register]:
+        self._registering[hook] = Register(check)
+        try:
+            yield self._registering[hook]
+        finally:
+            del self._registering[hook]
+
+    def _fill(self, register: Register, hook: str, caller: _Caller) -> None:
+        before = set(register.found)
+        call = partial(caller.call, register=register.of(caller.plugin))
+        try:
+            self._guarded(caller.plugin, call)
+        except InputError as error:
+            self._skip(caller.plugin, error)
+        new = [name for name in register.found if name not in before]
+        trace_hook(caller.plugin, hook, f"registered {listed(new)}")
+
+    def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
+        try:
+            return call()
+        except FloatrefError:
+            raise
+        except Exception as error:
+            self._skip(plugin, error)
+            return None
+
+    def _skip(self, name: str, error: BaseException) -> None:
+        reason = " ".join(str(error).split())
+        self._report(f"plug-in {name} skipped: {type(error).__name__}: {reason}")
+
+    def _report(self, line: str) -> None:
+        if line not in self.reports:
+            self.reports.append(line)
+
+
+def _who(plugin: str, pipeline: str) -> str:
+    return f"pipeline {pipeline}" if plugin == BUILT_IN else f"plug-in {plugin}"
+
+
+def _shown(answer: object) -> str:
+    if answer is None:
+        return "no answer"
+    return listed(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
+
+
+_LOCK = RLock()
+_loaded: list[Plugins] = []
+
+
+def plugins() -> Plugins:
+    """Return the plug-ins of this process, loaded once from their entry points.
+
+    A plug-in that asks while it is loaded gets those that were loaded before it.
+    """
+    with _LOCK:
+        if not _loaded:
+            _loaded.append(Plugins())
+            _loaded[0].load(tuple(entry_points(group=PROJECT)))
+        return _loaded[0]

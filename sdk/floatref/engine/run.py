@@ -1,0 +1,206 @@
+"""The main job: a recording through a pipeline to a profile.
+
+`run` takes a recording that was read through the steps in order: settle what is asked for, screen,
+prepare its blocks, ask the plug-ins for stages, run these, collect the profile. Then the gaps of
+its heights are bridged.
+"""
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+from floatref.engine import flow
+from floatref.engine.collecting import collect_profile
+from floatref.engine.fall_back import DropOut, bridged, gaps_of
+from floatref.engine.plugins import Plugins, plugins
+from floatref.engine.registration import NEEDS, SIGNAL_FLOWS
+from floatref.errors import InputError
+from floatref.intake.blocks import Source
+from floatref.interfaces.pipeline import Context, Pipeline
+from floatref.screening.findings import Screening
+from floatref.screening.imu_and_gnss import ImuUse
+from floatref.stages.protocol import Stage
+from floatref.values.block import Axis, Block
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording, check_interval
+
+Progress = Callable[[float], None]
+
+
+class FloatrefWarning(UserWarning):
+    """Something in a recording or a plug-in that the result does not silently hide."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A profile, one line for each thing its user should know, and what the recording showed."""
+
+    profile: Profile
+    warnings: tuple[str, ...]
+    screening: Screening = field(repr=False, compare=False)
+
+
+def process(
+    recording: Recording,
+    pipeline: str = "temporal-basic",
+    settings: Mapping[str, Any] | None = None,
+) -> Profile:
+    """Return the profile of ``recording`` by ``pipeline``.
+
+    ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`, raises
+    InputError for a recording, pipeline or setting that cannot be used and PluginError if two
+    plug-ins answer the same point.
+    """
+    result = run(recording, pipeline, settings)
+    for line in result.warnings:
+        warnings.warn(line, FloatrefWarning, stacklevel=2)
+    return result.profile
+
+
+def pipelines() -> tuple[str, ...]:
+    """Return the names of the pipelines that `process` knows."""
+    return tuple(plugins().pipelines())
+
+
+def pipeline_capabilities(name: str) -> tuple[str, ...]:
+    """Return what pipeline ``name`` needs beside nominal sensors, of "imu", "gnss", "response".
+
+    Raises InputError for a name that `process` does not know.
+    """
+    return plugins().pipeline(name).capabilities
+
+
+def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
+    """Return the settings of pipeline ``name`` with those ``given`` in place.
+
+    Raises InputError for a pipeline or a setting that `process` does not know.
+    """
+    return plugins().pipeline(name).resolve(given)
+
+
+@dataclass(frozen=True)
+class _Order:
+    """What is to be done: a recording at the interval of its profile, and how it is processed."""
+
+    plugins: Plugins
+    recording: Recording
+    pipeline: Pipeline
+    settings: Mapping[str, float | None]
+
+
+def run(
+    recording: Recording,
+    pipeline: str,
+    settings: Mapping[str, Any] | None = None,
+    progress: Progress | None = None,
+    known: Screening | None = None,
+) -> Result:
+    """Return the profile and the warnings; ``progress`` is called with the fraction read.
+
+    What ``known``, the screening of an earlier run, has found out about the same channels is not
+    computed again.
+    """
+    order = _settle(plugins(), recording, pipeline, settings)
+    result, source = _make_profile(order, known, progress)
+    if order.pipeline.architecture == "temporal":
+        result = _bridge_gaps(order, result, source)
+    return replace(result, warnings=(*result.warnings, *order.plugins.reports))
+
+
+def _make_profile(
+    order: _Order, known: Screening | None = None, progress: Progress | None = None
+) -> tuple[Result, Source]:
+    """Take the way of a recording, as far as to a profile whose gaps are bridged by lines."""
+    screening = _screen(order, known)
+    cautions = screening.cautions  # Raises if the recording cannot be processed.
+    source = Source(screening, order.pipeline.channels)
+    stages = _ask(order, source)
+    profile = _run_and_collect(order, source, stages, progress)
+    lines = (*cautions, *source.warnings, *flow.told(stages))
+    return Result(profile, lines, screening), source
+
+
+def _settle(
+    loaded: Plugins, recording: Recording, pipeline: str, settings: Mapping[str, Any] | None
+) -> _Order:
+    """Settle pipeline, settings and interval: the setting's, else the setup's."""
+    chosen = loaded.pipeline(pipeline)
+    resolved = chosen.resolve(settings or {})
+    if "interval_m" not in resolved:
+        return _Order(loaded, recording, chosen, resolved)
+    interval_m = resolved["interval_m"] or recording.setup.profile_interval_m
+    check_interval(interval_m, "setting interval_m")
+    setup = replace(recording.setup, profile_interval_m=interval_m)
+    resolved["interval_m"] = interval_m
+    return _Order(loaded, replace(recording, setup=setup), chosen, resolved)
+
+
+def _screen(order: _Order, known: Screening | None) -> Screening:
+    """Return what the recording shows of itself, for the channels that the pipeline takes."""
+    chosen = order.pipeline
+    needs = NEEDS[chosen.architecture](order.recording)
+    imu = None
+    if chosen.channels:
+        imu = ImuUse(needs.tracks, bool(chosen.readings), "gnss_pitch" in chosen.readings)
+    return Screening.of(order.recording, needs, imu, known)
+
+
+def _ask(order: _Order, source: Source) -> list[Stage]:
+    """Return the stages that the plug-ins answer at each point of the signal flow."""
+    context = partial(
+        Context,
+        pipeline=order.pipeline,
+        settings=order.settings,
+        header=source.header,
+        origin_m=source.origin_m,
+        fastest_mps=source.fastest_mps,
+        ends_m=source.ends_m,
+    )
+    flow_of = SIGNAL_FLOWS[order.pipeline.architecture]
+    return flow_of(lambda point: order.plugins.ask(context(point=point)))
+
+
+def _run_and_collect(
+    order: _Order, source: Source, stages: list[Stage], progress: Progress | None
+) -> Profile:
+    """Push the blocks through the stages and return the profile that comes out."""
+    header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
+    room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
+    profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
+    if learned := flow.learned(stages):
+        profile = replace(profile, provenance={**profile.provenance, "learned": learned})
+    return profile
+
+
+def _report_progress(source: Source, progress: Progress | None) -> Iterator[Block]:
+    """Yield the blocks; ``progress`` is called with the fraction that is through."""
+    for block in source.blocks():
+        yield block
+        if progress is not None:
+            progress((block.first + len(block)) / source.length)
+
+
+def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
+    """Return the result with the gaps of its heights bridged, if a plug-in can tell the road."""
+    gaps = gaps_of(order.recording, result.profile, source.gone)
+    if not gaps:
+        return result
+
+    def process(pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
+        other = _settle(order.plugins, order.recording, pipeline, settings)
+        return _make_profile(other, result.screening)[0].profile
+
+    asked = DropOut(order.recording, result.profile, gaps, process)
+    profile, lines = _ask_fall_back(order.plugins, asked)
+    return replace(result, profile=profile, warnings=(*result.warnings, *lines))
+
+
+def _ask_fall_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
+    """Return the bridged profile and lines on it; the same profile if there is no estimate."""
+    try:
+        estimate = loaded.fall_back(asked)
+    except InputError as error:
+        return asked.profile, (f"the height's gaps are bridged by lines alone: {error}",)
+    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)

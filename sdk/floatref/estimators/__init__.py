@@ -1,0 +1,1 @@
+"""Estimators in place of both integrations, and levelling; each with its kernels."""

@@ -1,0 +1,236 @@
+"""What the Kalman filter observes when: GNSS, constants in its place, the height at a stop."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from floatref.estimators.kalman.layout import (
+    CAPTURE,
+    FORGET,
+    KINDS,
+    REFLECTED,
+    RELATIVE,
+    RENEW,
+    TRUSTED,
+)
+from floatref.estimators.kalman.noise import Noise
+from floatref.estimators.kalman.observations import Chunk, chunk_of, joined, marked, merged
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
+
+PATIENCE_S = 0.5
+"""Without a usable GNSS reading for so long, constants take its place."""
+READING_S = 0.045
+"""GNSS readings at shorter intervals count for less: their errors are those of the one before."""
+USUAL_S = 0.05
+"""Interval behind the errors of a reading in Table 6.1."""
+DATUM_M = 100.0
+"""1-σ of a new datum of the GNSS height, after an outage."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which references a variant of chapter 6 uses.
+
+    Attributes:
+        gnss: height and velocity from GNSS, else constants (6.65).
+        attitude: pitch and roll from GNSS, else constants (6.62).
+        reflects: the height sensor below ``reflection_speed_mps`` in place of GNSS (6.58-6.61).
+    """
+
+    gnss: bool = True
+    attitude: bool = True
+    reflects: bool = True
+    reflection_speed_mps: float = 0.16 / 3.6
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """Samples ``first`` on: which of them stand still, the height, and where it is there.
+
+    ``readings``, shape (m, 5), are usable GNSS readings: height, velocity, pitch, roll, and the
+    interval from the reading before in s; ``taken`` their samples; at samples ``quiet`` the
+    vehicle has been travelling at a constant speed.
+    """
+
+    first: int
+    standing: BoolArray
+    height: FloatArray
+    there: BoolArray
+    taken: IndexArray
+    readings: FloatArray
+    quiet: IndexArray
+
+    def part(self, begin: int, end: int) -> "Stretch":
+        """Return the samples from number ``begin`` of this stretch up to ``end``."""
+        low, high = self.first + begin, self.first + end
+        taken, quiet = (slice(*np.searchsorted(at, (low, high))) for at in (self.taken, self.quiet))
+        return Stretch(
+            low,
+            self.standing[begin:end],
+            self.height[begin:end],
+            self.there[begin:end],
+            self.taken[taken],
+            self.readings[taken],
+            self.quiet[quiet],
+        )
+
+
+@dataclass
+class References:
+    """The observations of one wheel path, in the order of time: (6.48), (6.58) and (6.65).
+
+    What it remembers depends on samples that came before, never on how they were split.
+
+    Attributes:
+        sub_block, step: samples of a sub-block, and the time of one in s.
+        start_m: the filter's first height.
+        arm_m: how far the antenna is above the reference point.
+        datum: what GNSS heights are told from, in m; the first decides it.
+        latest, heard: sample of the latest reading, and of the latest whose height was observed.
+        constant: whether constants have been observed since then.
+        origin: what the height sensor read where the stop began, in m; NaN while moving.
+        last: sample and mark of the latest observation.
+    """
+
+    plan: Plan
+    noise: Noise
+    sub_block: int
+    step: float
+    start_m: float
+    arm_m: float
+    datum: float = np.nan
+    latest: int = 0
+    heard: int = 0
+    constant: bool = False
+    origin: float = np.nan
+    last: tuple[int, int] = (0, 0)
+
+    def schedule(self, stretch: Stretch) -> Chunk:
+        """Return the observations of ``stretch``, which follows the one before."""
+        chunks = []
+        for part, standing in _runs(stretch, self.plan.reflects):
+            chunks.append(self._standing(part) if standing else self._moving(part))
+        chunk = chunks[0] if len(chunks) == 1 else joined(chunks)
+        told = np.flatnonzero(chunk[1] != FORGET)[-1:]
+        if told.size:
+            self.last = int(chunk[0][told[0]]), int(chunk[1][told[0]])
+        return chunk
+
+    def ending(self, end: int) -> tuple[FloatArray, FloatArray]:
+        """Return what to observe at sample ``end``, the last: values and variances, shape (4,).
+
+        Constants count for half a sub-block before them and half a one behind. A variance below
+        zero takes back what the last ones have counted too much: the sum is that of all samples,
+        by trapezoids. NaN if there is nothing to observe.
+        """
+        y, variance = np.full((2, KINDS), np.nan)
+        at, mark = self.last
+        behind = end - at
+        weight = 0.5 * (2 * behind + 1 - self.sub_block)
+        if mark & RELATIVE and behind < self.sub_block and weight:
+            y, variance = np.zeros(KINDS), self.noise.constants(weight * self.step)
+            y[0] = np.nan if mark & REFLECTED else 0.0
+        return y, variance
+
+    def _moving(self, stretch: Stretch) -> Chunk:
+        self.origin = np.nan
+        observed = self._observed(stretch, heights=True)
+        for sample in stretch.quiet.tolist():
+            observed = marked(observed, sample, FORGET)
+        return observed
+
+    def _standing(self, stretch: Stretch) -> Chunk:
+        """Return the height sensor's readings in place of heights, the rest as ever."""
+        beside = self._observed(stretch, heights=False)
+        beside[2][:, [0, -1]] = np.nan, 0.0
+        return merged(beside, self._reflections(stretch))
+
+    def _observed(self, stretch: Stretch, heights: bool) -> Chunk:
+        """Return GNSS readings, and constants where they are missing."""
+        end, taken = stretch.first + stretch.height.size, stretch.taken
+        if not self.plan.gnss:
+            return self._constants(stretch.first, end)
+        patience = round(PATIENCE_S / self.step)
+        edges = np.concatenate(([self.latest], taken, [end]))
+        lost = np.flatnonzero(np.diff(edges) > patience)
+        again = lost[lost < taken.size].tolist() + ([0] if self.constant and taken.size else [])
+        readings = self._readings(stretch, heights, again)
+        gaps = []
+        for k in lost:
+            self.constant = self.constant and not (heights and k > 0)
+            begin = max(stretch.first, int(edges[k]) + patience)
+            gaps.append(self._constants(begin, int(edges[k + 1])))
+        if heights and taken.size and taken.size not in lost:
+            self.constant = False
+        self.latest = int(edges[-2])
+        return merged(readings, joined(gaps)) if gaps else readings
+
+    def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Chunk:
+        """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
+
+        The datum may have moved slowly since the reading before, and anywhere in an outage, behind
+        which the readings ``again`` come.
+        """
+        at, interval_s = stretch.taken, stretch.readings[:, KINDS]
+        if at.size == 0:
+            return joined([])
+        if np.isnan(self.datum):
+            self.datum = float(stretch.readings[0, 0]) - self.arm_m - self.start_m
+        y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
+        crowded = np.where(interval_s < READING_S, USUAL_S / interval_s, 1.0)
+        variance = self.noise.readings() * crowded[:, None]
+        if not self.plan.attitude:
+            y[:, 2:] = 0.0
+            variance[:, 2:] = self.noise.constants(USUAL_S)[2:] * crowded[:, None]
+        moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
+        moved[again] = DATUM_M**2
+        self.heard = int(at[-1]) if heights else self.heard
+        return chunk_of(at, 0, y, variance, moved)
+
+    def _constants(self, begin: int, end: int) -> Chunk:
+        """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
+        at = self._ends(begin, end)
+        if at.size == 0:
+            return joined([])
+        weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
+        variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
+        chunk = chunk_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
+        if not self.constant:
+            chunk[1][0] |= CAPTURE
+        self.constant = True
+        return chunk
+
+    def _ends(self, begin: int, end: int) -> IndexArray:
+        """Return the samples from ``begin`` up to ``end`` that end a sub-block."""
+        return np.arange(-(-begin // self.sub_block) * self.sub_block, end, self.sub_block)
+
+    def _reflections(self, stretch: Stretch) -> Chunk:
+        """Return the readings of the height sensor as its own motion, (6.58)-(6.60)."""
+        at = self._ends(stretch.first, stretch.first + stretch.height.size)
+        at = at[stretch.there[at - stretch.first]]
+        if at.size == 0:
+            return joined([])
+        height = stretch.height[at - stretch.first]
+        begins = np.isnan(self.origin)
+        if begins:
+            self.origin = float(height[0])
+        y = np.full((at.size, KINDS), np.nan)
+        y[:, 0] = height - self.origin
+        variance = np.full(KINDS, np.nan)
+        variance[0] = self.noise.reflection**2 / (self.sub_block * self.step)
+        chunk = chunk_of(at, TRUSTED | REFLECTED, y, variance)
+        if begins:
+            chunk[1][0] |= RENEW
+        return chunk
+
+
+def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
+    """Yield the parts of ``stretch`` that stand still, or do not, in turn."""
+    if not reflects or not stretch.standing.any():
+        yield stretch, False
+        return
+    edges = np.flatnonzero(np.diff(stretch.standing)) + 1
+    for begin, end in pairwise([0, *edges.tolist(), stretch.standing.size]):
+        yield stretch.part(begin, end), bool(stretch.standing[begin])

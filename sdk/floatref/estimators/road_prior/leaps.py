@@ -1,0 +1,74 @@
+"""Leaps of the height sensor while the vehicle stands: what they are flagged and told as."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.estimators.road_prior.layout import INNOVATION, SEEN, TRAVEL
+from floatref.estimators.road_prior.nodes import RoadNodes
+from floatref.values.arrays import Flag, FlagArray, FloatArray
+
+LEAST_M = 0.01
+"""Less than that is an edge of the road under a laser that sways: cracks, joints, leaves."""
+
+
+class Leap(NamedTuple):
+    """A reading at a standstill, at a sample, that is off by so many m."""
+
+    sample: int
+    by_m: float
+
+
+def changes(nodes: RoadNodes, ends: FloatArray) -> FloatArray:
+    """Return what the readings of ``nodes`` change in height, in m, and velocity, in m/s.
+
+    Shape (2, n); for ``ends`` see `road_prior_layout`.
+    """
+    found = np.zeros((2, len(ends)))
+    found[:, ~np.isnan(ends[:, SEEN])] = nodes.updates[:, :2].T * _innovations(nodes)
+    return found
+
+
+def leaps(nodes: RoadNodes, ends: FloatArray, edge: float) -> list[Leap]:
+    """Return the readings at a standstill for which the road was let go, if far enough off.
+
+    ``edge`` is the square of how many deviations off that needs.
+    """
+    seen = ~np.isnan(ends[:, SEEN])
+    innovation, standing = _innovations(nodes), ends[seen, TRAVEL] <= 0.0
+    # The square of the innovation was added to its variance there.
+    share = innovation**2 * nodes.updates[:, INNOVATION + 1]
+    let_go = (share >= edge / (1.0 + edge)) & (share < 1.0)
+    there = np.flatnonzero(standing & let_go & (np.abs(innovation) > LEAST_M))
+    samples = nodes.at[seen, 0][there].tolist()
+    return [Leap(*each) for each in zip(samples, innovation[there].tolist(), strict=True)]
+
+
+def _innovations(nodes: RoadNodes) -> FloatArray:
+    found: FloatArray = nodes.updates[:, INNOVATION] / nodes.updates[:, INNOVATION + 1]
+    return found
+
+
+def marked(
+    flags: FlagArray | None, found: Sequence[Leap], first: int, size: int
+) -> FlagArray | None:
+    """Return ``flags`` of samples from ``first`` on, with those of leaps."""
+    inside = [each.sample - first for each in found if first <= each.sample < first + size]
+    if not inside:
+        return flags
+    own = np.zeros(size, np.uint8) if flags is None else flags.copy()
+    own[inside] |= np.uint8(Flag.SLOW)
+    return own
+
+
+def lines(found: Mapping[str, Sequence[Leap]], origin_s: float, step: float) -> Iterator[str]:
+    """Yield a line for each wheel path whose height sensor has leapt, with its largest leap."""
+    for track, each in found.items():
+        if each:
+            most = max(each, key=lambda leap: abs(leap.by_m))
+            when = origin_s + step * most.sample
+            yield (
+                f"height, {track}: leaps by {1e3 * abs(most.by_m):.0f} mm at {when:.2f} s while "
+                "nothing moves; something has come or gone under the laser; the stop is not valid"
+            )

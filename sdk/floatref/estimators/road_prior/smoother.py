@@ -1,0 +1,252 @@
+"""The road-prior smoother in place of both integrations: the road stands still when we do."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.estimators.kalman.inputs import Quiet
+from floatref.estimators.road_prior.constants import RoadPrior
+from floatref.estimators.road_prior.excitation import Excitation
+from floatref.estimators.road_prior.layout import (
+    ALONG,
+    ANEW,
+    ENDS,
+    LEANING,
+    MISSING,
+    SEEN,
+    TILTING,
+    TRAVEL,
+)
+from floatref.estimators.road_prior.leaps import lines, marked
+from floatref.estimators.road_prior.learned import pooled
+from floatref.estimators.road_prior.track import RoadTrack, sub_block
+from floatref.estimators.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
+from floatref.estimators.smoothing.line import Closing
+from floatref.estimators.smoothing.nodes import Filtered
+from floatref.stages.marks import flags_of, long_gaps
+from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import (
+    ACCELERATION,
+    DISTANCE,
+    HEIGHT,
+    MISSING_SHARE,
+    REFERENCE_HEIGHT,
+    SIGMA,
+)
+from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray, frozen
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+UNKNOWN = ChannelId(MISSING_SHARE)
+LONGEST_S = 180.0
+"""What is known of a bias grows for kilometres; little of it is left after so long."""
+
+
+class RoadPriorSmoother(Stage):
+    """Smoother whose road is a process in distance, for nominal sensors.
+
+    Adds `floating_reference_height` and `elevation_sigma` of every track; the vertical
+    acceleration is dropped. Where there is a channel `missing_share`, so much of the acceleration
+    counts as missing. Blocks wait for the encoder some 0.1 s behind them, and then for the
+    readings that still matter to them.
+    """
+
+    declared: ClassVar[Declared] = Declared(
+        linear=False, zero_in_zero_out=False, shift_invariant=False, delay=ALL
+    )
+
+    def __init__(
+        self,
+        constants: RoadPrior | None = None,
+        wavelength_m: float = 105.91,
+        tolerance_m: float = TOLERANCE_M,
+        waiting_s: float = WAITING_S,
+        longest_s: float = LONGEST_S,
+    ) -> None:
+        """Filter with ``constants``; the result is cut off at ``wavelength_m`` over distance.
+
+        Blocks wait for ``waiting_s`` and until nothing to come changes them by ``tolerance_m``, or
+        for ``longest_s``, see `Backlog`.
+        """
+        super().__init__()
+        self.constants = RoadPrior() if constants is None else constants
+        self.wavelength_m, self.tolerance_m = wavelength_m, tolerance_m
+        self.waiting_s, self.longest_s = waiting_s, longest_s
+        self._header: Header | None = None
+        self._made: frozenset[ChannelId] = frozenset()
+
+    def open(self, header: Header) -> Header:
+        """Ask for accelerometer and height sensor of every track, in time, and the encoder."""
+        if header.axis is not Axis.TIME:
+            raise InputError(f"stage {self.name}: the stream is not on the time axis")
+        own = [ChannelId(n, track) for n in (ACCELERATION, HEIGHT) for track in header.tracks]
+        header.require(self.name, ChannelId(DISTANCE), *own)
+        self._header, c, step = header, self.constants, header.step
+        rule = Closing(step, self.tolerance_m, self.wavelength_m, c.height_m)
+        excitation = Excitation.of(step * sub_block(step), c.pitch_hz, c.pitch_damping)
+        self.memory = {
+            "backlog": Backlog.of(header.tracks, rule, self.waiting_s, self.longest_s),
+            "excitation": excitation,
+            "known": np.empty((2, 0)),
+            "waiting": [],
+            "quiet": Quiet(sub_block(step) * round(1.0 / (step * sub_block(step)))),
+            "filters": {},
+            "travelled": np.nan,
+            "pace": 0.0,
+            "missing": dict.fromkeys(header.tracks, 0),
+        }
+        out = header.replacing(ACCELERATION, REFERENCE_HEIGHT)
+        out = out.adding(*(ChannelId(SIGMA, track) for track in header.tracks))
+        self._made = out.channels
+        return out
+
+    def advance(self, block: Block) -> Block:
+        """Filter the blocks whose longitudinal acceleration is known; return one that is ready."""
+        backlog: Backlog = self.memory["backlog"]
+        if len(block):
+            self.memory["waiting"].append(block)
+            self.memory["excitation"].add(block[ChannelId(DISTANCE)][self._nodes(block)])
+            self._filter_known()
+            done = next(backlog.come_out(), None)
+            if done is not None:
+                return self._doubted(done)
+        waiting: list[Block] = self.memory["waiting"]
+        first = backlog.blocks or waiting or [block]
+        return Block(first[0].first, dict.fromkeys(self._made, frozen(())))
+
+    def close(self) -> tuple[Block, ...]:
+        """Return all that is left."""
+        backlog: Backlog = self.memory["backlog"]
+        if not self.memory["waiting"] and not backlog.blocks:
+            return ()
+        self.memory["excitation"].end()
+        self._filter_known()
+        last = backlog.blocks[-1]
+        at, distance = last.first + len(last) - 1, float(last[ChannelId(DISTANCE)][-1])
+        travel = max(0.0, np.nan_to_num(distance - self.memory["travelled"]))
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        ending = {name: (each.end(at, travel), None) for name, each in filters.items()}
+        for name, each in filters.items():
+            # A node now, with the bias and the tilt since the one before.
+            backlog.lines[name].heights[-1][1][-1] = each.x[0]
+        backlog.finish(ending)
+        return tuple(map(self._doubted, backlog.come_out()))
+
+    def learned(self) -> Mapping[str, float]:
+        """Return what all wheel paths have told of lean and tilt, see `pooled`."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        return pooled([b for each in filters.values() for b in each.told()], self.constants)
+
+    def told(self) -> tuple[str, ...]:
+        """Say where the height sensor has leapt at a standstill."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        assert self._header is not None
+        found = {track: each.leaps for track, each in filters.items()}
+        return tuple(lines(found, self._header.origin, self._header.step))
+
+    def _doubted(self, block: Block) -> Block:
+        """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
+        flags: dict[ChannelId, FlagArray] = {}
+        assert self._header is not None
+        for track in self._header.tracks:
+            height, sigma = ChannelId(REFERENCE_HEIGHT, track), ChannelId(SIGMA, track)
+            bend_m = self.memory["filters"][track].bends_of(block.first, len(block))
+            doubtful = block[sigma] > self.constants.most_sigma_share * bend_m
+            if doubtful.any():
+                own = doubtful * np.uint8(Flag.UNCERTAIN)
+                flags[height] = flags[sigma] = own | block.flags.get(height, np.uint8(0))
+        return block.setting({}, flags)
+
+    def _nodes(self, block: Block) -> IndexArray:
+        """Return the places in ``block`` that are nodes."""
+        assert self._header is not None
+        every = sub_block(self._header.step)
+        return np.arange(-block.first % every, len(block), every)
+
+    def _filter_known(self) -> None:
+        more = np.stack(self.memory["excitation"].take())
+        self.memory["known"] = known = np.concatenate((self.memory["known"], more), axis=1)
+        waiting: list[Block] = self.memory["waiting"]
+        while waiting and (nodes := self._nodes(waiting[0])).size <= known.shape[1]:
+            block = waiting.pop(0)
+            self._filter(block, nodes, known[:, : nodes.size])
+            self.memory["known"] = known = known[:, nodes.size :]
+
+    def _filter(self, block: Block, nodes: IndexArray, known: FloatArray) -> None:
+        shared, found = self._shared(block, nodes, known), {}
+        assert self._header is not None
+        for track in self._header.tracks:
+            vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
+            ends, a = shared.copy(), block[vertical]
+            ends[:, SEEN] = _trusted(block, range_, nodes)
+            share = self._missing(track, _lost(block, vertical), len(block), nodes)
+            ends[:, MISSING] = np.maximum(shared[:, MISSING], share)
+            values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
+            own = self._track(track, block[range_])
+            passed = own.advance(values, block.first, ends)
+            flags = flags_of(block, vertical, range_)
+            flags = marked(flags, own.leaps, block.first, len(block))
+            found[track] = Filtered(*passed, flags)
+        self.memory["backlog"].add(block.without(ACCELERATION), found)
+
+    def _track(self, track: str, height: FloatArray) -> RoadTrack:
+        """Return the filter of ``track``, which begins at the first of ``height``."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        if track not in filters:
+            assert self._header is not None
+            start = float(np.nan_to_num(height[0]))
+            filters[track] = RoadTrack.of(self.constants, self._header.step, start)
+        return filters[track]
+
+    def _shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> FloatArray:
+        """Return what all wheel paths know at the nodes, see `road_prior_layout`."""
+        distance = block[ChannelId(DISTANCE)]
+        quiet = self.memory["quiet"].take(block.first, distance) - block.first
+        ends = np.zeros((nodes.size, ENDS))
+        if nodes.size == 0:
+            return ends
+        a, response = known
+        ends[:, LEANING], ends[:, TILTING], ends[:, ALONG] = a, a * response, a
+        ends[:, TRAVEL] = self._travel(distance[nodes])
+        if UNKNOWN in block.values:
+            ends[:, MISSING] = block[UNKNOWN][nodes]
+        ends[np.searchsorted(nodes, quiet), ANEW] = 1.0
+        return ends
+
+    def _travel(self, places: FloatArray) -> FloatArray:
+        """Return the travel to each node, going on as before where the encoder tells none."""
+        travel = np.maximum(np.diff(places, prepend=self.memory["travelled"]), 0.0)
+        known = np.append(self.memory["pace"], travel)
+        latest = np.maximum.accumulate(np.where(np.isnan(known), 0, np.arange(known.size)))
+        known = known[latest]
+        self.memory["travelled"], self.memory["pace"] = float(places[-1]), float(known[-1])
+        return known[1:]
+
+    def _missing(
+        self, track: str, lost: BoolArray | None, size: int, nodes: IndexArray
+    ) -> FloatArray:
+        """Return the share of samples that are lost up to each node."""
+        assert self._header is not None
+        total = np.cumsum(np.zeros(size, np.bool_) if lost is None else lost)
+        at = total[nodes]
+        counted = np.diff(at, prepend=-self.memory["missing"][track])
+        left = int(total[-1]) - int(at[-1]) if nodes.size else int(total[-1])
+        self.memory["missing"][track] = left + (0 if nodes.size else self.memory["missing"][track])
+        share: FloatArray = counted / sub_block(self._header.step)
+        return share
+
+
+def _trusted(block: Block, channel: ChannelId, nodes: IndexArray) -> FloatArray:
+    """Return the samples of ``channel`` at the nodes, NaN where they are flagged."""
+    flags, values = block.flags.get(channel), block[channel][nodes]
+    return values if flags is None else np.where(flags[nodes] == 0, values, np.nan)
+
+
+def _lost(block: Block, channel: ChannelId) -> BoolArray | None:
+    """Return which samples of ``channel`` are NaN or lie in a gap too long to be bridged."""
+    gaps, values = long_gaps(block, channel), block[channel]
+    if not np.isnan(values.sum()):
+        return gaps
+    return np.isnan(values) if gaps is None else gaps | np.isnan(values)

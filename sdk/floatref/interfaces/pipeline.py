@@ -1,0 +1,135 @@
+"""What a pipeline is, and the context in which each of its points is answered."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import isfinite
+from numbers import Real
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.interfaces.stage_calls import StageCall
+from floatref.stages.protocol import Stage
+from floatref.values.block import Header
+
+Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
+"""What a pipeline puts at a point: calls of registered stages, or a function that returns stages
+or calls."""
+Ask = Callable[[str], Sequence[Stage]]
+Defaults = Mapping[str, Answer]
+
+
+@dataclass(frozen=True)
+class Pipeline:
+    """A named way through an architecture.
+
+    ``answers`` replaces the architecture's own stages at the points it names, and gives way to a
+    plug-in that answers such a point and names this pipeline; ``settings`` are
+    the pipeline's numbers with their defaults, all above zero but those ``signed``. None is a
+    number that the recording decides. ``channels`` are those of the recording that it takes
+    beside the nominal ones, for every track or shared, and ``readings`` those of GNSS;
+    ``capabilities`` are the sensors that deliver them.
+    """
+
+    name: str
+    architecture: str
+    summary: str
+    settings: Mapping[str, float | None] = field(default_factory=dict)
+    answers: Defaults = field(default_factory=dict)
+    channels: tuple[str, ...] = ()
+    readings: tuple[str, ...] = ()
+    capabilities: tuple[str, ...] = ()
+    signed: tuple[str, ...] = ()
+
+    def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
+        """Return the settings with those ``given`` in place; InputError if one cannot be.
+
+        A setting given as None keeps its default.
+        """
+        for name in given:
+            if name not in self.settings:
+                known = ", ".join(self.settings) or "none"
+                raise InputError(
+                    f"setting {name}: pipeline {self.name} has none such; it has {known}"
+                )
+        chosen = {
+            name: _number(name, value, name in self.signed)
+            for name, value in given.items()
+            if value is not None
+        }
+        return {**self.settings, **chosen}
+
+    def stages_at(self, context: "Context") -> Sequence[Stage | StageCall]:
+        """Return what this pipeline puts at the point of ``context``, for an answer to add to.
+
+        Raises InputError if it leaves the point to its architecture, which no pipeline that was
+        looked up by its name does.
+        """
+        if context.point not in self.answers:
+            raise InputError(
+                f"pipeline {self.name}: leaves {context.point} to its architecture; "
+                f"take floatref.pipeline({self.name!r}), which has every point"
+            )
+        return stages_of(self.answers[context.point], context)
+
+    def with_answers(
+        self,
+        *,
+        name: str,
+        summary: str,
+        settings: Mapping[str, float | None] | None = None,
+        **answers: Answer,
+    ) -> "Pipeline":
+        """Return a pipeline of another ``name`` with these ``answers``, by point.
+
+        ``settings`` are added to those that it has, or replace their defaults.
+        """
+        return replace(
+            self,
+            name=name,
+            summary=summary,
+            settings={**self.settings, **(settings or {})},
+            answers={**self.answers, **answers},
+        )
+
+
+@dataclass(frozen=True)
+class Context:
+    """What a point of the signal flow is answered from; every hook of a point takes one.
+
+    ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
+    encoder distance of its first sample, ``ends_m`` the first and the last that the encoder tells
+    within a sample of the stream's ends, ``fastest_mps`` the fastest speed over a second.
+    """
+
+    point: str
+    pipeline: Pipeline
+    settings: Mapping[str, float | None]
+    header: Header
+    origin_m: float
+    fastest_mps: float = 0.0
+    ends_m: tuple[float, float] = (0.0, 0.0)
+
+    def setting(self, name: str) -> float:
+        """Return setting ``name``; InputError if nothing has decided it."""
+        value = self.settings.get(name)
+        if value is None:
+            raise InputError(f"setting {name}: pipeline {self.pipeline.name} needs it")
+        return value
+
+
+def stages_of(answer: Answer, context: Context) -> Sequence[Stage | StageCall]:
+    """Return the stages of ``answer`` in ``context``."""
+    return answer(context) if callable(answer) else answer
+
+
+def _number(name: str, value: Any, signed: bool) -> float:
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InputError(f"setting {name}: {value!r} is not a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = float("inf")
+    if not (isfinite(number) and (signed or number > 0)):
+        allowed = "finite" if signed else "finite and above zero"
+        raise InputError(f"setting {name}: {number} must be {allowed}")
+    return number

@@ -1,0 +1,80 @@
+"""What a profile format is: a file of one kind, written from a profile and read back into one."""
+
+from pathlib import Path
+from typing import Protocol
+
+from floatref.files import read_profile, write_profile, write_profile_csv
+from floatref.files.profile_csv import DISTANCE
+from floatref.files.profile_directory import DOCUMENT
+from floatref.values.profile import Profile
+
+LONGEST_HEADER = 1 << 20
+"""Bytes in which the column of distance of a CSV has to turn up."""
+
+
+class ProfileFormat(Protocol):
+    """Writes and reads one kind of profile file; `name` is what `--format` takes.
+
+    `suffix`, such as ".erd", has small letters only. A format does not care for an existing file
+    or for a write that fails half-way: it is given the name of a new file, with the suffix that
+    the user gave, and that gets its final name when `write` has returned. One that needs a library
+    may have a method `check_installed`, which raises InputError where it is missing: it is called
+    before the work on what is to be written.
+    """
+
+    name: str
+    suffix: str
+    summary: str
+
+    def recognises(self, path: Path) -> bool:
+        """Tell from the first bytes of the file, or from ``path``, whether it is of this format."""
+
+    def read(self, path: Path) -> Profile:
+        """Return the profile in ``path``; InputError, in one line, if it cannot be used."""
+
+    def write(self, profile: Profile, path: Path) -> None:
+        """Write ``profile`` to the new file ``path``; InputError if the format cannot hold it."""
+
+
+class ProfileDirectory:
+    """Our own profile directory: the one format that is a folder, and has no suffix."""
+
+    name = "profile"
+    suffix = ""
+    summary = "floatref-profile/1: profile.json and raw float64 files beside it"
+
+    def recognises(self, path: Path) -> bool:
+        """Tell whether ``path`` is a JSON file or a folder that holds a profile.json."""
+        return path.suffix.lower() == ".json" or (path / DOCUMENT).is_file()
+
+    def read(self, path: Path) -> Profile:
+        """Return the profile; InputError if it breaks the format."""
+        return read_profile(path)
+
+    def write(self, profile: Profile, path: Path) -> None:
+        """Write ``profile`` as a new folder."""
+        write_profile(profile, path)
+
+
+class ProfileTable:
+    """Our own CSV: columns distance_m, <track>_elevation_m, <track>_valid."""
+
+    name = "csv"
+    suffix = ".csv"
+    summary = "table of distance, elevation and validity"
+
+    def recognises(self, path: Path) -> bool:
+        """Tell whether the first row of ``path`` names a column of distance."""
+        if path.suffix.lower() == ".json" or not path.is_file():
+            return False
+        with path.open("rb") as stream:
+            header = stream.readline(LONGEST_HEADER).removeprefix(b"\xef\xbb\xbf")
+        return DISTANCE.encode() in (name.strip(b' "\r\n') for name in header.split(b","))
+
+    def read(self, path: Path) -> Profile:
+        """Return the profile; InputError for anything that cannot be read as one."""
+        return read_profile(path)
+
+    def write(self, profile: Profile, path: Path) -> None:
+        """Write ``profile`` as a table."""
+        write_profile_csv(profile, path)

@@ -1,0 +1,119 @@
+"""The entries of a channel map that say how clocks are aligned, checked."""
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.files.document import shown
+from floatref.files.sources import naming
+from floatref.mapping.channel_map.entries import SOURCE, ClockEntry
+from floatref.mapping.columns import UNKNOWN, Taken
+from floatref.values.clock import rational
+from floatref.values.native import Epoch, Stream
+
+NEEDS = {
+    "offset_s": ("offset", "pulses", "gnss"),
+    "drift_ppm": ("offset",),
+    "pulses": ("pulses",),
+    "base_pulses": ("pulses",),
+    "base_time": ("gnss",),
+    "base_pps": ("gnss",),
+}
+"""Keys, and the ways of aligning that use them."""
+
+
+def clocks_of(entries: Sequence[Mapping[str, Any]]) -> tuple[ClockEntry, ...]:
+    """Return the clocks that ``entries``, which obey the schema, describe.
+
+    Raises InputError for a clock that is given twice or says nothing, and for keys that its way
+    of aligning does not use, or needs.
+    """
+    found: dict[tuple[str, str | None], ClockEntry] = {}
+    for entry in entries:
+        with naming(f"clock of {name_stream(entry.get('file', SOURCE), entry.get('stream'))}"):
+            clock = _clock(entry)
+            if (clock.file, clock.stream) in found:
+                raise InputError("given twice; keep one entry")
+        found[clock.file, clock.stream] = clock
+    return tuple(found.values())
+
+
+def name_stream(file: str, stream: str | None) -> str:
+    """Return ``stream`` of the file labelled ``file`` as an error text names it."""
+    place = "the source" if file == SOURCE else shown(file)[1:-1]
+    return place if stream is None else f"{place}, stream {shown(stream)}"
+
+
+def _clock(entry: Mapping[str, Any]) -> ClockEntry:
+    given = dict(entry)
+    rate = _rate(given.pop("rate_hz", None))
+    align = given.get("align")
+    for key, ways in NEEDS.items():
+        if key in given and align not in ways:
+            written = " or ".join(f'align = "{way}"' for way in ways)
+            raise InputError(f"{key} is given; write {written} as well, or leave it out")
+    if "start_s" in given and rate is None:
+        raise InputError("start_s is given; write rate_hz as well, or leave it out")
+    if align is None and rate is None:
+        raise InputError('says nothing; write align, such as align = "offset", or rate_hz')
+    if align == "pulses" and not {"pulses", "base_pulses"} <= given.keys():
+        raise InputError(
+            "align by pulses needs pulses and base_pulses, the channels that hold them"
+        )
+    if {"base_time", "base_pps"} <= given.keys():
+        raise InputError("base_time and base_pps are given; keep one of them")
+    return ClockEntry(rate=rate, **given)
+
+
+def _rate(given: float | str | None) -> Fraction | None:
+    if given is None:
+        return None
+    try:
+        rate = Fraction(given) if isinstance(given, str) else rational(given)
+    except ZeroDivisionError:
+        rate = Fraction(0)
+    if not Fraction(1, 1000) <= rate <= 10**7:
+        raise InputError(f"rate_hz is {given}; give the rate in Hz, between 0.001 and 10000000")
+    return rate
+
+
+Key = tuple[str, str]
+"""Label of a file, and name of a stream in it."""
+ClockKey = tuple[str, str, Epoch]
+"""Label of a file, name of a clock in it, and its epoch."""
+
+
+def clock_key(key: Key, taken: Taken) -> ClockKey:
+    """Return the clock of the stream ``key``; one without any time has a clock of its own."""
+    clock = taken.stream.clock
+    name = f"{UNKNOWN} {key[1]}" if clock.name == UNKNOWN else clock.name
+    return key[0], name, clock.epoch
+
+
+def absolute(clock: ClockKey) -> bool:
+    """Tell whether ``clock`` knows the time of day."""
+    return clock[2] is not Epoch.LOCAL
+
+
+def name_clock(key: Key) -> str:
+    """Return the stream ``key`` as an error text names it."""
+    file = "the source" if key[0] == SOURCE else key[0]
+    return f"{file}, {key[1]}" if key[1] else file
+
+
+def unstarted(stream: Stream) -> bool:
+    """Tell whether the file of ``stream`` counts it from zero by a rate."""
+    clock = stream.clock
+    begun = clock.first_tick or clock.origin_ns or clock.name
+    return clock.rate is not None and not begun and clock.epoch is Epoch.LOCAL
+
+
+def beginning_told(key: Key, stream: Stream) -> tuple[str, ...]:
+    """Return a line on the stream ``key`` if it is taken to begin with the accelerometer's."""
+    if not unstarted(stream):
+        return ()
+    return (
+        f"clock of {name_clock(key)}: counted from zero by its rate; taken to begin with the "
+        'accelerometer, on its clock; if so, say align = "offset" for this stream under [[clocks]]',
+    )

@@ -1,0 +1,111 @@
+"""Which column of a native file an entry of a map means."""
+
+import re
+from collections.abc import Iterator, Sequence
+from difflib import get_close_matches
+
+from floatref.errors import InputError, one_line
+from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
+from floatref.values.channels import CHANNELS
+from floatref.values.native import Column, NativeFile, Stream
+
+Place = tuple[Stream, Column]
+MOST = 4096
+"""Names that are compared with one that is not there; comparing takes its time."""
+
+
+def full_name(stream: Stream, column: Column) -> str:
+    """Return the name by which a map means ``column`` without ambiguity."""
+    return f"{stream.name}/{column.name}" if stream.name else column.name
+
+
+def find(native: NativeFile, name: str) -> Place:
+    """Return the stream and the column that ``name`` means.
+
+    ``name`` is "stream/column", or the column's own name if one stream alone has it. Raises
+    InputError if none or several have it, and for a column that holds no numbers.
+    """
+    places = [(stream, column) for stream in native.streams for column in stream.columns]
+    found = [place for place in places if full_name(*place) == name]
+    found = found or [place for place in places if place[1].name == name]
+    if not found:
+        raise InputError(
+            f"{name[:80]!r} is not in the file; {_hint(name, places)}{_faults(native)}"
+        )
+    if len(found) > 1:
+        both = list(dict.fromkeys(full_name(*place) for place in found[:4]))
+        advice = f"write one of {', '.join(both)}" if len(both) > 1 else "rename one of them"
+        raise InputError(f"{name[:80]!r} is in {len(found)} streams; {advice}")
+    stream, column = found[0]
+    if not column.numeric:
+        raise InputError(f"{name[:80]!r} holds no numbers ({column.note or 'text'}); map another")
+    return stream, column
+
+
+def similar(name: str, names: Sequence[str], more: Sequence[str] = ()) -> str:
+    """Return which of ``names``, or ``more``, is like ``name``, else what there is; "" for none."""
+    for known in (names, more):
+        near = get_close_matches(name, known[:MOST], n=1)
+        if near:
+            return f"did you mean {near[0]}?"
+    rest = f" and {len(names) - 8} more" if len(names) > 8 else ""
+    return f"there are {', '.join(names[:8])}{rest}" if names else ""
+
+
+def _hint(name: str, places: Sequence[Place]) -> str:
+    names = [full_name(*place) for place in places]
+    own = [column.name for _, column in places]
+    return similar(name, names, own) or "it has no columns"
+
+
+def _faults(native: NativeFile) -> str:
+    """Return what was lost of the file, which may be why a name is not there."""
+    return f" (of the file: {'; '.join(map(one_line, native.told[:3]))})" if native.told else ""
+
+
+TRACK = re.compile(
+    r"""[^./\\:*?"<>|\x00-\x1f\x7f\ud800-\udfff][^/\\:*?"<>|\x00-\x1f\x7f\ud800-\udfff]*"""
+)
+"""Names of wheel paths, which become parts of file names; the schemas have the same."""
+LONGEST_TRACK = 48
+
+
+def map_of_ours(native: NativeFile) -> ChannelMap:
+    """Return the map of ``native``, whose columns are `<channel>` or `<track>.<channel>`.
+
+    A column without a unit is in that of the channel. Raises InputError if none has such a
+    name, and if two mean the same.
+    """
+    channels = tuple(_entries(native))
+    if not channels:
+        raise InputError(
+            "none of its channels has one of our names; draft a channel map with "
+            "`floatref channels FILE --draft-map`, complete it, and give it with --map"
+        )
+    seen: set[tuple[str, str | None]] = set()
+    for entry in channels:
+        if (entry.channel, entry.track) in seen:
+            raise InputError(
+                f"{entry.native}: its channel is there twice; say in a map which counts"
+            )
+        seen.add((entry.channel, entry.track))
+    return ChannelMap(channels)
+
+
+def channel_of(column: Column) -> tuple[str, str | None] | None:
+    """Return the channel and the track that the name of ``column`` says, None if it says none."""
+    track, _, channel = column.name.rpartition(".")
+    if channel not in CHANNELS or not column.numeric or column.name.startswith("."):
+        return None
+    if track and not (len(track) <= LONGEST_TRACK and TRACK.fullmatch(track)):
+        return None
+    return channel, track or None
+
+
+def _entries(native: NativeFile) -> Iterator[ChannelEntry]:
+    for stream in native.streams:
+        for column in stream.columns:
+            named = channel_of(column)
+            if named is not None:
+                unit = column.unit or CHANNELS[named[0]].unit
+                yield ChannelEntry(full_name(stream, column), named[0], track=named[1], unit=unit)

@@ -1,0 +1,1 @@
+"""A draft of a channel map, guessed from names, units and data."""

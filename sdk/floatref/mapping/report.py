@@ -1,0 +1,47 @@
+"""A mapped recording looked at: what each channel amounts to, and what is implausible."""
+
+from math import isfinite, nan
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.mapping.reading import Reading
+from floatref.screening.plausibility import examine
+from floatref.values.recording import Channel
+from floatref.values.scanning import Summary
+
+
+def looked_at(reading: Reading) -> dict[str, Any]:
+    """Return what `floatref channels --map --json` prints: channels, clocks and warnings.
+
+    What would keep the recording from being processed is a warning here.
+    """
+    channels = reading.recording.channels
+    warnings = list(reading.told)
+    try:
+        warnings += map(reading.named_natively, examine(reading.recording))
+    except InputError as error:
+        warnings.append(f"cannot be processed yet: {reading.named_natively(str(error))}")
+    return {
+        "channels": [_look(c, o) for c, o in zip(channels, reading.origins, strict=True)],
+        "clocks": [dict(clock) for clock in reading.clocks],
+        "skews": [dict(skew) for skew in reading.skews],
+        "warnings": warnings,
+    }
+
+
+def _look(channel: Channel, native: str) -> dict[str, Any]:
+    summary = Summary.of(channel.values)
+    begin, end = channel.span_s
+    return {
+        "channel": str(channel.id),
+        "native": native,
+        "unit": channel.unit,
+        "count": summary.count,
+        "missing": summary.missing,
+        "rate_hz": rate if isfinite(rate := channel.mean_rate_hz) else nan,
+        "begin_s": begin,
+        "end_s": end,
+        "least": summary.least,
+        "mean": summary.mean,
+        "greatest": summary.greatest,
+    }

@@ -1,0 +1,1 @@
+"""The noise of sensors at rest, by Allan deviation."""

@@ -1,0 +1,1 @@
+"""Clocks aligned with each other, and sensors that are late or wrongly scaled."""

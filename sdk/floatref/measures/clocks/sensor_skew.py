@@ -1,0 +1,186 @@
+"""The skew of a height sensor against its accelerometer, from stretches where the body alone moves.
+
+A standing vehicle that still swings, and a bounce test, show both sensors the same motion. On a
+moving vehicle the road drives both, and the phase between them is the suspension's: such stretches
+give nothing, however coherent they look.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
+from floatref.measures.clocks.skew_windows import SkewWindow, skew_window
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.recording import Channel
+
+WINDOW_S = 1.5
+"""Longer ones, and the noise of the integrated acceleration counts; shorter ones, no swing."""
+STANDS_M, STANDS_S = 0.002, 0.75
+"""A vehicle that moves by less in so long stands; a shorter window tells nothing."""
+LEAST_COHERENCE, GAIN_OFF = 0.95, 0.05
+"""What a window of a standing vehicle has to show."""
+BOUNCE_COHERENCE, BOUNCE_OFF = 0.9999, 0.03
+"""What a window has to show where the distance says that the vehicle moves, or nothing."""
+FEWEST_BOUNCES = 2
+"""So many such windows have to follow one another."""
+LEAST_MOTION_M = 2e-5
+SLOWEST_HZ, SHORTEST_S = 100.0, 2.0
+LARGEST_SIGMA_S = 5e-4
+"""A skew that is known no better is not told."""
+WORTH_S, CERTAIN = 5e-4, 3.0
+"""A warning is given for more than this, and than so many standard deviations."""
+
+
+@dataclass(frozen=True)
+class Skew:
+    """By how much the height's samples are later than the accelerometer's, or why that is open.
+
+    Attributes:
+        skew_s: in s; NaN if it is open.
+        sigma_s: its standard deviation in s; NaN if nothing was found.
+        seconds: how long the stretches are that tell it, in s.
+        coherence: of height and twice integrated acceleration in them.
+        reason: one line that says why the skew is open; "" if it is not.
+    """
+
+    skew_s: float
+    sigma_s: float = np.nan
+    seconds: float = 0.0
+    coherence: float = np.nan
+    reason: str = ""
+
+    @classmethod
+    def none(cls, reason: str, sigma_s: float = np.nan) -> "Skew":
+        """Return a skew that is open."""
+        return cls(np.nan, sigma_s, reason=reason)
+
+    @property
+    def known(self) -> bool:
+        """Whether there is an estimate."""
+        return not self.reason
+
+
+def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None) -> Skew:
+    """Return by how much ``height`` is later than the vertical ``force``, where that shows.
+
+    Windows of a second and a half count where the vehicle stands by its ``distance``, or, whatever
+    the distance, where height and acceleration agree as in a bounce test alone. Channels may have
+    any clocks above 100 Hz and gaps; memory grows by 10 kB for each second.
+    """
+    slow = next((c for c in (force, height) if c.mean_rate_hz < SLOWEST_HZ), None)
+    if slow is not None:
+        return Skew.none(
+            f"channel {slow.id} has {slow.mean_rate_hz:.4g} Hz; it takes {SLOWEST_HZ:g} Hz"
+        )
+    begin = max(force.span_s[0], height.span_s[0])
+    end = min(force.span_s[1], height.span_s[1])
+    if end - begin < SHORTEST_S:
+        return Skew.none(f"channels {force.id} and {height.id} share less than {SHORTEST_S:g} s")
+    grid: FloatArray = begin + STEP_S * np.arange(int((end - begin) * RATE_HZ) + 1.0)
+    series = on_grid(force, grid), on_grid(height, grid)
+    stands = np.zeros(grid.size, dtype=np.bool_)
+    if distance is not None:
+        stands = standing(distance, grid, STANDS_M, STANDS_S)
+    return _judged([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
+
+
+def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
+    """Return a line that says how to take out a skew above 0.5 ms that is certain, else None."""
+    size = abs(skew.skew_s)
+    if not (skew.known and size > WORTH_S and size > CERTAIN * skew.sigma_s):
+        return None
+    late, other = (height, force) if skew.skew_s > 0 else (force, height)
+    return (
+        f"channel {late.id}: {1e3 * size:.2f} ± {1e3 * skew.sigma_s:.2f} ms later than {other.id}, "
+        f"by {skew.seconds:.3g} s in which the body alone moved; add {size:.5f} to its delay_s"
+    )
+
+
+@dataclass(frozen=True)
+class _Stretch:
+    """Windows that follow one another, and the gain of the sensors in them."""
+
+    windows: Sequence[SkewWindow]
+    gain: float
+
+    def skew(self) -> tuple[float, float]:
+        """Return the skew of the stretch and its standard deviation, in s.
+
+        What is wrong in one window is wrong in the next: nothing averages out.
+        """
+        sigmas = np.array([w.sigma_s(self.gain) for w in self.windows])
+        weights = 1.0 / np.square(sigmas)
+        skews = np.array([w.skew_s for w in self.windows])
+        skew = float(weights @ skews / weights.sum())
+        spread = float(weights @ np.square(skews - skew) / weights.sum())
+        return skew, float(np.hypot(weights @ sigmas / weights.sum(), spread**0.5))
+
+
+def _at_stops(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[_Stretch]:
+    """Return the stretches of a standing vehicle that tell something."""
+    found = []
+    for first, end in stretches(stands):
+        windows = _windows(force, height, first, end)
+        kept = [w for w in windows if w is not None and _is_one(w, LEAST_COHERENCE, GAIN_OFF)]
+        if kept:
+            found.append(_Stretch(kept, 1.0))
+    return found
+
+
+def _in_bounces(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[_Stretch]:
+    """Return the stretches that agree as well as a bounce test alone does, wherever they are."""
+    found = []
+    for first, end in stretches(~stands):
+        run: list[SkewWindow] = []
+        for window in [*_windows(force, height, first, end), None]:
+            if window is not None and _is_one(window, BOUNCE_COHERENCE, BOUNCE_OFF):
+                run.append(window)
+                continue
+            if len(run) >= FEWEST_BOUNCES:
+                found.append(_Stretch(run, float(np.median([w.gain for w in run]))))
+            run = []
+    return found
+
+
+def _windows(
+    force: FloatArray, height: FloatArray, first: int, end: int
+) -> Iterable[SkewWindow | None]:
+    """Yield what equal windows of about `WINDOW_S` from ``first`` to ``end`` tell."""
+    many = max(1, round((end - first) * STEP_S / WINDOW_S))
+    edges = np.linspace(first, end, many + 1).astype(int).tolist()
+    for a, b in pairwise(edges):
+        yield skew_window(force, height, a, b - a) if b - a >= STANDS_S * RATE_HZ else None
+
+
+def _is_one(window: SkewWindow, coherence: float, off: float) -> bool:
+    """Return whether both sensors saw one motion, and enough of it."""
+    agrees = 1.0 - window.rest**2 >= coherence and abs(window.gain - 1.0) <= off
+    return agrees and window.motion_m >= LEAST_MOTION_M
+
+
+def _judged(found: list[_Stretch]) -> Skew:
+    """Return what all stretches tell together."""
+    if not found:
+        return Skew.none(
+            "no moment in which the body alone moves: neither a stop after which it still swings "
+            "nor a bounce test"
+        )
+    skews, sigmas = np.array([s.skew() for s in found]).T
+    weights = 1.0 / np.square(sigmas)
+    skew = float(weights @ skews / weights.sum())
+    # Stretches that disagree know less than they say.
+    excess = float(weights @ np.square(skews - skew)) / max(skews.size - 1, 1)
+    sigma = float((max(1.0, excess) / weights.sum()) ** 0.5)
+    windows = [w for s in found for w in s.windows]
+    if sigma > LARGEST_SIGMA_S:
+        return Skew.none(
+            f"{WINDOW_S * len(windows):.3g} s in which the body alone moves tell it to "
+            f"{1e3 * sigma:.2g} ms only; a bounce test tells it to 0.05 ms",
+            sigma,
+        )
+    power = np.array([w.motion_m**2 for w in windows])
+    missed = float(power @ np.array([w.rest**2 for w in windows]) / power.sum())
+    return Skew(skew, sigma, WINDOW_S * len(windows), 1.0 - missed)

@@ -1,0 +1,139 @@
+"""How late a height is in one short window in which the body alone moves.
+
+There height and twice integrated acceleration are one signal, but for what integration leaves
+open: h(t) = g·z(t − τ) + parabola. By least squares τ is the slope of the phase of their cross
+spectrum against frequency, every frequency weighted by how fast the body moves at it. A taper
+weighs the middle of the window most: the jolt at which a stop begins moves more than the body.
+Acceleration and height must not be tapered before the integration, or a swing that decays shifts.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S
+from floatref.values.arrays import FloatArray
+
+LARGEST = 10
+"""Skews are looked for up to so many steps of the grid either way: 50 ms."""
+ROUNDS = 6
+LEAST_ALIKE = 0.8
+"""Correlation at the best whole step; half a step off costs 0.05 of it at 20 Hz."""
+
+
+@dataclass(frozen=True)
+class SkewWindow:
+    """What one window tells.
+
+    Attributes:
+        first: its first point on the grid.
+        skew_s: by how much the height is later, in s.
+        gain: of the height against the twice integrated acceleration.
+        rest: share of the height's motion that is not explained, as a ratio of amplitudes.
+        motion_m: root mean square of the height's motion, tapered, in m.
+        omega: root mean square frequency of the motion, in rad/s.
+    """
+
+    first: int
+    skew_s: float
+    gain: float
+    rest: float
+    motion_m: float
+    omega: float
+
+    def sigma_s(self, gain: float = 1.0) -> float:
+        """Return the standard deviation of the skew, in s, if ``gain`` is the sensors' own.
+
+        What is not explained may be a quarter of a period off as well as in phase, and a road or a
+        tilt under the swing repeats with it: nothing of it is taken to average out.
+        """
+        return float(np.hypot(self.gain - gain, self.rest)) / self.omega
+
+
+def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -> SkewWindow | None:
+    """Return what ``count`` points from ``first`` on tell.
+
+    None if samples are missing, and where the two are unlike each other at any skew.
+
+    ``force`` in m/s² and ``height`` in m, on one grid of `RATE_HZ`.
+    """
+    begin, end = first - LARGEST - 1, first + count + LARGEST + 1
+    if begin < 0 or end > force.size:
+        return None
+    acceleration, seen = force[begin:end], height[first : first + count]
+    if np.isnan(acceleration).any() or np.isnan(seen).any():
+        return None
+    body = _Body(acceleration, count)
+    y = body.bare(seen)
+    skew_s, alike = body.roughly(y)
+    if alike < LEAST_ALIKE:
+        return None
+    for _ in range(ROUNDS):
+        (gain, late), z, v = body.fitted(y, skew_s)
+        if not gain > 0:
+            return None
+        skew_s = float(np.clip(skew_s + late / gain, -LARGEST * STEP_S, LARGEST * STEP_S))
+    if abs(skew_s) >= LARGEST * STEP_S:
+        return None
+    rest = y - gain * z + late * v
+    size = float(np.linalg.norm(y))
+    return SkewWindow(
+        first,
+        skew_s,
+        gain,
+        float(np.linalg.norm(rest)) / size,
+        size / count**0.5,
+        float(np.linalg.norm(v) / np.linalg.norm(z)),
+    )
+
+
+class _Body:
+    """Velocity and place of the body by integration, over a window and what lies beside it."""
+
+    def __init__(self, acceleration: FloatArray, count: int) -> None:
+        self.count = count
+        self.velocity = _integral(acceleration - acceleration.mean())
+        self.velocity -= self.velocity.mean()
+        self.place = _integral(self.velocity)
+        powers = np.vander(np.linspace(-1.0, 1.0, count), 3)
+        self.open, _ = np.linalg.qr(powers)
+        self.taper = np.sin(np.pi * (np.arange(count) + 0.5) / count)
+
+    def bare(self, series: FloatArray) -> FloatArray:
+        """Return ``series`` without the parabola that integration leaves open, tapered."""
+        return np.asarray(self.taper * (series - self.open @ (self.open.T @ series)))
+
+    def roughly(self, y: FloatArray) -> tuple[float, float]:
+        """Return the skew in whole steps that explains most of ``y``, in s, and the correlation."""
+        shifted = np.lib.stride_tricks.sliding_window_view(self.place[1:-1], self.count)
+        z = self.taper * (shifted - (shifted @ self.open) @ self.open.T)
+        sizes = np.maximum(np.linalg.norm(z, axis=1) * float(np.linalg.norm(y)), 1e-300)
+        alike = z @ y / sizes
+        best = int(np.argmax(alike))
+        # The first of them begins earliest: the place that comes latest.
+        return STEP_S * (LARGEST - best), float(alike[best])
+
+    def fitted(
+        self, y: FloatArray, skew_s: float
+    ) -> tuple[tuple[float, float], FloatArray, FloatArray]:
+        """Return gain and gain·(further skew in s) of ``y``, with place and velocity by then."""
+        at = np.arange(LARGEST + 1, LARGEST + 1 + self.count) - skew_s * RATE_HZ
+        before = np.clip(np.floor(at).astype(np.int64), 0, self.place.size - 2)
+        s = at - before
+        v = self.velocity[before] * (1 - s) + self.velocity[before + 1] * s
+        # Cubic between points, by place and velocity at both.
+        z = (1 + 2 * s) * (1 - s) ** 2 * self.place[before]
+        z += s**2 * (3 - 2 * s) * self.place[before + 1]
+        z += (
+            s * (1 - s) * STEP_S * ((1 - s) * self.velocity[before] - s * self.velocity[before + 1])
+        )
+        z, v = self.bare(z), self.bare(v)
+        (gain, late), *_ = np.linalg.lstsq(np.stack([z, -v], axis=1), y, rcond=None)
+        return (float(gain), float(late)), z, v
+
+
+def _integral(series: FloatArray) -> FloatArray:
+    """Return the integral of the cubic through the points, 0 at the first of them."""
+    wide = np.pad(series, 1, mode="reflect", reflect_type="odd")
+    steps = 13.0 * (series[1:] + series[:-1]) - wide[:-3] - wide[3:]
+    return np.concatenate([[0.0], np.cumsum(steps) * (STEP_S / 24.0)])

@@ -1,0 +1,1 @@
+"""IRI, where the roughness lies, and the agreement of two profiles."""

@@ -1,0 +1,103 @@
+"""Where the roughness lies: the short-interval roughness profile and its peaks (2.1.3)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.measures.roughness.iri_settings import IriSettings, intervals_in
+from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
+from floatref.values.arrays import FloatArray
+
+BASE_M = 7.62
+"""Base length of the short-interval roughness profile in m (25 ft)."""
+
+M_PER_KM_TO_IN_PER_MI = 63.36
+"""One m/km in inches per mile."""
+
+
+@dataclass(frozen=True)
+class LocalizedRoughness:
+    """A stretch in m above a threshold, and the highest value in m/km and where it lies in m."""
+
+    start_m: float
+    end_m: float
+    peak_at_m: float
+    peak_m_per_km: float
+
+
+def short_interval_roughness(
+    elevation: FloatArray,
+    interval_m: float,
+    base_m: float = BASE_M,
+    settings: IriSettings = STANDARD,
+) -> FloatArray:
+    """Return the moving average of the rectified IRI output in m/km, over ``base_m`` in m.
+
+    One value fewer than ``elevation``: value k belongs to the interval from point k to k + 1 and
+    is the mean of n = round(base/interval) values from k − n//2 on, of those there are near the
+    ends. NaN before the first and after the last measured point. Source: section 2.1.3.
+    """
+    if not (np.isfinite(base_m) and base_m > 0):
+        raise InputError(f"base length is {base_m} m; it must be above zero")
+    rectified = np.abs(iri_trace(elevation, interval_m, settings))
+    return _moving_average(rectified, intervals_in(base_m, interval_m))
+
+
+def localized_roughness(
+    elevation: FloatArray,
+    interval_m: float,
+    threshold_m_per_km: float,
+    base_m: float = BASE_M,
+    start_m: float = 0.0,
+) -> tuple[LocalizedRoughness, ...]:
+    """Return every stretch whose short-interval roughness exceeds ``threshold_m_per_km``.
+
+    ``start_m`` is the position of point 0 in m; a stretch goes from the start of its first to the
+    end of its last interval, and the peak lies in the middle of one. In order of position.
+    """
+    roughness = short_interval_roughness(elevation, interval_m, base_m)
+    above = np.concatenate(([False], roughness > threshold_m_per_km, [False]))
+    firsts, ends = np.flatnonzero(np.diff(above)).reshape(-1, 2).T
+    found = []
+    for first, end in zip(firsts.tolist(), ends.tolist(), strict=True):
+        peak = first + int(np.argmax(roughness[first:end]))
+        found.append(
+            LocalizedRoughness(
+                start_m + first * interval_m,
+                start_m + end * interval_m,
+                start_m + (peak + 0.5) * interval_m,
+                float(roughness[peak]),
+            )
+        )
+    return tuple(found)
+
+
+def mean_roughness_index(left: float, right: float) -> float:
+    """Return the mean of the IRIs of the two wheel paths of one lane, in their unit."""
+    return (left + right) / 2.0
+
+
+def in_per_mi(m_per_km: float) -> float:
+    """Return a roughness in m/km as inches per mile."""
+    return m_per_km * M_PER_KM_TO_IN_PER_MI
+
+
+def m_per_km(in_per_mi: float) -> float:
+    """Return a roughness in inches per mile as m/km."""
+    return in_per_mi / M_PER_KM_TO_IN_PER_MI
+
+
+def _moving_average(values: FloatArray, window: int) -> FloatArray:
+    """Return the mean of ``window`` values from k − window//2 on, of the finite ones there are."""
+    finite = np.isfinite(values)
+    sums = np.concatenate(([0.0], np.cumsum(np.where(finite, values, 0.0))))
+    counts = np.concatenate(([0], np.cumsum(finite)))
+    first = np.arange(values.size) - window // 2
+    ends = np.clip(first + window, 0, values.size)
+    first = np.clip(first, 0, None)
+    count = counts[ends] - counts[first]
+    means = np.divide(
+        sums[ends] - sums[first], count, out=np.full(values.size, np.nan), where=finite
+    )
+    return np.asarray(np.maximum(means, 0.0))

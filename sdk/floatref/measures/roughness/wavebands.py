@@ -1,0 +1,180 @@
+"""Filters that bring out the content to compare, and the agreement in a band (2.1.5.2)."""
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.kernels.cut_off import high_pass_wavelength_setting
+from floatref.kernels.state_variable import (
+    MEMORY,
+    high_pass_1,
+    high_pass_2,
+    high_pass_21,
+    low_pass_1,
+    low_pass_2,
+)
+from floatref.measures.roughness.agreement import Agreement, cross_correlation
+from floatref.measures.roughness.gaps import bridged, checked_elevation, measured_stretch
+from floatref.measures.roughness.roughness_index import iri_trace
+from floatref.values.arrays import FloatArray
+
+
+def _c(interval: float, cutoff_wavelength: float) -> float:
+    return math.tan(math.pi * interval / cutoff_wavelength)
+
+
+def _new_memory() -> NDArray[np.float64]:
+    return np.zeros(MEMORY)
+
+
+def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+    """Return HPF_B3x2 of ``x``: HPF_B3S1, HPF_B3S2R, HPF_B3S1R and HPF_B3S2 in this order.
+
+    ``cutoff_wavelength`` is that of each third-order pass; (A.22) gives it from the -3 dB
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    """
+    c = _c(interval, cutoff_wavelength)
+    y = np.empty(x.size)
+    high_pass_1(x, y, _new_memory(), c, False)
+    high_pass_21(y, y, _new_memory(), _new_memory(), c, True)
+    high_pass_2(y, y, _new_memory(), c, False)
+    return y
+
+
+def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+    """Return LPF_B3x2 of ``x``: LPF_B3S1, LPF_B3S2R, LPF_B3S1R and LPF_B3S2 in this order.
+
+    ``cutoff_wavelength`` is that of each third-order pass; (A.21) gives it from the -3 dB
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    """
+    c = _c(interval, cutoff_wavelength)
+    y = np.empty(x.size)
+    low_pass_1(x, y, _new_memory(), c, False)
+    low_pass_2(y, y, _new_memory(), c, True)
+    low_pass_1(y, y, _new_memory(), c, True)
+    low_pass_2(y, y, _new_memory(), c, False)
+    return y
+
+
+class Waveband(NamedTuple):
+    """Cut-off wavelengths λc in m of the third-order passes of HPF_B3x2 and LPF_B3x2."""
+
+    long_m: float
+    short_m: float
+
+
+WAVEBANDS: Mapping[str, Waveband] = MappingProxyType(
+    {
+        "long": Waveband(65.6, 8.0),
+        "medium": Waveband(8.0, 1.6),
+        "short": Waveband(1.6, 0.14),
+    }
+)
+"""The three diagnostic wavebands of 2.1.5.2."""
+
+BANDS = ("iri", *WAVEBANDS)
+"""What `agreement` can filter for: the output of the IRI filter, or one waveband."""
+
+
+def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91.44) -> FloatArray:
+    """Return HPF_B3x2 of ``elevation``, −3 dB at ``wavelength_m``, without phase shift.
+
+    Elevation counts from the first measured point, as a floating reference height does, so the
+    datum has no part in the filter's run-in. Same length; NaN before the first and after the
+    last measured point and, after the bridge has been filtered, in gaps again. Raises InputError
+    for a wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
+    """
+    from floatref.measures.roughness.wavebands import high_pass_b3x2
+
+    values = checked_elevation(elevation, interval_m)
+    _check_cutoff(wavelength_m, interval_m)
+    stretch = measured_stretch(values)
+    filtered = np.full(values.size, np.nan)
+    cutoff = high_pass_wavelength_setting(wavelength_m)
+    rise = bridged(values[stretch]) - values[stretch.start]
+    filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
+    filtered[~np.isfinite(values)] = np.nan
+    return filtered
+
+
+def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+    """Return the slope in m/m of ``elevation`` in ``band``, one value fewer than points.
+
+    The slope less its mean is continued at both ends by its mirror image, as far as the band's
+    longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
+    without elevation are refused. The low-pass is left out where its cut-off is not above two
+    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one
+    whose long end is not above two intervals. Source: 2.1.5.2.
+    """
+    if band not in WAVEBANDS:
+        raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
+    limits = WAVEBANDS[band]
+    _check_cutoff(limits.long_m, interval_m)
+    values = checked_elevation(elevation, interval_m)
+    if not np.isfinite(values[[0, -1]]).all():
+        raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
+    slope = np.diff(bridged(values)) / interval_m
+    margin = math.ceil(limits.long_m / interval_m)
+    continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
+    return _band_passed(continued, interval_m, limits)[margin : margin + slope.size]
+
+
+def agreement(
+    p: FloatArray,
+    q: FloatArray,
+    interval_m: float,
+    band: str = "iri",
+    max_offset_m: float = 1.0,
+) -> Agreement:
+    """Return the agreement of elevation ``q`` with ``p`` in m, both on the same points.
+
+    Both are cut to the stretch that both measured, gaps inside are bridged, then both are
+    filtered: ``band`` is "iri" (steps 1 to 3 of the IRI), "long", "medium" or "short". An
+    offset above zero says that ``q`` lies farther along. Raises InputError where the two share
+    no stretch, as `cross_correlation` and the filters do. Source: 2.1.5.
+    """
+    p, q = checked_elevation(p, interval_m), checked_elevation(q, interval_m)
+    if p.shape != q.shape:
+        raise InputError(f"profiles of {p.size} and {q.size} points; cut them to the same points")
+    common = _common_stretch(p, q)
+    p_band, q_band = (_filtered(z[common], interval_m, band) for z in (p, q))
+    return cross_correlation(p_band, q_band, interval_m, max_offset_m)
+
+
+def _band_passed(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
+    """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
+    from floatref.measures.roughness.wavebands import high_pass_b3x2, low_pass_b3x2
+
+    passed = high_pass_b3x2(slope, interval_m, limits.long_m)
+    if limits.short_m <= 2 * interval_m:
+        return passed
+    return low_pass_b3x2(passed, interval_m, limits.short_m)
+
+
+def _filtered(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+    """Return ``elevation`` through the filter of ``band``, one value fewer than points."""
+    if band == "iri":
+        return iri_trace(elevation, interval_m)
+    return waveband_slope(elevation, interval_m, band)
+
+
+def _common_stretch(p: FloatArray, q: FloatArray) -> slice:
+    """Return the longest stretch with finite ends in ``p`` and in ``q``."""
+    both = np.isfinite(p) & np.isfinite(q)
+    if np.count_nonzero(both) < 2:
+        raise InputError("the two profiles share no two measured points; nothing to compare")
+    return measured_stretch(np.where(both, p, np.nan))
+
+
+def _check_cutoff(wavelength_m: float, interval_m: float) -> None:
+    """Raise InputError unless a profile at ``interval_m`` holds ``wavelength_m``."""
+    if not wavelength_m > 2 * interval_m:
+        raise InputError(
+            f"a profile at {interval_m:g} m holds no wavelengths of {wavelength_m:g} m; "
+            "take a longer wavelength or a finer profile"
+        )

@@ -1,0 +1,156 @@
+"""The pipeline of the road-prior smoother, with its settings."""
+
+from collections.abc import Sequence
+from math import pi
+
+from floatref.estimators.kalman.inputs import IMU
+from floatref.estimators.levelling import Level
+from floatref.estimators.levelling.level import BLENDED_S
+from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.interfaces.pipeline import Context, Pipeline
+from floatref.pipelines import basic_steps
+from floatref.pipelines.chapter_6 import condition
+from floatref.stages.conditioning import Drop, RemoveGravity
+from floatref.stages.filters.butterworth import low_pass_b3
+from floatref.stages.filters.lateness import Advance
+from floatref.stages.protocol import Stage
+from floatref.stages.resampling import ToDistance
+from floatref.stages.seams import Seams
+from floatref.stages.signals import ACCELERATION, HEIGHT, MISSING_SHARE, TRAVEL_SPEED
+from floatref.stages.speed import TravelSpeed
+from floatref.stages.triggers import ToTime
+
+CONSTANTS = {
+    "acceleration_density": "acceleration",
+    "acceleration_bias_sigma": "acceleration_bias",
+    "acceleration_walk": "acceleration_walk",
+    "acceleration_walk_along": "walk_along",
+    "missing_acceleration_density": "missing_acceleration",
+    "road_reading_sigma_m": "reading_m",
+    "road_intensity_m": "road",
+    "long_waves_per_m": "long_waves",
+    "road_reach_m": "road_reach_m",
+    "road_memory_m": "road_memory_m",
+    "edge_sigmas": "edge_sigmas",
+    "lean_expected_rad": "lean_expected_rad",
+    "lean_sigma_rad": "lean_sigma_rad",
+    "tilt_expected": "tilt_expected",
+    "tilt_sigma": "tilt_sigma",
+    "pitch_hz": "pitch_hz",
+    "pitch_damping": "pitch_damping",
+    "height_noise_m": "height_m",
+    "most_sigma_share": "most_sigma_share",
+}
+"""From settings to what they are in `RoadPrior`."""
+EXPECTED = "lean_expected_rad", "tilt_expected"
+_USUAL = vars(RoadPrior())
+
+
+def _estimate(context: Context) -> Sequence[Stage]:
+    constants = RoadPrior(**{field: context.setting(name) for name, field in CONSTANTS.items()})
+    smoother = RoadPriorSmoother(constants, context.setting("cutoff_wavelength_m"))
+    return smoother, Seams(), Drop(TRAVEL_SPEED)
+
+
+ROAD_PRIOR = (
+    Pipeline(
+        "road-prior-smoother",
+        "temporal",
+        "nominal sensors; the road is a process in distance, which stands still when we do",
+        {
+            "interval_m": None,
+            "anti_alias_hz": 1000.0,
+            "cutoff_wavelength_m": 105.91,
+            "drift_reach_m": 2.0,
+            "before_slow_m": 2.0,
+            "after_slow_m": 7.0,
+            "distance_scale_sigma": 2e-4,
+            **{name: _USUAL[field] for name, field in CONSTANTS.items()},
+        },
+        {"temporal_condition": condition, "temporal_estimate": _estimate},
+        signed=EXPECTED,
+    ),
+)
+
+
+FILTERED_HZ = 400.0
+"""Up to this sampling rate the accelerometer's own bandwidth has to be the slower filter."""
+DELAY = 1.0 / pi
+"""Delay of LPF_B3 times its cut-off: 2 over the angular frequency, at low frequencies."""
+
+SETTINGS = {name: value for name, value in ROAD_PRIOR[0].settings.items() if name != "edge_sigmas"}
+"""At a standstill there is no reading, so none that could tell of an edge."""
+
+
+def _condition(context: Context) -> Sequence[Stage]:
+    """Remove 1 g; LPF_B3 on both sensors, which stands for what is analog before the trigger.
+
+    The accelerometer's is slower: its converter waits until the filter has caught up.
+    """
+    stages: list[Stage] = [RemoveGravity()]
+    height_s = force_s = 0.0
+    if context.header.rate > basic_steps.LEAST_RATE_HZ:
+        cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
+        stages += low_pass_b3(HEIGHT, cutoff)
+        height_s = DELAY / cutoff
+    if context.header.rate > FILTERED_HZ:
+        cutoff = basic_steps.cutoff_setting(context, "acceleration_anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        force_s = DELAY / cutoff
+    return *stages, Advance(ACCELERATION, max(0.0, force_s - height_s))
+
+
+def _estimate_triggered(context: Context) -> Sequence[Stage]:
+    """Go back to time, estimate there, and take what the triggers get."""
+    known = {CONSTANTS[name]: context.setting(name) for name in SETTINGS if name in CONSTANTS}
+    return (
+        ToTime(context.setting("unknown_after_s")),
+        RoadPriorSmoother(RoadPrior(**known), context.setting("cutoff_wavelength_m")),
+        Seams(),
+        Drop(MISSING_SHARE),
+        ToDistance(context.setting("interval_m"), context.origin_m),
+    )
+
+
+ROAD_PRIOR_SPATIAL = (
+    Pipeline(
+        "road-prior-smoother-spatial",
+        "spatial",
+        "the same from one sample per profile interval, triggered by the encoder",
+        {**SETTINGS, "acceleration_anti_alias_hz": 100.0, "unknown_after_s": 0.8},
+        {"spatial_condition": _condition, "spatial_estimate": _estimate_triggered},
+        signed=EXPECTED,
+    ),
+)
+
+
+NOTHING = 1e-9
+"""1-σ of what is known."""
+
+
+def _condition_levelled(context: Context) -> Sequence[Stage]:
+    """Level; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
+    stages: list[Stage] = [Level(context.setting("attitude_blend_s"))]
+    if context.header.rate > basic_steps.LEAST_RATE_HZ:
+        cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        stages += low_pass_b3(HEIGHT, cutoff)
+    return (*stages, TravelSpeed())
+
+
+ROAD_PRIOR_IMU = (
+    Pipeline(
+        "road-prior-smoother-imu",
+        "temporal",
+        "the same with an inertial unit, which measures the tilt of the body",
+        {
+            **ROAD_PRIOR[0].settings,
+            "attitude_blend_s": BLENDED_S,
+            "tilt_sigma": NOTHING,
+        },
+        {**ROAD_PRIOR[0].answers, "temporal_condition": _condition_levelled},
+        channels=IMU,
+        capabilities=("imu",),
+        signed=EXPECTED,
+    ),
+)

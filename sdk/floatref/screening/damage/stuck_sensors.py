@@ -1,0 +1,201 @@
+"""Samples of a height sensor, or one of the suspension's deflection, stuck or out of range."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, extremes, merged, told
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.clock import StampedClock
+from floatref.values.recording import Channel
+
+SHORTEST = 3
+PINNED_S = 0.002
+PINNED = 5.0
+"""A laser out of its range stays there for so long, and so many times its usual hold."""
+LEAP_M = 0.005
+"""It gets there, or back, by a step of this height."""
+STUCK_S = 0.05
+STUCK = 20.0
+"""A laser that is stuck repeats itself for so long, and so many times its usual hold."""
+LASTING_S = 1.0
+"""No hold of a working laser is so long."""
+ALIVE = 0.1
+"""Meanwhile the accelerometer's readings spread over so many m/s²."""
+TRAVEL_M = 0.5
+"""Meanwhile the vehicle gets so far: where it stands, a laser may well repeat itself, but not while
+the body heaves before it."""
+HEAVE_M = 0.003
+COARSE = 4.0
+"""No coarse laser repeats itself for long while the body heaves by so much, and so many of its
+smallest steps."""
+HEAVE_S = 1.0
+LOOKS = 8
+"""The heave is known from the acceleration over such a time, at so many places of a long run."""
+FEWEST = 8
+"""Samples that it takes."""
+OWN = 0.01
+"""A run of this share of all samples is no part of what is usual."""
+AWAY = 1.5
+"""A step of more than so many smallest ones is not that of a reading that rests."""
+
+
+def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damage:
+    """Return where a height sensor is stuck, or out of its range.
+
+    It is stuck where it repeats itself while ``force`` beside it does not and ``distance`` goes
+    on, or for long while ``force`` tells that the body heaves. It is out of range where it does so
+    at the least or the greatest of all after a leap. A warning alone is given where most of the run
+    may be either stuck or a flat floor.
+    """
+    rate = channel.mean_rate_hz
+    runs = Runs.of(channel.values, max(SHORTEST, int(PINNED_S * rate)))
+    if not runs.first.size:
+        return Damage()
+    found = _Repeated(channel, runs, Usual.of(channel.values))
+    stuck, open_to_doubt = found.stuck(force, distance)
+    chosen = stuck | found.out_of_range()
+    warnings = []
+    if chosen.any():
+        warnings.append(told(channel, runs.spans[chosen], "stuck or out of range"))
+    if 2 * runs.length[open_to_doubt & ~chosen].sum() > channel.values.size:
+        warnings.append(
+            f"channel {channel.id}: repeats itself for most of the run; if that was not over a "
+            "flat floor, the sensor is stuck and the profile is that of the accelerometers alone"
+        )
+    return Damage(runs.spans[chosen], warnings=tuple(warnings))
+
+
+@dataclass(frozen=True, eq=False)
+class _Repeated:
+    """Runs of identical samples of a height, and what is usual in it."""
+
+    channel: Channel
+    runs: Runs
+    usual: Usual
+
+    def out_of_range(self) -> BoolArray:
+        """Return which runs were entered or left by a leap at the least or greatest of all."""
+        extreme = np.isin(self.runs.value, extremes(self.channel.values))
+        pinned: BoolArray = extreme & (self.runs.length >= PINNED * self._beside())
+        return pinned & (self._step() >= LEAP_M)
+
+    def stuck(self, force: Channel, distance: Channel) -> tuple[BoolArray, BoolArray]:
+        """Return which runs no working sensor gives, and which a coarse one might."""
+        length, rate = self.runs.length, self.channel.mean_rate_hz
+        shortest = max(STUCK_S * rate, min(STUCK * self.usual.hold, LASTING_S * rate))
+        unusual = length >= STUCK * self._beside()
+        quantum = self.usual.quantum if np.isfinite(self.usual.quantum) else 0.0
+        doubtful = (self._step() > AWAY * quantum) | (length >= LASTING_S * rate)
+        stuck = (length >= shortest) & (unusual | doubtful)
+        heave_m, doubt = max(HEAVE_M, COARSE * quantum), np.zeros(length.size, np.bool_)
+        for k in np.flatnonzero(stuck):
+            begin, end = self.channel.clock.times(2, int(self.runs.first[k]), int(length[k] - 1))
+            moves = travel(distance, begin, end) >= TRAVEL_M and _spread(force, begin, end) >= ALIVE
+            heaves = _heave(force, begin, end) >= heave_m
+            stands = bool(heaves) and length[k] >= LASTING_S * rate
+            stuck[k], doubt[k] = (moves and (unusual[k] or heaves)) or stands, moves
+        return stuck, doubt
+
+    def _beside(self) -> FloatArray:
+        """Return for each run the usual hold of all other samples."""
+        usual = np.full(self.runs.length.size, self.usual.beside(0))
+        for k in np.flatnonzero(self.runs.length > OWN * self.usual.samples):
+            usual[k] = self.usual.beside(int(self.runs.length[k]))
+        return usual
+
+    def _step(self) -> FloatArray:
+        """Return for each run the larger of the steps into it and out of it, 0 if not known."""
+        values, (first, behind) = self.channel.values, self.runs.spans.T
+        last = values.size - 1
+        steps = np.abs(
+            [
+                values[np.maximum(first - 1, 0)] - self.runs.value,
+                values[np.minimum(behind, last)] - self.runs.value,
+            ]
+        )
+        larger: FloatArray = np.fmax(np.fmax(*steps), 0.0)
+        return larger
+
+
+def travel(distance: Channel, begin_s: float, end_s: float) -> float:
+    """Return how far the vehicle gets meanwhile, in m; infinite if that is not known."""
+    low, high = _indices(distance, begin_s, end_s)
+    values = distance.values[[max(low - 1, 0), min(high, distance.values.size - 1)]]
+    travel = float(values[1] - values[0])
+    return travel if np.isfinite(travel) else np.inf
+
+
+def _spread(force: Channel, begin_s: float, end_s: float) -> float:
+    """Return over how much the accelerometer's samples spread; NaN where one is missing."""
+    values = force.values[slice(*_indices(force, begin_s, end_s))]
+    return float(np.ptp(values)) if values.size else np.nan
+
+
+def _heave(force: Channel, begin_s: float, end_s: float) -> float:
+    """Return by how much the body heaves within a second, in m, at most; 0 if not known.
+
+    That is the acceleration integrated twice, less the parabola that bias and start leave.
+    """
+    looks = int(np.clip((end_s - begin_s) / HEAVE_S, 1, LOOKS))
+    heave = 0.0
+    for middle in begin_s + (np.arange(looks) + 0.5) * (end_s - begin_s) / looks:
+        low, high = _indices(force, middle - HEAVE_S / 2, middle + HEAVE_S / 2)
+        values = force.values[low:high]
+        if values.size < FEWEST or np.isnan(values).any():
+            continue
+        height = np.cumsum(np.cumsum(values - values.mean())) / force.mean_rate_hz**2
+        place = np.linspace(-1.0, 1.0, values.size)
+        parabola = np.polynomial.Polynomial.fit(place, height, 2)
+        heave = max(heave, float(np.ptp(height - parabola(place))))
+    return heave
+
+
+def _indices(channel: Channel, begin_s: float, end_s: float) -> tuple[int, int]:
+    """Return the index of the first sample from ``begin_s`` on, and up to ``end_s``."""
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        first, behind = np.searchsorted(clock.times_s, [begin_s, end_s])
+    else:
+        first, behind = np.ceil((np.array([begin_s, end_s]) - clock.start_s) * float(clock.rate))
+    return max(int(first), 0), max(int(behind), 0)
+
+
+SHORTEST_FORCE = 3
+STUCK_FORCE_S = 0.02
+"""No accelerometer on a vehicle that drives repeats itself for so long, unless it is coarse or
+slow and does so all the time."""
+
+
+def stuck_force(channel: Channel, distance: Channel) -> Damage:
+    """Return where an accelerometer repeats itself while ``distance`` goes on.
+
+    That is for 20 ms, for so many times the usual hold of its other samples, and over 0.5 m.
+    What follows is disturbed as by a gap, since acceleration is integrated.
+    """
+    shortest = max(SHORTEST_FORCE, int(STUCK_FORCE_S * channel.mean_rate_hz))
+    runs = Runs.of(channel.values, shortest)
+    if not runs.first.size:
+        return Damage()
+    usual = Usual.of(channel.values)
+    unusual = [length >= STUCK * usual.beside(length) for length in runs.length.tolist()]
+    spans = runs.spans[np.array(unusual, dtype=np.bool_)]
+    spans = spans[np.array([_goes_on(channel, distance, *s) for s in spans.tolist()], np.bool_)]
+    if not spans.size:
+        return Damage()
+    return Damage(spans, spans, warnings=(told(channel, spans, "stuck"),))
+
+
+def together(first: Damage, second: Damage) -> Damage:
+    """Return the damage of both."""
+    return Damage(
+        merged(np.concatenate([first.gone, second.gone])),
+        merged(np.concatenate([first.lasting, second.lasting])),
+        merged(np.concatenate([first.void, second.void])),
+        (*first.warnings, *second.warnings),
+    )
+
+
+def _goes_on(channel: Channel, distance: Channel, first: int, behind: int) -> bool:
+    begin, end = channel.clock.times(2, first)[0], channel.clock.times(1, behind - 1)[0]
+    return travel(distance, float(begin), float(end)) >= TRAVEL_M

@@ -1,0 +1,164 @@
+"""Whether GNSS is on the recording's time base: its span, and when it sees the body swing."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.screening.explanations import RIGHT, Look, said, weigh
+from floatref.screening.gnss_readings import Readings
+from floatref.screening.slow_series import (
+    STEP_S,
+    Motion,
+    integrated,
+    means,
+    smoothed,
+)
+from floatref.values.arrays import FloatArray
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.recording import Channel, Recording
+
+SLOW_S = 2.0
+"""Swings of the body are faster than means over this time, taken twice."""
+FARTHEST_S = 30.0
+"""Time stamps are looked for up to so far off: leap seconds are 18 s."""
+CLEAR, ALONE = 5.0, 8.0
+"""The right delay stands out by so many standard deviations of all others; more, if no other
+channel tells it."""
+FEWEST, APART_S = 200, 0.25
+"""Readings of a channel that tells it, and how far apart they are at most: swings last 0.5 s."""
+TOGETHER_S = 0.05
+"""Two channels agree up to this."""
+MOST = 0.75
+"""They are looked for up to such a share of the run off."""
+LATE_S, WRONG_S = 0.06, 0.5
+"""From the first on a warning is given, from the second on the recording is refused."""
+
+
+def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
+    """Yield a warning if GNSS covers less than half of the run from ``begin_s`` to ``end_s``.
+
+    Raises InputError if it covers none of it: its time stamps have another epoch.
+    """
+    channel = recording.channel("gnss_height")
+    first, last = channel.span_s
+    run = f"the run lasts from {begin_s:.9g} s to {end_s:.9g} s"
+    covered = min(last, end_s) - max(first, begin_s)
+    if covered < 0:
+        raise InputError(
+            f"channel {channel.id}: time stamps from {first:.9g} s to {last:.9g} s, but {run}; "
+            "they are of another epoch or in another unit, so give them in s on the time base of "
+            f"the other channels (a shift of {begin_s - first:.9g} s makes both start together)"
+        )
+    if covered < (end_s - begin_s) / 2:
+        yield (
+            f"channel {channel.id}: time stamps from {first:.9g} s to {last:.9g} s, but {run}; "
+            f"only {covered:.4g} s of it are covered, so check the epoch and the file's length"
+        )
+
+
+def delay_told(delay_s: float) -> Iterator[str]:
+    """Yield a warning if GNSS is late (or early, below 0) for the IMU by ``delay_s``.
+
+    Raises InputError from `WRONG_S` on: the time stamps are of another time base.
+    """
+    if abs(delay_s) < LATE_S:
+        return
+    late = "late" if delay_s > 0 else "early"
+    line = (
+        f"channel gnss_height: GNSS sees the body swing {abs(delay_s):.2f} s too {late} for the "
+        f"IMU; add {-delay_s:.2f} s to its time stamps"
+    )
+    if abs(delay_s) >= WRONG_S:
+        raise InputError(f"{line} (UTC and GPS time differ by leap seconds)")
+    yield line
+
+
+def on_time(recording: Recording, delay_s: float) -> Recording:
+    """Return the recording with the GNSS channels ``delay_s`` earlier, if that is worth a word."""
+    if abs(delay_s) < LATE_S:
+        return recording
+    channels = (
+        _earlier(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
+    )
+    return replace(recording, channels=tuple(channels))
+
+
+def _earlier(channel: Channel, by_s: float) -> Channel:
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        return replace(channel, clock=StampedClock.of(clock.times_s - by_s))
+    return replace(channel, clock=UniformClock(clock.rate, clock.start_s - by_s))
+
+
+HEAVE = Look(span_s=2.5, floor=0.01)
+
+
+def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
+    """Yield a warning if the antenna seems to fall where the body rises.
+
+    Raises InputError where that is certain.
+    """
+    readings = Readings.of(recording.channel("gnss_vertical_velocity"), motion)
+    rising = readings.beside(integrated(motion.lift))
+    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrated(motion.lift))}
+    evidence = weigh(readings.times, readings.values, explained, HEAVE)
+    yield from said(
+        evidence,
+        {
+            "sign": "channel gnss_vertical_velocity: the sign is inverted against "
+            "vertical_specific_force; multiply by -1 (up is positive)"
+        },
+    )
+
+
+def delay(recording: Recording, motion: Motion) -> float:
+    """Return by how many s GNSS sees the body swing later than the IMU does; 0 if none tells it.
+
+    Two channels have to agree on it, or one to be sure by itself.
+    """
+    own = {
+        "gnss_vertical_velocity": integrated(motion.lift),
+        "gnss_roll": motion.swing[0],
+        "gnss_pitch": motion.swing[1],
+    }
+    found = []
+    for name, row in own.items():
+        channel = recording.find(name)
+        told = np.empty(0) if channel is None else means(channel, motion.grid)
+        if _is_dense(told):
+            found.append(_peak(_correlation(row, told)))
+    clear = sorted((d, c) for d, c in found if c >= CLEAR)
+    close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
+    if close:
+        return min((b - a, (a + b) / 2) for a, b in close)[1]
+    return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else 0.0
+
+
+def _is_dense(told: FloatArray) -> bool:
+    """Return whether the readings follow a swing of the body, and are enough to tell its time."""
+    known = np.flatnonzero(~np.isnan(told))
+    return known.size >= FEWEST and float(np.median(np.diff(known))) * STEP_S <= APART_S
+
+
+def _peak(correlation: FloatArray) -> tuple[float, float]:
+    """Return the delay of the peak in s, and by how many standard deviations it stands out."""
+    peak = int(np.argmax(correlation))
+    beside = np.abs(np.arange(correlation.size) - peak) > SLOW_S / STEP_S
+    spread = float(np.std(correlation[beside])) if beside.any() else 0.0
+    if peak in (0, correlation.size - 1) or not spread > 0:
+        return 0.0, 0.0
+    before, at, after = correlation[peak - 1 : peak + 2].tolist()
+    delay = peak - correlation.size // 2 + (before - after) / (2 * (before - 2 * at + after))
+    return delay * STEP_S, at / spread
+
+
+def _correlation(own: FloatArray, told: FloatArray) -> FloatArray:
+    """Return the correlation of two rows by the delay of the second, up to `FARTHEST_S`."""
+    x, y = (np.nan_to_num(row - smoothed(row, SLOW_S)) for row in (own, told))
+    reach = min(int(FARTHEST_S / STEP_S), int(MOST * x.size))
+    size = 1 << (2 * x.size - 1).bit_length()
+    product = np.fft.irfft(np.conj(np.fft.rfft(x, size)) * np.fft.rfft(y, size), size)
+    return np.concatenate([product[-reach:], product[: reach + 1]])

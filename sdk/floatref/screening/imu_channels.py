@@ -1,0 +1,207 @@
+"""IMU channels that a pipeline needs: whether they are there, where they are silent or wild."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.screening.gnss_readings import Readings
+from floatref.screening.plausibility import HIGHEST_FORCE
+from floatref.screening.roll_and_pitch import AXES, TILT_SMOOTH_S, Axis, attitudes
+from floatref.screening.slow_series import RATES, SWING_S, Motion, smoothed
+from floatref.values.arrays import FloatArray
+from floatref.values.channels import ChannelId
+from floatref.values.clock import UniformClock
+from floatref.values.recording import Channel, Recording
+from floatref.values.scanning import chunks, first_where, median_step
+
+IMU = ("longitudinal_specific_force", "lateral_specific_force", *RATES)
+HEIGHT_CHANNELS = ("gnss_height", "gnss_vertical_velocity")
+ATTITUDE_CHANNELS = ("gnss_pitch", "gnss_roll")
+HIGHEST_RATE = 20.0
+"""No vehicle on a road turns faster than this, in rad/s, about any axis."""
+LARGEST_READINGS = {
+    "gnss_height": 1e4,
+    "gnss_vertical_velocity": 100.0,
+    **dict.fromkeys(("gnss_pitch", "gnss_roll", "gnss_latitude", "gnss_longitude"), 360.0),
+}
+"""No antenna on a road has a reading beyond this, in m and m/s, nor an angle, even in degrees."""
+SILENT_S = 0.1
+"""A silence of the IMU up to so long is bridged without a word."""
+STEPS = 2.5
+"""So many usual steps between two samples are no silence."""
+
+
+def check_present(recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool) -> None:
+    """Raise InputError naming all channels that the pipeline needs and ``recording`` lacks."""
+    needed = [*IMU]
+    needed += HEIGHT_CHANNELS if uses_gnss else ()
+    needed += ATTITUDE_CHANNELS if uses_attitude else ()
+    missing = [name for name in needed if recording.find(name, track) is None]
+    if not missing:
+        return
+    own = any(channel.id.track == track for channel in recording.channels)
+    names = [str(ChannelId(name, track if own and "force" in name else None)) for name in missing]
+    which = "channel" if len(names) == 1 else "channels"
+    raise InputError(
+        f"{which} {', '.join(names)}: missing, this pipeline needs them; record them, or choose a "
+        "pipeline that does without"
+    )
+
+
+def imu_silences(channels: Iterable[Channel]) -> Iterator[str]:
+    """Yield one line for each of the IMU's ``channels`` that is silent for more than `SILENT_S`.
+
+    Raises InputError for a channel with more than half of its samples missing, or with samples
+    that no sensor in a vehicle gives.
+    """
+    for channel in channels:
+        _check_range(channel, HIGHEST_RATE if channel.id.name in RATES else HIGHEST_FORCE)
+        silences = silent(channel)
+        if silences.size:
+            lengths = silences[:, 1] - silences[:, 0]
+            yield (
+                f"channel {channel.id}: no samples for {told_spans(silences)}; bridged and flagged"
+            )
+            _check_share(channel, float(lengths.sum()))
+
+
+def check_readings(recording: Recording) -> None:
+    """Raise InputError for a GNSS reading that no antenna on a road gives."""
+    for name, limit in LARGEST_READINGS.items():
+        channel = recording.find(name)
+        if channel is not None:
+            _check_range(channel, limit)
+
+
+def told_spans(spans: FloatArray) -> str:
+    """Return how long ``spans``, shape (k, 2), k > 0, in s, are, how many, and which is longest."""
+    lengths = spans[:, 1] - spans[:, 0]
+    longest = int(np.argmax(lengths))
+    places = "1 place" if len(spans) == 1 else f"{len(spans)} places"
+    return (
+        f"{lengths.sum():.4g} s in {places}, at most {lengths[longest]:.4g} s from "
+        f"{spans[longest, 0]:.6g} s"
+    )
+
+
+def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
+    """Return where ``channel`` has no sample for longer, shape (k, 2), in s.
+
+    A silence starts a usual step behind the last sample; one at an end of the channel counts.
+    """
+    step = _usual_step(channel)
+    longest = max(longest_s, (STEPS - 1) * step)
+    begin, end = channel.span_s
+    last, found = begin - step, [np.empty((0, 2))]
+    for first, chunk in chunks(channel.values):
+        times = np.append(last, _known_times(channel, chunk, first))
+        found.append(_between(times, step, longest))
+        last = times[-1]
+    found.append(_between(np.array([last, end + step]), step, longest))
+    return np.concatenate(found)
+
+
+def _known_times(channel: Channel, chunk: FloatArray, first: int) -> FloatArray:
+    """Return the times in s of the samples that are there, of every one or so that none is far."""
+    if isinstance(channel.clock, UniformClock) and not np.isnan(chunk.sum()):
+        every = max(1, int(SILENT_S / 2 * float(channel.clock.rate)))
+        few = channel.clock.times(-(-chunk.size // every), first, every)
+        return np.append(few, channel.clock.times(1, first + chunk.size - 1))
+    return channel.clock.times(chunk.size, first)[~np.isnan(chunk)]
+
+
+def _between(times: FloatArray, step: float, longest: float) -> FloatArray:
+    at = np.flatnonzero(np.diff(times) - step > longest)
+    return np.stack([times[at] + step, times[at + 1]], axis=1)
+
+
+def _usual_step(channel: Channel) -> float:
+    if isinstance(channel.clock, UniformClock):
+        return float(1 / channel.clock.rate)
+    return median_step(channel.clock.times_s)
+
+
+def _check_range(channel: Channel, limit: float) -> None:
+    at = first_where(lambda values: np.abs(values) > limit, channel.values)
+    if at is not None:
+        raise InputError(
+            f"channel {channel.id}: sample {at} is {channel.values[at]:.4g} {channel.unit}, beyond "
+            f"{limit:g} {channel.unit}; mark lost samples as NaN, and check unit and axis"
+        )
+
+
+def _check_share(channel: Channel, silent_s: float) -> None:
+    begin, end = channel.span_s
+    if silent_s > (end - begin) / 2:
+        raise InputError(
+            f"channel {channel.id}: no samples for {silent_s:.4g} of {end - begin:.4g} s; "
+            "record it again, or choose a pipeline that does without"
+        )
+
+
+SMOOTH_S = 0.5
+SPEEDS_UP, TURNS, SWINGS = 0.5, 2.0, 0.004
+"""What a sensor that works does not miss: acceleration and that of a curve, beyond any bank of a
+road, in m/s², and an angle in rad."""
+CONSTANT = 1e-12
+"""Means of identical samples differ by rounding alone."""
+
+
+class Moved(NamedTuple):
+    """A sensor's row, what another one shows of its motion, how much is enough, and what it is."""
+
+    row: FloatArray
+    shown: FloatArray
+    enough: float
+    what: str
+
+
+def check_alive(recording: Recording, track: str, motion: Motion) -> None:
+    """Raise InputError for a constant channel of the IMU, where others show what it should see.
+
+    A perfect sensor on a straight, level road is constant, too, and is not blamed.
+    """
+    for name, moved in _moved(recording, motion).items():
+        known = moved.row[~np.isnan(moved.row)]
+        if not known.size or np.ptp(known) > CONSTANT * max(1.0, abs(known[0])):
+            continue
+        if np.nanmax(np.abs(moved.shown), initial=0.0) > moved.enough:
+            raise InputError(
+                f"channel {recording.channel(name, track).id}: every sample is "
+                f"{known[0] + 0.0:.4g}, but {moved.what}; connect the sensor, and mark missing "
+                "samples as NaN"
+            )
+
+
+def _moved(recording: Recording, motion: Motion) -> dict[str, Moved]:
+    turning = motion.speed * motion.rates[2]
+    told = attitudes(recording, motion)
+    found = {
+        "longitudinal_specific_force": Moved(
+            motion.forces[0],
+            smoothed(motion.acceleration, SMOOTH_S),
+            SPEEDS_UP,
+            "the vehicle speeds up or brakes",
+        ),
+        "lateral_specific_force": Moved(
+            motion.forces[1], smoothed(turning, SMOOTH_S), TURNS, "the vehicle turns"
+        ),
+        "yaw_rate": Moved(
+            motion.rates[2], smoothed(motion.forces[1], SMOOTH_S), TURNS, "the vehicle turns"
+        ),
+    }
+    for axis in AXES:
+        shown = _swing(motion, told, axis)
+        found[axis.rate] = Moved(motion.rates[axis.row], shown, SWINGS, "the body swings")
+    return found
+
+
+def _swing(motion: Motion, told: Mapping[str, Readings], axis: Axis) -> FloatArray:
+    """Return by how much GNSS, else gravity, leaves its own means over some seconds, in rad."""
+    if axis.angle in told:
+        angle = told[axis.angle].on_grid()
+    else:
+        angle = smoothed(motion.tilts[axis.row], TILT_SMOOTH_S)
+    return np.asarray(angle - smoothed(angle, SWING_S))

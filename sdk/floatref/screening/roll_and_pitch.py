@@ -1,0 +1,119 @@
+"""Three witnesses of roll and pitch: the rates, the attitude of GNSS, and gravity."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.screening.explanations import RIGHT, Evidence, Look, weigh
+from floatref.screening.gnss_readings import Readings
+from floatref.screening.slow_series import Motion, smoothed
+from floatref.values.arrays import FloatArray
+from floatref.values.recording import Recording
+
+DEGREES = 180.0 / np.pi
+ATTITUDE = Look(span_s=3.0, floor=2e-4)
+"""Drift of a receiver and bias of a gyro are free."""
+READINGS = 15
+"""A window holds so many readings, however slow the receiver."""
+TILT = Look(span_s=10.0, floor=1e-3)
+TILT_SMOOTH_S = 1.0
+"""Above 0.3 Hz the accelerometers tell the body's own swing, not gravity."""
+UPRIGHT = 0.5
+"""An angle beyond this, in rad, is no tilt of a road."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Roll or pitch: the row of its angle, its channels, its positive turn, and its tilt."""
+
+    row: int
+    rate: str
+    angle: str
+    positive: str
+    tilt: str
+
+
+AXES = (
+    Axis(
+        0,
+        "roll_rate",
+        "gnss_roll",
+        "left side up is positive",
+        "the roll that lateral_specific_force and yaw_rate show",
+    ),
+    Axis(
+        1,
+        "pitch_rate",
+        "gnss_pitch",
+        "nose down is positive",
+        "the pitch that longitudinal_specific_force and distance show",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Witnesses:
+    """What they say of one axis.
+
+    Attributes:
+        attitude: GNSS of the rate.
+        rate: the tilt of the rate.
+        angle: the tilt of GNSS.
+    """
+
+    attitude: Evidence
+    rate: Evidence
+    angle: Evidence
+
+
+def attitudes(recording: Recording, motion: Motion) -> dict[str, Readings]:
+    """Return the readings of gnss_roll and gnss_pitch during the run, of those that are there."""
+    found = [recording.find(axis.angle) for axis in AXES]
+    told = {c.id.name: Readings.of(c, motion) for c in found if c is not None}
+    return {name: readings for name, readings in told.items() if readings.times.size}
+
+
+def heard(motion: Motion, told: Mapping[str, Readings]) -> tuple[Witnesses, Witnesses]:
+    """Return what the witnesses say of roll and of pitch."""
+    tilts = np.stack([smoothed(row, TILT_SMOOTH_S) for row in motion.tilts])
+    both = len(told) == len(AXES)
+    level = [told[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
+    angles = motion.turned(np.clip(level, -UPRIGHT, UPRIGHT))
+    slow = [smoothed(angle, TILT_SMOOTH_S) for angle in angles]
+    calm = [smoothed(row, TILT_SMOOTH_S) for row in level]
+    roll, pitch = (
+        Witnesses(
+            _attitude(told.get(axis.angle), angles, axis.row),
+            _tilt(motion, tilts, slow, axis.row),
+            _tilt(motion, tilts, calm, axis.row) if both else Evidence(),
+        )
+        for axis in AXES
+    )
+    return roll, pitch
+
+
+def _attitude(readings: Readings | None, angles: FloatArray, row: int) -> Evidence:
+    if readings is None:
+        return Evidence()
+    own, other, yaw = (readings.beside(angles[k]) for k in (row, 1 - row, 2))
+    explained = {**axes(own, other, yaw), "deg": DEGREES * own, "-deg": -DEGREES * own}
+    explained |= readings.delayed(angles[row])
+    apart = float(np.median(np.diff(readings.times))) if readings.times.size > 1 else 0.0
+    look = Look(max(ATTITUDE.span_s, READINGS * apart), ATTITUDE.floor)
+    return weigh(readings.times, readings.values, explained, look)
+
+
+def _tilt(
+    motion: Motion, tilts: FloatArray, angles: list[FloatArray] | FloatArray, row: int
+) -> Evidence:
+    explained = axes(angles[row], angles[1 - row])
+    return weigh(motion.times, tilts[row], explained, TILT)
+
+
+def axes(own: FloatArray, *others: FloatArray) -> dict[str, FloatArray]:
+    """Return what an angle is if a rate is right, of wrong sign or unit, or of another axis."""
+    explained = {RIGHT: own, "sign": -own, "unit": own / DEGREES, "-unit": -own / DEGREES}
+    for name, other in zip(("first", "second"), others, strict=False):
+        explained |= {name: other, f"-{name}": -other}
+    return explained

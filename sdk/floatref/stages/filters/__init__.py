@@ -1,0 +1,1 @@
+"""The filters of appendix A and those whose cut-off follows the speed, as stages."""

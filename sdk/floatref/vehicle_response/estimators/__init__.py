@@ -1,0 +1,1 @@
+"""Estimators of the road as the unknown input of a vehicle's model."""

@@ -1,0 +1,189 @@
+"""Whether readings tell the forces of the tyres and the states, and which sensor is missing."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.errors import InputError
+from floatref.values.arrays import FloatArray
+from floatref.vehicle_response.models.model import VehicleModel
+from floatref.vehicle_response.models.outputs import Kind, Reading, output_matrices, selection
+from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized
+
+NOTHING = 1e-9
+"""Singular value, of a matrix with rows and columns of about 1, that is rounding."""
+CIRCLE = 1e-6
+"""What is nearer to 1 than this neither grows nor fades in a drive, and may be an exact 1."""
+ROUNDS = 20
+
+Matrix = NDArray[Any]
+
+
+def null_space(matrix: Matrix) -> Matrix:
+    """Return the directions that ``matrix`` takes to zero, as columns, shape (columns, nullity).
+
+    Rows and columns are brought to about 1 before, so that units decide nothing; the columns
+    returned are those of the matrix as given.
+    """
+    balanced, scale = _balanced(matrix)
+    _, sizes, rows = np.linalg.svd(balanced)
+    rank = int(np.sum(sizes > NOTHING))
+    return np.asarray(scale[:, None] * rows[rank:].conj().T)
+
+
+def lasting_motions(
+    system: Discrete, output: FloatArray, direct: FloatArray
+) -> list[tuple[complex, Matrix]]:
+    """Return the invariant zeros λ of (A_c, B_c, G, J) on or outside the unit circle.
+
+    For such λ there are a state x and forces F with A_c·x + B_c·F = λ·x and G·x + J·F = 0: a
+    motion that goes as λᵏ, stays or grows, and that no reading tells. With each λ come its
+    (x, F) as columns, shape (2n + p, k). For J of full column rank the zeros are among the
+    eigenvalues of A_c - B_c·J⁺·G; 1 is tried besides, since a multiple one is computed inexactly.
+    J is that of the hold, `Discrete.feedthrough`.
+    """
+    rows = 1.0 / _lengths(np.hstack([output, direct]), 1)[:, None]
+    closed = system.transition - system.input @ np.linalg.pinv(rows * direct) @ (rows * output)
+    candidates = np.linalg.eigvals(closed)
+    tried = [1.0, *candidates[np.abs(candidates) > 1.0 - CIRCLE]]
+    motions = [(z, null_space(_pencil(system, output, direct, z))) for z in tried]
+    return [(z, motion) for z, motion in motions if motion.size]
+
+
+def unseen_modes(system: Discrete, output: FloatArray) -> list[Matrix]:
+    """Return the states x with A_c·x = λ·x and G·x = 0, shape (2n, k) for each of the λ."""
+    nothing = np.zeros((len(output), 0))
+    eigenvalues = [1.0, *np.linalg.eigvals(system.transition)]
+    spaces = [null_space(_pencil(system, output, nothing, z)) for z in eigenvalues]
+    return [space for space in spaces if space.size]
+
+
+def _pencil(system: Discrete, output: FloatArray, direct: FloatArray, z: complex) -> Matrix:
+    """Return [A_c - z·I, B_c; G, J], without B_c where J has no columns."""
+    states = len(system.transition)
+    above = np.hstack([system.transition - z * np.eye(states), system.input[:, : direct.shape[1]]])
+    return np.vstack([above, np.hstack([output, direct])])
+
+
+def _balanced(matrix: Matrix) -> tuple[Matrix, FloatArray]:
+    """Return ``matrix`` with rows and columns of length 1, about, and the scale of columns."""
+    balanced, scale = np.array(matrix), np.ones(matrix.shape[1])
+    for _ in range(ROUNDS):
+        balanced = balanced / _lengths(balanced, 1)[:, None]
+        columns = _lengths(balanced, 0)
+        balanced, scale = balanced / columns, scale / columns
+    return balanced, scale
+
+
+def _lengths(matrix: Matrix, axis: int) -> FloatArray:
+    lengths = np.linalg.norm(matrix, axis=axis)
+    return np.where(lengths > 0, lengths, 1.0)
+
+
+SHARE = 1e-6
+"""Part of the largest component of a direction that counts as none."""
+
+
+def check_readings(
+    model: VehicleModel,
+    readings: Sequence[Reading],
+    step_s: float,
+    hold: Hold = Hold.ZERO_ORDER,
+) -> None:
+    """Raise InputError, saying what is missing, unless ``readings`` tell forces and states.
+
+    Needed are J of (11) of Zhu of full column rank, for step (a), and no invariant zero on or
+    outside the unit circle: else an error of the estimated road stays, or grows. ``step_s`` is
+    the time between samples, in s.
+
+    J is that of forces that stay, for either hold. With forces that change linearly a displacement
+    tells something of them, too, about step²/(6·m) in m/N: its noise would come out 6·m/step²
+    times larger in force.
+    """
+    _check_felt(model, unfelt_tyres(model, readings))
+    _check_heights(model, missing_displacements(model, readings))
+    output, direct = output_matrices(model, readings)
+    system = discretized(model, step_s, hold)
+    motions = lasting_motions(system, output, system.feedthrough(output, direct))
+    if motions:
+        moving = " and the ".join(_moving(model, [motion for _, motion in motions]))
+        raise InputError(
+            f"model {model.name}: with steps of {step_s:g} s the readings leave a motion of the "
+            f"{moving} untold that does not fade; add a reading of it, or shorten the step"
+        )
+
+
+def unfelt_tyres(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:
+    """Return the freedoms whose tyre's force cannot be told: those that lower the rank of J."""
+    _, direct = output_matrices(model, readings)
+    largest = np.abs(null_space(direct)).max(axis=1, initial=0.0)
+    untold = np.flatnonzero(largest > SHARE * largest.max())
+    return tuple(model.tyres[at].freedom for at in untold)
+
+
+def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:
+    """Return the freedoms whose displacements would tell what stands still unseen.
+
+    At rest K·q = S·F, and accelerations and velocities are zero: only displacements, the rows
+    S_d of (10) of Zhu, tell such q and F. What they leave is an invariant zero at 1, of which
+    accelerations, integrated twice, drift away. The wheels come first, then what else helps.
+    """
+    wheels = [tyre.freedom for tyre in model.tyres]
+    others = sorted((f for f in model.freedoms if f.name not in wheels), key=lambda f: f.angular)
+    told = [r for r in readings if r.kind is Kind.DISPLACEMENT]
+    unseen, missing = _resting_unseen(model, told), []
+    for name in (*wheels, *(f.name for f in others)):
+        tried = [*told, Reading(Kind.DISPLACEMENT, name, sigma=1.0)]
+        left = _resting_unseen(model, tried)
+        if left < unseen:
+            told, unseen = tried, left
+            missing.append(name)
+    return tuple(missing)
+
+
+def unseen_freedoms(
+    model: VehicleModel, readings: Sequence[Reading], step_s: float
+) -> tuple[str, ...]:
+    """Return the freedoms that move in what no reading tells, were the forces known.
+
+    Empty if (A_c, G) is observable.
+    """
+    output, _ = output_matrices(model, readings)
+    return _moving(model, unseen_modes(discretized(model, step_s), output))
+
+
+def _moving(model: VehicleModel, motions: Sequence[Matrix]) -> tuple[str, ...]:
+    """Return the freedoms that move in ``motions``, whose first rows are the coordinates q."""
+    seen = set[int]()
+    for motion in motions:
+        largest = np.abs(motion[: len(model.freedoms)]).max(axis=1)
+        seen |= set(np.flatnonzero(largest > SHARE * largest.max()).tolist())
+    return tuple(model.freedoms[at].name for at in sorted(seen))
+
+
+def _resting_unseen(model: VehicleModel, displacements: Sequence[Reading]) -> int:
+    """Return how many directions of (q, F) with K·q = S·F the readings leave at zero."""
+    balance = np.hstack([model.stiffness, -model.selection])
+    told = selection(model, displacements)
+    rows = np.hstack([told, np.zeros((len(told), len(model.tyres)))])
+    return int(null_space(np.vstack([balance, rows])).shape[1])
+
+
+def _check_felt(model: VehicleModel, unfelt: tuple[str, ...]) -> None:
+    if unfelt:
+        sensors = " and the ".join(f"acceleration of the {name}" for name in unfelt)
+        raise InputError(
+            f"model {model.name}: no reading feels at once the force of the tyre of the "
+            f"{' and of the '.join(unfelt)}: J lacks full column rank; add the {sensors}"
+        )
+
+
+def _check_heights(model: VehicleModel, missing: tuple[str, ...]) -> None:
+    if missing:
+        sensors = " and the ".join(f"displacement of the {name}" for name in missing)
+        raise InputError(
+            f"model {model.name}: the readings do not tell all heights and angles at rest, so "
+            f"the estimate would drift; add the {sensors}"
+        )

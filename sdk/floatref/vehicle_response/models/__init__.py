@@ -1,0 +1,1 @@
+"""Linear models of vehicles on their tyres, and what is measured of them."""

@@ -1,0 +1,154 @@
+"""The tape gives back what it took; the engine's order of passes does not change the result."""
+
+from fractions import Fraction
+from tempfile import SpooledTemporaryFile
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from floatref.engine import flow
+from floatref.errors import InputError, StageError
+from floatref.measures.roughness.wavebands import high_pass_b3x2
+from floatref.stages.filters.butterworth import high_pass_b3x2 as high_pass_stages
+from floatref.stages.integration import RemoveMean
+from floatref.stages.protocol import Direction, Stage
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+
+ELEVATION = ChannelId("elevation", "main")
+HEADER = Header(Axis.DISTANCE, 0.05, 0.0, Fraction(1000), frozenset({ELEVATION}), ("main",))
+
+
+def blocks_of(x, sizes, flags=None):
+    first, out = 0, []
+    for size in sizes:
+        part = slice(first, first + size)
+        out.append(
+            Block(
+                first,
+                {ELEVATION: x[part]},
+                flags={ELEVATION: flags[part]} if flags is not None else {},
+            )
+        )
+        first += size
+    return out
+
+
+@settings(
+    deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(sizes=st.lists(st.integers(1, 50), min_size=1, max_size=8), seed=st.integers(0, 2**32 - 1))
+def test_the_tape_returns_what_was_written_on_disk_too(monkeypatch, sizes, seed):
+    monkeypatch.setattr(flow, "IN_MEMORY", 64)
+    rng = np.random.default_rng(seed)
+    x, flags = rng.standard_normal(sum(sizes)), rng.integers(0, 4, sum(sizes)).astype(np.uint8)
+    with flow.Tape() as written:
+        for block in blocks_of(x, sizes, flags):
+            written.append(block)
+        last = written.read(len(written) - 1)
+        written.rewrite(len(written) - 1, last.setting({ELEVATION: -last[ELEVATION]}))
+        read = list(written.forward())
+    joined = np.concatenate([block[ELEVATION] for block in read])
+    np.testing.assert_array_equal(joined[: -sizes[-1]], x[: -sizes[-1]])
+    np.testing.assert_array_equal(joined[-sizes[-1] :], -x[-sizes[-1] :])
+    np.testing.assert_array_equal(np.concatenate([b.flags[ELEVATION] for b in read]), flags)
+
+
+def test_the_channels_of_a_tape_go_to_disk_together(monkeypatch):
+    class Watched(SpooledTemporaryFile):
+        def rollover(self):
+            rolled.add(self)
+            super().rollover()
+
+    rolled = set()
+    monkeypatch.setattr(flow, "_spool", Watched)
+    monkeypatch.setattr(flow, "IN_MEMORY", 3 * 8 * 10)
+    height = ChannelId("height", "main")
+    with flow.Tape() as written:
+        for first, kept in ((0, 0), (10, 2)):
+            ramp = first + np.arange(10.0)
+            written.append(Block(first, {ELEVATION: ramp, height: -ramp}))
+            assert len(rolled) == kept
+        both = list(written.forward())
+    for channel, sign in ((ELEVATION, 1.0), (height, -1.0)):
+        joined = np.concatenate([block[channel] for block in both])
+        np.testing.assert_array_equal(joined, sign * np.arange(20.0))
+
+
+@settings(deadline=None, max_examples=20)
+@given(sizes=st.lists(st.integers(1, 90), min_size=1, max_size=8), seed=st.integers(0, 2**32 - 1))
+def test_stages_over_the_tape_are_the_filter_on_the_whole(sizes, seed):
+    x = np.random.default_rng(seed).standard_normal(sum(sizes)).cumsum()
+    stages = [RemoveMean("elevation"), *high_pass_stages("elevation", 1.0 / 20.0)]
+    _, out = flow.run(stages, HEADER, blocks_of(x, sizes))
+    joined = np.concatenate([block[ELEVATION] for block in out])
+    expected = high_pass_b3x2(x - x.mean(), 0.05, 20.0)
+    assert np.abs(joined - expected).max() <= 1e-11 * (1.0 + np.abs(x).max())
+
+
+def test_a_backward_stage_that_changes_the_length_is_refused():
+    class Shortening(Stage):
+        direction = Direction.BACKWARD
+
+        def open(self, header):
+            return header
+
+        def advance(self, block):
+            return Block(block.first, {ELEVATION: block[ELEVATION][1:]})
+
+    _, out = flow.run([Shortening()], HEADER, blocks_of(np.zeros(9), [4, 5]))
+    with pytest.raises(StageError, match="Shortening: a backward stage must keep"):
+        list(out)
+
+
+@pytest.mark.parametrize("where", ["open", "advance", "close"])
+def test_whatever_a_stage_raises_is_one_error_that_names_it(where):
+    class Cracked(Stage):
+        def open(self, header):
+            return self._maybe("open", header)
+
+        def advance(self, block):
+            return self._maybe("advance", block)
+
+        def close(self):
+            return self._maybe("close", ())
+
+        def _maybe(self, point, value):
+            if point == where:
+                raise KeyError("of a vendor")
+            return value
+
+    with pytest.raises(StageError, match="stage Cracked: KeyError: 'of a vendor'"):
+        list(flow.run([Cracked()], HEADER, blocks_of(np.zeros(9), [4, 5]))[1])
+
+
+def test_what_stages_tell_is_told_in_their_order_and_once():
+    class Telling(RemoveMean):
+        def __init__(self, *lines):
+            super().__init__("elevation")
+            self.lines = lines
+
+        def told(self):
+            return tuple(line.upper() for line in self.lines)
+
+    assert flow.told([Telling("b", "a"), Telling(), Telling("a", "c")]) == ("B", "A", "C")
+    with pytest.raises(StageError, match="stage Telling: AttributeError"):
+        flow.told([Telling(1.0)])
+
+
+def test_a_full_disk_names_the_folder(monkeypatch):
+    class Full:
+        def seek(self, at):
+            pass
+
+        def write(self, data):
+            raise OSError(28, "No space left on device")
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr(flow, "_spool", Full)
+    with flow.Tape() as written, pytest.raises(InputError, match=r"does not fit \(No space left"):
+        written.append(blocks_of(np.zeros(3), [3])[0])

@@ -1,0 +1,45 @@
+"""Holes in an accelerometer's time stamps are told."""
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from floatref.intake.blocks import Source
+from floatref.intake.steady_rate import holes_told
+from floatref.screening.findings import Screening
+from floatref.values.clock import StampedClock
+from floatref.values.recording import Channel, Recording
+
+FORCE = "vertical_specific_force"
+laws = settings(
+    deadline=None, max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+def stamped(channel, kept):
+    clock = StampedClock.of(channel.times_s[kept])
+    return Channel.of(channel.id.name, channel.values[kept], clock, channel.id.track)
+
+
+@laws
+@given(
+    begins=st.lists(st.integers(1, 18), min_size=1, max_size=4, unique=True),
+    count=st.integers(5, 60),
+)
+def test_holes_are_told_with_their_number_and_length(begins, count, steady):
+    recording = steady()
+    channel = recording.channel(FORCE)
+    kept = np.ones(channel.values.size, bool)
+    for begin in begins:
+        kept[100 * begin : 100 * begin + count] = False
+    (line,) = holes_told(stamped(channel, kept))
+    lost_s = len(begins) * (count + 1) * float(np.diff(channel.times_s).mean())
+    assert f"no samples for {lost_s:.4g} s in {len(begins)} places" in line
+    holed = Recording(tuple(stamped(c, kept) for c in recording.channels))
+    assert line in Source(Screening.of(holed)).warnings
+
+
+def test_where_no_sample_is_missing_nothing_is_told(steady):
+    channel = steady().channel(FORCE)
+    assert holes_told(channel) == ()
+    assert holes_told(stamped(channel, slice(None))) == ()

@@ -1,0 +1,42 @@
+"""The filter sets as stages, and the cut-offs that a stage refuses."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref.engine import flow
+from floatref.errors import InputError
+from floatref.stages.filters import butterworth
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import ChannelId
+from floatref_reference.appendix_a import filters
+
+ELEVATION = ChannelId("elevation", "main")
+HEADER = Header(Axis.DISTANCE, 0.05, 0.0, Fraction(1000), frozenset({ELEVATION}), ("main",))
+SETS = {
+    "high_pass_b3": filters.hpf_b3,
+    "low_pass_b3": filters.lpf_b3,
+    "high_pass_b3x2": filters.hpf_b3x2,
+    "low_pass_b3x2": filters.lpf_b3x2,
+}
+
+
+@pytest.mark.cites("(A.1)")
+@pytest.mark.parametrize("name", SETS)
+@settings(deadline=None, max_examples=10)
+@given(cutoff=st.floats(0.01, 4.0), cut=st.integers(1, 199), seed=st.integers(0, 2**32 - 1))
+def test_a_set_of_stages_is_the_printed_one(name, cutoff, cut, seed):
+    x = np.random.default_rng(seed).standard_normal(200)
+    blocks = [Block(0, {ELEVATION: x[:cut]}), Block(cut, {ELEVATION: x[cut:]})]
+    _, out = flow.run(getattr(butterworth, name)("elevation", cutoff), HEADER, blocks)
+    found = np.concatenate([block[ELEVATION] for block in out])
+    assert np.abs(found - SETS[name](x, cutoff, 0.05)).max() <= 1e-10
+
+
+@pytest.mark.parametrize("cutoff", [0.0, -1.0, 10.0, float("nan")])
+def test_a_cut_off_beyond_half_the_sampling_rate_is_refused(cutoff):
+    with pytest.raises(InputError, match="outside 0 to 10, half the sampling rate"):
+        butterworth.HighPassB3S1("elevation", cutoff).start(HEADER)
