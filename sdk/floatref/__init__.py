@@ -113,7 +113,7 @@ _PUBLIC = {
     "Context": "interfaces.pipeline",
     "Declared": "stages.protocol",
     "Direction": "stages.protocol",
-    "DropOut": "engine.fall_back",
+    "DropOut": "interfaces.drop_out",
     "Epoch": "values.native",
     "Event": "values.block",
     "Flag": "values.arrays",

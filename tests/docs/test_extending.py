@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from floatref import Channel, InputError, Profile, ProfileTrack, Recording, Stage, UniformClock
-from floatref.engine.fall_back import DropOut
 from floatref.engine.plugins import Plugins
 from floatref.interfaces import hookspecs
+from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.pipeline import Context
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from floatref.builtin_pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.estimators.road_prior import RoadPrior
-from floatref.pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.stages.signals import DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA
 
 PAGE = (Path(__file__).parents[2] / "docs" / "road-prior-model.md").read_text(encoding="utf-8")

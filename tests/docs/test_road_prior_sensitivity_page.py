@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from floatref.pipelines.road_prior import CONSTANTS, EXPECTED, ROAD_PRIOR
+from floatref.builtin_pipelines.road_prior import CONSTANTS, EXPECTED, ROAD_PRIOR
 
 DOCS = Path(__file__).parents[2] / "docs"
 DATA = Path(__file__).parent / "data" / "road-prior-sensitivity.json"

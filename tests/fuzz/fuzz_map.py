@@ -26,7 +26,7 @@ with atheris.instrument_imports(include=["floatref", "tomllib"]):
     from floatref.engine.plugins import plugins
     from floatref.mapping import read_map, read_native
     from floatref.mapping.channel_map.entries import ChannelMap
-    from floatref.mapping.columns import UNKNOWN
+    from floatref.mapping.clocks.columns import UNKNOWN
     from floatref.mapping.draft.drafting import draft_map
 
 FOLDER = Path(tempfile.mkdtemp(prefix="fuzz-map-"))

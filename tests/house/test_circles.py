@@ -14,7 +14,7 @@ PACKAGES = {
     "reference_impl": "floatref_reference",
     "conformance": "floatref_conformance",
 }
-FALL_BACK = "floatref.pipelines.builtin"
+FALL_BACK = "floatref.builtin_pipelines.plugin"
 PROCESSING = "floatref.engine.run"
 
 

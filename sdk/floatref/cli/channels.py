@@ -195,7 +195,7 @@ def _stream(stream: Stream) -> dict[str, Any]:
 
 
 def _clock_said(clock: NativeClock) -> str:
-    from floatref.mapping.columns import UNKNOWN
+    from floatref.mapping.clocks.columns import UNKNOWN
 
     if clock.name == UNKNOWN:
         return "none"

@@ -8,11 +8,11 @@ correction takes that back.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
 
 import numpy as np
 
 from floatref.intake.height_gaps import height_gaps
+from floatref.interfaces.drop_out import DropOut
 from floatref.measures import high_pass
 from floatref.stages.signals import HEIGHT
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
@@ -24,31 +24,6 @@ MEETING_M = 5.0
 """Both estimates meet by their means over so many metres beside a gap."""
 FEWEST = 0.5
 """So much of these metres has to be known of both."""
-
-
-class Process(Protocol):
-    """Runs another pipeline on the recording of a `DropOut`."""
-
-    def __call__(self, pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
-        """Return the profile by ``pipeline``; errors are those of `floatref.process`."""
-
-
-@dataclass(frozen=True, eq=False)
-class DropOut:
-    """What a fall-back is asked: another profile of ``recording``, whose heights have gaps.
-
-    Attributes:
-        recording: with every channel that it has.
-        profile: what the pipeline made of it, the gaps bridged by straight lines.
-        gaps: begin and end of every gap in m of distance by wheel path, shape (k, 2).
-        process: runs another pipeline on ``recording`` and returns its profile. What has been
-            found out about the recording is not computed again, and no fall-back is asked for.
-    """
-
-    recording: Recording
-    profile: Profile
-    gaps: Mapping[str, FloatArray]
-    process: Process
 
 
 def gaps_of(

@@ -12,7 +12,6 @@ from typing import Any, TypeVar
 
 import pluggy
 
-from floatref.engine.fall_back import DropOut
 from floatref.engine.registration import (
     Register,
     check_adapter,
@@ -29,6 +28,7 @@ from floatref.engine.registration import (
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.interfaces import hookspecs
 from floatref.interfaces.adapter import Adapter
+from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import PROJECT
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat
@@ -73,7 +73,7 @@ class Plugins:
 
     def __init__(self) -> None:
         """Load the defaults; `load` adds others."""
-        from floatref.pipelines import builtin
+        from floatref.builtin_pipelines import plugin as builtin
 
         self.reports: list[str] = []
         self._lock = RLock()

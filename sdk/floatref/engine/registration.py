@@ -7,29 +7,14 @@ from typing import Any
 
 import pluggy
 
+from floatref.builtin_pipelines.signal_flows import DEFAULTS, SIGNAL_FLOWS
 from floatref.errors import FloatrefError, PluginError
 from floatref.interfaces.markers import SCOPE
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileDirectory
 from floatref.interfaces.stage_calls import StageCall
-from floatref.pipelines import response_flow, spatial, temporal
 from floatref.stages.protocol import Stage
-from floatref.values.needs import nominal_needs
 from floatref.values.profile import Profile
-from floatref.vehicle_response.needs import response_needs
-
-SIGNAL_FLOWS = {
-    "temporal": temporal.signal_flow,
-    "spatial": spatial.signal_flow,
-    "response": response_flow.signal_flow,
-}
-DEFAULTS = {
-    "temporal": temporal.DEFAULTS,
-    "spatial": spatial.DEFAULTS,
-    "response": response_flow.DEFAULTS,
-}
-POINTS = {point: answer for points in DEFAULTS.values() for point, answer in points.items()}
-NEEDS = {"temporal": nominal_needs, "spatial": nominal_needs, "response": response_needs}
 
 
 def check_pipeline(pipeline: Any) -> str:

@@ -11,13 +11,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
-from floatref.engine.fall_back import DropOut, bridged, gaps_of
+from floatref.engine.fall_back import bridged, gaps_of
 from floatref.engine.plugins import Plugins, plugins
-from floatref.engine.registration import NEEDS, SIGNAL_FLOWS
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
+from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.screening.findings import Screening
 from floatref.screening.imu_and_gnss import ImuUse

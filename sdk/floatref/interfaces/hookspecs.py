@@ -8,8 +8,8 @@ architecture's; two plug-ins that answer the same point of a pipeline stop the r
 
 from collections.abc import Callable, Sequence
 
-from floatref.engine.fall_back import DropOut
 from floatref.interfaces.adapter import Adapter
+from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import hookspec
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat

@@ -9,17 +9,17 @@ from typing import Any
 from floatref.engine.formats import guarding
 from floatref.errors import one_line
 from floatref.files.sources import naming
-from floatref.mapping.channel_map.clock_entries import Key
 from floatref.mapping.channel_map.column_names import find, full_name, map_of_ours
 from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap
 from floatref.mapping.channel_map.map_document import read_map
 from floatref.mapping.channel_map.unit_limits import TOLERANCES, check_limits
 from floatref.mapping.clocks.aligning import Places, Token, aligned_clocks, auxiliaries
+from floatref.mapping.clocks.clock_keys import Key
+from floatref.mapping.clocks.columns import Convert, Shown, Taken, Wanted, as_they_are, take
 from floatref.mapping.clocks.sensor_skews import skews_of
 from floatref.mapping.clocks.shared_time import cut_to_shared
 from floatref.mapping.clocks.stream_clock import Aligned
-from floatref.mapping.columns import Convert, Shown, Taken, Wanted, as_they_are, take
 from floatref.mapping.native_files import Opened
 from floatref.mapping.spool import Spool
 from floatref.values.arrays import FloatArray

@@ -3,57 +3,12 @@
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.kernels.compiling import compiled
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import TRAVEL_SPEED, VELOCITY
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
-
-MEMORY = 6
-"""Length of the memory: active, the last d, speed and v, the integral, the offset."""
-
-
-@compiled
-def hold_at_zero(
-    disturbance: FloatArray,
-    speed: FloatArray,
-    y: FloatArray,
-    memory: FloatArray,
-    limit: float,
-    proportional: float,
-    integral: float,
-) -> None:
-    """Write to ``y`` the ``disturbance`` as a PI controller with set point 0 leaves it.
-
-    It acts where ``speed`` is below ``limit``; ``integral`` is K_I dt. A missing (NaN)
-    disturbance or speed is bridged by the one before it, 0 if there is none.
-    """
-    active, held, moving = memory[0], memory[1], memory[2]
-    last, area, offset = memory[3], memory[4], memory[5]
-    at_once = 1.0 / (1.0 + proportional)
-    later = 1.0 / (1.0 + proportional + 0.5 * integral)
-    for i in range(disturbance.size):
-        before = held
-        held = disturbance[i] if disturbance[i] == disturbance[i] else held
-        moving = speed[i] if speed[i] == speed[i] else moving
-        if moving < limit:
-            if active == 0.0:
-                active, area = 1.0, 0.0
-                value = (held + offset) * at_once
-            else:
-                area += 0.5 * integral * last
-                value = (held + offset - area) * later
-                area += 0.5 * integral * value
-        else:
-            if active != 0.0:
-                active, offset = 0.0, last - before
-            value = held + offset
-        last = value
-        y[i] = value
-    memory[0], memory[1], memory[2] = active, held, moving
-    memory[3], memory[4], memory[5] = last, area, offset
 
 
 class SuppressLocally(Stage):
@@ -105,9 +60,9 @@ class SuppressLocally(Stage):
         return block.setting(values, flags)
 
     def _controlled(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
-        from floatref.stages import suppression
+        from floatref.kernels import local_suppression
 
         y = np.empty(x.size)
         gains = self.proportional, self.integral_per_s * self._step
-        suppression.hold_at_zero(x, speed, y, memory, self.below_mps, *gains)
+        local_suppression.hold_at_zero(x, speed, y, memory, self.below_mps, *gains)
         return y

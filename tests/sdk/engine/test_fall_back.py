@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floatref.engine.fall_back import DropOut, bridged
+from floatref.engine.fall_back import bridged
+from floatref.interfaces.drop_out import DropOut
 from floatref.measures import high_pass
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import UniformClock

@@ -4,9 +4,9 @@ import pytest
 
 import floatref
 from floatref import Context, InputError, StageCall
+from floatref.builtin_pipelines.signal_flows import DEFAULTS
 from floatref.engine import plugins as loading
 from floatref.engine.plugins import Plugins
-from floatref.engine.registration import DEFAULTS
 
 OWN = StageCall("RemoveMean", "elevation")
 

@@ -8,8 +8,8 @@ import pytest
 
 import floatref
 from floatref import Context, InputError, Pipeline, PluginError, Setting, Stage, StageCall
+from floatref.builtin_pipelines.registered_stages import STAGES
 from floatref.engine.plugins import Plugins
-from floatref.pipelines.registered_stages import STAGES
 
 
 def concrete(kind=Stage):

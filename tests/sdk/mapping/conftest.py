@@ -11,7 +11,7 @@ import pytest
 from floatref.errors import InputError
 from floatref.mapping import Reading, read_map, read_native
 from floatref.mapping.channel_map.entries import ClockEntry
-from floatref.mapping.columns import Taken, Wanted, as_they_are, take
+from floatref.mapping.clocks.columns import Taken, Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 

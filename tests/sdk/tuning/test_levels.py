@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.pipelines.chapter_6 import KALMAN
+from floatref.builtin_pipelines.chapter_6 import KALMAN
 from floatref.tuning.levels import FIXED, START, TUNED, UNITS, Levels, moved
 
 USUAL = dict.fromkeys(TUNED, 1e-4)

@@ -131,12 +131,10 @@ class Excitation:
 
     def take(self) -> tuple[FloatArray, FloatArray]:
         """Return acceleration and response in m/s² at the next nodes, all that are known."""
-        from floatref.estimators.road_prior import excitation
-
         count = max(0, self.distances.size - 2 * self.reach) if self.begun else 0
         a, response = np.empty((2, count))
-        excitation.curvature(self.distances, self.weights, a)
-        excitation.respond(a, self.by, self.fade, self.memory, response)
+        curvature(self.distances, self.weights, a)
+        respond(a, self.by, self.fade, self.memory, response)
         self.distances = self.distances[count:]
         return a, response
 

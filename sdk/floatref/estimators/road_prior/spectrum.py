@@ -166,13 +166,11 @@ class RoadSpectrum:
         Both have shape (nodes,); ``changed``, shape (2, nodes), is by how much the reading of a
         node has moved the height in m and turned the velocity in m/s.
         """
-        from floatref.estimators.road_prior import spectrum
-
         limits = self.interval_s, SPACING_M, LAGS, LONGEST_S, self.share
         moved, turned = changed
-        spectrum.gather(elevation_m, travel_m, moved, turned, *limits, self.memory)
+        gather(elevation_m, travel_m, moved, turned, *limits, self.memory)
         per_m = SOONER * self.share / SPACING_M
-        spectrum.texture(elevation_m, travel_m, *APART_M, per_m, self.texture)
+        texture(elevation_m, travel_m, *APART_M, per_m, self.texture)
 
     @property
     def bend_m(self) -> float:

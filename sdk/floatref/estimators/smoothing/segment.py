@@ -167,11 +167,9 @@ class Segment:
 
         A piece has the number of its first sample; ``start`` are the corrections at ``before``.
         """
-        from floatref.estimators.smoothing import segment
-
         place = np.array([max(self.before, 0), start[2], start[3]])
         end = self.last + 1
         for first, height in pieces:
             low = max(self.before + 1, first)
             part = height[low - first : max(end, first) - first]
-            segment.interpolate(self.nodes.at, corrections, low, place, step, part)
+            interpolate(self.nodes.at, corrections, low, place, step, part)

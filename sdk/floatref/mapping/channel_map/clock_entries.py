@@ -8,9 +8,7 @@ from floatref.errors import InputError
 from floatref.files.document import shown
 from floatref.files.sources import naming
 from floatref.mapping.channel_map.entries import SOURCE, ClockEntry
-from floatref.mapping.columns import UNKNOWN, Taken
 from floatref.values.clock import rational
-from floatref.values.native import Epoch, Stream
 
 NEEDS = {
     "offset_s": ("offset", "pulses", "gnss"),
@@ -76,44 +74,3 @@ def _rate(given: float | str | None) -> Fraction | None:
     if not Fraction(1, 1000) <= rate <= 10**7:
         raise InputError(f"rate_hz is {given}; give the rate in Hz, between 0.001 and 10000000")
     return rate
-
-
-Key = tuple[str, str]
-"""Label of a file, and name of a stream in it."""
-ClockKey = tuple[str, str, Epoch]
-"""Label of a file, name of a clock in it, and its epoch."""
-
-
-def clock_key(key: Key, taken: Taken) -> ClockKey:
-    """Return the clock of the stream ``key``; one without any time has a clock of its own."""
-    clock = taken.stream.clock
-    name = f"{UNKNOWN} {key[1]}" if clock.name == UNKNOWN else clock.name
-    return key[0], name, clock.epoch
-
-
-def absolute(clock: ClockKey) -> bool:
-    """Tell whether ``clock`` knows the time of day."""
-    return clock[2] is not Epoch.LOCAL
-
-
-def name_clock(key: Key) -> str:
-    """Return the stream ``key`` as an error text names it."""
-    file = "the source" if key[0] == SOURCE else key[0]
-    return f"{file}, {key[1]}" if key[1] else file
-
-
-def unstarted(stream: Stream) -> bool:
-    """Tell whether the file of ``stream`` counts it from zero by a rate."""
-    clock = stream.clock
-    begun = clock.first_tick or clock.origin_ns or clock.name
-    return clock.rate is not None and not begun and clock.epoch is Epoch.LOCAL
-
-
-def beginning_told(key: Key, stream: Stream) -> tuple[str, ...]:
-    """Return a line on the stream ``key`` if it is taken to begin with the accelerometer's."""
-    if not unstarted(stream):
-        return ()
-    return (
-        f"clock of {name_clock(key)}: counted from zero by its rate; taken to begin with the "
-        'accelerometer, on its clock; if so, say align = "offset" for this stream under [[clocks]]',
-    )

@@ -7,7 +7,9 @@ from math import hypot, sqrt
 
 from floatref.errors import InputError
 from floatref.files.sources import naming
-from floatref.mapping.channel_map.clock_entries import (
+from floatref.mapping.channel_map.column_names import find
+from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
+from floatref.mapping.clocks.clock_keys import (
     ClockKey,
     Key,
     absolute,
@@ -15,11 +17,9 @@ from floatref.mapping.channel_map.clock_entries import (
     clock_key,
     name_clock,
 )
-from floatref.mapping.channel_map.column_names import find
-from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
+from floatref.mapping.clocks.columns import Taken
 from floatref.mapping.clocks.epochs import between_epochs, since_zero
 from floatref.mapping.clocks.stream_clock import Aligned, Timed, alignment_report
-from floatref.mapping.columns import Taken
 from floatref.mapping.spool import Spool
 from floatref.measures.clocks.clock_alignment import (
     Alignment,
@@ -139,9 +139,9 @@ class _Aligning:
             return _no_surer(found, hypot(own.step_s, common.step_s))
         if entry.base_time is not None:
             times, readings = self._signal(self._base[0], entry.base_time).readings()
-            since, name_clock = since_zero(readings, float(self._zeros[clock]), clock[2])
+            since, lines = since_zero(readings, float(self._zeros[clock]), clock[2])
             found = align_by_time_readings(times, since)
-            return replace(found, told=(*name_clock, *found.told))
+            return replace(found, told=(*lines, *found.told))
         if entry.base_pps is not None:
             dated = absolute(clock) and absolute(base)
             near = entry.offset_s + (self._by_epochs(clock, base).offset_s if dated else 0.0)

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from floatref.mapping.channel_map.clock_entries import Key
 from floatref.mapping.channel_map.entries import ClockEntry
+from floatref.mapping.clocks.clock_keys import Key
+from floatref.mapping.clocks.columns import Taken
 from floatref.mapping.clocks.stamps import uniform_clock
-from floatref.mapping.columns import Taken
 from floatref.mapping.spool import Spool
 from floatref.measures.clocks.clock_alignment import Alignment
 from floatref.measures.clocks.pulses import pulse_times_at_rate, pulse_times_by

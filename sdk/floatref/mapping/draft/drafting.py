@@ -6,13 +6,13 @@ from pathlib import Path
 
 from floatref.errors import InputError, one_line
 from floatref.files.toml_document import MOST_PARTS
-from floatref.mapping.channel_map.clock_entries import unstarted
 from floatref.mapping.channel_map.column_names import find, full_name
 from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import ChannelEntry
 from floatref.mapping.channel_map.map_document import FORMAT
 from floatref.mapping.channel_map.units import MPS, known_unit
-from floatref.mapping.columns import UNKNOWN
+from floatref.mapping.clocks.clock_keys import unstarted
+from floatref.mapping.clocks.columns import UNKNOWN
 from floatref.mapping.draft.guesses import Candidate, Guess, candidates
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, Epoch, NativeFile, Stream

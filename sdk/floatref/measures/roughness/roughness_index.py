@@ -110,8 +110,6 @@ def iri_trace(
     first and after the last measured point. Raises InputError for a profile shorter than the
     start length. Source: steps 1 to 3 of section 2.1.1.
     """
-    from floatref.measures.roughness.roughness_index import car_response
-
     run = _Run.of(elevation, interval_m, settings)
     trace = np.full(max(np.size(elevation) - 1, 0), np.nan)
     measured = trace[run.first : run.first + run.elevation.size - 1]
@@ -196,8 +194,6 @@ class _Run:
 
     def rectified_sums(self, edges: NDArray[np.int64]) -> FloatArray:
         """Return the sum of the rectified output in m/km between successive ``edges``."""
-        from floatref.measures.roughness.roughness_index import rectified_sums
-
         sums = np.zeros(edges.size - 1)
         rectified_sums(
             self.elevation,

@@ -89,8 +89,6 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     last measured point and, after the bridge has been filtered, in gaps again. Raises InputError
     for a wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
-    from floatref.measures.roughness.wavebands import high_pass_b3x2
-
     values = checked_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
@@ -148,8 +146,6 @@ def agreement(
 
 def _band_passed(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
-    from floatref.measures.roughness.wavebands import high_pass_b3x2, low_pass_b3x2
-
     passed = high_pass_b3x2(slope, interval_m, limits.long_m)
     if limits.short_m <= 2 * interval_m:
         return passed

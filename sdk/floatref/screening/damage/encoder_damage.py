@@ -105,16 +105,14 @@ def encoder_damage(channel: Channel) -> Damage:
     afterwards, are bridged. Leaps, and counts that are lost or too many, are void, since no line is
     what was travelled, and lasting: engines that are triggered by the encoder integrate over them.
     """
-    from floatref.screening.damage import encoder_damage
-
     path = EncoderPath.of(channel)
     kinds = _kinds(path)
-    silent = path.between(kinds == encoder_damage.SILENT, FRONT, STEP)
-    leapt = path.between(kinds == encoder_damage.LEAPT, BEFORE_STEP, STEP)
-    leapt[:, 1] = path.knots[kinds == encoder_damage.LEAPT, STEP] + 1
-    fast = path.ways(kinds == encoder_damage.FAST)
-    stalled = path.between(kinds == encoder_damage.STALLED, GAP, AFTER_GAP)
-    lost = merged(stalled, path.ways(kinds == encoder_damage.SLOW))
+    silent = path.between(kinds == SILENT, FRONT, STEP)
+    leapt = path.between(kinds == LEAPT, BEFORE_STEP, STEP)
+    leapt[:, 1] = path.knots[kinds == LEAPT, STEP] + 1
+    fast = path.ways(kinds == FAST)
+    stalled = path.between(kinds == STALLED, GAP, AFTER_GAP)
+    lost = merged(stalled, path.ways(kinds == SLOW))
     deep = merged(path.behind[path.depths > ONE_COUNT * path.usual_m])
     void = merged(leapt, fast, lost)
     said = (
@@ -130,8 +128,6 @@ def encoder_damage(channel: Channel) -> Damage:
 
 def _kinds(path: EncoderPath) -> IndexArray:
     """Return what the way to every knot of ``path`` is, as `travelled` says."""
-    from floatref.screening.damage import encoder_damage
-
     kinds = np.zeros(len(path.knots), np.int64)
     if kinds.size < 3:
         return kinds
@@ -142,7 +138,7 @@ def _kinds(path: EncoderPath) -> IndexArray:
     first_s = float(np.sum(took[:FIRST]))
     speed = float(np.median(ways[:FIRST] / took[:FIRST]))
     before = np.array([speed * first_s, first_s, float(np.sum(table[1 : FIRST + 1, 2]))]) / 2
-    encoder_damage.judge(table, before, off_m, path.usual_m, kinds)
+    judge(table, before, off_m, path.usual_m, kinds)
     return kinds
 
 

@@ -6,76 +6,12 @@ from typing import ClassVar
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.kernels.compiling import compiled
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Direction, Stage
 from floatref.stages.signals import CUTOFF
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
-
-MEMORY = 5
-"""Length of the memory of one stage."""
-
-
-@compiled
-def high_pass_1(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
-) -> None:
-    """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
-    held, ck, s = memory[1], memory[2], memory[3]
-    started = memory[0] != 0.0
-    for j in range(x.size):
-        i = x.size - 1 - j if backward else j
-        there = x[i] == x[i] and c[i] == c[i]
-        if not (started or there):
-            y[i] = 0.0
-            continue
-        held = x[i] if x[i] == x[i] else held
-        ck = c[i] if c[i] == c[i] else ck
-        if not started:
-            started, s = True, ck * held
-        high = (held - s) / (1.0 + ck)
-        s += 2.0 * ck * high
-        y[i] = high
-    memory[0], memory[1], memory[2], memory[3] = (1.0 if started else 0.0), held, ck, s
-
-
-@compiled
-def high_pass_2(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
-) -> None:
-    """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
-    held, ck, s1, s2 = memory[1], memory[2], memory[3], memory[4]
-    started = memory[0] != 0.0
-    for j in range(x.size):
-        i = x.size - 1 - j if backward else j
-        there = x[i] == x[i] and c[i] == c[i]
-        if not (started or there):
-            y[i] = 0.0
-            continue
-        held = x[i] if x[i] == x[i] else held
-        ck = c[i] if c[i] == c[i] else ck
-        d = 1.0 / (1.0 + ck + ck * ck)
-        if not started:
-            started = True
-            high = (1.0 + ck - 3.0 * ck * ck) * d * held
-            # The second sample of (A.15) sees (x1, y1) twice; these two states are that past.
-            s1 = (2.0 * ck - 1.0) * high
-            s2 = held + (ck * ck - 2.0 * ck) * high
-        else:
-            high = ((held - s2) - (1.0 + ck) * s1) * d
-            band = s1 + ck * high
-            s1 += 2.0 * ck * high
-            s2 += 2.0 * ck * band
-        y[i] = high
-    memory[0], memory[1], memory[2], memory[3], memory[4] = (
-        (1.0 if started else 0.0),
-        held,
-        ck,
-        s1,
-        s2,
-    )
 
 
 class VaryingHighPass(Stage):
@@ -196,9 +132,9 @@ class StateHighPassB3S1R(VaryingHighPass):
 
     @staticmethod
     def _kernels() -> ModuleType:
-        from floatref.stages.filters import varying
+        from floatref.kernels import varying_states
 
-        return varying
+        return varying_states
 
 
 class StateHighPassB3S2R(StateHighPassB3S1R):

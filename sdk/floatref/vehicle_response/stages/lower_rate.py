@@ -146,8 +146,6 @@ class Resampling:
 
     def _until(self, memory: Waiting, end: int) -> FloatArray:
         """Return the outputs from those that are out up to ``end``, and count them as out."""
-        from floatref.vehicle_response.stages.lower_rate import interpolate
-
         found = np.empty(max(0, end - memory.ready))
         if self.ratio == 1.0:
             begin = memory.ready - memory.first

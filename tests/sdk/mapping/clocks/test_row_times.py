@@ -9,7 +9,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ClockEntry
-from floatref.mapping.columns import UNKNOWN
+from floatref.mapping.clocks.columns import UNKNOWN
 from floatref.values.native import Epoch
 
 Make = Callable[..., Any]

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from floatref.mapping import read_map
 from floatref.mapping.channel_map.column_names import find
 from floatref.mapping.channel_map.conversion import Conversion
-from floatref.mapping.columns import UNKNOWN
+from floatref.mapping.clocks.columns import UNKNOWN
 from floatref.mapping.draft.drafting import draft_map
 from floatref.values.native import Column, Epoch, NativeClock, NativeFile, Stream
 

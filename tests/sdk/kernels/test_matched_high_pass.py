@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.kernels import state_variable
-from floatref.stages.filters import matched_high_pass
+from floatref.kernels import matched_high_pass, state_variable
 
 STEP = 1e-3
 SEEDS = st.integers(0, 2**32 - 1)

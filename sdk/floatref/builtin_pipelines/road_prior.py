@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from math import pi
 
+from floatref.builtin_pipelines import basic_steps
+from floatref.builtin_pipelines.chapter_6 import condition
 from floatref.estimators.kalman.inputs import IMU
 from floatref.estimators.levelling import Level
 from floatref.estimators.levelling.level import BLENDED_S
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.interfaces.pipeline import Context, Pipeline
-from floatref.pipelines import basic_steps
-from floatref.pipelines.chapter_6 import condition
 from floatref.stages.conditioning import Drop, RemoveGravity
 from floatref.stages.filters.butterworth import low_pass_b3
 from floatref.stages.filters.lateness import Advance

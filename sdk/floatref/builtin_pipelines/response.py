@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+from floatref.builtin_pipelines.chapter_5 import ADAPTIVE
 from floatref.interfaces.pipeline import Answer, Context, Pipeline
-from floatref.pipelines.chapter_5 import ADAPTIVE
 from floatref.stages.conditioning import Drop, RemoveGravity
 from floatref.stages.filters.schedule import AdaptiveCutOff, ScheduleCutOff, ScheduleWaveNumber
 from floatref.stages.filters.varying import (
@@ -76,14 +76,14 @@ def second_integration(context: Context) -> Sequence[Stage]:
 
 def estimate_jointly(context: Context) -> Sequence[Stage]:
     """The joint input-state filter, steps (a) to (c) of Zhu, at the rate that follows the speed."""
-    from floatref.pipelines.response_estimators import joint_filter
+    from floatref.builtin_pipelines.response_estimators import joint_filter
 
     return _estimate(context, groups_of(context, joint_filter))
 
 
 def estimate_observing(context: Context) -> Sequence[Stage]:
     """The observer with unknown inputs, (8) to (15) of Imine, at that rate."""
-    from floatref.pipelines.response_estimators import observer
+    from floatref.builtin_pipelines.response_estimators import observer
 
     return _estimate(context, groups_of(context, observer))
 

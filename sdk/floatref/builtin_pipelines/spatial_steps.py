@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
+from floatref.builtin_pipelines import basic_steps
 from floatref.interfaces.pipeline import Context
-from floatref.pipelines import basic_steps
 from floatref.stages.conditioning import Drop, FromFirst
 from floatref.stages.filters.butterworth import (
     HighPassB3S1,

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref.builtin_pipelines.chapter_6 import KALMAN, NOISE, SETTINGS, noise_of
 from floatref.errors import InputError
 from floatref.estimators.kalman import Noise
 from floatref.intake.blocks import Source
 from floatref.interfaces.pipeline import Context, Pipeline
-from floatref.pipelines.chapter_6 import KALMAN, NOISE, SETTINGS, noise_of
 from floatref.screening.findings import Screening
 from floatref.values.profile import Profile
 from floatref.values.recording import Channel, Recording

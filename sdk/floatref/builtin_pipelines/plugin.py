@@ -2,10 +2,15 @@
 
 from collections.abc import Callable, Sequence
 
-from floatref.engine.fall_back import DropOut
-from floatref.engine.registration import POINTS
+from floatref.builtin_pipelines.chapter_5 import PIPELINES as PIPELINES
+from floatref.builtin_pipelines.chapter_6 import KALMAN
+from floatref.builtin_pipelines.registered_stages import STAGES
+from floatref.builtin_pipelines.response import RESPONSE
+from floatref.builtin_pipelines.road_prior import ROAD_PRIOR, ROAD_PRIOR_IMU, ROAD_PRIOR_SPATIAL
+from floatref.builtin_pipelines.signal_flows import DEFAULTS
 from floatref.errors import FloatrefError, PluginError
 from floatref.interfaces.adapter import Adapter, RecordingDirectory
+from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import hookimpl
 from floatref.interfaces.pipeline import Answer, Context, Pipeline, stages_of
 from floatref.interfaces.profile_format import (
@@ -14,11 +19,6 @@ from floatref.interfaces.profile_format import (
     ProfileTable,
 )
 from floatref.interfaces.stage_calls import StageCall
-from floatref.pipelines.chapter_5 import PIPELINES as PIPELINES
-from floatref.pipelines.chapter_6 import KALMAN
-from floatref.pipelines.registered_stages import STAGES
-from floatref.pipelines.response import RESPONSE
-from floatref.pipelines.road_prior import ROAD_PRIOR, ROAD_PRIOR_IMU, ROAD_PRIOR_SPATIAL
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
 from floatref.vehicle_response.needs import FORCE
@@ -41,8 +41,9 @@ class Defaults:
 
     def __init__(self) -> None:
         """Answer each point with the pipeline's own stages, else the architecture's."""
-        for point, answer in POINTS.items():
-            setattr(self, point, _answering(point, answer))
+        for points in DEFAULTS.values():
+            for point, answer in points.items():
+                setattr(self, point, _answering(point, answer))
 
     @hookimpl
     def temporal_fall_back(self, context: DropOut) -> Profile | None:

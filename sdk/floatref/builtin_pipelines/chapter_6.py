@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Sequence
 
+from floatref.builtin_pipelines import basic_steps
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.estimators.kalman.inputs import GNSS, IMU
 from floatref.interfaces.pipeline import Answer, Context, Pipeline
-from floatref.pipelines import basic_steps
 from floatref.stages.conditioning import Drop, RemoveGravity
 from floatref.stages.filters.butterworth import low_pass_b3
 from floatref.stages.protocol import Stage

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref.builtin_pipelines.road_prior import ROAD_PRIOR_SPATIAL
+from floatref.builtin_pipelines.signal_flows import SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.plugins import plugins
-from floatref.engine.registration import SIGNAL_FLOWS
 from floatref.intake.blocks import Source
 from floatref.interfaces.pipeline import Context
 from floatref.measures import agreement, high_pass, iri
-from floatref.pipelines.road_prior import ROAD_PRIOR_SPATIAL
 from floatref.screening.findings import Screening
 from floatref.stages.signals import ELEVATION, SIGMA
 from floatref.values.block import join_blocks

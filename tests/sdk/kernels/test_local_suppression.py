@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.stages import suppression
+from floatref.kernels import local_suppression as kernel
 
 LIMIT, K_P, K_I_DT = 4.0, 0.001, 0.834e-3
 SEEDS = st.integers(0, 2**32 - 1)
@@ -14,7 +14,7 @@ FEW = settings(deadline=None, max_examples=15)
 
 def held(d, speed):
     y = np.empty(d.size)
-    suppression.hold_at_zero(d, speed, y, np.zeros(suppression.MEMORY), LIMIT, K_P, K_I_DT)
+    kernel.hold_at_zero(d, speed, y, np.zeros(kernel.MEMORY), LIMIT, K_P, K_I_DT)
     return y
 
 

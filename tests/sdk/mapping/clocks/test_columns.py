@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.mapping import spool as spools
-from floatref.mapping.columns import Wanted, as_they_are, take
+from floatref.mapping.clocks.columns import Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
 from floatref.values.native import Column, Epoch, NativeClock, Rows, Stream
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from floatref import answers
-from floatref.engine import run
-from floatref.engine.fall_back import DropOut
+from floatref.engine import run as engine
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.run import Result, run
 from floatref.errors import InputError, PluginError
+from floatref.interfaces.drop_out import DropOut
 from floatref.measures import high_pass
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
@@ -204,7 +204,7 @@ def test_a_pipeline_that_a_fall_back_runs_asks_for_no_other(
 ) -> None:
     loaded, same = Plugins(), Same()
     loaded.add(same, "same")
-    monkeypatch.setattr(run, "plugins", lambda: loaded)
+    monkeypatch.setattr(engine, "plugins", lambda: loaded)
     result = run(dropped(drive.recording), "temporal-basic")
     assert len(same.asked) == 1
     assert any("temporal-hpf gives the elevation" in line for line in result.warnings)

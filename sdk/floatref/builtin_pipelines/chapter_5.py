@@ -1,10 +1,10 @@
 """The built-in pipelines: every algorithm of chapter 5 by name, with its settings."""
 
+from floatref.builtin_pipelines import basic_steps
+from floatref.builtin_pipelines import spatial_steps as spatial
+from floatref.builtin_pipelines import temporal_steps as temporal
 from floatref.interfaces.pipeline import Answer, Pipeline
 from floatref.interfaces.stage_calls import StageCall
-from floatref.pipelines import basic_steps
-from floatref.pipelines import spatial_steps as spatial
-from floatref.pipelines import temporal_steps as temporal
 from floatref.stages.signals import ACCELERATION, CUTOFF, HEIGHT, REFERENCE_HEIGHT, VELOCITY
 
 VALIDITY: dict[str, float | None] = {

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref.builtin_pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.errors import InputError
 from floatref.estimators.road_prior import RoadPrior
-from floatref.pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, simulate

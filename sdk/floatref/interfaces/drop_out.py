@@ -1,0 +1,34 @@
+"""What a fall-back is asked: the road where the height sensor of a run dropped out."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+
+
+class Process(Protocol):
+    """Runs another pipeline on the recording of a `DropOut`."""
+
+    def __call__(self, pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
+        """Return the profile by ``pipeline``; errors are those of `floatref.process`."""
+
+
+@dataclass(frozen=True, eq=False)
+class DropOut:
+    """What a fall-back is asked: another profile of ``recording``, whose heights have gaps.
+
+    Attributes:
+        recording: with every channel that it has.
+        profile: what the pipeline made of it, the gaps bridged by straight lines.
+        gaps: begin and end of every gap in m of distance by wheel path, shape (k, 2).
+        process: runs another pipeline on ``recording`` and returns its profile. What has been
+            found out about the recording is not computed again, and no fall-back is asked for.
+    """
+
+    recording: Recording
+    profile: Profile
+    gaps: Mapping[str, FloatArray]
+    process: Process
