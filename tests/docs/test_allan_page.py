@@ -22,7 +22,7 @@ def test_every_command_prints_what_the_page_shows() -> None:
 
 
 def test_the_page_names_every_setting_with_its_coefficient_and_channel() -> None:
-    rows = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| ([NK]), .+ \| (.+) \|$", PAGE, re.M)
+    rows = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| \$([NK])\$, .+ \| (.+) \|$", PAGE, re.M)
     symbols = {name: symbol for names, symbol, _ in rows for name in re.findall(r"`(\w+)`", names)}
     expected = {"white_noise": "N", "random_walk": "K"}
     assert symbols == {name: expected[term] for name, (_, term) in SETTINGS.items()}
