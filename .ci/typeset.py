@@ -18,7 +18,7 @@ KATEX = Path(__file__).parents[1] / "docs" / "assets" / "katex" / "katex.min.js"
 MARKED = re.compile(
     r'<(?P<tag>span|div) class="arithmatex">\\[(\[](?P<tex>.*?)\\[)\]]</(?P=tag)>', re.DOTALL
 )
-"""What pymdownx.arithmatex leaves of an equation: a span within a line, a div for one of its own."""
+"""What pymdownx.arithmatex leaves of an equation: a span in a line, a div on its own."""
 CALL = "katex.renderToString(dukpy.tex, {displayMode: dukpy.display, strict: 'error'})"
 
 
@@ -31,7 +31,7 @@ def on_post_page(output: str, page: Page, **_: object) -> str:
 
 
 def typeset(text: str) -> str:
-    """Return the HTML ``text`` with its equations typeset; raise ValueError at one that is wrong."""
+    """Return the HTML ``text`` with its equations typeset; ValueError at a wrong one."""
     return MARKED.sub(_typeset_one, text)
 
 
