@@ -6,8 +6,6 @@ All laws hold for the pages without their API, which are built in seconds, and f
 import hashlib
 import os
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -23,15 +21,6 @@ CONFIG = ROOT / ".mkdocs.yml"
 VENDORED = sorted(DOCS.glob("assets/*/SOURCE.md"))
 PAGES = sorted(page for page in DOCS.rglob("*.md") if page not in VENDORED)
 TABS = ["Start", "Firmware", "Agency", "Algorithms", "Spec"]
-PAGES_ALONE = """
-import sys
-from mkdocs.commands.build import build
-from mkdocs.config import load_config
-config = load_config(sys.argv[1], site_dir=sys.argv[2], strict=False, plugins=["search", "offline"])
-config.plugins.on_startup(command="build", dirty=False)
-build(config)
-"""
-WHOLE = "from mkdocs.__main__ import cli; cli()"
 
 
 class Loader(yaml.SafeLoader):
@@ -128,23 +117,6 @@ def prose(source: Path) -> str:
 def equations(source: Path) -> list[str]:
     """Return the equations of a page in TeX."""
     return re.findall(r"\$\$.+?\$\$|\$[^$\n]+\$", prose(source), re.S)
-
-
-@pytest.fixture(scope="module", params=["pages", pytest.param("whole", marks=pytest.mark.slow)])
-def site(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of a site that was built."""
-    folder: Path = tmp_path_factory.mktemp("site")
-    options = ["build", "--strict", "--quiet", "-f", str(CONFIG), "-d", str(folder)]
-    code, options = {"pages": (PAGES_ALONE, [str(CONFIG), str(folder)]), "whole": (WHOLE, options)}[
-        request.param
-    ]
-    subprocess.run(
-        [sys.executable, "-c", code, *options],
-        env=os.environ | {"NO_MKDOCS_2_WARNING": "1"},
-        cwd=ROOT,
-        check=True,
-    )
-    return folder
 
 
 def parsed(site: Path, source: str) -> Page:
