@@ -17,11 +17,16 @@ def rows():
     return {row[0].strip("`"): row[1:] for row in cells if len(row) == 5 and row[0][0] == "`"}
 
 
+def plain(tex):
+    """Return an equation of the table as the vectors spell it."""
+    return tex.replace("$", "").replace("\\omega", "w").replace("\\,", " ")
+
+
 def test_the_table_has_every_vector_with_its_equation_and_signals():
     assert sorted(rows()) == list(golden.names())
     for name, (stage, *columns) in rows().items():
         vector = golden.read(name)
-        assert stage.endswith(f"; {vector['equation']}")
+        assert plain(stage).endswith(f"; {vector['equation']}")
         for column, group in zip(columns, ("settings", "inputs", "outputs"), strict=True):
             assert re.findall(r"`(\w+)`", column) == list(vector[group])
 
