@@ -7,7 +7,7 @@ import pytest
 
 from floatref.mapping import read_map
 from floatref.mapping.channel_map.units import UNITS, known_unit
-from floatref.mapping.draft.drafting.guesses import guess
+from floatref.mapping.draft.guesses import guess
 from floatref.values.native import Column
 
 PAGE = (Path(__file__).parents[2] / "docs" / "channel-map.md").read_text(encoding="utf-8")
