@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 from floatref.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from floatref.engine.fall_back import DropOut as DropOut
     from floatref.engine.lookup import make_stage as make_stage
     from floatref.engine.lookup import pipeline as pipeline
     from floatref.engine.lookup import stage_names as stage_names
@@ -43,6 +42,7 @@ if TYPE_CHECKING:
     from floatref.interfaces.adapter import Adapter as Adapter
     from floatref.interfaces.adapter import NativeAdapter as NativeAdapter
     from floatref.interfaces.adapter import RecordingAdapter as RecordingAdapter
+    from floatref.interfaces.drop_out import DropOut as DropOut
     from floatref.interfaces.markers import answers as answers
     from floatref.interfaces.markers import hookimpl as hookimpl
     from floatref.interfaces.pipeline import Context as Context

@@ -11,8 +11,7 @@ from floatref.values.block import Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.needs import Needs, tracks_with
 from floatref.values.recording import Recording, Setup
-from floatref.vehicle_response import VehicleModel, model_of
-from floatref.vehicle_response.models import state_space
+from floatref.vehicle_response import VehicleModel, model_of, state_space
 
 SAMPLES_PER_PERIOD = 8.0
 """At the model's fastest mode; with fewer the force on a tyre is not what it is between samples."""
