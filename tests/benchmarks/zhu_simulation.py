@@ -18,8 +18,8 @@ from floatref.vehicle_response import (
     Reading,
     hold_error_of,
     joined_at_speed,
+    state_space,
 )
-from floatref.vehicle_response.models import state_space
 
 Array = NDArray[np.float64]
 MODEL = ZHU_HALF_CAR.model()

@@ -14,8 +14,8 @@ from floatref.vehicle_response import (
     discretized,
     joined_at_speed,
     output_matrices,
+    state_space,
 )
-from floatref.vehicle_response.models import state_space
 from floatref_reference.imine import section_2_trailer
 from floatref_reference.zhu_2021 import (
     section_2_vehicle,

@@ -6,9 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import ZHU_HALF_CAR, Hold, QuarterCar, discretized
+from floatref.vehicle_response import ZHU_HALF_CAR, Hold, QuarterCar, discretized, state_space
 from floatref.vehicle_response.estimators.disturbance import disturbance_of, hold_error_of
-from floatref.vehicle_response.models import state_space
 
 FEW = settings(deadline=None, max_examples=15)
 MODEL = QuarterCar(700.0, 75.0, 45e3, 3300.0, 320e3).model()

@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import ZHU_HALF_CAR, Kind, Reading, output_matrices
-from floatref.vehicle_response.models import state_space
+from floatref.vehicle_response import ZHU_HALF_CAR, Kind, Reading, output_matrices, state_space
 
 KINDS = [Kind.DISPLACEMENT, Kind.VELOCITY, Kind.ACCELERATION]
 

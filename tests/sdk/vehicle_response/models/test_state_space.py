@@ -6,8 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import IMINE_TRAILER, ZHU_HALF_CAR, Hold, discretized
-from floatref.vehicle_response.models import state_space
+from floatref.vehicle_response import IMINE_TRAILER, ZHU_HALF_CAR, Hold, discretized, state_space
 
 SEEDS = st.integers(0, 2**32 - 1)
 laws = settings(deadline=None, max_examples=15)
