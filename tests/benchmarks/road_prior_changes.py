@@ -6,13 +6,13 @@ import numpy as np
 
 import floatref
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.injuries import INJURIES
-from floatref_conformance.checks.spoiling import with_values
-from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.checks.faults.injection import with_values
+from floatref_conformance.checks.faults.sensor_faults import INJURIES
+from floatref_conformance.proving_ground.roads.road import Road
+from floatref_conformance.proving_ground.roads.shaping import cosine_rise, scaled_to
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.proving_ground.shaping import cosine_rise, scaled_to
 from floatref_conformance.proving_ground.simulate import Simulation
-from floatref_conformance.proving_ground.vehicles import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
 
 STOP_M = 316.0
 FORCE, HEIGHT = "vertical_specific_force", "height"

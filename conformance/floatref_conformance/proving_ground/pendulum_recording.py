@@ -3,7 +3,7 @@
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
-from floatref_conformance.proving_ground.pendulum import PendulumMotion
+from floatref_conformance.proving_ground.vehicles.pendulum import PendulumMotion
 
 
 def pendulum_recording(motion: PendulumMotion, profile_interval_m: float = 0.00508) -> Recording:

@@ -2,18 +2,24 @@
 
 from collections.abc import Iterator
 
-from floatref_conformance.checks.asked import ERROR, LOSS
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving import DrivingCheck
-from floatref_conformance.checks.layout import Layout, layout_of, placed
-from floatref_conformance.checks.rule import ELSEWHERE, Rule
-from floatref_conformance.checks.rules import LIGHT, START, UNFLAGGED, WHOLE, rule_of
+from floatref_conformance.checks.driving.asked import ERROR, LOSS
+from floatref_conformance.checks.driving.check import DrivingCheck
+from floatref_conformance.checks.driving.layout import Layout, layout_of, placed
+from floatref_conformance.checks.driving.rules import (
+    ELSEWHERE,
+    LIGHT,
+    START,
+    UNFLAGGED,
+    WHOLE,
+    Rule,
+    rule_of,
+)
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation
-from floatref_conformance.selftest.truth_bench import Spoil
+from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 IRI_M_PER_KM = 3.0

@@ -8,9 +8,9 @@ import pytest
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.faults import FAULTS
-from floatref_conformance.checks.invariance import INVARIANCE
-from floatref_conformance.checks.stop import STOP
+from floatref_conformance.checks.driving.stop import STOP
+from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.sameness.invariance import INVARIANCE
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry

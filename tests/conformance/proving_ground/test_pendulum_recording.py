@@ -7,13 +7,13 @@ import pytest
 
 import floatref
 from floatref.measures import iri
-from floatref_conformance.proving_ground.pendulum import (
+from floatref_conformance.proving_ground.pendulum_recording import pendulum_recording
+from floatref_conformance.proving_ground.vehicles.pendulum import (
     Pendulum,
     PendulumMotion,
     SinSquaredPulse,
     simulate_pendulum,
 )
-from floatref_conformance.proving_ground.pendulum_recording import pendulum_recording
 
 
 @pytest.fixture(scope="module")

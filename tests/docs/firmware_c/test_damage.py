@@ -9,9 +9,9 @@ from floatref.files import write_recording
 from floatref.measures import iri_trace
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.fault_numbers import NUMBERS
-from floatref_conformance.checks.injured_drives import ROLLING
-from floatref_conformance.checks.injuries import INJURIES
+from floatref_conformance.checks.faults.fault_numbers import NUMBERS
+from floatref_conformance.checks.faults.faulty_drives import ROLLING
+from floatref_conformance.checks.faults.sensor_faults import INJURIES
 
 STOP = {"manoeuvre": "stop", "length_m": 300.0, "event_at_m": 150.0, "speed_kmh": 50.0}
 FAULTS = [name for name in INJURIES if not name.startswith(("gnss", "imu", "response"))]
