@@ -4,14 +4,7 @@ from collections.abc import Callable
 
 from floatref_conformance.checks.distance.feature_places import DISTANCE
 from floatref_conformance.checks.distance.waveband import WAVEBAND
-from floatref_conformance.checks.driving.braking import BRAKING
-from floatref_conformance.checks.driving.coasting import COASTING
-from floatref_conformance.checks.driving.constant_speed import CONSTANT_SPEED
-from floatref_conformance.checks.driving.dead_start import DEAD_START
-from floatref_conformance.checks.driving.low_speed import LOW_SPEED
-from floatref_conformance.checks.driving.near_stop import NEAR_STOP
-from floatref_conformance.checks.driving.stop import STOP
-from floatref_conformance.checks.driving.throttle import THROTTLE
+from floatref_conformance.checks.driving.check import DRIVING_CHECKS
 from floatref_conformance.checks.faults.check import FAULTS
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.sameness.invariance import INVARIANCE
@@ -41,14 +34,8 @@ def conformance_register_checks(register: Callable[[Check], None]) -> None:
     """Register the checks that are built, in the order of the suite's list."""
     register(QUIESCENT)
     register(BOUNCE)
-    register(CONSTANT_SPEED)
-    register(LOW_SPEED)
-    register(COASTING)
-    register(THROTTLE)
-    register(BRAKING)
-    register(NEAR_STOP)
-    register(STOP)
-    register(DEAD_START)
+    for check in DRIVING_CHECKS.values():
+        register(check)
     register(WAVEBAND)
     register(REPEATABILITY)
     register(DISTANCE)

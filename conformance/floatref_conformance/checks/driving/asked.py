@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from floatref_conformance.checks import scoring
+from floatref_conformance.checks.driving.edition import Table
 from floatref_conformance.classes import DeviceClass, Limits
 from floatref_conformance.judge.evidence import Pair
 from floatref_conformance.judge.verdict import Measurement
@@ -24,6 +25,27 @@ class Asked:
     quantity: str
     words: Mapping[DeviceClass, str]
     measure: Callable[[Pair, str], Measurement]
+
+
+def asked_of(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Asked:
+    """Return what an ``entry`` of the edition asks for, its limits by class.
+
+    ``in_m_per_km`` and ``in_percent`` are the names of an IRI error in these units.
+    """
+    kind, by_class = entry["kind"], {c: entry[c.value] for c in DeviceClass if c.value in entry}
+    if kind == "loss":
+        return loss(by_class)
+    if kind == "percent":
+        return percent(by_class, in_percent)
+    ((device_class, limit),) = by_class.items()
+    if kind == "either":
+        return either(device_class, limit["loss"], limit["percent"])
+    return within(in_m_per_km, device_class, limit["percent"], limit["m_per_km"])
+
+
+def limits_of(table: Table) -> Limits:
+    """Return the limits of a table of the edition by class."""
+    return {DeviceClass(name): limit for name, limit in table.items()}
 
 
 def loss(limits: Limits) -> Asked:

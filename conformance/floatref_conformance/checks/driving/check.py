@@ -1,13 +1,15 @@
 """A check that has a vehicle drive over a road: its cases, and how they are judged."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.driving.edition import Table, derivation_of, edition, floor_of
 from floatref_conformance.checks.driving.layout import layout_of, placed
-from floatref_conformance.checks.driving.roads import Roads
-from floatref_conformance.checks.driving.rules import Rule, rule_of
+from floatref_conformance.checks.driving.roads import ROADS, Roads
+from floatref_conformance.checks.driving.rules import RULES, Rule, rule_of
+from floatref_conformance.checks.driving.strategies import drives
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.scoring import compare
 from floatref_conformance.checks.stretches import Stretches
@@ -31,7 +33,6 @@ class DrivingCheck:
         rows: the drives that the edition fixes, all but road, noise and place.
         quick: how many of them, from the first, a quick run drives.
         roads: what they are driven on.
-        scenarios: returns the strategy of all drives that may be asked for.
         simplest_scenario: what failing drives are made simpler towards.
         rules: that the drives are judged by, each with the condition in words, if there is one.
     """
@@ -44,7 +45,6 @@ class DrivingCheck:
     rows: tuple[Scenario, ...]
     quick: int
     roads: Roads
-    scenarios: Callable[[], "SearchStrategy[Scenario]"]
     simplest_scenario: Scenario
     rules: Mapping[str, Rule]
     needs: frozenset[str] = frozenset()
@@ -69,8 +69,8 @@ class DrivingCheck:
         return tuple(self._case(seed, number, row) for number, row in enumerate(rows, start=1))
 
     def strategy(self) -> "SearchStrategy[Case]":
-        """Return the strategy of all cases: `scenarios` of this check."""
-        return self.scenarios().map(lambda scenario: Case(self.id, scenario))
+        """Return the strategy of all cases: the `drives` of this check."""
+        return drives(self.id).map(lambda scenario: Case(self.id, scenario))
 
     def scored(self, case: Case) -> Stretches:
         """Return the stretches over which every point counts.
@@ -97,3 +97,26 @@ class DrivingCheck:
     def _case(self, seed: int, number: int, row: Scenario) -> Case:
         scenario = self.roads.drawn_for(row, (seed, number, *self.id.encode()))
         return Case(self.id, placed(scenario), name=f"{self.id}-{number}")
+
+
+def _check(table: Table) -> DrivingCheck:
+    """Return the check of a table of the edition."""
+    common = table.get("every_row", {})
+    return DrivingCheck(
+        table["id"],
+        table["title"],
+        table["clause"],
+        derivation_of(table),
+        floor_of(table),
+        tuple(Scenario.from_dict({**common, **row}) for row in table["rows"]),
+        table["quick"],
+        ROADS[table["roads"]],
+        placed(Scenario.from_dict(table["simplest"])),
+        {condition: RULES[name] for condition, name in table["rules"].items()},
+    )
+
+
+DRIVING_CHECKS: Mapping[str, DrivingCheck] = {
+    table["id"]: _check(table) for table in edition()["checks"]
+}
+"""Those of the edition by id, in the order of the suite's list."""

@@ -1,15 +1,13 @@
 """The roads of the driving checks: kind and roughness that a seed draws."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from floatref_conformance.checks.driving.edition import edition
 from floatref_conformance.proving_ground.scenario import Scenario
 
-LEVEL_KINDS = ("sayers-normal", "sayers-rough", "measured", "iso-B")
-"""Spectra of Table 2.2, a measured profile, and ISO 8608, all scaled to a roughness."""
-KINDS = (*LEVEL_KINDS, "sayers-asphalt-long-waves")
-"""With long waves beyond those of white slope, too."""
 STEP_M_PER_KM = 0.1
 
 
@@ -24,7 +22,7 @@ class Roads:
 
     smoothest: float
     roughest: float
-    kinds: tuple[str, ...] = KINDS
+    kinds: tuple[str, ...]
 
     def drawn_for(self, scenario: Scenario, entropy: tuple[int, ...]) -> Scenario:
         """Return ``scenario`` with road and seed of its errors drawn by ``entropy``."""
@@ -35,9 +33,8 @@ class Roads:
         return replace(scenario, seed=seed, road=self.kinds[kind], iri_m_per_km=round(iri, 1))
 
 
-EVERYDAY = Roads(0.8, 5.0)
-"""New to worn pavement."""
-WORN = Roads(1.5, 4.0)
-"""Roads on which an error that the nominal sensors cannot avoid stays a share of the roughness."""
-LEVEL = Roads(1.5, 4.0, LEVEL_KINDS)
-"""The same without long waves, whose slope a profiler that slows down to a stop carries along."""
+ROADS: Mapping[str, Roads] = {
+    name: Roads(road["smoothest_m_per_km"], road["roughest_m_per_km"], tuple(road["kinds"]))
+    for name, road in edition()["roads"].items()
+}
+"""Those of the edition, by name."""

@@ -1,14 +1,15 @@
 """What is asked of every wheel path of a drive, and the rule of each kind of drive."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import nan
 
 import numpy as np
 
 from floatref_conformance.checks import flags
 from floatref_conformance.checks.driving import bump
-from floatref_conformance.checks.driving.asked import Asked, either, loss, percent, within
+from floatref_conformance.checks.driving.asked import Asked, asked_of, limits_of
+from floatref_conformance.checks.driving.edition import Table, edition
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
 from floatref_conformance.checks.flags import SLOW_MPS
 from floatref_conformance.checks.scoring import Compared
@@ -20,6 +21,7 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 ELSEWHERE = "flagged elsewhere"
 UNLIMITED = "not limited"
+UNFLAGGED, WHOLE = "IRI error, unflagged part", "IRI error, 160.9 m"
 
 
 @dataclass(frozen=True)
@@ -35,9 +37,9 @@ class Rule:
     """
 
     whole: tuple[Asked, ...]
-    unflagged: tuple[Asked, ...] = ()
-    flagged_elsewhere: Limits = field(default_factory=lambda: flags.EVENT_LIMITS)
-    slow: bool = False
+    unflagged: tuple[Asked, ...]
+    flagged_elsewhere: Limits
+    slow: bool
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -105,47 +107,26 @@ def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
     return {c: f"{limit:g} {unit}" for c, limit in limits.items()}
 
 
-NOMINAL, ADEQUATE, REFERENCE = DeviceClass
-LIGHT_G = 0.16
-"""Braking up to here rarely raised the roughness (3.3.1.3)."""
-UNFLAGGED, WHOLE = "IRI error, unflagged part", "IRI error, 160.9 m"
-EVENT_LOSS: Limits = {ADEQUATE: 0.08, REFERENCE: 0.02}
-EVENT_PERCENT: Limits = {ADEQUATE: 5.0, REFERENCE: 2.0}
-UNPROVOKED: Limits = {NOMINAL: 10.0, ADEQUATE: 10.0, REFERENCE: 5.0}
-"""Longest flagged length in m, away from the ends, of a drive without an event within it."""
+def _rule(table: Table) -> Rule:
+    """Return the rule of a table of the edition."""
+    elsewhere = table.get("flagged_elsewhere")
+    return Rule(
+        tuple(asked_of(entry, WHOLE) for entry in table["whole"]),
+        tuple(asked_of(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())),
+        limits_of(elsewhere) if elsewhere else flags.EVENT_LIMITS,
+        table.get("slow", False),
+    )
 
-CONSTANT = Rule(
-    whole=(
-        loss({NOMINAL: 0.08, ADEQUATE: 0.05, REFERENCE: 0.02}),
-        percent({NOMINAL: 5.0, ADEQUATE: 3.0, REFERENCE: 2.0}),
-    ),
-    flagged_elsewhere=UNPROVOKED,
-)
-"""At constant speed."""
-LIGHT = Rule(whole=(either(NOMINAL, 0.08, 10.0), loss(EVENT_LOSS), percent(EVENT_PERCENT)))
-"""Coasting, throttle, and braking up to `LIGHT_G`."""
-HARD = Rule(
-    whole=(within(WHOLE, NOMINAL, 50.0, 1.0), loss(EVENT_LOSS), percent(EVENT_PERCENT)),
-    unflagged=(within(UNFLAGGED, NOMINAL, 5.0, 0.1),),
-)
-"""Braking beyond `LIGHT_G`, near stops and stops."""
-START = Rule(HARD.whole, HARD.unflagged, UNPROVOKED)
-"""A start from rest: its event lies at an end of the run."""
-SLOW = Rule(
-    whole=(loss({ADEQUATE: 0.08, REFERENCE: 0.05}), percent({ADEQUATE: 5.0, REFERENCE: 3.0})),
-    unflagged=(percent({NOMINAL: 5.0}, UNFLAGGED),),
-    slow=True,
-)
-"""Below 16 km/h all the way."""
+
+RULES: Mapping[str, Rule] = {name: _rule(table) for name, table in edition()["rules"].items()}
+"""Those of the edition, by name."""
 
 
 def rule_of(scenario: Scenario) -> Rule:
-    """Return the rule for the scenario's drive."""
-    if scenario.manoeuvre == "constant":
-        return SLOW if scenario.speed_kmh * KMH < SLOW_MPS else CONSTANT
-    if scenario.manoeuvre == "braking":
-        return LIGHT if scenario.deceleration_g <= LIGHT_G else HARD
-    return _BY_MANOEUVRE.get(scenario.manoeuvre, HARD)
-
-
-_BY_MANOEUVRE = {"creeping": SLOW, "coasting": LIGHT, "throttle": LIGHT, "dead-start": START}
+    """Return the rule for the scenario's drive, one that a driving check scores."""
+    named = edition()["manoeuvres"][scenario.manoeuvre]
+    if "below_16_kmh" in named and scenario.speed_kmh * KMH < SLOW_MPS:
+        return RULES[named["below_16_kmh"]]
+    if "up_to_g" in named and scenario.deceleration_g > named["up_to_g"]:
+        return RULES[named["beyond"]]
+    return RULES[named["rule"]]

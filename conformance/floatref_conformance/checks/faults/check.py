@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving.rules import ELSEWHERE, UNPROVOKED
+from floatref_conformance.checks.driving.rules import ELSEWHERE, RULES
 from floatref_conformance.checks.faults import faulty_drives
 from floatref_conformance.checks.faults.fault_scores import (
     BASE_M,
@@ -29,6 +29,9 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
+
+UNPROVOKED = RULES["constant"].flagged_elsewhere
+"""Longest flagged length in m away from the ends, where no event lies."""
 
 
 @dataclass(frozen=True)

@@ -10,15 +10,8 @@ from hypothesis import strategies as st
 import floatref
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.checks.driving.braking import BRAKING
-from floatref_conformance.checks.driving.coasting import COASTING
-from floatref_conformance.checks.driving.constant_speed import CONSTANT_SPEED
-from floatref_conformance.checks.driving.dead_start import DEAD_START
+from floatref_conformance.checks.driving.check import DRIVING_CHECKS
 from floatref_conformance.checks.driving.layout import layout_of
-from floatref_conformance.checks.driving.low_speed import LOW_SPEED
-from floatref_conformance.checks.driving.near_stop import NEAR_STOP
-from floatref_conformance.checks.driving.stop import STOP
-from floatref_conformance.checks.driving.throttle import THROTTLE
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
@@ -26,10 +19,8 @@ from floatref_conformance.judge.perfect import perfect
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
 
-CHECKS = (
-    *(CONSTANT_SPEED, LOW_SPEED, COASTING, THROTTLE),
-    *(BRAKING, NEAR_STOP, STOP, DEAD_START),
-)
+CHECKS = tuple(DRIVING_CHECKS.values())
+STOP, NEAR_STOP = DRIVING_CHECKS["stop"], DRIVING_CHECKS["near-stop"]
 RECOMMENDED = ("temporal-adaptive-hpf-spatial-backward", "spatial-hpf-timer-distortion-reflection")
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 each = pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
@@ -124,7 +115,7 @@ def test_a_smooth_profile_fails(check, taken):
 def test_flagging_everything_fails_unless_all_of_it_is_slow(check, taken):
     device = spoilt(lambda z: z, lambda z: np.zeros(z.size, dtype=bool))
     found = failing(check, taken(check), device)
-    assert bool(found) is (check is not LOW_SPEED)
+    assert bool(found) is (check is not DRIVING_CHECKS["low-speed"])
     assert {quantity.split()[0] for quantity in found} <= {"flagged"}
 
 
@@ -133,7 +124,7 @@ def test_a_wheel_path_without_elevations_is_the_devices_fault_unless_all_of_it_i
     check, taken
 ):
     device = spoilt(lambda z: np.full(z.size, np.nan), lambda z: np.zeros(z.size, dtype=bool))
-    if check is LOW_SPEED:
+    if check is DRIVING_CHECKS["low-speed"]:
         assert failing(check, taken(check), device) == set()
         assert failing(check, taken(check), device, ADEQUATE)
     else:
@@ -143,7 +134,11 @@ def test_a_wheel_path_without_elevations_is_the_devices_fault_unless_all_of_it_i
 
 def test_what_a_device_gets_wrong_behind_the_second_stop_counts(taken):
     scenario = replace(
-        STOP.simplest.scenario, stops=2, stop_spacing_m=250.0, length_m=750.0, rate_hz=4000.0
+        STOP.simplest.scenario,
+        stops=2,
+        stop_spacing_m=250.0,
+        length_m=750.0,
+        rate_hz=4000.0,
     )
     simulated = simulate(replace(scenario, imu=False, gnss=False))
     two = Taken(simulated.recording, simulated.truth, scenario)
@@ -159,7 +154,10 @@ def test_what_a_device_gets_wrong_behind_the_second_stop_counts(taken):
 
 
 def test_a_case_whose_numbers_leave_no_room_is_refused_before_anything_is_simulated():
-    case = replace(STOP.simplest, scenario=replace(STOP.simplest.scenario, length_m=450.0))
+    case = replace(
+        STOP.simplest,
+        scenario=replace(STOP.simplest.scenario, length_m=450.0),
+    )
     with pytest.raises(InputError, match="must lie 106 m from its ends"):
         STOP.judge(case, Bench(None, perfect))
 
@@ -196,12 +194,12 @@ def test_the_corners_of_the_domains_are_among_the_cases_of_a_quick_run():
     def values(check, name):
         return {getattr(case.scenario, name) for case in check.cases(0, Effort.QUICK)}
 
-    assert {16.1, 97.0} <= values(CONSTANT_SPEED, "speed_kmh")
-    assert {4.0, 15.9} <= values(LOW_SPEED, "speed_kmh")
-    assert {"constant", "creeping"} == values(LOW_SPEED, "manoeuvre")
-    assert {0.05, 0.84} <= values(BRAKING, "deceleration_g")
-    assert {30.0, 100.0} <= values(BRAKING, "speed_kmh")
-    assert {15.0, 60.0} <= values(BRAKING, "event_speed_kmh")
+    assert {16.1, 97.0} <= values(DRIVING_CHECKS["constant-speed"], "speed_kmh")
+    assert {4.0, 15.9} <= values(DRIVING_CHECKS["low-speed"], "speed_kmh")
+    assert {"constant", "creeping"} == values(DRIVING_CHECKS["low-speed"], "manoeuvre")
+    assert {0.05, 0.84} <= values(DRIVING_CHECKS["braking"], "deceleration_g")
+    assert {30.0, 100.0} <= values(DRIVING_CHECKS["braking"], "speed_kmh")
+    assert {15.0, 60.0} <= values(DRIVING_CHECKS["braking"], "event_speed_kmh")
     assert {0.5, 120.0} <= values(STOP, "dwell_s")
     assert {1, 3} == values(STOP, "stops")
 
@@ -218,7 +216,11 @@ def test_the_search_draws_cases_of_the_check_that_its_rule_covers(check, data):
 
 
 def test_the_simplest_stop_differs_in_three_numbers_from_the_default_scenario():
-    assert set(STOP.simplest.parameters["scenario"]) == {"manoeuvre", "bump_mm", "bump_at_m"}
+    assert set(STOP.simplest.parameters["scenario"]) == {
+        "manoeuvre",
+        "bump_mm",
+        "bump_at_m",
+    }
 
 
 @each

@@ -5,7 +5,7 @@ import pytest
 
 from floatref.measures import high_pass
 from floatref_conformance.checks.driving.layout import Layout
-from floatref_conformance.checks.driving.rules import CONSTANT, HARD, LIGHT, SLOW, START, rule_of
+from floatref_conformance.checks.driving.rules import RULES, rule_of
 from floatref_conformance.checks.scoring import Compared
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import DeviceError
@@ -16,7 +16,9 @@ X = np.arange(round(500 / INTERVAL) + 1) * INTERVAL
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 STEADY, SLOWLY = Scenario(bump_mm=20.0, bump_at_m=115.0), Scenario(speed_kmh=10.0)
 AROUND = Layout((316.0,), ((220.0, 380.9),))
-RULES = {"constant": CONSTANT, "light": LIGHT, "hard": HARD, "start": START, "slow": SLOW}
+CONSTANT, LIGHT, HARD, START, SLOW = (
+    RULES[name] for name in ("constant", "light", "hard", "start", "slow")
+)
 
 
 def road(scale=1.0):

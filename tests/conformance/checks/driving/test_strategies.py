@@ -11,23 +11,12 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.driving import strategies
+from floatref_conformance.checks.driving.check import DRIVING_CHECKS
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, placed
-from floatref_conformance.checks.driving.roads import EVERYDAY, KINDS, LEVEL, WORN
-from floatref_conformance.checks.driving.surroundings import number
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 
-ALL = {
-    "constant_speed": strategies.constant_speed,
-    "low_speed": strategies.low_speed,
-    "coasting": strategies.coasting,
-    "throttle": strategies.throttle,
-    "braking": strategies.braking,
-    "near_stop": strategies.near_stop,
-    "stop": strategies.stop,
-    "dead_start": strategies.dead_start,
-}
 DRAWS = settings(
     deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
@@ -46,9 +35,9 @@ def simplest(strategy):
     return found[0]
 
 
-@pytest.fixture(params=ALL.values(), ids=ALL)
+@pytest.fixture(params=DRIVING_CHECKS)
 def drives(request):
-    return request.param()
+    return strategies.drives(request.param)
 
 
 @given(data=st.data())
@@ -88,17 +77,20 @@ def test_numbers_are_rounded_and_make_the_same_case_again(drives, data):
 @given(data=st.data())
 @DRAWS
 def test_speeds_stay_on_their_side_of_16_km_per_h(data):
-    slow, fast = data.draw(strategies.low_speed()), data.draw(strategies.constant_speed())
+    slow, fast = (
+        data.draw(strategies.drives("low-speed")),
+        data.draw(strategies.drives("constant-speed")),
+    )
     assert drive_of(slow).knot_speeds_mps.max() < 16 * KMH
     assert drive_of(fast).knot_speeds_mps.min() > 16 * KMH
-    released = data.draw(strategies.braking()).event_speed_kmh
+    released = data.draw(strategies.drives("braking")).event_speed_kmh
     assert released == 15.0 or released >= 17.0
 
 
 @given(data=st.data())
 @DRAWS
 def test_no_brake_is_released_within_a_second_of_a_standstill(data):
-    brake = data.draw(strategies.braking())
+    brake = data.draw(strategies.drives("braking"))
     assert brake.event_speed_kmh / 3.6 >= 9.80665 * brake.deceleration_g * 1.1
     assert 0.05 <= brake.deceleration_g <= 0.84
 
@@ -123,7 +115,7 @@ def test_a_number_is_a_whole_count_of_steps_from_the_simplest_within_its_limits(
     first, count, step, data
 ):
     low, high = round(first * step, 6), round((first + count) * step, 6)
-    value = data.draw(number(low, high, step))
+    value = data.draw(strategies.number(low, high, step))
     assert low <= value <= high
     assert value / step == pytest.approx(round(value / step), abs=1e-6)
 
@@ -132,15 +124,15 @@ def test_a_number_is_a_whole_count_of_steps_from_the_simplest_within_its_limits(
     ("low", "high", "simple"), [(4.0, 9.0, 4.0), (-9.0, -2.0, -2.0), (-3.0, 3.0, 0.0)]
 )
 def test_a_number_shrinks_to_the_simplest_one_that_is_allowed(low, high, simple):
-    assert simplest(number(low, high, 0.5)) == simple
-    assert simplest(number(-20.0, 20.0, 0.5, 7.5)) == 7.5
+    assert simplest(strategies.number(low, high, 0.5)) == simple
+    assert simplest(strategies.number(-20.0, 20.0, 0.5, 7.5)) == 7.5
 
 
-@pytest.mark.parametrize("roads", [EVERYDAY, WORN, LEVEL])
+@pytest.mark.parametrize("roads", ROADS.values(), ids=ROADS)
 def test_the_roads_of_cases_are_of_every_kind_and_within_their_roughness(roads):
     drawn = [roads.drawn_for(Scenario(), (7, n)) for n in range(200)]
     assert {scenario.road for scenario in drawn} == set(roads.kinds)
-    assert set(roads.kinds) <= set(KINDS)
+    assert set(roads.kinds) <= set(ROADS["everyday"].kinds)
     values = [scenario.iri_m_per_km for scenario in drawn]
     assert (min(values), max(values)) == (roads.smoothest, roads.roughest)
     assert len({scenario.seed for scenario in drawn}) == len(drawn)
