@@ -5,9 +5,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving.edition import Table, derivation_of, edition, floor_of
+from floatref_conformance.checks.driving.edition import (
+    ROADS,
+    Roads,
+    Table,
+    derivation_of,
+    edition,
+    floor_of,
+)
 from floatref_conformance.checks.driving.layout import layout_of, placed
-from floatref_conformance.checks.driving.roads import ROADS, Roads
 from floatref_conformance.checks.driving.rules import RULES, Rule, rule_of
 from floatref_conformance.checks.driving.strategies import drives
 from floatref_conformance.checks.interface import Bench

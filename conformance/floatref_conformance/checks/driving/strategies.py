@@ -10,8 +10,8 @@ from math import ceil, floor
 from typing import TYPE_CHECKING, Any
 
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.checks.driving.edition import ROADS, STEP_M_PER_KM, Roads
 from floatref_conformance.checks.driving.layout import least_spacing_m, placed
-from floatref_conformance.checks.driving.roads import ROADS, STEP_M_PER_KM, Roads
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 

@@ -12,6 +12,7 @@ from floatref.errors import InputError
 from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.driving import strategies
 from floatref_conformance.checks.driving.check import DRIVING_CHECKS
+from floatref_conformance.checks.driving.edition import ROADS
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, placed
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
