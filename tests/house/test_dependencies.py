@@ -43,7 +43,6 @@ ALLOWED = {
         "rich",
         "scipy",
     },
-    "conformance/floatref_conformance/certify/worksheet": {"jinja2"},
     "conformance/floatref_conformance/render": {"jinja2"},
     "conformance/floatref_conformance/table": {"matplotlib"},
     "conformance/floatref_conformance/testing": {"pytest"},

@@ -43,12 +43,15 @@ def needs_jinja(page: str) -> None:
         raise InputError(f"{page} needs Jinja; pip install 'floatref[conformance]'")
 
 
-def filled(template: str, **values: Any) -> str:
-    """Return the page that ``template`` makes of ``values``; every string in it is escaped."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
+def filled(template: str, package: str = __package__, **values: Any) -> str:
+    """Return the page that ``template`` makes of ``values``; every string in it is escaped.
+
+    It lies in the folder ``templates`` of ``package``, beside those of this one that it extends.
+    """
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
-        loader=PackageLoader(__package__, "templates"),
+        loader=ChoiceLoader([PackageLoader(name) for name in (package, __package__)]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -5,8 +5,7 @@ from math import inf, isnan
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import pictures as pictures
-from floatref_conformance.certify.worksheet import wording as wording
+from floatref_conformance.certify.worksheet import pictures, wording
 from floatref_conformance.certify.worksheet.contents import (
     RunSheet,
     RunTrack,

@@ -7,8 +7,7 @@ from pathlib import Path
 from floatref.files.atomic import replacing_file
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import wording as marks
-from floatref_conformance.certify.worksheet import wording as wording
+from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.contents import (
     Criterion,
     Judged,
@@ -172,7 +171,7 @@ def _rows(sheet: SectionSheet, track: str, limits: CertificationLimits) -> Itera
     nothing = (wording.NOTHING,) * len(wording.FIGURES)
     for number, run in enumerate(sheet.runs, start=1):
         found = [wording.figures(one) for one in run.tracks if one.track == track]
-        mark = marks.mark(run, limits, track)
+        mark = wording.mark(run, limits, track)
         yield RunRow(number, run.name, mark, found[0] if found else nothing)
 
 
@@ -229,4 +228,4 @@ def as_html(worksheet: Worksheet) -> str:
 
     Whatever a file said is text in it, never markup, and nothing in it leads to another file.
     """
-    return filled(TEMPLATE, page=page_of(worksheet))
+    return filled(TEMPLATE, __package__, page=page_of(worksheet))

@@ -11,8 +11,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.locating.fit import WINDOW_M, fit
-from floatref_conformance.certify.worksheet import wording as marks
-from floatref_conformance.certify.worksheet import wording as wording
+from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.contents import RunSheet, SectionSheet, StationarySheet
 from floatref_conformance.render import svg
 from floatref_conformance.render.svg import Figure, Line, Panel, Shade, drawn
@@ -135,7 +134,7 @@ def _profiles(
     """
     yield section.reference, "reference", "truth"
     runs = [run for run in section.runs if _has(run, track)]
-    bad = [run for run in runs if marks.is_bad(run, limits, track)]
+    bad = [run for run in runs if wording.is_bad(run, limits, track)]
     for run in runs:
         if run not in bad and run.profile is not None:
             yield run.profile, "runs", "run"
@@ -188,7 +187,7 @@ def _iri_panel(
     iri = section.reference_iri[track]
     across = np.array([0.5, len(section.runs) + 0.5])
     found = np.array([_iri(run, track) for run in section.runs])
-    bad = np.array([marks.is_bad(run, limits, track) for run in section.runs])
+    bad = np.array([wording.is_bad(run, limits, track) for run in section.runs])
     lines = [
         Line("reference", across, np.array([iri, iri]), "truth"),
         Line("run", *apart(numbers, np.where(bad, np.nan, found)), "dot"),

@@ -6,8 +6,7 @@ from rich.table import Table
 from rich.text import Text
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.worksheet import wording as marks
-from floatref_conformance.certify.worksheet import wording as wording
+from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.contents import (
     Criterion,
     Judged,
@@ -74,7 +73,7 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
         _say(console, f"  {line}")
     _print_criteria("Criteria", section.criteria, console)
     for track in wording.tracks_of(section):
-        title = f"Runs, wheel path {track} (*: {marks.DISAGREES})"
+        title = f"Runs, wheel path {track} (*: {wording.DISAGREES})"
         _show(title, _runs(section, track, worksheet), console)
     if 1 < len(section.runs) <= MOST_RUNS:
         limit = worksheet.limits.repeatability
@@ -132,7 +131,7 @@ def _runs(section: SectionSheet, track: str, worksheet: Worksheet) -> Table:
         table.add_column(head, justify="right", no_wrap=True, vertical="bottom")
     for index, run in enumerate(section.runs, start=1):
         found = [wording.figures(one) for one in run.tracks if one.track == track]
-        bad = marks.mark(run, worksheet.limits, track) == marks.DISAGREES
+        bad = wording.mark(run, worksheet.limits, track) == wording.DISAGREES
         star = "*" if bad else " "
         numbers = found[0] if found else (wording.NOTHING,) * len(HEADS)
         table.add_row(_text(f"{index:>2}{star} {_short(run.name)}"), *map(_text, numbers))
