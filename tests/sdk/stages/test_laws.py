@@ -28,17 +28,15 @@ from floatref_conformance.testing.streams import LENGTH, Stream, marks_of
 
 STAGES = sorted(plugins().stages())
 STEERED = ("VaryingHighPass", "StateHighPass", "MatchedHighPass", "SuppressLocally")
-REMEMBERING = tuple(
-    [
-        "HighPass",
-        "LowPass",
-        "Varying",
-        "State",
-        "Matched",
-        "Integrate",
-        "RemoveMean",
-        "SuppressLocally",
-    ]
+LASTING = (
+    "HighPass",
+    "LowPass",
+    "Varying",
+    "State",
+    "Matched",
+    "Integrate",
+    "RemoveMean",
+    "Suppress",
 )
 """Stages with a memory that never ends, by the beginning of their names."""
 LOST = st.lists(st.tuples(st.integers(0, LENGTH - 1), st.integers(1, 60)), max_size=3)
@@ -253,7 +251,7 @@ def of(name):
         "axis": Axis.DISTANCE if name in OVER_DISTANCE else Axis.TIME,
         "keeps_index": name != "ToDistance",
         "reads": ("elevation", *READS.get(name, ())),
-        "reach": None if name.startswith(REMEMBERING) else 0,
+        "reach": None if name.startswith(LASTING) else 0,
     }
     return type(f"Test{name}", (OwnStage,), settings)
 
