@@ -28,16 +28,7 @@ from floatref_conformance.testing.streams import LENGTH, Stream, marks_of
 
 STAGES = sorted(plugins().stages())
 STEERED = ("VaryingHighPass", "StateHighPass", "MatchedHighPass", "SuppressLocally")
-LASTING = (
-    "HighPass",
-    "LowPass",
-    "Varying",
-    "State",
-    "Matched",
-    "Integrate",
-    "RemoveMean",
-    "Suppress",
-)
+LASTING = ("High", "Low", "Vary", "State", "Match", "Integrate", "RemoveMean", "Suppress")
 """Stages with a memory that never ends, by the beginning of their names."""
 LOST = st.lists(st.tuples(st.integers(0, LENGTH - 1), st.integers(1, 60)), max_size=3)
 MAKERS = {
