@@ -6,5 +6,5 @@ from floatref_conformance.mutants.in_processing import IN_PROCESSING, IN_RESPONS
 from floatref_conformance.mutants.in_results import IN_RESULTS
 from floatref_conformance.mutants.in_sensors import IN_SENSORS
 
-MISTAKES = (*IN_SENSORS, *IN_PROCESSING, *IN_RESULTS, *IN_DRIVES, *IN_FUSION, *IN_RESPONSE)
+MUTATIONS = (*IN_SENSORS, *IN_PROCESSING, *IN_RESULTS, *IN_DRIVES, *IN_FUSION, *IN_RESPONSE)
 """All mistakes in the order in which they are listed."""

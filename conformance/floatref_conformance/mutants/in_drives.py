@@ -4,7 +4,7 @@ from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.mutants import profiles as p
 from floatref_conformance.mutants.drive_conditions import Drive, middle_m, only
-from floatref_conformance.mutants.mutation import Mistake
+from floatref_conformance.mutants.mutation import Mutation
 
 
 def _slow(drive: Drive) -> bool:
@@ -57,61 +57,61 @@ def _wrong_with_speed(profile: Profile, recording: Recording) -> Profile:
 
 
 IN_DRIVES = (
-    Mistake(
+    Mutation(
         "slow-drive-low",
         "delivers 0.9 of the profile of a drive between 16 and 23 km/h",
         ("constant-speed",),
         after=only(_slow, p.scaled(0.9)),
     ),
-    Mistake(
+    Mutation(
         "crawl-low",
         "delivers 0.9 of the profile of a drive below 16 km/h, and vouches for it",
         ("low-speed",),
         after=only(_crawling, p.both(p.scaled(0.9), p.vouched)),
     ),
-    Mistake(
+    Mutation(
         "coasting-flagged",
         "flags 200 m of a drive that loses speed gently",
         ("coasting",),
         after=only(_rolling_out, p.flagged_around(middle_m, 200.0)),
     ),
-    Mistake(
+    Mutation(
         "throttle-flagged",
         "flags 200 m of a drive that wins speed",
         ("throttle",),
         after=only(_speeding_up, p.flagged_around(middle_m, 200.0)),
     ),
-    Mistake(
+    Mutation(
         "straight-at-the-release",
         "draws a straight line 30 m to either side of the end of a hard brake, and vouches for it",
         ("braking",),
         after=only(_braking, p.straight_at_the_slowest(30.0)),
     ),
-    Mistake(
+    Mutation(
         "straight-at-a-near-stop",
         "draws a straight line 30 m to either side of a near stop, and vouches for it",
         ("near-stop",),
         after=only(_nearly_stopping, p.straight_at_the_slowest(30.0)),
     ),
-    Mistake(
+    Mutation(
         "straight-at-a-stop-from-speed",
         "draws a straight line 30 m to either side of a stop from 62 km/h or more, vouched for",
         ("stop",),
         after=only(_stopping_from_high_speed, p.straight_at_the_slowest(30.0)),
     ),
-    Mistake(
+    Mutation(
         "straight-at-the-start",
         "draws a straight line 60 m behind a start from rest, and vouches for it",
         ("dead-start",),
         after=only(_setting_off, p.straight_at_the_slowest(60.0)),
     ),
-    Mistake(
+    Mutation(
         "road-lost-at-a-stop",
         "loses 0.3 m of road at a stop",
         ("distance",),
         after=only(_stopping, p.lost_at_the_slowest(0.3)),
     ),
-    Mistake(
+    Mutation(
         "wrong-with-speed",
         "is 4 % too high in fast drives and 4 % too low in slower ones",
         ("repeatability",),

@@ -11,7 +11,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.mutants import profiles as p
 from floatref_conformance.mutants.engine import Signals, at_times, in_time
-from floatref_conformance.mutants.mutation import AUGMENTED, After, Mistake
+from floatref_conformance.mutants.mutation import AUGMENTED, After, Mutation
 
 ANGLES = ("gnss_pitch", "gnss_roll")
 FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_specific_force")
@@ -110,28 +110,28 @@ def _stepping(profile: Profile, recording: Recording) -> Profile:
 
 
 IN_FUSION = (
-    Mistake(
+    Mutation(
         "pitch-sign",
         "takes nose up for nose down",
         ("braking", "near-stop", "stop"),
         after=misled(_nose_up),
         pipeline=AUGMENTED,
     ),
-    Mistake(
+    Mutation(
         "rates-in-degrees",
         "takes deg/s for rad/s",
         ("braking", "near-stop", "stop"),
         after=misled(_in_degrees),
         pipeline=AUGMENTED,
     ),
-    Mistake(
+    Mutation(
         "rates-swapped",
         "takes roll for pitch and pitch for roll",
         ("braking", "near-stop"),
         after=misled(_swapped),
         pipeline=AUGMENTED,
     ),
-    Mistake(
+    Mutation(
         "steps-after-an-outage",
         "steps by 20 mm when the receiver is back",
         ("faults",),

@@ -14,7 +14,14 @@ from floatref_conformance.mutants.engine import (
     over_distance,
     remade,
 )
-from floatref_conformance.mutants.mutation import RESPONSE, SPATIAL, After, Before, Mistake, all_but
+from floatref_conformance.mutants.mutation import (
+    RESPONSE,
+    SPATIAL,
+    After,
+    Before,
+    Mutation,
+    all_but,
+)
 
 
 def _as_read(signals: Signals) -> Signals:
@@ -39,7 +46,7 @@ def _height_in_mm(signals: Signals) -> Signals:
 
 
 IN_PROCESSING = (
-    Mistake(
+    Mutation(
         "gravity-kept",
         "does not take gravity from the acceleration",
         (
@@ -54,50 +61,50 @@ IN_PROCESSING = (
         ),
         after=_by(in_time(), _gravity_kept),
     ),
-    Mistake(
+    Mutation(
         "height-in-mm",
         "takes heights in mm for m",
         all_but("low-speed"),
         after=_by(in_time(), _height_in_mm),
     ),
-    Mistake(
+    Mutation(
         "tilt-ignored",
         "does nothing against what tilt under braking adds to the acceleration",
         ("throttle", "braking", "near-stop", "stop", "invariance"),
         pipeline="temporal-basic",
     ),
-    Mistake(
+    Mutation(
         "reverse-pass-missing",
         "leaves out the pass that takes the filter's delay out",
         ("waveband", "faults"),
         after=_by(in_time(backward=False)),
     ),
-    Mistake(
+    Mutation(
         "cut-off-long",
         "filters 10 % too far up in wavelength",
         ("waveband",),
         settings={"cutoff_wavelength_m": 1.1 * 105.91},
     ),
-    Mistake(
+    Mutation(
         "cut-off-short",
         "filters 10 % too far down in wavelength",
         ("waveband",),
         settings={"cutoff_wavelength_m": 0.9 * 105.91},
     ),
-    Mistake(
+    Mutation(
         "carry-leaking",
         "keeps 0.9 of an integral from one block of 4096 samples to the next",
         all_but("quiescent", "low-speed", "coasting"),
         after=_by(in_time(carry=0.9)),
     ),
-    Mistake(
+    Mutation(
         "reflection-sign",
         "reflects the height sensor with the wrong sign",
         ("stop", "faults"),
         after=_by(over_distance(reflection=-1.0)),
         pipeline=SPATIAL,
     ),
-    Mistake(
+    Mutation(
         "stop-uncontained",
         "integrates over distance through a stop as if it took no time limit",
         ("throttle", "braking", "near-stop", "stop", "dead-start", "invariance", "faults"),
@@ -140,21 +147,21 @@ def _at_the_origin(vehicle: VehicleSetup) -> VehicleSetup:
 
 
 IN_RESPONSE = (
-    Mistake(
+    Mutation(
         "tyre-forgotten",
         "takes the path of the wheel for the road: the tyre does not deflect",
         ("constant-speed", "invariance"),
         _knowing(_stiff),
         pipeline=RESPONSE,
     ),
-    Mistake(
+    Mutation(
         "wheel-place-forgotten",
         "takes the wheel to be at the point that all offsets are from",
         ("distance", "invariance"),
         _knowing(_at_the_origin),
         pipeline=RESPONSE,
     ),
-    Mistake(
+    Mutation(
         "wheel-mass-halved",
         "takes half the mass of wheel and axle",
         ("constant-speed", "invariance"),

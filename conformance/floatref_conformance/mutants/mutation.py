@@ -35,7 +35,7 @@ def all_but(*ids: str) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class Mistake:
+class Mutation:
     """One thing that is wrong with a device.
 
     Attributes:

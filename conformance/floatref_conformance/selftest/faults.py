@@ -64,7 +64,7 @@ def _shared(scenario: Scenario) -> tuple[Graded, ...]:
     middle_m = scenario.length_m / 2
     return (
         Graded(("IRI error, unflagged",), lambda v: put_in.rougher(v, 0.0, scenario.length_m)),
-        Graded(("local error, unflagged",), _injured(_local)),
+        Graded(("local error, unflagged",), _faulty(_local)),
         Graded(("flagged at an end",), put_in.flagged_end),
         Graded(
             (ELSEWHERE,),
@@ -73,7 +73,7 @@ def _shared(scenario: Scenario) -> tuple[Graded, ...]:
     )
 
 
-def _injured(put: Put) -> Put:
+def _faulty(put: Put) -> Put:
     return lambda amount: put_in.only(put(amount), LABEL)
 
 
@@ -86,4 +86,4 @@ def _flagged_from(case: Case) -> Put:
     """Return what flags the distance travelled during the fault, and a length around it."""
     at_m, speed = float(case.variation["at_m"]), case.scenario.speed_kmh / 3.6
     extent_m = speed * float(case.variation["length_s"])
-    return _injured(lambda v: put_in.flagged(at_m - v / 2, at_m + extent_m + v / 2))
+    return _faulty(lambda v: put_in.flagged(at_m - v / 2, at_m + extent_m + v / 2))

@@ -7,11 +7,11 @@ import floatref
 from floatref.errors import InputError
 from floatref.files import read_profile, write_recording
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.checks.faults.sensor_faults import INJURIES
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.classes import Effort
 from floatref_conformance.judge.bench import taken_of
-from floatref_conformance.mutants import MISTAKES
+from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.engine import in_time, over_distance, remade
 from floatref_conformance.mutants.hostile import HOSTILE
 from floatref_conformance.mutants.mutation import RECOMMENDED, SPATIAL
@@ -55,15 +55,17 @@ def test_each_check_is_the_only_one_that_some_mutant_names():
     assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.name)
-def test_each_mistake_is_failed_by_a_check_that_it_names(mistake):
-    assert attempt(Try(f"mutant:{mistake.name}", cheapest(mistake.fails), 0)).fails
+@pytest.mark.parametrize("mutation", MUTATIONS, ids=lambda mutation: mutation.name)
+def test_each_mistake_is_failed_by_a_check_that_it_names(mutation):
+    assert attempt(Try(f"mutant:{mutation.name}", cheapest(mutation.fails), 0)).fails
 
 
 def test_what_a_mutant_repairs_is_no_news(tmp_path):
     """A warning would be an error here."""
     scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
-    hurt = INJURIES["laser-dropout"](taken_of(scenario).recording, {"at_m": 280.0, "length_s": 0.5})
+    hurt = SENSOR_FAULTS["laser-dropout"](
+        taken_of(scenario).recording, {"at_m": 280.0, "length_s": 0.5}
+    )
     write_recording(hurt.recording, tmp_path / "hurt")
     KIND.make("noisy-where-flat").run(tmp_path / "hurt", tmp_path / "profile")
     assert not read_profile(tmp_path / "profile").track("left").valid.all()

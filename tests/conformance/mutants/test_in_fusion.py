@@ -19,7 +19,7 @@ angles = st.floats(-1.0, 1.0)
 
 
 def spoilt(name, profile, recording):
-    after = next(mistake.after for mistake in IN_FUSION if mistake.name == name)
+    after = next(mutation.after for mutation in IN_FUSION if mutation.name == name)
     return after(profile, recording).track("left").elevation
 
 

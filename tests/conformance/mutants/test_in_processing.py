@@ -22,11 +22,11 @@ def recording(vehicle):
     return Recording((wheel,), Setup(vehicle=vehicle))
 
 
-@pytest.mark.parametrize("mistake", IN_RESPONSE, ids=lambda mistake: mistake.name)
-def test_one_number_of_the_vehicle_is_wrong_and_all_else_is_as_it_was(mistake):
-    name, factor = CHANGED[mistake.name]
+@pytest.mark.parametrize("mutation", IN_RESPONSE, ids=lambda mutation: mutation.name)
+def test_one_number_of_the_vehicle_is_wrong_and_all_else_is_as_it_was(mutation):
+    name, factor = CHANGED[mutation.name]
     before = recording(VEHICLE)
-    after = mistake.before(before)
+    after = mutation.before(before)
     known = {**VEHICLE.parameters, "x_m": VEHICLE.x_m}
     wrong = {**after.setup.vehicle.parameters, "x_m": after.setup.vehicle.x_m}
     assert wrong == {**known, name: factor * known[name]}
@@ -34,13 +34,13 @@ def test_one_number_of_the_vehicle_is_wrong_and_all_else_is_as_it_was(mistake):
     assert after.setup.tracks == before.setup.tracks
 
 
-@pytest.mark.parametrize("mistake", IN_RESPONSE, ids=lambda mistake: mistake.name)
-def test_where_nothing_is_known_nothing_can_be_wrong(mistake):
+@pytest.mark.parametrize("mutation", IN_RESPONSE, ids=lambda mutation: mutation.name)
+def test_where_nothing_is_known_nothing_can_be_wrong(mutation):
     unknown = recording(None)
-    assert mistake.before(unknown) is unknown
+    assert mutation.before(unknown) is unknown
 
 
-@pytest.mark.parametrize("mistake", IN_RESPONSE, ids=lambda mistake: mistake.name)
-def test_the_device_has_no_height_sensor(mistake):
-    said = Description.of(BuiltinDevice(mistake.pipeline).describe())
+@pytest.mark.parametrize("mutation", IN_RESPONSE, ids=lambda mutation: mutation.name)
+def test_the_device_has_no_height_sensor(mutation):
+    said = Description.of(BuiltinDevice(mutation.pipeline).describe())
     assert (said.architecture, said.capabilities) == ("response", ("response",))

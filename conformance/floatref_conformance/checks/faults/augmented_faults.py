@@ -11,12 +11,12 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.faults.injection import (
-    Injured,
-    Injury,
+    Fault,
+    Faulty,
     Spoil,
     dropout,
+    faulty_until,
     hold,
-    injured_until,
     lose,
     saturation,
     spoilt,
@@ -34,13 +34,13 @@ WANDER_S = 40.0
 """Period in which heights without fixed ambiguities wander."""
 
 
-def outage(recording: Recording, numbers: Numbers) -> Injured:
+def outage(recording: Recording, numbers: Numbers) -> Faulty:
     """Leave the receiver without a fix for ``length_s``."""
     everything = dict.fromkeys(CAPABILITIES["gnss"], lose)
     return _for_a_while(recording, numbers, {**everything, QUALITY: _to(NONE)})
 
 
-def wrong_fix(recording: Recording, numbers: Numbers) -> Injured:
+def wrong_fix(recording: Recording, numbers: Numbers) -> Faulty:
     """Have the receiver tell ``size_m`` too much height for ``length_s``, and a worse quality."""
     size_m = number(numbers, "size_m")
 
@@ -50,7 +50,7 @@ def wrong_fix(recording: Recording, numbers: Numbers) -> Injured:
     return _for_a_while(recording, numbers, {HEIGHT: lift, QUALITY: _to(SINGLE)})
 
 
-def float_solution(recording: Recording, numbers: Numbers) -> Injured:
+def float_solution(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose the fixed ambiguities for ``length_s``: the height wanders off by ``size_m``, and back.
 
     The quality says so.
@@ -64,7 +64,7 @@ def float_solution(recording: Recording, numbers: Numbers) -> Injured:
     return _for_a_while(recording, numbers, {HEIGHT: wander, QUALITY: _to(FLOAT)})
 
 
-def never_fixed(recording: Recording, numbers: Numbers) -> Injured:
+def never_fixed(recording: Recording, numbers: Numbers) -> Faulty:
     """Have the receiver never fix its ambiguities, and its height wander by ``size_m``.
 
     Nothing may be flagged for it beyond the usual: a profiler does without a receiver.
@@ -81,11 +81,11 @@ def never_fixed(recording: Recording, numbers: Numbers) -> Injured:
         return channel
 
     if recording.find(QUALITY) is None:
-        return Injured(recording, 0.0, 0.0)
-    return Injured(each(recording, change), 0.0, 0.0)
+        return Faulty(recording, 0.0, 0.0)
+    return Faulty(each(recording, change), 0.0, 0.0)
 
 
-def jump(recording: Recording, numbers: Numbers) -> Injured:
+def jump(recording: Recording, numbers: Numbers) -> Faulty:
     """Let the receiver tell ``size_m`` more from one fixed reading to the next, for good."""
     size_m = number(numbers, "size_m")
 
@@ -95,17 +95,17 @@ def jump(recording: Recording, numbers: Numbers) -> Injured:
     return _for_a_while(recording, {**numbers, "length_s": 0.0}, {HEIGHT: lift})
 
 
-def stuck_height(recording: Recording, numbers: Numbers) -> Injured:
+def stuck_height(recording: Recording, numbers: Numbers) -> Faulty:
     """Have the receiver repeat one height for ``length_s``, as if it were fixed and fresh."""
     return _for_a_while(recording, numbers, {HEIGHT: hold})
 
 
-def gyro_gap(recording: Recording, numbers: Numbers) -> Injured:
+def gyro_gap(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose all rates for ``length_s``."""
     return _for_a_while(recording, numbers, dict.fromkeys(RATES, lose))
 
 
-def imu_flicker(recording: Recording, numbers: Numbers) -> Injured:
+def imu_flicker(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose ``count`` single samples of every channel of the inertial unit over ``span_m``."""
     at_m, count = number(numbers, "at_m"), int(number(numbers, "count"))
     span_m = number(numbers, "span_m")
@@ -113,10 +113,10 @@ def imu_flicker(recording: Recording, numbers: Numbers) -> Injured:
     for n in range(count):
         there = {**numbers, "at_m": at_m + n * span_m / count, "length_s": 0.0}
         hurt = _for_a_while(hurt, there, dict.fromkeys(CAPABILITIES["imu"], lose)).recording
-    return Injured(hurt, span_m, at_m)
+    return Faulty(hurt, span_m, at_m)
 
 
-AUGMENTED: Mapping[str, Injury] = MappingProxyType(
+AUGMENTED: Mapping[str, Fault] = MappingProxyType(
     {
         "gnss-outage": outage,
         "gnss-wrong-fix": wrong_fix,
@@ -139,7 +139,7 @@ def _to(quality: float) -> Spoil:
     return worsen
 
 
-def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Spoil]) -> Injured:
+def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Spoil]) -> Faulty:
     """Return ``recording`` with the channels named in ``spoils`` spoilt for ``length_s``."""
     begin_s, end_s = times_of(recording, numbers)
 
@@ -149,13 +149,13 @@ def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Sp
 
     there = any(channel.id.name in spoils for channel in recording.channels)
     hurt = each(recording, spoil) if there else recording
-    return injured_until(hurt, recording, numbers, end_s)
+    return faulty_until(hurt, recording, numbers, end_s)
 
 
 WHEEL, BODY = "unsprung_specific_force", "sprung_specific_force"
 DEFLECTION = "suspension_deflection"
 
-RESPONSE: Mapping[str, Injury] = MappingProxyType(
+RESPONSE: Mapping[str, Fault] = MappingProxyType(
     {
         "response-wheel-dropout": dropout(WHEEL),
         "response-wheel-stuck": stuck(WHEEL),

@@ -16,7 +16,7 @@ from floatref_conformance.checks.faults.fault_scores import (
     beside,
     fault_measurements,
 )
-from floatref_conformance.checks.faults.sensor_faults import INJURIES, injury_of, needed_by
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needed_by
 from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.sameness.change import check_equipped
@@ -93,7 +93,7 @@ class FaultsCheck:
 
     @property
     def _faults(self) -> tuple[str, ...]:
-        return tuple(f for f in INJURIES if needed_by(f) <= self.meets)
+        return tuple(f for f in SENSOR_FAULTS if needed_by(f) <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
         """Return all of the drive: every point counts that the device vouches for."""
@@ -107,21 +107,21 @@ class FaultsCheck:
         the fault of a sensor that the device does not have.
         """
         taken = bench.simulate(case.scenario)
-        injure, fault = injury_of(case.variation), str(case.variation["fault"])
+        inject, fault = fault_of(case.variation), str(case.variation["fault"])
         check_equipped(taken.recording, needed_by(fault), f"fault {fault}")
-        injured = injure(taken.recording, case.variation)
-        hurt = replace(taken, recording=injured.recording)
+        faulty = inject(taken.recording, case.variation)
+        hurt = replace(taken, recording=faulty.recording)
         after = bench.run(hurt, "with the fault")
         before = bench.run(taken, "without the fault")
         part = fault.partition("-")[0]
-        alike = (beside(taken.truth, before), beside(taken.truth, after, injured))
+        alike = (beside(taken.truth, before), beside(taken.truth, after, faulty))
         # What the encoder never told lies on no device's axis: nobody has flagged it.
         delivered = compare(taken.truth, before)
         return tuple(
             m
             for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
-                *fault_measurements(one, other, injured, part),
+                *fault_measurements(one, other, faulty, part),
                 *_flagged_without(whole, case.scenario),
             )
         )

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.measures import high_pass, iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.checks.faults.injection import Injured
+from floatref_conformance.checks.faults.injection import Faulty
 from floatref_conformance.checks.flags import EVENT_LIMITS
 from floatref_conformance.checks.scoring import Compared, bridged, compare, roughness_within
 from floatref_conformance.classes import DeviceClass, Limits
@@ -55,24 +55,22 @@ class LocalDifference:
         return _largest_mean(outputs[1] - outputs[0], self.pair)
 
 
-def beside(
-    truth: Profile, profile: Profile, injured: Injured | None = None
-) -> tuple[Compared, ...]:
+def beside(truth: Profile, profile: Profile, faulty: Faulty | None = None) -> tuple[Compared, ...]:
     """Return every wheel path on all of the truth's points, with the encoder's error undone.
 
     What the device did not deliver, or the encoder did not count, has no elevation.
     """
     early = _everywhere(truth, profile)
-    if injured is None or injured.shift_m == 0.0:
+    if faulty is None or faulty.shift_m == 0.0:
         return early
-    moved = replace(profile, start_m=profile.start_m - injured.shift_m)
+    moved = replace(profile, start_m=profile.start_m - faulty.shift_m)
     late = _everywhere(truth, moved)
-    behind_m = injured.at_m + max(-injured.shift_m, 0.0)
-    return tuple(_joined(*both, injured.at_m, behind_m) for both in zip(early, late, strict=True))
+    behind_m = faulty.at_m + max(-faulty.shift_m, 0.0)
+    return tuple(_joined(*both, faulty.at_m, behind_m) for both in zip(early, late, strict=True))
 
 
 def fault_measurements(
-    before: Compared, after: Compared, injured: Injured, part: str
+    before: Compared, after: Compared, faulty: Faulty, part: str
 ) -> tuple[Measurement, ...]:
     """Return what a fault of ``part`` did: wrong and not flagged, or flagged too far.
 
@@ -80,7 +78,7 @@ def fault_measurements(
     measured.
     """
     lost = before.valid & ~after.valid
-    flagged_m = before.interval_m * float(np.sum(lost)) - injured.extent_m
+    flagged_m = before.interval_m * float(np.sum(lost)) - faulty.extent_m
     length = Measurement(
         f"flagged beyond a fault: {part}",
         before.track,

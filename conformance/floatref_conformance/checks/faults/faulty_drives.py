@@ -9,7 +9,7 @@ import numpy as np
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED, RESPONSE
 from floatref_conformance.checks.faults.fault_numbers import NUMBERS, Numbers, drawn_numbers
-from floatref_conformance.checks.faults.sensor_faults import INJURIES
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -61,9 +61,9 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     """
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
-    roads = iter(source.generate_state(len(rounds) * len(INJURIES)).tolist())
+    roads = iter(source.generate_state(len(rounds) * len(SENSOR_FAULTS)).tolist())
     # What was there first comes first: its roads are the same for whatever device is judged.
-    nominal = [fault for fault in INJURIES if fault not in {*AUGMENTED, *RESPONSE}]
+    nominal = [fault for fault in SENSOR_FAULTS if fault not in {*AUGMENTED, *RESPONSE}]
     return tuple(
         Case(
             CHECK,
@@ -77,7 +77,7 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     )
 
 
-def drawn(faults: Sequence[str] = tuple(INJURIES)) -> "SearchStrategy[Case]":
+def drawn(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrategy[Case]":
     """Return the strategy of any of ``faults`` in any drive."""
     from hypothesis import strategies as st
 

@@ -16,7 +16,7 @@ Spoil = Callable[[FloatArray, slice], None]
 
 
 @dataclass(frozen=True, eq=False)
-class Injured:
+class Faulty:
     """A recording with a fault in it, and where.
 
     Attributes:
@@ -32,7 +32,7 @@ class Injured:
     shift_m: float = 0.0
 
 
-Injury = Callable[[Recording, Numbers], Injured]
+Fault = Callable[[Recording, Numbers], Faulty]
 """Returns a recording with a fault in it, of numbers that a case gives."""
 
 
@@ -46,31 +46,31 @@ def hold(values: FloatArray, where: slice) -> None:
     values[where] = values[where.start]
 
 
-def dropout(name: str) -> Injury:
+def dropout(name: str) -> Fault:
     """Return the injury of a channel that is missing for ``length_s``, for one sample at least."""
-    return lambda recording, numbers: spoilt_locally(recording, numbers, name, lose)
+    return lambda recording, numbers: faulty_locally(recording, numbers, name, lose)
 
 
-def stuck(name: str) -> Injury:
+def stuck(name: str) -> Fault:
     """Return the injury of a channel that repeats one reading for ``length_s``."""
-    return lambda recording, numbers: spoilt_locally(recording, numbers, name, hold)
+    return lambda recording, numbers: faulty_locally(recording, numbers, name, hold)
 
 
-def saturation(name: str) -> Injury:
+def saturation(name: str) -> Fault:
     """Return the injury of an accelerometer at its ``full_scale_g``, of either sign.
 
     It is driven there for ``length_s``.
     """
 
-    def injure(recording: Recording, numbers: Numbers) -> Injured:
+    def inject(recording: Recording, numbers: Numbers) -> Faulty:
         end = number(numbers, "full_scale_g") * STANDARD_GRAVITY
 
         def pin(values: FloatArray, where: slice) -> None:
             values[where] = end
 
-        return spoilt_locally(recording, numbers, name, pin)
+        return faulty_locally(recording, numbers, name, pin)
 
-    return injure
+    return inject
 
 
 def times_of(recording: Recording, numbers: Numbers) -> tuple[float, float]:
@@ -81,14 +81,14 @@ def times_of(recording: Recording, numbers: Numbers) -> tuple[float, float]:
     return begin_s, begin_s + number(numbers, "length_s")
 
 
-def spoilt_locally(recording: Recording, numbers: Numbers, name: str, spoil: Spoil) -> Injured:
+def faulty_locally(recording: Recording, numbers: Numbers, name: str, spoil: Spoil) -> Faulty:
     """Return ``recording`` with channel ``name`` of the first wheel path spoilt."""
     begin_s, end_s = times_of(recording, numbers)
     channel = recording.channel(name, recording.tracks[0])
     hurt = with_values(
         recording, name, channel.id.track, spoilt(channel, begin_s, end_s, spoil).values
     )
-    return injured_until(hurt, recording, numbers, end_s)
+    return faulty_until(hurt, recording, numbers, end_s)
 
 
 def spoilt(channel: Channel, begin_s: float, end_s: float, spoil: Spoil) -> Channel:
@@ -102,11 +102,11 @@ def spoilt(channel: Channel, begin_s: float, end_s: float, spoil: Spoil) -> Chan
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
 
 
-def injured_until(hurt: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Injured:
+def faulty_until(hurt: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Faulty:
     """Return ``hurt``, made of ``whole``, with the distance travelled until ``end_s``."""
     encoder, at_m = whole.channel(DISTANCE), number(numbers, "at_m")
     extent_m = float(np.interp(end_s, encoder.times_s, encoder.values)) - at_m
-    return Injured(hurt, max(extent_m, 0.0), at_m)
+    return Faulty(hurt, max(extent_m, 0.0), at_m)
 
 
 def with_values(

@@ -17,15 +17,15 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED, RESPONSE
 from floatref_conformance.checks.faults.injection import (
     DISTANCE,
-    Injured,
-    Injury,
+    Fault,
+    Faulty,
     dropout,
+    faulty_locally,
+    faulty_until,
     hold,
-    injured_until,
     lose,
     saturation,
     spoilt,
-    spoilt_locally,
     stuck,
     times_of,
     with_values,
@@ -42,18 +42,18 @@ ROLLING = 0.8
 """Share of a standstill in which the vehicle rolls back and forth."""
 
 
-def flicker(recording: Recording, numbers: Numbers) -> Injured:
+def flicker(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose ``count`` stretches of ``length_s`` of the laser over ``span_m``."""
     at_m, count = number(numbers, "at_m"), int(number(numbers, "count"))
     span_m = number(numbers, "span_m")
     hurt = recording
     for n in range(count):
         there = {**numbers, "at_m": at_m + n * span_m / count}
-        hurt = spoilt_locally(hurt, there, HEIGHT, lose).recording
-    return Injured(hurt, span_m, at_m)
+        hurt = faulty_locally(hurt, there, HEIGHT, lose).recording
+    return Faulty(hurt, span_m, at_m)
 
 
-def out_of_range(recording: Recording, numbers: Numbers) -> Injured:
+def out_of_range(recording: Recording, numbers: Numbers) -> Faulty:
     """Pin the laser to the far (``side`` 1) or near (-1) end of its range for ``length_s``."""
     side = number(numbers, "side")
 
@@ -61,17 +61,17 @@ def out_of_range(recording: Recording, numbers: Numbers) -> Injured:
         end = np.nanmax(values) if side > 0 else np.nanmin(values)
         values[where] = end + side * BEYOND_M
 
-    return spoilt_locally(recording, numbers, HEIGHT, pin)
+    return faulty_locally(recording, numbers, HEIGHT, pin)
 
 
-def gap(recording: Recording, numbers: Numbers) -> Injured:
+def gap(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose all channels for ``length_s``: their samples are missing."""
     begin_s, end_s = times_of(recording, numbers)
     channels = tuple(spoilt(c, begin_s, end_s, lose) for c in recording.channels)
-    return injured_until(replace(recording, channels=channels), recording, numbers, end_s)
+    return faulty_until(replace(recording, channels=channels), recording, numbers, end_s)
 
 
-def gap_in_time(recording: Recording, numbers: Numbers) -> Injured:
+def gap_in_time(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose all channels for ``length_s``: no samples, and no time stamps, are there."""
     begin_s, end_s = times_of(recording, numbers)
 
@@ -81,37 +81,37 @@ def gap_in_time(recording: Recording, numbers: Numbers) -> Injured:
         return replace(channel, values=channel.values[kept], clock=StampedClock.of(times[kept]))
 
     channels = tuple(cut(c) for c in recording.channels)
-    return injured_until(replace(recording, channels=channels), recording, numbers, end_s)
+    return faulty_until(replace(recording, channels=channels), recording, numbers, end_s)
 
 
-def leap(recording: Recording, numbers: Numbers) -> Injured:
+def leap(recording: Recording, numbers: Numbers) -> Faulty:
     """Have the encoder count ``size_m`` that were never travelled."""
     size_m = number(numbers, "size_m")
 
     def add(values: FloatArray, where: slice) -> None:
         values[where.start :] += size_m
 
-    hurt = spoilt_locally(recording, {**numbers, "length_s": 0.0}, DISTANCE, add)
+    hurt = faulty_locally(recording, {**numbers, "length_s": 0.0}, DISTANCE, add)
     return replace(hurt, extent_m=0.0, shift_m=size_m)
 
 
-def silence(recording: Recording, numbers: Numbers) -> Injured:
+def silence(recording: Recording, numbers: Numbers) -> Faulty:
     """Hold the encoder for ``length_s``; then it tells the true distance again."""
-    return spoilt_locally(recording, numbers, DISTANCE, hold)
+    return faulty_locally(recording, numbers, DISTANCE, hold)
 
 
-def lost_counts(recording: Recording, numbers: Numbers) -> Injured:
+def lost_counts(recording: Recording, numbers: Numbers) -> Faulty:
     """Hold the encoder for ``length_s``, and never count what was travelled meanwhile."""
 
     def lose(values: FloatArray, where: slice) -> None:
         values[where.stop :] -= values[min(where.stop, values.size - 1)] - values[where.start]
         hold(values, where)
 
-    hurt = spoilt_locally(recording, numbers, DISTANCE, lose)
+    hurt = faulty_locally(recording, numbers, DISTANCE, lose)
     return replace(hurt, shift_m=-hurt.extent_m)
 
 
-def counts_back(recording: Recording, numbers: Numbers) -> Injured:
+def counts_back(recording: Recording, numbers: Numbers) -> Faulty:
     """Have ``count`` single samples of the encoder tell ``size_m`` less."""
     at_m, count = number(numbers, "at_m"), int(number(numbers, "count"))
     size_m = number(numbers, "size_m")
@@ -120,10 +120,10 @@ def counts_back(recording: Recording, numbers: Numbers) -> Injured:
     back = np.searchsorted(encoder.values, at_m + COUNTS_APART_M * np.arange(count))
     values[back[back < values.size]] -= size_m
     hurt = with_values(recording, DISTANCE, None, values)
-    return Injured(hurt, COUNTS_APART_M * count, at_m)
+    return Faulty(hurt, COUNTS_APART_M * count, at_m)
 
 
-def rolling_back(recording: Recording, numbers: Numbers) -> Injured:
+def rolling_back(recording: Recording, numbers: Numbers) -> Faulty:
     """Roll ``size_m`` back and forth again at the longest standstill."""
     encoder = recording.channel(DISTANCE)
     moved = np.flatnonzero(np.diff(encoder.values, prepend=-np.inf, append=np.inf) > 0)
@@ -133,10 +133,10 @@ def rolling_back(recording: Recording, numbers: Numbers) -> Injured:
     values = np.array(encoder.values)
     there = np.linspace(0.0, np.pi, values[stands].size)
     values[stands] -= number(numbers, "size_m") * np.sin(there) ** 2
-    return Injured(with_values(recording, DISTANCE, None, values), 0.0, float(values[first]))
+    return Faulty(with_values(recording, DISTANCE, None, values), 0.0, float(values[first]))
 
 
-INJURIES: Mapping[str, Injury] = MappingProxyType(
+SENSOR_FAULTS: Mapping[str, Fault] = MappingProxyType(
     {
         "laser-dropout": dropout(HEIGHT),
         "laser-flicker": flicker,
@@ -159,12 +159,12 @@ INJURIES: Mapping[str, Injury] = MappingProxyType(
 """All injuries by the name that a case's variation gives under ``fault``."""
 
 
-def injury_of(numbers: Numbers) -> Injury:
+def fault_of(numbers: Numbers) -> Fault:
     """Return the injury that a case's variation names; InputError if there is none."""
     name = numbers.get("fault")
-    if name not in INJURIES:
-        raise InputError(f"variation fault {name!r}: unknown; known: {', '.join(INJURIES)}")
-    return INJURIES[str(name)]
+    if name not in SENSOR_FAULTS:
+        raise InputError(f"variation fault {name!r}: unknown; known: {', '.join(SENSOR_FAULTS)}")
+    return SENSOR_FAULTS[str(name)]
 
 
 def needed_by(fault: str) -> frozenset[str]:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED
 from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.faults.sensor_faults import INJURIES
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -34,7 +34,7 @@ def before(right_bench):
     return right_bench(augmented=True).simulate(STEADY).recording
 
 
-def injured(recording, fault, **numbers):
+def faulty(recording, fault, **numbers):
     return AUGMENTED[fault](recording, {"at_m": AT_M, **numbers})
 
 
@@ -48,7 +48,7 @@ def change(before, hurt, name):
 def test_what_is_named_is_injured_and_nothing_else(right_bench, case):
     fault = case.variation["fault"]
     before = right_bench(augmented=True).simulate(case.scenario).recording
-    hurt = INJURIES[fault](before, case.variation).recording
+    hurt = SENSOR_FAULTS[fault](before, case.variation).recording
     changed = {
         one.id.name
         for one, other in zip(before.channels, hurt.channels, strict=True)
@@ -63,7 +63,7 @@ def test_what_is_named_is_injured_and_nothing_else(right_bench, case):
 def test_a_receiver_without_a_fix_or_with_a_worse_one_says_so(before, length_s, size_m):
     numbers = {"length_s": length_s, "size_m": size_m}
     out, wrong, free = (
-        injured(before, fault, **numbers)
+        faulty(before, fault, **numbers)
         for fault in ("gnss-outage", "gnss-wrong-fix", "gnss-float")
     )
     lost = np.isnan(out.recording.channel("gnss_height").values)
@@ -83,7 +83,7 @@ def test_a_receiver_without_a_fix_or_with_a_worse_one_says_so(before, length_s, 
 @few
 @given(size_m=st.floats(-3.0, 3.0).filter(lambda x: abs(x) > 0.01))
 def test_a_jump_stays_and_the_quality_knows_nothing(before, size_m):
-    hurt = injured(before, "gnss-jump", size_m=size_m)
+    hurt = faulty(before, "gnss-jump", size_m=size_m)
     times, step, _ = change(before, hurt, "gnss_height")
     np.testing.assert_allclose(step[times >= AT_M / SPEED + 0.05], size_m)
     assert not step[times < AT_M / SPEED - 0.05].any()
@@ -93,7 +93,7 @@ def test_a_jump_stays_and_the_quality_knows_nothing(before, size_m):
 @few
 @given(length_s=st.floats(1.0, 6.0))
 def test_a_stuck_height_repeats_itself_as_if_it_were_measured(before, length_s):
-    hurt = injured(before, "gnss-stuck", length_s=length_s)
+    hurt = faulty(before, "gnss-stuck", length_s=length_s)
     times, _, told = change(before, hurt, "gnss_height")
     during = (times > AT_M / SPEED + 0.06) & (times < AT_M / SPEED + length_s - 0.06)
     assert np.ptp(told[during]) == 0.0
@@ -103,7 +103,7 @@ def test_a_stuck_height_repeats_itself_as_if_it_were_measured(before, length_s):
 @few
 @given(size_m=st.floats(0.1, 3.0))
 def test_a_receiver_that_is_never_fixed_wanders_and_excuses_nothing(before, size_m):
-    hurt = injured(before, "gnss-never-fixed", size_m=size_m)
+    hurt = faulty(before, "gnss-never-fixed", size_m=size_m)
     assert set(hurt.recording.channel("gnss_quality").values) == {5.0}
     wander = change(before, hurt, "gnss_height")[1]
     assert np.abs(wander).max() == pytest.approx(size_m, rel=0.05)
@@ -113,7 +113,7 @@ def test_a_receiver_that_is_never_fixed_wanders_and_excuses_nothing(before, size
 @few
 @given(length_s=st.floats(0.1, 1.0))
 def test_gyros_are_lost_together(before, length_s):
-    hurt = injured(before, "imu-gyro-gap", length_s=length_s)
+    hurt = faulty(before, "imu-gyro-gap", length_s=length_s)
     lost = [np.isnan(change(before, hurt, name)[2]) for name in sorted(RATES)]
     assert lost[0].sum() == pytest.approx(100.0 * length_s, abs=1.0)
     assert (lost[0] == lost[1]).all()
@@ -124,7 +124,7 @@ def test_gyros_are_lost_together(before, length_s):
 @few
 @given(count=st.integers(5, 30))
 def test_an_inertial_unit_flickers_by_single_samples(before, count):
-    hurt = injured(before, "imu-flicker", count=count, span_m=60.0)
+    hurt = faulty(before, "imu-flicker", count=count, span_m=60.0)
     for name in CAPABILITIES["imu"]:
         lost = np.flatnonzero(np.isnan(change(before, hurt, name)[2]))
         assert lost.size == count
@@ -136,4 +136,4 @@ def test_an_inertial_unit_flickers_by_single_samples(before, count):
 def test_without_the_sensor_nothing_changes(right_bench, fault):
     numbers = {"length_s": 3.0, "size_m": 1.0, "count": 3, "span_m": 10.0}
     plain = right_bench().simulate(STEADY).recording
-    assert injured(plain, fault, **numbers).recording is plain
+    assert faulty(plain, fault, **numbers).recording is plain

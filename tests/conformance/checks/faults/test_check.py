@@ -13,7 +13,7 @@ from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.faults.sensor_faults import INJURIES, needed_by
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, needed_by
 from floatref_conformance.checks.interface import fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge import oracle
@@ -217,7 +217,7 @@ def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
 @pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
 def test_every_fault_comes_in_turn_and_the_seed_draws_the_road_alone(effort, times):
     one, other = (FAULTS.cases(seed, effort) for seed in (1, 2))
-    assert sorted(c.variation["fault"] for c in one) == sorted(list(INJURIES) * times)
+    assert sorted(c.variation["fault"] for c in one) == sorted(list(SENSOR_FAULTS) * times)
     assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
     for case, again in zip(one, other, strict=True):
         assert case.scenario.seed != again.scenario.seed
@@ -229,7 +229,7 @@ def test_every_fault_comes_in_turn_and_the_seed_draws_the_road_alone(effort, tim
 @given(case=FAULTS.strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_fault(case):
     assert Case.of("faults", case.parameters) == case
-    assert case.variation["fault"] in INJURIES
+    assert case.variation["fault"] in SENSOR_FAULTS
     assert drive_of(case.scenario).length_m == pytest.approx(560.0)
 
 

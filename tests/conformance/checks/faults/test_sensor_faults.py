@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED
 from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.faults.sensor_faults import INJURIES, injury_of, needed_by
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needed_by
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -35,8 +35,8 @@ def recording_of(right_bench, scenario=STEADY, augmented=False):
     return right_bench(augmented=augmented).simulate(scenario).recording
 
 
-def injured(recording, fault, **numbers):
-    return INJURIES[fault](recording, {"at_m": 280.0, **numbers})
+def faulty(recording, fault, **numbers):
+    return SENSOR_FAULTS[fault](recording, {"at_m": 280.0, **numbers})
 
 
 def samples(recording, name, track=None):
@@ -47,7 +47,7 @@ def samples(recording, name, track=None):
 def test_only_what_is_named_is_injured_and_only_there(right_bench, case):
     fault = case.variation["fault"]
     before = recording_of(right_bench, case.scenario, augmented=True)
-    hurt = injury_of(case.variation)(before, case.variation)
+    hurt = fault_of(case.variation)(before, case.variation)
     if fault == "gap-in-time":
         return
     named = [name for part, name in INJURED.items() if fault.startswith(part)]
@@ -62,7 +62,7 @@ def test_only_what_is_named_is_injured_and_only_there(right_bench, case):
 @given(length_s=st.floats(0.0, 2.0), at_m=st.floats(230.0, 330.0))
 def test_a_dropout_is_as_long_as_it_says_and_one_sample_at_least(right_bench, length_s, at_m):
     before = recording_of(right_bench)
-    hurt = injured(before, "laser-dropout", length_s=length_s, at_m=at_m)
+    hurt = faulty(before, "laser-dropout", length_s=length_s, at_m=at_m)
     lost = np.flatnonzero(np.isnan(samples(hurt.recording, HEIGHT, "left")))
     assert lost.size == pytest.approx(max(length_s * RATE, 1.0), abs=1.0)
     assert (np.diff(lost) == 1).all()
@@ -71,9 +71,7 @@ def test_a_dropout_is_as_long_as_it_says_and_one_sample_at_least(right_bench, le
 
 
 def test_a_flickering_laser_loses_so_many_stretches(right_bench):
-    hurt = injured(
-        recording_of(right_bench), "laser-flicker", length_s=0.005, count=12, span_m=30.0
-    )
+    hurt = faulty(recording_of(right_bench), "laser-flicker", length_s=0.005, count=12, span_m=30.0)
     lost = np.isnan(samples(hurt.recording, HEIGHT, "left"))
     assert np.sum(np.diff(lost.astype(int)) == 1) == 12
     assert lost.sum() == pytest.approx(60, abs=12)
@@ -83,19 +81,19 @@ def test_a_flickering_laser_loses_so_many_stretches(right_bench):
 def test_a_stuck_laser_repeats_itself_and_one_out_of_range_is_pinned(right_bench):
     before = recording_of(right_bench)
     heights = samples(before, HEIGHT, "left")
-    stuck = samples(injured(before, "laser-stuck", length_s=0.4).recording, HEIGHT, "left")
+    stuck = samples(faulty(before, "laser-stuck", length_s=0.4).recording, HEIGHT, "left")
     changed = np.flatnonzero(stuck != heights)
     assert set(stuck[changed]) == {heights[changed[0] - 1]}
     assert changed.size == pytest.approx(400, abs=2)
     for side, end in ((1.0, heights.max() + 0.05), (-1.0, heights.min() - 0.05)):
-        hurt = injured(before, "laser-out-of-range", length_s=0.1, side=side)
+        hurt = faulty(before, "laser-out-of-range", length_s=0.1, side=side)
         pinned = samples(hurt.recording, HEIGHT, "left")
         assert set(pinned[pinned != heights]) == {end}
 
 
 def test_a_saturated_accelerometer_is_at_its_full_scale(right_bench):
     before = recording_of(right_bench)
-    hurt = injured(before, "accelerometer-saturation", length_s=0.008, full_scale_g=-4.0)
+    hurt = faulty(before, "accelerometer-saturation", length_s=0.008, full_scale_g=-4.0)
     forces = samples(hurt.recording, FORCE, "left")
     changed = forces != samples(before, FORCE, "left")
     assert changed.sum() == pytest.approx(8, abs=1)
@@ -104,8 +102,8 @@ def test_a_saturated_accelerometer_is_at_its_full_scale(right_bench):
 
 def test_a_gap_is_in_all_channels_at_once(right_bench):
     before = recording_of(right_bench, augmented=True)
-    missing = injured(before, "gap", length_s=0.5).recording
-    absent = injured(before, "gap-in-time", length_s=0.5).recording
+    missing = faulty(before, "gap", length_s=0.5).recording
+    absent = faulty(before, "gap-in-time", length_s=0.5).recording
     spans = []
     for one, two, three in zip(before.channels, missing.channels, absent.channels, strict=True):
         lost = np.isnan(two.values)
@@ -121,7 +119,7 @@ def test_a_gap_is_in_all_channels_at_once(right_bench):
 @given(size_m=st.floats(0.1, 3.0))
 def test_a_leap_adds_to_all_that_follows(right_bench, size_m):
     before = recording_of(right_bench)
-    hurt = injured(before, "encoder-leap", size_m=size_m)
+    hurt = faulty(before, "encoder-leap", size_m=size_m)
     added = samples(hurt.recording, DISTANCE) - samples(before, DISTANCE)
     first = int(np.argmax(added > 0))
     np.testing.assert_allclose(added[first:], size_m, atol=1e-12)
@@ -134,8 +132,8 @@ def test_a_leap_adds_to_all_that_follows(right_bench, size_m):
 def test_silence_is_made_up_for_and_lost_counts_are_not(right_bench, length_s):
     before = recording_of(right_bench)
     true = samples(before, DISTANCE)
-    silent = samples(injured(before, "encoder-silence", length_s=length_s).recording, DISTANCE)
-    hurt = injured(before, "encoder-lost-counts", length_s=length_s)
+    silent = samples(faulty(before, "encoder-silence", length_s=length_s).recording, DISTANCE)
+    hurt = faulty(before, "encoder-lost-counts", length_s=length_s)
     lost = samples(hurt.recording, DISTANCE)
     assert silent[-1] == true[-1]
     held = np.flatnonzero(silent != true)
@@ -149,7 +147,7 @@ def test_silence_is_made_up_for_and_lost_counts_are_not(right_bench, length_s):
 
 def test_counts_go_back_and_are_right_again(right_bench):
     before = recording_of(right_bench)
-    hurt = injured(before, "encoder-counts-back", count=4, size_m=0.03)
+    hurt = faulty(before, "encoder-counts-back", count=4, size_m=0.03)
     change = samples(hurt.recording, DISTANCE) - samples(before, DISTANCE)
     assert sorted(np.unique(np.round(change, 9))) == [-0.03, 0.0]
     assert np.sum(change < 0) == 4
@@ -157,7 +155,7 @@ def test_counts_go_back_and_are_right_again(right_bench):
 
 def test_a_vehicle_rolls_back_where_it_stands(right_bench):
     before = recording_of(right_bench, STOP)
-    hurt = injured(before, "encoder-rolling-back", size_m=0.3)
+    hurt = faulty(before, "encoder-rolling-back", size_m=0.3)
     true, told = (samples(r, DISTANCE) for r in (before, hurt.recording))
     rolled = told != true
     assert np.ptp(true[rolled]) == pytest.approx(0.0, abs=1e-6)
@@ -168,12 +166,12 @@ def test_a_vehicle_rolls_back_where_it_stands(right_bench):
 
 def test_a_variation_names_a_fault_and_its_numbers(right_bench):
     with pytest.raises(InputError, match="variation fault 'fire': unknown; known: laser-dropout"):
-        injury_of({"fault": "fire"})
+        fault_of({"fault": "fire"})
     with pytest.raises(InputError, match="variation length_s is None; give a number"):
-        injured(recording_of(right_bench), "laser-dropout")
+        faulty(recording_of(right_bench), "laser-dropout")
 
 
-@pytest.mark.parametrize("fault", INJURIES)
+@pytest.mark.parametrize("fault", SENSOR_FAULTS)
 def test_faults_need_the_sensor_that_they_are_named_after_unless_every_device_has_it(fault):
     part = fault.partition("-")[0]
     assert needed_by(fault) == ({NEEDED[part]} if part in NEEDED else set())
@@ -184,7 +182,7 @@ def test_faults_need_the_sensor_that_they_are_named_after_unless_every_device_ha
 def test_a_stuck_wheel_repeats_itself_and_the_other_one_goes_on(right_bench, length_s):
     name = INJURED["response-wheel"]
     before = recording_of(right_bench, augmented=True)
-    hurt = injured(before, "response-wheel-stuck", length_s=length_s).recording
+    hurt = faulty(before, "response-wheel-stuck", length_s=length_s).recording
     told = samples(hurt, name, "left")
     changed = np.flatnonzero(told != samples(before, name, "left"))
     assert set(told[changed]) == {told[changed[0] - 1]}
