@@ -10,13 +10,13 @@ from pathlib import Path
 from floatref.errors import InputError
 from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
-from floatref_conformance.bench import seen_by, taken_of
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, Taken, fitted
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.perfect import perfect
+from floatref_conformance.judge.bench import seen_by, taken_of
+from floatref_conformance.judge.perfect import perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NAME_LENGTH = 12

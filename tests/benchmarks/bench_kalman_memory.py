@@ -24,7 +24,7 @@ import numpy as np
 import floatref
 from floatref.files import read_recording, write_recording
 from floatref.values.clock import StampedClock
-from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of, road_of

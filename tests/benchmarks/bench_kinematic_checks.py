@@ -20,7 +20,7 @@ from floatref.screening.imu_and_gnss import ImuUse, check_kinematics
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate
-from floatref_conformance.proving_ground.vehicles import VEHICLES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 
 RATE_HZ = 1000.0
 STOP = {"manoeuvre": "stop"}

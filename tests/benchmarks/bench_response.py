@@ -20,11 +20,11 @@ from road_prior_measuring import compared, quietly, stretch
 
 import floatref
 from floatref.measures import cross_correlation, high_pass, iri_trace
-from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import road_of, setup_of, suite_of
-from floatref_conformance.proving_ground.vehicles import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
 
 JOINT, OBSERVER = "response-joint-input-state", "response-observer"
 LASER = "road-prior-smoother"

@@ -23,7 +23,7 @@ from road_prior_changes import crack, injured
 from road_prior_measuring import OURS, Found, compared, quietly, simulated
 
 from floatref.builtin_pipelines.road_prior import CONSTANTS, EXPECTED, ROAD_PRIOR
-from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation
 

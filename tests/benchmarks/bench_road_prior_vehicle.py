@@ -18,7 +18,7 @@ from road_prior_measuring import OURS, compared, quietly, simulated
 from floatref.cli.vehicle import kept
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.proving_ground.simulate import Simulation
-from floatref_conformance.proving_ground.vehicles import VEHICLES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 
 STOPS = ((0.2, 1.8), (0.4, 1.8), (0.3, 4.0))
 """Deceleration in g and IRI of the road in m/km."""

@@ -25,8 +25,8 @@ from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate
 from floatref_conformance.proving_ground.cache import simulate_cached
-from floatref_conformance.proving_ground.runs import RUNS
-from floatref_conformance.proving_ground.vehicles import VEHICLES
+from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 
 COUNT = round(WINDOW_S * RATE_HZ)
 """Points of the window in which the estimators are compared, or as many as the stop lasts."""

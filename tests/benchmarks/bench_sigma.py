@@ -19,7 +19,7 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import ProfileTrack
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 

@@ -10,10 +10,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from floatref_conformance.proving_ground.response import bilinear
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
-from floatref_conformance.proving_ground.vehicles import LOADED_VAN
+from floatref_conformance.proving_ground.vehicles.parameter_sets import LOADED_VAN
+from floatref_conformance.proving_ground.vehicles.response import bilinear
 
 RUNS = ("ref_72", "sg_10.7s_0.20g", "brk_49-23_0.18g_a")
 RATE_HZ = 16000.0

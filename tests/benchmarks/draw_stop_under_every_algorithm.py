@@ -19,7 +19,7 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.profile import ProfileTrack
-from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.table.passes import Driven, Processing
 from floatref_conformance.table.scores import PEAK_M, score

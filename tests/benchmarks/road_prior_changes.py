@@ -6,13 +6,13 @@ import numpy as np
 
 import floatref
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.injuries import INJURIES
-from floatref_conformance.checks.spoiling import with_values
-from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.checks.faults.injection import with_values
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
+from floatref_conformance.proving_ground.roads.road import Road
+from floatref_conformance.proving_ground.roads.shaping import cosine_rise, scaled_to
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.proving_ground.shaping import cosine_rise, scaled_to
 from floatref_conformance.proving_ground.simulate import Simulation
-from floatref_conformance.proving_ground.vehicles import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
 
 STOP_M = 316.0
 FORCE, HEIGHT = "vertical_specific_force", "height"
@@ -120,13 +120,13 @@ def with_added(recording: floatref.Recording, name: str, values: FloatArray) -> 
 
 
 def injured(fault: str, seconds: float, ahead_m: float = 0.0) -> Change:
-    """Return a fault of `INJURIES` that begins so far ahead of the stop, on every wheel path."""
+    """Return a fault of `SENSOR_FAULTS` that begins ahead of the stop, on every wheel path."""
 
     def hurt(simulation: Simulation) -> floatref.Recording:
         motion, whole = simulation.motion, simulation.recording
         told = whole.channel("distance").values[np.argmax(motion.distance >= STOP_M - ahead_m)]
         numbers = {"at_m": float(told), "length_s": seconds, "fault": fault}
-        spoilt = INJURIES[fault](whole, numbers).recording
+        spoilt = SENSOR_FAULTS[fault](whole, numbers).recording
         if fault.startswith("encoder"):
             return spoilt
         first, *others = whole.tracks

@@ -14,7 +14,7 @@ from road_prior_adversities import Adversity
 import floatref
 from floatref.measures import cross_correlation, high_pass, iri_trace
 from floatref.values.arrays import FloatArray
-from floatref_conformance.proving_ground.road import Road
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import drive_of, road_of
 

@@ -17,10 +17,11 @@ from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.scoring import roughness_within
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.evidence import Pair
+from floatref_conformance.judge.evidence import Pair
+from floatref_conformance.judge.runner import Plan, run
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.runner import Plan, run
 
+HOSTILE = "<script>alert('x')</script>&amp;\x00\x1b[31m\u202e\ud800\ufffe \U0001f600 ]]>\r\n\"'"
 RATE, SPEED, SECONDS, INTERVAL = 1000.0, 20.0, 3.0, 0.05
 CHANNELS = {
     "vertical_specific_force": "left right",
@@ -162,6 +163,12 @@ class FakeDevice:
 
     def close(self):
         self.closed += 1
+
+
+@pytest.fixture
+def hostile():
+    """Return a text that a hostile device or file may hold."""
+    return HOSTILE
 
 
 @pytest.fixture

@@ -13,11 +13,11 @@ from floatref_conformance import EDITION
 from floatref_conformance.case_files import document, name_of, read_case, read_cases
 from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.events import RunFinished, RunStarted
+from floatref_conformance.judge.events import RunFinished, RunStarted
+from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.proving_ground.scenario import LIMITS, MANOEUVRES, ROADS, Scenario
-from floatref_conformance.proving_ground.vehicles import VEHICLES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 from floatref_conformance.render.cases import CaseFiles
-from floatref_conformance.verdict import CheckResult, Outcome, RunResult
 
 NUMBERS = st.floats(allow_nan=False, allow_infinity=False) | st.integers(-(2**63), 2**63)
 VARIATIONS = st.dictionaries(st.text(max_size=8), NUMBERS | st.text(max_size=8), max_size=4)

@@ -7,17 +7,18 @@ from pathlib import Path
 import click
 
 from floatref.files.schema import enforce_schema
-from floatref_conformance.certify import causes, keeping
-from floatref_conformance.certify.criteria import MISSING_PERCENT
-from floatref_conformance.certify.fit import LONGEST_M, SHORTEST_M, WINDOW_M
-from floatref_conformance.certify.limits import limits_of
-from floatref_conformance.certify.placing import MAX_OFFSET_M
-from floatref_conformance.certify.units import DISTANCE_UNITS, HEIGHT_UNITS
+from floatref_conformance.certify.judging import causes
+from floatref_conformance.certify.judging.criteria import MISSING_PERCENT
+from floatref_conformance.certify.judging.limits import limits_of
+from floatref_conformance.certify.locating.fit import LONGEST_M, SHORTEST_M, WINDOW_M
+from floatref_conformance.certify.locating.placing import MAX_OFFSET_M
+from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
+from floatref_conformance.certify.worksheet import keeping
 from floatref_conformance.checks.stretches import END_M
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.main import main
+from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.schemas import read_schema
-from floatref_conformance.verdict import Verdict
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "certify.md").read_text(encoding="utf-8")

@@ -26,7 +26,7 @@ BAD = {
         "used": "floatref.measures.roughness.gaps"
     },
     "no test that imports floatref_conformance is marked": {
-        "used": "floatref_conformance.proving_ground.kinematics"
+        "used": "floatref_conformance.proving_ground.vehicles.kinematics"
     },
     "no test that imports floatref_reference is marked": {"cites": "(9.9)"},
     "slips.md has no anchor 9-9": {"slip": "9-9"},

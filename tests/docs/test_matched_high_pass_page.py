@@ -13,7 +13,7 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.proving_ground import scenario_of_run, simulate
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table.scores import score
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
-from floatref_conformance.proving_ground.vehicles import VEHICLES
+from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 from floatref_conformance.table import Cell, TableSettings, published_figures, rank_correlation
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
 from floatref_conformance.table.scores import AVERAGE_M, MAX_OFFSET_M, PEAK_M
 from floatref_conformance.table.stops import StopSettings
-from floatref_conformance.table.stops.scores import STRETCH_M
-from floatref_conformance.table.stops.settings import (
+from floatref_conformance.table.stops.stop_scores import STRETCH_M
+from floatref_conformance.table.stops.stop_settings import (
     DECELERATION_G,
     DWELL_S,
     FINAL_SPEED_KMH,

@@ -13,7 +13,7 @@ import floatref
 from floatref.measures import short_interval_roughness
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.proving_ground import scenario_of_run, simulate
-from floatref_conformance.proving_ground.runs import RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
 from floatref_conformance.schemas import read_schema
 from floatref_conformance.table import TableSettings, make_table, published_figures
 from floatref_conformance.table.scores import PEAK_M

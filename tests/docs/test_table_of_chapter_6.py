@@ -7,7 +7,7 @@ from statistics import fmean
 
 import pytest
 
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 
 pytestmark = pytest.mark.cites("Tables 6.2 to 6.6")
 DOCS = Path(__file__).parents[2] / "docs"

@@ -32,10 +32,10 @@ BREACHES = {
     "adapters/floatref_adapters/stamps.py": "floatref.values.clock",
     "reference_impl/floatref_reference/signals.py": "scipy",
     "reference_impl/floatref_reference/appendix_a/filters.py": "floatref.values.arrays",
-    "conformance/floatref_conformance/judging.py": "floatref_reference",
+    "conformance/floatref_conformance/judge/judging.py": "floatref_reference",
     "conformance/floatref_conformance/checks/stretches.py": "floatref.stages.filters.butterworth",
-    "conformance/floatref_conformance/runner.py": "floatref.engine.run",
-    "conformance/floatref_conformance/exercise.py": "floatref",
+    "conformance/floatref_conformance/judge/runner.py": "floatref.engine.run",
+    "conformance/floatref_conformance/judge/exercise.py": "floatref",
 }
 """One forbidden import per wall: the file that is given it, and what it imports."""
 

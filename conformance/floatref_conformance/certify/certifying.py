@@ -8,18 +8,23 @@ from pathlib import Path
 from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref_conformance import EDITION
-from floatref_conformance.certify.converting import Converted, converted
-from floatref_conformance.certify.criteria import verdict_of
-from floatref_conformance.certify.cutting import MAX_OFFSET_M
-from floatref_conformance.certify.limits import CertificationLimits
-from floatref_conformance.certify.placing import place, placed
-from floatref_conformance.certify.plan import Plan, Processing, SectionPlan, StationaryPlan
-from floatref_conformance.certify.run_paths import names_of
-from floatref_conformance.certify.scales import judge_readings
-from floatref_conformance.certify.second_opinion import confirm_worksheet
-from floatref_conformance.certify.sections import Run, section_sheet, truth_of
-from floatref_conformance.certify.stationary import stationary_sheet
-from floatref_conformance.certify.worksheet import (
+from floatref_conformance.certify.judging.criteria import verdict_of
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.scales import judge_readings
+from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
+from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
+from floatref_conformance.certify.judging.stationary import stationary_sheet
+from floatref_conformance.certify.locating.placing import place, placed
+from floatref_conformance.certify.plan.converting import Converted, converted
+from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
+from floatref_conformance.certify.plan.plan_document import (
+    Plan,
+    Processing,
+    SectionPlan,
+    StationaryPlan,
+)
+from floatref_conformance.certify.plan.run_paths import names_of
+from floatref_conformance.certify.worksheet.contents import (
     Criterion,
     SectionSheet,
     StationarySheet,

@@ -9,8 +9,8 @@ from floatref.values.recording import Recording
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.verdict import Measurement
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy

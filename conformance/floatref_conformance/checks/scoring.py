@@ -11,8 +11,8 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.stretches import points, stretch
 from floatref_conformance.classes import DeviceClass, Limits
-from floatref_conformance.evidence import CorrelationLoss, Pair, RoughnessError
-from floatref_conformance.verdict import Measurement
+from floatref_conformance.judge.evidence import CorrelationLoss, Pair, RoughnessError
+from floatref_conformance.judge.verdict import Measurement
 
 LEAD_M = 120.0
 """The car of the IRI starts so far ahead of the stretch that counts: at the section's start."""

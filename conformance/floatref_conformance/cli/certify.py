@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.errors import InputError
-from floatref_conformance.certify.plan import Plan, Processing
+from floatref_conformance.certify.plan.plan_document import Plan, Processing
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify_options import Limit, limits_with, plan_of
 
 if TYPE_CHECKING:
-    from floatref_conformance.certify.limits import CertificationLimits
-    from floatref_conformance.certify.worksheet import Worksheet
+    from floatref_conformance.certify.judging.limits import CertificationLimits
+    from floatref_conformance.certify.worksheet.contents import Worksheet
 
 FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
@@ -118,8 +118,8 @@ def _check_report(folder: Path | None) -> None:
     """Raise InputError now for a report that could not be written after the work."""
     if folder is None:
         return
-    from floatref_conformance.certify.keeping import PAGE, check_report
-    from floatref_conformance.render.templating import needs_jinja
+    from floatref_conformance.certify.worksheet.keeping import PAGE, check_report
+    from floatref_conformance.render.text import needs_jinja
 
     needs_jinja(PAGE)
     check_report(folder)
@@ -152,20 +152,20 @@ def _followed(
 
 
 def _write(worksheet: "Worksheet", folder: Path) -> None:
-    from floatref_conformance.certify.document import write_worksheet
-    from floatref_conformance.certify.keeping import write_report
-    from floatref_conformance.render.worksheet_page import write_page
+    from floatref_conformance.certify.worksheet.keeping import write_report
+    from floatref_conformance.certify.worksheet.page import write_page
+    from floatref_conformance.certify.worksheet.worksheet_document import write_worksheet
 
     write_report(worksheet, folder, write_worksheet, write_page)
 
 
 def _show(worksheet: "Worksheet", as_json: bool) -> None:
     if as_json:
-        from floatref_conformance.certify.document import as_json as document
+        from floatref_conformance.certify.worksheet.worksheet_document import as_json as document
 
         click.echo(json.dumps(document(worksheet), indent=2, allow_nan=False))
         return
+    from floatref_conformance.certify.worksheet.terminal import print_worksheet
     from floatref_conformance.render.terminal import PipedConsole
-    from floatref_conformance.render.worksheet_text import print_worksheet
 
     print_worksheet(worksheet, PipedConsole(emoji=False))

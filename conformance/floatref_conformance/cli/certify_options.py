@@ -10,10 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.errors import InputError
-from floatref_conformance.certify.limits import CertificationLimits, limits_of
-from floatref_conformance.certify.plan import Plan, SectionPlan, StationaryPlan, Stretch
-from floatref_conformance.certify.plan_document import read_plan, stretch_of
-from floatref_conformance.certify.run_paths import existing, names_of, runs_of
+from floatref_conformance.certify.judging.limits import CertificationLimits, limits_of
+from floatref_conformance.certify.plan.plan_document import (
+    Plan,
+    SectionPlan,
+    StationaryPlan,
+    Stretch,
+    read_plan,
+    stretch_of,
+)
+from floatref_conformance.certify.plan.run_paths import existing, names_of, runs_of
 from floatref_conformance.classes import DeviceClass
 
 if TYPE_CHECKING:

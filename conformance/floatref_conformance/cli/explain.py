@@ -7,7 +7,7 @@ import click
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import NEEDS
-from floatref_conformance.judging import scored_by
+from floatref_conformance.judge.judging import scored_by
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.drawing import drawing
 

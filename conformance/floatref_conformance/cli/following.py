@@ -16,10 +16,10 @@ from floatref_conformance.cli.no_verdict import (
     in_one_line,
 )
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.events import Event, Renderer, RunFinished
+from floatref_conformance.judge.events import Event, Renderer, RunFinished
+from floatref_conformance.judge.runner import Plan, run
+from floatref_conformance.judge.verdict import RunResult
 from floatref_conformance.render.terminal import TerminalRenderer
-from floatref_conformance.runner import Plan, run
-from floatref_conformance.verdict import RunResult
 
 
 def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:

@@ -6,7 +6,7 @@ from pathlib import Path
 from floatref.errors import InputError
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Device
-from floatref_conformance.events import Renderer
+from floatref_conformance.judge.events import Renderer
 from floatref_conformance.render.cases import CaseFiles
 from floatref_conformance.render.html import HtmlReport
 from floatref_conformance.render.junit import JUnitReport

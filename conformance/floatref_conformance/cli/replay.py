@@ -11,11 +11,11 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
-from floatref_conformance.exercise import closed_on_error
+from floatref_conformance.judge.exercise import closed_on_error
+from floatref_conformance.judge.replaying import replay as replayed
+from floatref_conformance.judge.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
-from floatref_conformance.replaying import replay as replayed
-from floatref_conformance.verdict import CaseResult, Measurement, Verdict
 
 
 @click.command()
@@ -72,7 +72,7 @@ def _verdict(result: CaseResult, device_class: DeviceClass) -> Verdict:
 
 
 def _reason(result: CaseResult, device_class: DeviceClass) -> str:
-    from floatref_conformance.judging import why
+    from floatref_conformance.judge.judging import why
 
     return result.skipped or why(result, device_class) or "every limit is kept"
 

@@ -8,10 +8,10 @@ from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
-from floatref_conformance.exercise import closed_on_error
+from floatref_conformance.judge.exercise import closed_on_error
+from floatref_conformance.judge.runner import Plan
+from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.runner import Plan
-from floatref_conformance.waivers import check_used, read_waivers
 
 RECOMMENDED = "builtin:road-prior-smoother"
 

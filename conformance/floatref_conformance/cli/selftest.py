@@ -7,9 +7,9 @@ from rich.console import Console
 from rich.progress import Progress
 
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.render.selftest import show
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 from floatref_conformance.selftest.counts import Counts, killers_of
+from floatref_conformance.selftest.counts_table import show
 from floatref_conformance.selftest.work import Extent, Work
 
 DOES_NOT_HOLD = 1

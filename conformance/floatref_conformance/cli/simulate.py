@@ -48,7 +48,7 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
 
 def _scenario(run: str, seed: int | None) -> "Scenario":
     """Return the scenario of a run's name or of a file, with its seed replaced if given."""
-    from floatref_conformance.proving_ground.runs import RUNS
+    from floatref_conformance.proving_ground.drives.runs import RUNS
     from floatref_conformance.proving_ground.scenario import read_scenario, scenario_of_run
 
     is_file = run not in RUNS and (run.endswith(".json") or Path(run).is_file())

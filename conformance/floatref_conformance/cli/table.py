@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from floatref.errors import InputError
-from floatref_conformance.proving_ground.vehicles import VEHICLES
-from floatref_conformance.table.settings import TableSettings
+from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
+from floatref_conformance.table.table_settings import TableSettings
 
 OF_PUBLISHED_RUNS = ("runs", "roads", "seeds")
 """What makes no sense with drawn stops."""
@@ -86,7 +86,7 @@ def table(
     truth along the laser's path, high-pass filtered as profiles are: cross correlation, error of
     the IRI, and how often the truth lies within two sigma.
     """
-    from floatref_conformance.render.comparison_picture import check_picture
+    from floatref_conformance.table.comparison_picture import check_picture
 
     if stops:
         _refuse_options_of_runs()
@@ -114,11 +114,11 @@ def _given(name: str) -> bool:
 
 def _published_runs(settings: TableSettings, as_json: bool, plot: Path | None) -> None:
     """Make and show the published tables beside ours."""
-    from floatref_conformance.render.comparison_picture import draw_comparison_maps
-    from floatref_conformance.render.comparison_text import print_comparison
-    from floatref_conformance.render.pass_progress import PassProgress
     from floatref_conformance.table import make_table
-    from floatref_conformance.table.document import document
+    from floatref_conformance.table.comparison_picture import draw_comparison_maps
+    from floatref_conformance.table.comparison_text import print_comparison
+    from floatref_conformance.table.making import PassProgress
+    from floatref_conformance.table.table_document import document
 
     with PassProgress(settings.passes) as progress:
         made = make_table(settings, progress)
@@ -127,11 +127,11 @@ def _published_runs(settings: TableSettings, as_json: bool, plot: Path | None) -
 
 def _drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Path | None) -> None:
     """Make and show the table of drawn stops."""
-    from floatref_conformance.render.pass_progress import PassProgress
-    from floatref_conformance.render.stops_picture import draw_stops
-    from floatref_conformance.render.stops_text import print_stops
+    from floatref_conformance.table.making import PassProgress
     from floatref_conformance.table.stops import StopSettings, make_stop_table
-    from floatref_conformance.table.stops.document import stop_document
+    from floatref_conformance.table.stops.stop_table import stop_document
+    from floatref_conformance.table.stops.stops_picture import draw_stops
+    from floatref_conformance.table.stops.stops_text import print_stops
 
     vehicles = (chosen.vehicle,) if _given("vehicle") else ()
     settings = StopSettings(chosen.seed, stops, vehicles, chosen.pipelines)

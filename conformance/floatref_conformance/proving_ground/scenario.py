@@ -14,10 +14,9 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files import read_schema
-from floatref_conformance.proving_ground.iso8608 import CLASSES
-from floatref_conformance.proving_ground.runs import RUNS
-from floatref_conformance.proving_ground.sayers import CASES
-from floatref_conformance.proving_ground.vehicles import vehicle_called
+from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
 
 FORMAT = "floatref-scenario/1"
 STATIONARY = ("quiescent", "bounce")

@@ -9,14 +9,13 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, Setup
-from floatref_conformance.proving_ground.chain import Chain, VerticalError
-from floatref_conformance.proving_ground.gauging import as_installed, response_channels
-from floatref_conformance.proving_ground.motion import BodyMotion, drive_over
-from floatref_conformance.proving_ground.parked import parked
-from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.satellite import gnss_channels
+from floatref_conformance.proving_ground.drives.parked import parked
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
-from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError
+from floatref_conformance.proving_ground.sensors.gauging import as_installed, response_channels
+from floatref_conformance.proving_ground.sensors.satellite import gnss_channels
+from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.staging import (
     course_of,
     drive_of,
@@ -24,7 +23,8 @@ from floatref_conformance.proving_ground.staging import (
     setup_of,
     suite_of,
 )
-from floatref_conformance.proving_ground.vehicles import vehicle_called
+from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, drive_over
+from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
 
 
 @dataclass(frozen=True, eq=False)

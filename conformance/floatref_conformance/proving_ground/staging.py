@@ -9,24 +9,23 @@ from floatref.errors import InputError
 from floatref.files.sources import naming
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Setup, TrackSetup
-from floatref_conformance.proving_ground import manoeuvres
-from floatref_conformance.proving_ground.drive import Drive
-from floatref_conformance.proving_ground.iso8608 import iso8608_road
-from floatref_conformance.proving_ground.kinematics import Course
-from floatref_conformance.proving_ground.measured import (
+from floatref_conformance.proving_ground.drives import manoeuvres
+from floatref_conformance.proving_ground.drives.drive import Drive
+from floatref_conformance.proving_ground.drives.runs import KMH, RUNS, run_drive
+from floatref_conformance.proving_ground.roads.measured import (
     SHIPPED_INTERVAL_M,
     measured_road,
     shipped_profile,
 )
-from floatref_conformance.proving_ground.response import oversampling
-from floatref_conformance.proving_ground.road import FULL_FROM_M, Road, flat_road
-from floatref_conformance.proving_ground.runs import KMH, RUNS, run_drive
-from floatref_conformance.proving_ground.sayers import sayers_road
+from floatref_conformance.proving_ground.roads.random_roads import iso8608_road, sayers_road
+from floatref_conformance.proving_ground.roads.road import FULL_FROM_M, Road, flat_road
+from floatref_conformance.proving_ground.roads.shaping import scaled_to, with_bump
+from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
-from floatref_conformance.proving_ground.sensors import SensorSuite
-from floatref_conformance.proving_ground.shaping import scaled_to, with_bump
-from floatref_conformance.proving_ground.sines import sines_road
-from floatref_conformance.proving_ground.suspended import Suspended
+from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
+from floatref_conformance.proving_ground.vehicles.kinematics import Course
+from floatref_conformance.proving_ground.vehicles.response import oversampling
+from floatref_conformance.proving_ground.vehicles.suspended import Suspended
 
 BUMP_LENGTH_M = 3.0
 SCALED_OVER_M = 100.0

@@ -6,9 +6,9 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.checks.stretches import Stretches
-from floatref_conformance.proving_ground.artificial import DURATION_S
-from floatref_conformance.proving_ground.artificial import Bounce as Push
-from floatref_conformance.proving_ground.runs import KMH
+from floatref_conformance.proving_ground.drives.artificial import DURATION_S
+from floatref_conformance.proving_ground.drives.artificial import Bounce as Push
+from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render import places
 from floatref_conformance.render.places import Place

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from floatref_conformance.judge.verdict import CheckResult, Pass, RunResult
 from floatref_conformance.render import wording
 from floatref_conformance.render.figures import figure_of
-from floatref_conformance.verdict import CheckResult, Pass, RunResult
 
 MOST_PICTURES = 4
 """Pictures shown for each check."""

@@ -9,9 +9,9 @@ from floatref.measures import high_pass, short_interval_roughness
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.judge.verdict import Pass
 from floatref_conformance.render import places
 from floatref_conformance.render.svg import WIDTH, Figure, Line, Mark, Panel, Shade, drawn
-from floatref_conformance.verdict import Pass
 
 HIGH_PASS_M = 91.44
 """The truth is shown as a profile is delivered: −3 dB at this wavelength."""

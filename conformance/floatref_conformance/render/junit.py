@@ -12,10 +12,16 @@ from xml.etree.ElementTree import Element, SubElement
 from floatref.files.atomic import replacing_file
 from floatref_conformance import EDITION
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.events import CheckFinished, CheckStarted, Event, RunFinished, RunStarted
+from floatref_conformance.judge.events import (
+    CheckFinished,
+    CheckStarted,
+    Event,
+    RunFinished,
+    RunStarted,
+)
+from floatref_conformance.judge.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.render import wording
 from floatref_conformance.render.text import printable
-from floatref_conformance.verdict import CheckResult, Measurement, Outcome, RunResult
 
 NAME = "junit.xml"
 PACKAGE = "floatref_conformance"

@@ -6,10 +6,14 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.checks.stretches import Stretches
-from floatref_conformance.proving_ground.artificial import SIMULATED_SPEED, Bounce, artificial_drive
-from floatref_conformance.proving_ground.drive import Drive
-from floatref_conformance.proving_ground.parked import plates_of
-from floatref_conformance.proving_ground.runs import KMH, RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.drives.artificial import (
+    SIMULATED_SPEED,
+    Bounce,
+    artificial_drive,
+)
+from floatref_conformance.proving_ground.drives.drive import Drive
+from floatref_conformance.proving_ground.drives.parked import plates_of
+from floatref_conformance.proving_ground.drives.runs import KMH, RUNS, SECTION_START_M
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M, drive_of
 

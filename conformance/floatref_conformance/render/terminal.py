@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.events import (
+from floatref_conformance.judge.events import (
     CaseFinished,
     CaseReplayed,
     CheckFinished,
@@ -21,9 +21,9 @@ from floatref_conformance.events import (
     SearchStarted,
     ShrinkStarted,
 )
+from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.render import wording
 from floatref_conformance.render.text import printable
-from floatref_conformance.verdict import CheckResult, Outcome, RunResult, Verdict
 
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
 COLUMNS = ("check", "outcome", "class reached", "cases", "worst", "limit", "margin")

@@ -1,6 +1,10 @@
-"""Text that came from a device or a file, made fit to be shown anywhere."""
+"""Text that came from a device or a file, made fit to be shown, and templates filled with it."""
 
 import unicodedata
+from importlib.util import find_spec
+from typing import Any
+
+from floatref.errors import InputError
 
 HIDDEN = ("Cc", "Cs", "Co", "Cn")
 """Categories of characters without a picture: controls, surrogates, unassigned."""
@@ -31,3 +35,32 @@ def _escape(character: str) -> str:
     if code < 0x100:
         return f"\\x{code:02x}"
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def needs_jinja(page: str) -> None:
+    """Raise InputError where the package that fills in ``page`` is not installed."""
+    if find_spec("jinja2") is None:
+        raise InputError(f"{page} needs Jinja; pip install 'floatref[conformance]'")
+
+
+def filled(template: str, package: str = __package__, **values: Any) -> str:
+    """Return the page that ``template`` makes of ``values``; every string in it is escaped.
+
+    It lies in the folder ``templates`` of ``package``, beside those of this one that it extends.
+    """
+    from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=ChoiceLoader([PackageLoader(name) for name in (package, __package__)]),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=_in_page,
+    )
+    return environment.get_template(template).render(**values) + "\n"
+
+
+def _in_page(value: Any) -> Any:
+    """Return ``value`` with what cannot be shown in a string escaped; markup is sound already."""
+    return printable(value) if type(value) is str else value

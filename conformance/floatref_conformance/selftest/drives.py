@@ -2,18 +2,23 @@
 
 from collections.abc import Iterator
 
-from floatref_conformance.checks.asked import ERROR, LOSS
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving import DrivingCheck
-from floatref_conformance.checks.layout import Layout, layout_of, placed
-from floatref_conformance.checks.rule import ELSEWHERE, Rule
-from floatref_conformance.checks.rules import LIGHT, START, UNFLAGGED, WHOLE, rule_of
+from floatref_conformance.checks.driving.asked import ERROR, LOSS
+from floatref_conformance.checks.driving.check import DrivingCheck
+from floatref_conformance.checks.driving.layout import Layout, layout_of, placed
+from floatref_conformance.checks.driving.rules import (
+    ELSEWHERE,
+    RULES,
+    UNFLAGGED,
+    WHOLE,
+    Rule,
+    rule_of,
+)
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation
-from floatref_conformance.selftest.truth_bench import Spoil
+from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 IRI_M_PER_KM = 3.0
@@ -65,10 +70,10 @@ def _stays_fast(row: Scenario) -> bool:
 def _graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
     layout = layout_of(scenario)
     start_m, end_m = layout.stretches[-1]
-    above = (ADEQUATE, REFERENCE) if rule is LIGHT else tuple(DeviceClass)
+    above = (ADEQUATE, REFERENCE) if rule is RULES["light"] else tuple(DeviceClass)
     yield Graded((LOSS,), lambda loss: put_in.mixed(loss, start_m, end_m), above)
     yield Graded((ERROR,), _higher, above)
-    if rule is LIGHT:
+    if rule is RULES["light"]:
         yield Graded(
             (LOSS, ERROR),
             lambda percent: put_in.higher(-percent / 100.0),
@@ -77,7 +82,7 @@ def _graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
         )
     unflagged = _higher if rule.slow else _rougher(0.0, scenario.length_m)
     yield Graded((UNFLAGGED,), unflagged)
-    yield Graded((WHOLE,), _around(layout), alone=rule is not START)
+    yield Graded((WHOLE,), _around(layout), alone=rule is not RULES["start"])
     if not rule.slow:
         yield Graded(("flagged at an end",), put_in.flagged_end)
         yield Graded((ELSEWHERE,), _away(scenario, layout))

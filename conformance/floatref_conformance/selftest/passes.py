@@ -2,17 +2,17 @@
 
 from dataclasses import replace
 
-from floatref_conformance.checks import repeatability
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.changed_drives import (
+from floatref_conformance.checks.sameness import repeatability
+from floatref_conformance.checks.sameness.changed_drives import (
     BEFORE_M,
     BEHIND_M,
     END_M,
     FREE_M,
     STOP,
 )
-from floatref_conformance.checks.invariance import FROM_M, RAN_IN_M, InvarianceCheck
-from floatref_conformance.checks.repeatability import RepeatabilityCheck
+from floatref_conformance.checks.sameness.invariance import FROM_M, RAN_IN_M, InvarianceCheck
+from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.classes import Effort
 from floatref_conformance.selftest import put_in
 from floatref_conformance.selftest.grading import Graded, Put, Situation

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.distance import QUANTITIES, DistanceCheck
-from floatref_conformance.checks.features import middles
+from floatref_conformance.checks.distance.feature_places import QUANTITIES, DistanceCheck
+from floatref_conformance.checks.distance.features import middles
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.selftest import put_in
 from floatref_conformance.selftest.grading import Graded, Put, Situation

@@ -13,7 +13,7 @@ from floatref.measures import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.selftest.truth_bench import Spoil
+from floatref_conformance.selftest.grading import Spoil
 
 Window = Callable[[FloatArray], FloatArray]
 """Returns the share, 0 to 1, of an error at each place in m."""

@@ -8,11 +8,10 @@ from floatref.measures import iri
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.checks.plate import PLATE_M
-from floatref_conformance.checks.stationary import StationaryCheck
+from floatref_conformance.checks.stationary.parked_checks import StationaryCheck
+from floatref_conformance.checks.stationary.plate import PLATE_M
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Situation
-from floatref_conformance.selftest.truth_bench import Spoil
+from floatref_conformance.selftest.grading import Graded, Situation, Spoil
 
 WAVE_M = 12.0
 SETTLED_M = 2000.0

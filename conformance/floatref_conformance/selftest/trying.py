@@ -6,18 +6,18 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache
 
-from floatref_conformance.bench import DeviceBench
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, fitted
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.exercise import close, describe
-from floatref_conformance.judging import why
+from floatref_conformance.judge.bench import DeviceBench
+from floatref_conformance.judge.exercise import close, describe
+from floatref_conformance.judge.judging import why
+from floatref_conformance.judge.replaying import judged
+from floatref_conformance.judge.search import search
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
-from floatref_conformance.replaying import judged
-from floatref_conformance.search import search
 
 
 @dataclass(frozen=True)

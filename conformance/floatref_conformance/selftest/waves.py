@@ -6,17 +6,16 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.distance.waveband import QUANTITIES, WavebandCheck
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.checks.waveband import QUANTITIES, WavebandCheck
-from floatref_conformance.proving_ground.sines import (
+from floatref_conformance.proving_ground.roads.sines import (
     BEYOND_M,
     CUT_OFF_M,
     LONGEST_FLAT_M,
     WAVELENGTHS_M,
 )
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation
-from floatref_conformance.selftest.truth_bench import Spoil
+from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
 
 OF_THE_FILTER = (QUANTITIES[0][0], QUANTITIES[2][0])
 """What the filter itself, as it is to be, does to the longest wave of the flat band and beyond the

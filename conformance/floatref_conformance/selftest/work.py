@@ -1,14 +1,52 @@
-"""The work of the self-test, step by step, with its progress."""
+"""The work of the self-test, step by step, with its progress, and all limits to be graded."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
+from floatref_conformance.checks.distance.feature_places import DistanceCheck
+from floatref_conformance.checks.distance.waveband import WavebandCheck
+from floatref_conformance.checks.driving.check import DrivingCheck
+from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.sameness.invariance import InvarianceCheck
+from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
+from floatref_conformance.checks.stationary.parked_checks import StationaryCheck
+from floatref_conformance.selftest import drives, faults, passes, places, stationary, waves
 from floatref_conformance.selftest.counts import Counts, Killers, claimed, named, unnamed
-from floatref_conformance.selftest.grading import Limit
-from floatref_conformance.selftest.limits import graded, without_grader
+from floatref_conformance.selftest.grading import Limit, Roads, Situation, grade, ungraded
 from floatref_conformance.selftest.trying import Tried, Try, try_all
+
+GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
+    StationaryCheck: stationary.situations,
+    DrivingCheck: drives.situations,
+    WavebandCheck: waves.situations,
+    RepeatabilityCheck: passes.situations_of_repeatability,
+    DistanceCheck: places.situations,
+    InvarianceCheck: passes.situations_of_invariance,
+    FaultsCheck: faults.situations,
+}
+"""How the cases of each kind of check are made whose quantities are graded."""
+
+
+def situations(check: Check) -> tuple[Situation, ...]:
+    """Return the graded cases of ``check``; none for one that did not come with the suite."""
+    grader = GRADERS.get(type(check))
+    return () if grader is None else grader(check)
+
+
+def graded(checks: Iterable[Check]) -> Iterator[Limit]:
+    """Yield every limit of ``checks`` with what became of it."""
+    for check in checks:
+        roads = Roads()
+        for situation in situations(check):
+            yield from grade(situation, roads)
+
+
+def without_grader(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
+    """Return the published limits of ``checks`` that ``limits`` lack."""
+    return tuple(missing for check in checks for missing in ungraded(check, limits))
+
 
 Item = TypeVar("Item")
 

@@ -9,7 +9,7 @@ from floatref_conformance.table.making import make_table
 from floatref_conformance.table.published import PublishedFigures, published_figures
 from floatref_conformance.table.rank import RankCorrelation, rank_correlation, rank_correlations
 from floatref_conformance.table.scores import Scores, mean_scores, score
-from floatref_conformance.table.settings import TableSettings
+from floatref_conformance.table.table_settings import TableSettings
 
 __all__ = [
     "Cell",

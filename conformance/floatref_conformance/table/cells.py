@@ -6,7 +6,7 @@ from functools import cached_property
 from floatref.errors import InputError
 from floatref_conformance.table.published import PublishedFigures
 from floatref_conformance.table.scores import Scores, mean_scores
-from floatref_conformance.table.settings import TableSettings
+from floatref_conformance.table.table_settings import TableSettings
 
 
 @dataclass(frozen=True)

@@ -1,17 +1,21 @@
-"""Making the table: road by road, noise by noise, run by run, so that memory stays small."""
+"""Making the table, road by road, noise by noise, run by run, and how far it is."""
 
 from collections.abc import Callable, Iterator, Mapping
+from types import TracebackType
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref_conformance.errors import DeviceError, SuiteError
-from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.runs import REFERENCE_RUN
+from floatref_conformance.proving_ground.drives.runs import REFERENCE_RUN
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import Processing, pass_scenario, road_drawn
 from floatref_conformance.table.published import published_figures
 from floatref_conformance.table.scores import Scores, score
-from floatref_conformance.table.settings import TableSettings
+from floatref_conformance.table.table_settings import TableSettings
 
 REFERENCE_PIPELINE = "temporal-basic"
 """What the reference pass is processed by, as in the dissertation."""
@@ -78,3 +82,49 @@ def _scores(reference: Profile, profile: Profile, pipeline: str, run: str) -> tu
         return tuple(score(reference, profile).values())
     except (DeviceError, InputError) as error:
         raise SuiteError(f"pipeline {pipeline}, run {run}: {error}") from error
+
+
+class PassProgress:
+    """A bar on a terminal, else one line for each set of passes; a context manager.
+
+    Call it with the name of every pass before it is driven.
+    """
+
+    def __init__(self, total: int, console: Console | None = None) -> None:
+        """Expect ``total`` passes; write to ``console``, or else to standard error."""
+        self._console = console or Console(stderr=True, emoji=False)
+        self._bar = Progress(
+            TextColumn("{task.description}", markup=False),
+            BarColumn(),
+            TextColumn("{task.completed:.0f} of {task.total:.0f}"),
+            TimeElapsedColumn(),
+            console=self._console,
+            transient=True,
+            disable=not self._console.is_terminal,
+        )
+        self._task = self._bar.add_task("", total=total)
+        self._started = 0
+        self._set = ""
+
+    def __enter__(self) -> "PassProgress":
+        """Show the bar."""
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Take the bar away, also after an error."""
+        self._bar.stop()
+
+    def __call__(self, name: str) -> None:
+        """Show that the pass ``name`` ("set: run") starts and those before are done."""
+        self._bar.update(self._task, description=name, completed=self._started)
+        self._started += 1
+        group = name.partition(":")[0]
+        if group != self._set and not self._console.is_terminal:
+            self._console.print(f"{group} …", markup=False, highlight=False, soft_wrap=True)
+        self._set = group

@@ -17,9 +17,9 @@ from floatref_conformance.checks.case import CHANNELS_BY_NEED
 from floatref_conformance.devices import builtin
 from floatref_conformance.devices.interface import visible
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.exercise import describe
-from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.runs import RECORDING_LENGTH_M
+from floatref_conformance.judge.exercise import describe
+from floatref_conformance.proving_ground.drives.runs import RECORDING_LENGTH_M
+from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import road_of

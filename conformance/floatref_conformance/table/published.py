@@ -7,7 +7,7 @@ from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
 
-from floatref_conformance.proving_ground.runs import REFERENCE_RUN, RUNS
+from floatref_conformance.proving_ground.drives.runs import REFERENCE_RUN, RUNS
 from floatref_conformance.table.scores import Scores
 
 RUN_NAMES = tuple(name for name in RUNS if name != REFERENCE_RUN)

@@ -15,7 +15,7 @@ from floatref.measures import (
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.stretches import points, stretch
-from floatref_conformance.proving_ground.runs import SECTION_START_M
+from floatref_conformance.proving_ground.drives.runs import SECTION_START_M
 
 AVERAGE_M = (120.0, 280.9)
 """Stretch of the IRI and of the cross correlation, in m from the section's start."""

@@ -9,13 +9,13 @@ import pytest
 
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
-from floatref_conformance.events import Event
+from floatref_conformance.judge.events import Event
+from floatref_conformance.judge.runner import Plan, run
+from floatref_conformance.judge.verdict import Outcome, RunResult
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.wording import reproduction
-from floatref_conformance.runner import Plan, run
 from floatref_conformance.testing.own_device import OwnDevice
-from floatref_conformance.verdict import Outcome, RunResult
 
 
 class DeviceChecks:

@@ -74,7 +74,7 @@ class StageLaws:
     def test_1_any_split_gives_the_same_output(self, seed: int, cuts: list[int]) -> None:
         """Law 1: bit for bit."""
         stream = self.stream(seed)
-        _same(stream.run(), stream.run(cuts))
+        same(stream.run(), stream.run(cuts))
 
     @laws
     @given(seed=SEEDS, cuts=CUTS)
@@ -108,17 +108,7 @@ class StageLaws:
     def test_4_saving_and_restoring_changes_nothing(self, seed: int, at: int) -> None:
         """Law 4: a state that was saved in the middle starts another stage there."""
         stream = self.stream(seed)
-        blocks = stream.blocks([60, 120, 180])
-        order, stage = stream.ordered(blocks), stream.begun(blocks)
-        out = [stage.push(block) for block in order[:at]]
-        saved = stage.state()
-        for block in order[at:]:
-            stage.push(block)
-        other = self.make()
-        other.start(stream.header)
-        other.restore(saved)
-        out += [other.push(block) for block in order[at:]]
-        _same(joined([*out, *other.finish()]), stream.run())
+        same(resumed(stream, [60, 120, 180], at), stream.run())
 
     @laws
     @given(seed=SEEDS, at=st.integers(1, LENGTH - 2))
@@ -202,7 +192,21 @@ class StageLaws:
         moved = Stream(stream.make, stream.samples, self.tracks, self.axis, first=later).run()
         out = stream.run()
         assert moved.first == out.first + later, f"begins at {moved.first}"
-        _same(moved, out, at=later)
+        same(moved, out, at=later)
+
+
+def resumed(stream: Stream, cuts: list[int], at: int) -> Block:
+    """Return what comes out if block ``at`` and those after it go to a stage with a saved state."""
+    blocks = stream.blocks(cuts)
+    order, stage = stream.ordered(blocks), stream.begun(blocks)
+    out = [stage.push(block) for block in order[:at]]
+    saved = stage.state()
+    for block in order[at:]:
+        stage.push(block)
+    other = stream.make()
+    other.start(stream.header)
+    other.restore(saved)
+    return joined([*out, *(other.push(block) for block in order[at:]), *other.finish()])
 
 
 def _without(lost: ChannelId, at: int, channel: ChannelId, values: FloatArray) -> FloatArray:
@@ -235,7 +239,7 @@ def _untold(wrong: BoolArray, told_at: BoolArray, reach: int | None) -> BoolArra
     return wrong & ~near
 
 
-def _same(one: Block, two: Block, at: int = 0) -> None:
+def same(one: Block, two: Block, at: int = 0) -> None:
     """Raise AssertionError unless both blocks are equal, the first ``at`` samples later."""
     assert one.first == two.first + at, f"one begins at {one.first}, the other at {two.first}"
     assert one.values.keys() == two.values.keys(), "the channels differ"

@@ -11,13 +11,13 @@ import pytest
 from floatref.files import write_profile
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify import sections
-from floatref_conformance.certify.limits import CertificationLimits
-from floatref_conformance.certify.plan import SectionPlan
-from floatref_conformance.certify.sections import Run, section_sheet, truth_of
-from floatref_conformance.certify.worksheet import SectionSheet
-from floatref_conformance.proving_ground.road import Road
-from floatref_conformance.proving_ground.sayers import sayers_road
+from floatref_conformance.certify.judging import sections
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
+from floatref_conformance.certify.plan.plan_document import SectionPlan
+from floatref_conformance.certify.worksheet.contents import SectionSheet
+from floatref_conformance.proving_ground.roads.random_roads import sayers_road
+from floatref_conformance.proving_ground.roads.road import Road
 
 INTERVAL_M = 0.05
 LENGTH_M = 200.0

@@ -17,7 +17,7 @@ from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.main import main as conformance_command
 from floatref_conformance.devices.builtin import quietly_processed
-from floatref_conformance.perfect import perfect
+from floatref_conformance.judge.perfect import perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 

@@ -17,21 +17,21 @@ from floatref.files import read_profile, write_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify import certifying
 from floatref_conformance.certify.certifying import certify
-from floatref_conformance.certify.converting import converted
-from floatref_conformance.certify.cutting import within
-from floatref_conformance.certify.limits import CertificationLimits
-from floatref_conformance.certify.plan import (
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.plan.converting import converted
+from floatref_conformance.certify.plan.cutting import within
+from floatref_conformance.certify.plan.plan_document import (
     DistancePlan,
     Plan,
     Processing,
     SectionPlan,
     StationaryPlan,
 )
-from floatref_conformance.certify.worksheet import Judged, RunSheet, Worksheet
+from floatref_conformance.certify.worksheet.contents import Judged, RunSheet, Worksheet
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
-from floatref_conformance.verdict import Verdict
 
 CORRELATIONS = CertificationLimits(runs=2, distance_percent=None, height_percent=None)
 

@@ -7,13 +7,13 @@ import pytest
 from click.testing import CliRunner
 
 from floatref.errors import InputError
-from floatref_conformance.bench import taken_of
 from floatref_conformance.case_files import document
-from floatref_conformance.checks.faults import FAULTS
-from floatref_conformance.checks.invariance import INVARIANCE
-from floatref_conformance.checks.repeatability import REPEATABILITY
+from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.sameness.invariance import INVARIANCE
+from floatref_conformance.checks.sameness.repeatability import REPEATABILITY
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.main import main
+from floatref_conformance.judge.bench import taken_of
 from floatref_conformance.plugins import load_registry
 
 CHECKS = load_registry().checks

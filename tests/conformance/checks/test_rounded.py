@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.checks import changed_drives, injured_drives
+from floatref_conformance.checks.faults import faulty_drives
 from floatref_conformance.checks.rounded import SEED, rounded, seed_of_its_own
+from floatref_conformance.checks.sameness import changed_drives
 
 
 @settings(deadline=None, max_examples=25)
@@ -25,7 +26,7 @@ def test_the_same_draw_makes_another_seed_for_other_numbers(seed, speeds):
     assert seed_of_its_own(seed, {"a": 1, "b": 2}) == seed_of_its_own(seed, {"b": 2, "a": 1})
 
 
-@pytest.mark.parametrize("drives", [injured_drives, changed_drives], ids=lambda d: d.CHECK)
+@pytest.mark.parametrize("drives", [faulty_drives, changed_drives], ids=lambda d: d.CHECK)
 def test_no_two_drawn_cases_share_a_road_though_the_same_seed_is_drawn(drives, monkeypatch):
     monkeypatch.setattr(drives, "seeds", lambda: st.just(7))
     cases = set()

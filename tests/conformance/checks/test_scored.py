@@ -8,15 +8,16 @@ import pytest
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.faults import FAULTS
-from floatref_conformance.checks.invariance import INVARIANCE
-from floatref_conformance.checks.stop import STOP
+from floatref_conformance.checks.driving.check import DRIVING_CHECKS
+from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.sameness.invariance import INVARIANCE
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.render.places import joined
 
+STOP = DRIVING_CHECKS["stop"]
 INSIDE_M, OUTSIDE_M = 0.1, 5.0
 """The lasers of `repeatability` lie up to 2 m from where the vehicle is said to be."""
 WHOLE = [id_ for id_ in load_registry().checks if id_ not in (*STATIONARY, "faults")]

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance import oracle
 from floatref_conformance.checks import scoring
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import DeviceError, SuiteError
+from floatref_conformance.judge import oracle
 
 INTERVAL, LENGTH = 0.05, 400.0
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass

@@ -15,7 +15,7 @@ from floatref.files import read_profile, write_profile
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify import certifying
 from floatref_conformance.cli.main import main
-from floatref_conformance.proving_ground.sayers import sayers_road
+from floatref_conformance.proving_ground.roads.random_roads import sayers_road
 
 INTERVAL_M = 0.05
 OPTIONS = {

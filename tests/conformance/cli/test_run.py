@@ -11,9 +11,9 @@ from contextlib import suppress
 import pytest
 from jsonschema import Draft202012Validator
 
-from floatref_conformance import trial
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.cli import following
+from floatref_conformance.judge import trial
 from floatref_conformance.render.terminal import PipedConsole, TerminalRenderer
 from floatref_conformance.schemas import read_schema
 

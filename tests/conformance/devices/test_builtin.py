@@ -7,7 +7,7 @@ from floatref.errors import InputError
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import CLAIMS, entries, make
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.devices.mutants import MUTANT
+from floatref_conformance.mutants.device import MUTANT
 
 SMOOTHER = "kalman-smoother-reflection"
 

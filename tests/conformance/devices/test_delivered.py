@@ -14,7 +14,7 @@ from floatref_conformance.devices import delivered
 from floatref_conformance.devices.delivered import take
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
-from floatref_conformance.exercise import close, exercise
+from floatref_conformance.judge.exercise import close, exercise
 
 NOMINAL = Description("in test", "1", "temporal", ())
 
@@ -181,7 +181,7 @@ def test_other_files_and_folders_beside_a_sound_profile_are_no_fault(recording, 
 def test_a_profile_that_is_cut_while_it_is_read_harms_nobody(recording, sound, monkeypatch):
     folders = []
     monkeypatch.setattr(
-        "floatref_conformance.exercise.read_profile",
+        "floatref_conformance.judge.exercise.read_profile",
         lambda copy: [all_shortened(folders[0]), read_profile(copy)][1],
     )
     taken = exercise(Delivering(sound, folders.append), NOMINAL, recording)

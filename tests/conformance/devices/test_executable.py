@@ -19,7 +19,7 @@ from floatref_conformance.cli.main import main
 from floatref_conformance.devices import executable
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
-from floatref_conformance.exercise import close, describe, exercise
+from floatref_conformance.judge.exercise import close, describe, exercise
 
 SOUND = "start()\nwhile True: sound(ask())"
 STARTS = "open('starts', 'a').write('x')\n"

@@ -10,7 +10,7 @@ from floatref_conformance.cli.main import main
 from floatref_conformance.devices import python_device
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceSkipped
-from floatref_conformance.exercise import close, describe, exercise
+from floatref_conformance.judge.exercise import close, describe, exercise
 
 VENDOR = """\
 import os, shutil, sys

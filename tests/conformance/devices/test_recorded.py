@@ -15,7 +15,7 @@ from floatref.values.recording import Channel
 from floatref_conformance.devices import recorded as module
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceSkipped
-from floatref_conformance.exercise import describe, exercise
+from floatref_conformance.judge.exercise import describe, exercise
 
 NUMBERS = (1, 2, 3)
 

@@ -103,7 +103,7 @@ def test_changed_source_is_not_answered_with_an_old_recording(
 @pytest.mark.parametrize(
     "changed",
     [
-        "floatref_conformance.proving_ground/motion.py",
+        "floatref_conformance.proving_ground/vehicles/motion.py",
         "floatref_conformance.proving_ground/data/sroubek/profile_1.txt",
         "floatref.measures/quarter_car.py",
         "floatref.kernels/golden_car.py",

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.measures import iri
-from floatref_conformance.proving_ground.runs import RECORDING_LENGTH_M, RUNS
+from floatref_conformance.proving_ground.drives.runs import RECORDING_LENGTH_M, RUNS
 from floatref_conformance.proving_ground.scenario import (
     MANOEUVRES,
     ROADS,
@@ -21,7 +21,7 @@ from floatref_conformance.proving_ground.scenario import (
     read_scenario,
     scenario_of_run,
 )
-from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import (
     course_of,
@@ -30,7 +30,7 @@ from floatref_conformance.proving_ground.staging import (
     setup_of,
     suite_of,
 )
-from floatref_conformance.proving_ground.vehicles import LOADED_VAN, VEHICLES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import LOADED_VAN, VEHICLES
 
 scenarios = st.builds(
     Scenario,

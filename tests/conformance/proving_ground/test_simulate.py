@@ -12,11 +12,11 @@ from floatref.values.channels import STANDARD_GRAVITY as G
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
-from floatref_conformance.proving_ground.motion import BodyMotion, TrackMotion
-from floatref_conformance.proving_ground.road import flat_road
+from floatref_conformance.proving_ground.roads.road import flat_road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
-from floatref_conformance.proving_ground.sensors import SensorSuite
+from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary, truth_of
+from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, TrackMotion
 
 SHORT = Scenario(seed=1, length_m=70.0, event_at_m=30.0, rate_hz=2000.0)
 

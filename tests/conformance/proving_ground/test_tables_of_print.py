@@ -3,8 +3,8 @@
 import pytest
 
 from floatref.measures.roughness.thresholds import SAMPLE_ROADS
-from floatref_conformance.proving_ground.runs import RUNS
-from floatref_conformance.proving_ground.sayers import CASES
+from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.roads.random_roads import CASES
 from floatref_reference.chapter_2.section_2_1_4_1_spectral_models import TABLE_2_2, TABLE_2_3
 from floatref_reference.chapter_5.section_5_2 import TABLE_5_1, TABLE_5_2
 

@@ -13,11 +13,11 @@ from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.events import RunFinished, RunStarted
+from floatref_conformance.judge.events import RunFinished, RunStarted
+from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.render import templating
+from floatref_conformance.render import text
 from floatref_conformance.render.html import HtmlReport, as_html
-from floatref_conformance.verdict import Outcome
 
 VOID = {"meta", "link", "br", "hr", "img", "input"}
 LEADING = {"src", "href", "action", "data", "poster", "srcset", "formaction", "xlink:href"}
@@ -246,6 +246,6 @@ def test_the_report_explains_the_checks_of_its_run_and_replaces_an_older_one(
 
 
 def test_without_the_template_engine_the_user_is_told_what_to_install(tmp_path, monkeypatch):
-    monkeypatch.setattr(templating, "find_spec", lambda name: None)
+    monkeypatch.setattr(text, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r"pip install 'floatref\[conformance\]'"):
         HtmlReport.into(tmp_path)

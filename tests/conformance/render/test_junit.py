@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 import pytest
 import xmlschema
 
-from floatref_conformance.events import CheckFinished, CheckStarted, RunFinished
+from floatref_conformance.judge.events import CheckFinished, CheckStarted, RunFinished
+from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render.junit import JUnitReport
-from floatref_conformance.verdict import Outcome
 
 SCHEMA = xmlschema.XMLSchema(Path(__file__).parent / "data" / "junit.xsd")
 BEGUN = datetime(2026, 5, 4, 3, 2, 1, tzinfo=UTC)

@@ -8,7 +8,7 @@ from rich.console import Console
 
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.events import (
+from floatref_conformance.judge.events import (
     CaseReplayed,
     CheckFinished,
     CheckStarted,
@@ -17,8 +17,8 @@ from floatref_conformance.events import (
     SearchStarted,
     ShrinkStarted,
 )
+from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render.terminal import TerminalRenderer
-from floatref_conformance.verdict import Outcome
 
 
 def shown(*events, terminal=False):

@@ -8,8 +8,8 @@ from click.testing import CliRunner
 
 from floatref_conformance.cli import replay, run
 from floatref_conformance.cli.main import main
+from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render import wording
-from floatref_conformance.verdict import Outcome
 
 SPEC = "exec:./firmware 'x y'"
 

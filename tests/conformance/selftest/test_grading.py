@@ -9,8 +9,7 @@ from floatref.measures import iri_trace
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Limit, Situation, grade, ungraded
-from floatref_conformance.selftest.truth_bench import Roads
+from floatref_conformance.selftest.grading import Graded, Limit, Roads, Situation, grade, ungraded
 
 SOUND = Limit("toy", "IRI error", DeviceClass.NOMINAL, 0.0, 1.5, 0.67, (0.5, "other"))
 
@@ -46,7 +45,7 @@ def test_a_limit_that_others_imply_stands_alone():
 @pytest.fixture
 def graded(toy_check, monkeypatch):
     """Return a function that grades the toy check's quantity by errors ``off`` times too large."""
-    monkeypatch.setattr("floatref_conformance.selftest.truth_bench.perfect", lambda t: t.truth)
+    monkeypatch.setattr("floatref_conformance.selftest.grading.perfect", lambda t: t.truth)
 
     def run(check, off=1.0):
         def put(amount):

@@ -10,9 +10,8 @@ from floatref.errors import InputError
 from floatref_conformance import table as table_package
 from floatref_conformance.cli.main import main
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.render import comparison_picture
 from floatref_conformance.schemas import read_schema
-from floatref_conformance.table import Scores, TableSettings
+from floatref_conformance.table import Scores, TableSettings, comparison_picture
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ One set of passes on each of three roads, both wheel paths: every figure is a me
 
 import pytest
 
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table import (
     ComparisonTable,
     TableSettings,

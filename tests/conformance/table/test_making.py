@@ -14,7 +14,7 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table import TableSettings, make_table
 from floatref_conformance.table.passes import Processing, pass_scenario, road_drawn
-from floatref_conformance.table.settings import offered_pipelines
+from floatref_conformance.table.table_settings import offered_pipelines
 
 BRAKES = ("brk_72-29_0.39g", "brk_49-34_0.84g")
 PIPELINES = ("temporal-basic", "spatial-basic")

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table import Scores, published_figures
 from floatref_conformance.table.published import RUN_NAMES, published_table
 

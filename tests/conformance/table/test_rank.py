@@ -3,7 +3,7 @@
 import pytest
 from scipy.stats import spearmanr
 
-from floatref_conformance.proving_ground.runs import RUNS
+from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table import Scores, published_figures, rank_correlation
 from floatref_conformance.table.rank import rank_correlations
 

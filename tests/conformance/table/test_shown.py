@@ -9,12 +9,11 @@ import pytest
 from rich.console import Console
 
 from floatref.errors import InputError
-from floatref_conformance.render import comparison_picture
-from floatref_conformance.render.comparison_picture import check_picture, draw_comparison_maps
-from floatref_conformance.render.comparison_text import print_comparison
-from floatref_conformance.render.pass_progress import PassProgress
-from floatref_conformance.table import Scores, TableSettings
-from floatref_conformance.table.document import document
+from floatref_conformance.table import Scores, TableSettings, comparison_picture
+from floatref_conformance.table.comparison_picture import check_picture, draw_comparison_maps
+from floatref_conformance.table.comparison_text import print_comparison
+from floatref_conformance.table.making import PassProgress
+from floatref_conformance.table.table_document import document
 
 STOP, BRAKE = "sg_5.7s_0.20g", "brk_49-20_0.25g"
 BASIC = "temporal-basic"

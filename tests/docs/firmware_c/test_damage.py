@@ -9,12 +9,12 @@ from floatref.files import write_recording
 from floatref.measures import iri_trace
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.fault_numbers import NUMBERS
-from floatref_conformance.checks.injured_drives import ROLLING
-from floatref_conformance.checks.injuries import INJURIES
+from floatref_conformance.checks.faults.fault_numbers import NUMBERS
+from floatref_conformance.checks.faults.faulty_drives import ROLLING
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 
 STOP = {"manoeuvre": "stop", "length_m": 300.0, "event_at_m": 150.0, "speed_kmh": 50.0}
-FAULTS = [name for name in INJURIES if not name.startswith(("gnss", "imu", "response"))]
+FAULTS = [name for name in SENSOR_FAULTS if not name.startswith(("gnss", "imu", "response"))]
 REPAIRED = (ROLLING, "encoder-counts-back")
 AT_M = 140.0
 CASES = [(name, n) for name in FAULTS for n in range(len(NUMBERS[name]))]
@@ -38,7 +38,7 @@ def test_damage_is_repaired_or_flagged_and_the_road_far_before_it_is_as_it_was(
     start, whole, sound, fault, n, tmp_path
 ):
     recording, right = whole[fault == ROLLING], sound[fault == ROLLING]
-    hurt = INJURIES[fault](recording, {"at_m": AT_M, **NUMBERS[fault][n]}).recording
+    hurt = SENSOR_FAULTS[fault](recording, {"at_m": AT_M, **NUMBERS[fault][n]}).recording
     found = start().profile_of(hurt, tmp_path / "run")
     before, place = (round(x / found.interval_m) for x in (80.0, AT_M))
     for mine, theirs in zip(found.tracks, right.tracks, strict=True):

@@ -4,10 +4,15 @@
 and compares the profiles around the stop with the elevation along the laser's path.
 """
 
-from floatref_conformance.table.stops.making import make_stop_table
-from floatref_conformance.table.stops.scores import StopScores
-from floatref_conformance.table.stops.settings import StopSettings
-from floatref_conformance.table.stops.table import StopSummary, StopTable, WheelPath, summary
+from floatref_conformance.table.stops.stop_scores import StopScores
+from floatref_conformance.table.stops.stop_settings import StopSettings
+from floatref_conformance.table.stops.stop_table import (
+    StopSummary,
+    StopTable,
+    WheelPath,
+    make_stop_table,
+    summary,
+)
 
 __all__ = [
     "StopScores",

@@ -8,11 +8,11 @@ from jsonschema import Draft202012Validator
 from rich.console import Console
 
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.render.stops_picture import draw_stops
-from floatref_conformance.render.stops_text import print_stops
 from floatref_conformance.schemas import read_schema
 from floatref_conformance.table.stops import StopScores, StopSettings
-from floatref_conformance.table.stops.document import stop_document
+from floatref_conformance.table.stops.stop_table import stop_document
+from floatref_conformance.table.stops.stops_picture import draw_stops
+from floatref_conformance.table.stops.stops_text import print_stops
 
 ONE = StopSettings(seed=2, stops=1, vehicles=("minivan",), pipelines=("temporal-basic",))
 SCORES = (

@@ -1,0 +1,1 @@
+"""Comparing runs with the reference, and judging them by the limits."""

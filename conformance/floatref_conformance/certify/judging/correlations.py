@@ -1,0 +1,146 @@
+"""Repeatability, accuracy and IRI of a wheel path at a section, against their limits."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import fsum, isnan, nan
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref_conformance.certify.judging.comparing import with_others
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.reasons import (
+    joined,
+    judged_by,
+    listed,
+    of_track,
+    with_causes,
+)
+from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet, RunTrack
+
+
+def outliers(pairs: FloatArray, limit: float) -> tuple[list[int], float]:
+    """Return the runs without which the pairs average ``limit``, and what they average then.
+
+    One bad run takes part in all others' pairs, whose averages fall with its own; so the worst is
+    left out until the rest agrees. Empty, and NaN, if half of the runs or more would have to go,
+    or none has to. ``pairs`` has shape (runs, runs), NaN where there is none.
+    """
+    kept = np.flatnonzero(~np.isnan(with_others(pairs))).tolist()
+    gone: list[int] = []
+    while 2 * len(gone) < len(kept) + len(gone):
+        part = pairs[np.ix_(kept, kept)]
+        average = float(np.nanmean(part)) if np.isfinite(part).any() else np.nan
+        if average >= limit:
+            return gone, average if gone else np.nan
+        gone.append(kept.pop(int(np.nanargmin(with_others(part)))))
+    return [], np.nan
+
+
+REPEATABILITY = (
+    "AASHTO R 56-14, repeatability: cross correlation of the IRI filter's output 0.92, averaged "
+    "over all pairs of ten runs, each wheel path apart"
+)
+ACCURACY = (
+    "AASHTO R 56-14, accuracy: cross correlation of the IRI filter's output with the reference "
+    "0.90, averaged over the runs, each wheel path apart"
+)
+BIAS = (
+    "ours, not of AASHTO R 56-14, which has the IRI reported: mean error of the IRI within 5 % in "
+    "class adequate and 2 % in reference, as of the conformance checks at constant speed"
+)
+
+
+def judge_repeatability(
+    name: str, runs: Sequence[RunSheet], pairs: FloatArray, limits: CertificationLimits
+) -> Criterion:
+    """Return the average over all pairs of ``runs``; ``pairs`` has shape (runs, runs).
+
+    The reason names the runs without which the others would agree; where those are too many, all
+    that are below the limit.
+    """
+    found = pairs[~np.isnan(pairs)]
+    lacking = "" if found.size else "it takes two runs that can be correlated"
+    made = _correlation(
+        ("repeatability", f"agreement of {found.size} pairs of runs", REPEATABILITY),
+        (mean(found.tolist()), limits.repeatability, name, lacking),
+        [(run, track, track.with_others) for run, track in of_track(runs, name)],
+    )
+    blamed, rest = outliers(pairs, limits.repeatability)
+    if not blamed:
+        return made
+    tracks = {run.name: track for run, track in of_track(runs, name)}
+    told = [
+        with_causes(
+            f"{runs[k].name} at {tracks[runs[k].name].with_others:.3f}", tracks[runs[k].name]
+        )
+        for k in blamed
+    ]
+    return replace(made, reason=f"the other runs agree to {rest:.3f} without {listed(told)}")
+
+
+def judge_accuracy(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
+    """Return the average agreement of ``runs`` with the reference."""
+    scores = [(run, track, track.accuracy) for run, track in of_track(runs, name)]
+    found = [score for _, _, score in scores if not isnan(score)]
+    lacking = "" if found else "no run can be compared with the reference"
+    return _correlation(
+        ("accuracy", f"agreement of {len(found)} runs with the reference", ACCURACY),
+        (mean(found), limits.accuracy, name, lacking),
+        scores,
+    )
+
+
+def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
+    """Return the mean error of the IRI; its magnitude is held to the limit."""
+    errors = [(run, track.bias_percent, track) for run, track in of_track(runs, name)]
+    errors = [error for error in errors if not isnan(error[1])]
+    value, limit = mean([error for _, error, _ in errors]), limits.iri_bias_percent
+    failed = limit is not None and abs(value) > limit
+    errors.sort(key=lambda error: -abs(error[1]))
+    told = [
+        with_causes(f"{run.name} {error:+.2f} %", track)
+        for run, error, track in errors
+        if limit is not None and abs(error) > limit
+    ]
+    reason = joined(f"beyond the limit: {listed(told)}" if told else "")
+    if not errors:
+        reason = "the IRI of no run could be taken, or the reference has no roughness"
+    return Criterion(
+        "iri-bias",
+        "mean error of the IRI",
+        BIAS,
+        value,
+        limit,
+        "%",
+        False,
+        judged_by(value, limit, failed),
+        name,
+        reason,
+    )
+
+
+def mean(values: Sequence[float]) -> float:
+    """Return the mean, whatever the order of ``values``; NaN of none."""
+    return fsum(values) / len(values) if values else nan
+
+
+def _correlation(
+    words: tuple[str, str, str],
+    figures: tuple[float, float, str, str],
+    scores: list[tuple[RunSheet, RunTrack, float]],
+) -> Criterion:
+    """Return the criterion of an average; it names every run that is itself below the limit."""
+    value, limit, name, lacking = figures
+    absent = [run.name for run, _, score in scores if isnan(score)]
+    below = sorted((s for s in scores if s[2] < limit), key=lambda s: s[2])
+    told = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
+    judged = judged_by(value, limit, value < limit)
+    if absent and judged is Judged.PASS:
+        judged = Judged.MISSING
+    reason = joined(
+        lacking,
+        f"not in the average: {listed(absent)}" if absent and not lacking else "",
+        f"below {limit:g} by itself: {listed(told)}" if told else "",
+    )
+    return Criterion(words[0], words[1], words[2], value, limit, "", True, judged, name, reason)

@@ -1,0 +1,158 @@
+"""Scale of distance and of heights, told from the profiles and from readings of known lengths."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, isnan, nan
+
+from floatref.errors import InputError
+from floatref_conformance.certify.judging.correlations import mean
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.reasons import (
+    joined,
+    judged_by,
+    listed,
+    of_track,
+    reported,
+)
+from floatref_conformance.certify.plan.plan_document import DistancePlan
+from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet, RunTrack
+
+DISTANCE = (
+    "AASHTO R 56-14: distance within 0.15 %; ours: told from the section's profiles, and every "
+    "run is held to it"
+)
+READINGS = (
+    "AASHTO R 56-14: distance over a path of known length within 0.15 %; ours: every reading is "
+    "held to it"
+)
+HEIGHT = (
+    "ours, from the block check of AASHTO R 57-14, 0.01 in on a block of 1 in: 1 % of the "
+    "heights, told from the section's profiles, every run held to it"
+)
+
+
+FINEST = 0.001
+"""Percent; a smaller doubt is told as this one."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """An error of scale in percent and its 1-sigma, and whose it is."""
+
+    who: str
+    percent: float
+    sigma: float
+
+    def beyond(self, limit: float) -> bool:
+        """Return whether the error is above ``limit`` even with 2 sigma in its favour."""
+        return abs(self.percent) - 2.0 * self.sigma > limit
+
+    def vague(self, limit: float) -> bool:
+        """Return whether ``limit`` is less than 2 sigma, or the error is not known at all."""
+        return not 2.0 * self.sigma <= limit
+
+    def __str__(self) -> str:
+        if isnan(self.percent) or isnan(self.sigma):
+            return f"{self.who} (not known)"
+        doubt = f" ± {max(2.0 * self.sigma, FINEST):.2g} %" if self.sigma else ""
+        return f"{self.who} {self.percent:+.2f} %{doubt}"
+
+
+def agrees(track: RunTrack, limits: CertificationLimits) -> bool:
+    """Return whether a wheel path of a run is within the limits all by itself."""
+    low = track.accuracy < limits.accuracy or track.with_others < limits.repeatability
+    return not low and scales_agree(track, limits)
+
+
+def scales_agree(track: RunTrack, limits: CertificationLimits) -> bool:
+    """Return whether neither scale of a wheel path of a run is surely beyond its limit."""
+    distance = Told("", track.distance_percent, track.distance_sigma)
+    height = Told("", track.height_percent, track.height_sigma)
+    return not (
+        distance.beyond(inf if limits.distance_percent is None else limits.distance_percent)
+        or height.beyond(inf if limits.height_percent is None else limits.height_percent)
+    )
+
+
+def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tuple[Criterion, ...]:
+    """Return the largest error of distance of a run, and the mean over the runs.
+
+    Of a run's wheel paths, which share one encoder, the one that tells it best counts. A worksheet
+    whose runs do not tell it is INCOMPLETE.
+    """
+    told = [_best(run) for run in runs if run.tracks]
+    found = [one.percent for one in told if not isnan(one.percent)]
+    words = "distance", "error of distance, the largest of a run", DISTANCE
+    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    title = "error of distance, mean of the runs"
+    return largest, reported("distance-mean", title, DISTANCE, mean(found), "%")
+
+
+def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
+    """Return the largest error of the scale of heights of a run, in wheel path ``name``.
+
+    Where no run tells it, it is reported alone: R 56-14 does not ask for it.
+    """
+    tracks = of_track(runs, name)
+    told = [Told(run.name, track.height_percent, track.height_sigma) for run, track in tracks]
+    words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
+    return _judged(words, told, limits.height_percent, name, Judged.REPORTED)
+
+
+def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Criterion, ...]:
+    """Return the criteria of what was read for a path of known length: largest, and mean.
+
+    Raises InputError for a length or a reading that is not above zero.
+    """
+    for value in (plan.known_m, *plan.readings_m):
+        if not 0.0 < value < inf:
+            raise InputError(f"[distance] holds {value:g} m; give lengths in m above zero")
+    told = [
+        Told(f"reading {k} ({reading:g} m)", 100.0 * (reading / plan.known_m - 1.0), 0.0)
+        for k, reading in enumerate(plan.readings_m, 1)
+    ]
+    words = (
+        "distance-readings",
+        f"distance read for {plan.known_m:g} m, the largest error",
+        READINGS,
+    )
+    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    title = f"distance read for {plan.known_m:g} m, mean error"
+    average = mean([one.percent for one in told])
+    return largest, reported("distance-readings-mean", title, READINGS, average, "%")
+
+
+def _best(run: RunSheet) -> Told:
+    """Return the error of distance by the wheel path of smallest sigma."""
+    known = [t for t in run.tracks if not isnan(t.distance_sigma + t.distance_percent)]
+    if not known:
+        return Told(run.name, nan, nan)
+    track = min(known, key=lambda t: t.distance_sigma)
+    return Told(run.name, track.distance_percent, track.distance_sigma)
+
+
+def _judged(
+    words: tuple[str, str, str],
+    told: Sequence[Told],
+    limit: float | None,
+    track: str,
+    untold: Judged,
+) -> Criterion:
+    """Return the criterion of the largest error; ``untold`` if no run tells it well enough."""
+    bound = inf if limit is None else limit
+    known = [one for one in told if not isnan(one.percent)]
+    beyond = sorted((o for o in told if o.beyond(bound)), key=lambda o: -abs(o.percent))
+    vague = [] if limit is None else [one for one in told if one.vague(bound)]
+    counted = beyond or [one for one in known if one not in vague] or known
+    value = max((one.percent for one in counted), key=abs, default=nan)
+    judged = judged_by(value, limit, bool(beyond))
+    if limit is not None and not beyond and len(vague) == len(told):
+        judged = untold
+    reason = joined(
+        f"beyond the limit: {listed([str(one) for one in beyond])}" if beyond else "",
+        f"not told to {bound:g} %: {listed([str(o) for o in vague if o not in beyond])}"
+        if any(o not in beyond for o in vague)
+        else "",
+        "" if told else "no run tells it",
+    )
+    return Criterion(words[0], words[1], words[2], value, limit, "%", False, judged, track, reason)

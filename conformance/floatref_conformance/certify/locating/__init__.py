@@ -1,0 +1,1 @@
+"""Finding a run on the reference: place, direction, units, lag and scale."""

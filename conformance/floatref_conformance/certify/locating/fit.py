@@ -1,0 +1,171 @@
+"""Scale of distance and of heights of a run against the reference, told from the section alone."""
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile
+from floatref_conformance.certify.locating.estimates import Estimate, estimate, long_gain
+from floatref_conformance.certify.locating.finding import find_forward, pieces_of
+from floatref_conformance.certify.locating.lags import Line, followed
+from floatref_conformance.certify.locating.slopes import slope_of
+from floatref_conformance.certify.locating.spectra import Surface, Windows, windows_of
+
+WINDOW_M, LONG_WINDOW_M = 12.8, 38.4
+LONGEST_M, SHORTEST_M = 6.5, 0.4
+"""Waves by which gain and lag are told: above, the filters of profilers; below, footprints."""
+LONG_WAVES_M = 25.0, 8.0
+POINTS_PER_WAVE = 5
+"""Of the coarser profile in the shortest wave that counts."""
+LEAST_WINDOWS, LEAST_LONG_WINDOWS, LEAST_WAVES = 6, 4, 4
+ROUGHLY_M, ROUNDS = 1.6, 4
+"""Shortest wave of the first round, and how many there are."""
+STEEPEST = 0.4
+"""Waves in which a footprint takes away more, as a logarithm, are left out."""
+FARTHEST = 0.07
+"""A run that lies farther off than this share of the section, and 2 m, does not lie on it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """How a wheel path of a run lies on the reference; NaN where that could not be told.
+
+    Attributes:
+        distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
+        height_percent, height_sigma: how much higher it takes the road, and 1-sigma.
+        offset_m: how much farther along the beginning of the section lies.
+        correlation: of slope in waves of 0.4 to 6.5 m once distance, offset and direction of
+            heights are undone.
+        inverted: whether heights are upside down.
+        smoothing_m2, smoothing_sigma: c of a gain of about exp(c·k²) at wave number k in
+            cycles per m, apart from the scale of heights, and 1-sigma.
+        long_percent, long_sigma: gain of waves of 8 to 25 m beyond the scale of heights.
+        at_m, lag_m: middles of the windows on the reference's axis, and how much farther along
+            the run lies there; shape (windows,).
+        line: the straight line of that lag; None if the run was not found.
+    """
+
+    distance_percent: float = math.nan
+    distance_sigma: float = math.nan
+    height_percent: float = math.nan
+    height_sigma: float = math.nan
+    offset_m: float = math.nan
+    correlation: float = math.nan
+    inverted: bool = False
+    smoothing_m2: float = math.nan
+    smoothing_sigma: float = math.nan
+    long_percent: float = math.nan
+    long_sigma: float = math.nan
+    at_m: FloatArray = field(default_factory=lambda: np.zeros(0))
+    lag_m: FloatArray = field(default_factory=lambda: np.zeros(0))
+    line: Line | None = None
+
+    @property
+    def found(self) -> bool:
+        """Whether the run could be laid on the reference."""
+        return self.line is not None
+
+
+def fit(reference: Profile, run: Profile, track: str) -> Fit:
+    """Return how the wheel path ``track`` of ``run`` lies on ``reference``, both in m.
+
+    Lag and gain come from windows of 12.8 m in waves of 0.4 to 6.5 m. A gain that is less for the
+    shorter waves is that of a footprint or a filter; the scale of heights is what is left of it at
+    the longest. 1-sigma is told by leaving out stretches of the section. Raises InputError where
+    one of the two has no such track.
+    """
+    p = replace(reference, tracks=(reference.track(track),))
+    q = replace(run, tracks=(run.track(track),))
+    first = _first_line(p, q)
+    if first is None:
+        return Fit()
+    line, sign = first
+    pair = _Pair(
+        Surface(p.tracks[0], p.start_m, p.interval_m),
+        Surface(q.tracks[0], q.start_m, q.interval_m),
+        (p.start_m, p.start_m + p.length_m),
+        sign,
+        max(SHORTEST_M, POINTS_PER_WAVE * max(p.interval_m, q.interval_m)),
+    )
+    return _told(pair, line)
+
+
+@dataclass(frozen=True, eq=False)
+class _Pair:
+    """A wheel path of the reference and of the run, and the shortest wave that both hold."""
+
+    reference: Surface
+    run: Surface
+    stretch_m: tuple[float, float]
+    sign: float
+    shortest_m: float
+
+    def windows(self, line: Line, length_m: float, longest_m: float, shortest_m: float) -> Windows:
+        """Return the windows of the run laid by ``line``, upright."""
+        all_waves = windows_of(self.reference, self.run, line, self.stretch_m, length_m)
+        chosen = all_waves.within(longest_m, shortest_m)
+        return replace(chosen, run=self.sign * chosen.run)
+
+
+def _first_line(reference: Profile, run: Profile) -> tuple[Line, float] | None:
+    """Return where the run lies, to a few centimetres, and -1 for heights upside down."""
+    pieces = pieces_of(reference)
+    p = slope_of(reference.tracks[0], reference.start_m, reference.interval_m)
+    q = slope_of(run.tracks[0], run.start_m, run.interval_m)
+    if not pieces or p is None or q is None or q.energy() <= 0:
+        return None
+    found = find_forward(pieces, [q])
+    if found is None or abs(found.run_m - found.at_m) > 2.0 + FARTHEST * reference.length_m:
+        return None
+    sign = math.copysign(1.0, found.score)
+    return followed(p, q, Line(found.at_m, found.run_m, found.scale), sign), sign
+
+
+def _told(pair: _Pair, line: Line) -> Fit:
+    """Return what the windows tell, ``line`` being corrected by them until it stands."""
+    last: tuple[Windows, Estimate] | None = None
+    shortest = max(ROUGHLY_M, pair.shortest_m)
+    for _ in range(ROUNDS):
+        windows = pair.windows(line, WINDOW_M, LONGEST_M, shortest)
+        if windows.at_m.size < LEAST_WINDOWS or windows.wave_number.size < LEAST_WAVES:
+            return Fit(line=line, inverted=pair.sign < 0)
+        told = estimate(windows)
+        line = _moved(line, told)
+        last = windows, told
+        shortest = max(pair.shortest_m, math.sqrt(abs(told.smoothing_m2) / STEEPEST))
+    assert last is not None
+    windows, told = last
+    long_gain, long_sigma = _long_gain(pair, line, told)
+    return Fit(
+        distance_percent=100.0 * (line.scale - 1.0),
+        distance_sigma=100.0 * told.slope_sigma,
+        height_percent=100.0 * (told.height - 1.0),
+        height_sigma=100.0 * told.height_sigma,
+        offset_m=line.lag_at(pair.stretch_m[0]),
+        correlation=told.correlation,
+        inverted=pair.sign < 0,
+        smoothing_m2=told.smoothing_m2,
+        smoothing_sigma=told.smoothing_sigma,
+        long_percent=long_gain,
+        long_sigma=long_sigma,
+        at_m=windows.at_m,
+        lag_m=line.run_at(windows.at_m) - windows.at_m + told.lags_m,
+        line=line,
+    )
+
+
+def _moved(line: Line, told: Estimate) -> Line:
+    """Return ``line`` plus the straight line of lag that is left."""
+    shift = told.shift_m + told.slope * (line.at_m - told.middle_m)
+    return Line(line.at_m, line.run_m + shift, line.scale + told.slope)
+
+
+def _long_gain(pair: _Pair, line: Line, told: Estimate) -> tuple[float, float]:
+    """Return by how many percent the long waves are taken higher than the rest, and 1-sigma."""
+    windows = pair.windows(line, LONG_WINDOW_M, *LONG_WAVES_M)
+    if windows.at_m.size < LEAST_LONG_WINDOWS:
+        return math.nan, math.nan
+    gain, sigma = long_gain(windows)
+    return 100.0 * (gain / told.height - 1.0), 100.0 * sigma / told.height

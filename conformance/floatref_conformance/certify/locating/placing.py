@@ -1,0 +1,144 @@
+"""A run recognised on the reference's road, whatever its units, direction, names and offset."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.measures import agreement, on_common_grid
+from floatref.values.profile import Profile
+from floatref_conformance.certify.locating.candidates import Candidate
+from floatref_conformance.certify.locating.finding import Find, find, pieces_of
+from floatref_conformance.certify.locating.lags import Line, followed, gain, window_lags
+from floatref_conformance.certify.locating.placement import (
+    COVERED_M,
+    Placement,
+    not_found,
+    placed,
+    worded,
+)
+from floatref_conformance.certify.locating.profile_units import (
+    DISTANCE_UNITS,
+    HEIGHT_UNITS,
+    METRE,
+    height_unit,
+)
+from floatref_conformance.certify.locating.slopes import slope_of
+from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
+
+LIES_RIGHT = 0.9
+"""Correlation from which on a run that lies right is not searched for anywhere else."""
+SAME_HEIGHT = 1.3
+"""Largest ratio of heights that no unit need explain."""
+
+__all__ = ["Placement", "place", "placed"]
+
+
+def place(reference: Profile, run: Profile) -> Placement:
+    """Return how ``run`` lies against ``reference``, whose stretch is the section.
+
+    A run within ±1 m of its place, with the reference's names and units, has nothing to be done
+    to it. Of places that fit equally well the one nearest to no offset is taken.
+    """
+    names = {t.name: t.name for t in reference.tracks}
+    least = _agreement_as_given(reference, run)
+    if least >= LIES_RIGHT:
+        return Placement(True, least, tracks=names)
+    pieces = pieces_of(reference)
+    best = find(pieces, run)
+    if best is None or not best.candidate.found:
+        return Placement(False, _score(best), not_found(best, bool(pieces)))
+    return worded(reference, run, _refined(reference, run, best))
+
+
+def _agreement_as_given(reference: Profile, run: Profile) -> float:
+    """Return the least correlation of the wheel paths, 0 where anything has to be done first."""
+    try:
+        expected, found = on_common_grid(reference, run)
+        if expected.length_m < reference.length_m - COVERED_M:
+            return 0.0
+        least = 1.0
+        for track in expected.tracks:
+            p, q = track.elevation, found.track(track.name).elevation
+            agreed = agreement(p, q, expected.interval_m, "iri", MAX_OFFSET_M)
+            like = agreed.amplitude_factor >= 1.0 / SAME_HEIGHT
+            least = min(least, agreed.correlation if like else 0.0)
+    except InputError:
+        return 0.0
+    return least
+
+
+def _score(best: Find | None) -> float:
+    """Return the score of the best find, NaN without one."""
+    return math.nan if best is None else abs(best.candidate.score)
+
+
+@dataclass(frozen=True)
+class _Followed:
+    """The line of one wheel path, its correlation along it, and the gain of its heights."""
+
+    line: Line
+    correlation: float
+    gain: float
+
+
+def _refined(reference: Profile, run: Profile, best: Find) -> Placement:
+    """Return the placement of the find ``best``, its offset by all of the section."""
+    c = best.candidate
+    turned = Placement(
+        True,
+        abs(c.score),
+        tracks={reference.tracks[i].name: run.tracks[j].name for i, j in c.pairing},
+        reversed=c.mirrored,
+        inverted=c.score < 0,
+        distance_unit=best.unit,
+        distance_factor=DISTANCE_UNITS[best.unit],
+        alternatives=best.others,
+    )
+    forward = placed(run, turned)
+    line, sign = _line(c, forward), math.copysign(1.0, c.score)
+    known = [_follow(reference, forward, name, line, sign) for name in turned.tracks]
+    surest = max(known, key=lambda k: k.correlation)
+    amount = float(np.nanmedian([abs(k.gain) for k in known]))
+    unit = height_unit(amount) or METRE
+    return replace(
+        turned,
+        correlation=surest.correlation,
+        height_unit=unit,
+        height_factor=HEIGHT_UNITS[unit],
+        height_gain=amount * HEIGHT_UNITS[unit],
+        offset_m=_offset(surest.line, reference),
+    )
+
+
+def _line(candidate: Candidate, forward: Profile) -> Line:
+    """Return the line of ``candidate`` on the axis of the run, driven forward."""
+    ends = 2.0 * forward.start_m + forward.length_m
+    there = ends - candidate.run_m if candidate.mirrored else candidate.run_m
+    return Line(candidate.at_m, there, candidate.scale)
+
+
+def _follow(reference: Profile, forward: Profile, name: str, line: Line, sign: float) -> _Followed:
+    """Return how the wheel path ``name`` lies, from ``line`` on; correlation 0 without a shape."""
+    p = slope_of(reference.track(name), reference.start_m, reference.interval_m)
+    q = slope_of(forward.track(name), forward.start_m, forward.interval_m)
+    if p is None or q is None:
+        return _Followed(line, 0.0, math.nan)
+    line = followed(p, q, line, sign)
+    scores = window_lags(p, q, line, sign).correlation
+    covered = scores[scores != 0.0]
+    return _Followed(
+        line, float(np.median(covered)) if covered.size else 0.0, gain(p, q, line, sign)
+    )
+
+
+def _offset(line: Line, reference: Profile) -> float:
+    """Return by how much the run has to be moved, in m: 0 where `MAX_OFFSET_M` does.
+
+    With an error of distance the lag at the beginning of the section counts.
+    """
+    lags = [line.lag_at(reference.start_m + d) for d in (0.0, reference.length_m)]
+    if min(lags) <= MAX_OFFSET_M and max(lags) >= -MAX_OFFSET_M:
+        return 0.0
+    return round(lags[0], 3)

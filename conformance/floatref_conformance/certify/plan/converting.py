@@ -1,0 +1,145 @@
+"""Profiles of any format, and recordings processed on the way, all as profiles in memory.
+
+What is not our own directory or CSV goes through `floatref convert` and `floatref process`: the
+judge itself reads no other format and has no pipeline.
+"""
+
+import json
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from floatref.errors import FloatrefError
+from floatref.files import fingerprint_native, read_profile
+from floatref.files.sources import opened
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify.plan.commands import Commands
+from floatref_conformance.certify.plan.plan_document import Processing
+
+AT_ONCE = 2
+"""Commands that run at the same time."""
+LONGEST_HEADER = 1 << 16
+"""Bytes in which the column of distance of our CSV has to turn up."""
+
+
+@dataclass(frozen=True, eq=False)
+class Converted:
+    """What became of one source.
+
+    Attributes:
+        profile: None if it could not be read.
+        said: how it was made, and warnings.
+        error: in one line, with the path, why there is none; empty otherwise.
+    """
+
+    profile: Profile | None
+    said: tuple[str, ...] = ()
+    error: str = ""
+
+
+def converted(
+    paths: Sequence[Path], processing: Processing, told: Callable[[Path], None]
+) -> Mapping[Path, Converted]:
+    """Return the profile of every path of ``paths``, or why there is none.
+
+    ``told`` hears of each that is done. Temporary files and commands are gone at the end, whatever
+    happens.
+    """
+    with (
+        tempfile.TemporaryDirectory(prefix="floatref-certify-") as folder,
+        ThreadPoolExecutor(AT_ONCE) as pool,
+        Commands() as commands,
+    ):
+        work = {
+            pool.submit(_converted, path, processing, Path(folder, str(index)), commands): path
+            for index, path in enumerate(dict.fromkeys(paths))
+        }
+        for future in as_completed(work):
+            told(work[future])
+        return {path: future.result() for future, path in work.items()}
+
+
+def _converted(path: Path, processing: Processing, out: Path, commands: Commands) -> Converted:
+    try:
+        if _is_ours(path):
+            return Converted(_kept(read_profile(path), path))
+        no_profile = ""
+        if not path.is_dir():
+            no_profile = commands.run("convert", "--out", str(out), "--", str(path)).error
+            if not no_profile:
+                return Converted(_kept(read_profile(out), path))
+        return _processed(path, processing, out, commands, no_profile)
+    except (FloatrefError, OSError, MemoryError) as error:
+        return Converted(None, error=_naming(path, str(error) or type(error).__name__))
+
+
+def _processed(
+    path: Path, processing: Processing, out: Path, commands: Commands, no_profile: str
+) -> Converted:
+    """Return what `floatref process` makes of ``path``, which for ``no_profile`` is no profile."""
+    answer = commands.run(
+        *("process", "--out", str(out), "--json"), *_options(processing), "--", str(path)
+    )
+    if answer.error:
+        bare = [_without(path, reason) for reason in (no_profile, answer.error) if reason]
+        both = f"no profile ({bare[0]}), and no recording ({bare[-1]})"
+        return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
+    report = json.loads(answer.output)
+    said = (f"processed by {report['pipeline']}", *report["warnings"])
+    return Converted(_kept(read_profile(out), path), said)
+
+
+def _options(processing: Processing) -> list[str]:
+    """Return ``processing`` as options of `floatref process`."""
+    given = {
+        "--pipeline": processing.pipeline,
+        "--settings": processing.settings,
+        "--adapter": processing.adapter,
+        "--map": processing.channel_map,
+    }
+    return [word for name, value in given.items() if value for word in (name, str(value))]
+
+
+def _is_ours(path: Path) -> bool:
+    """Tell whether ``path`` is a profile directory or a CSV of ours, from what it holds."""
+    if path.is_dir():
+        return (path / "profile.json").is_file()
+    with opened(path) as stream:
+        header = stream.readline(LONGEST_HEADER).removeprefix(b"\xef\xbb\xbf")
+    return b"distance_m" in (name.strip(b' "\r\n') for name in header.split(b","))
+
+
+def _kept(profile: Profile, source: Path) -> Profile:
+    """Return ``profile`` apart from its files, which go away, with the SHA-256 of ``source``.
+
+    One that tells from which inputs it was made keeps what it tells.
+    """
+    tracks = [
+        ProfileTrack.of(
+            track.name,
+            np.array(track.elevation),
+            np.array(track.valid),
+            None if track.sigma is None else np.array(track.sigma),
+        )
+        for track in profile.tracks
+    ]
+    provenance = profile.provenance
+    if "sha256" not in provenance:
+        hashes = fingerprint_native(source)
+        provenance = {**provenance, "source": source.name, "sha256": hashes}
+    return replace(profile, tracks=tuple(tracks), provenance=provenance)
+
+
+def _naming(path: Path, reason: str) -> str:
+    """Return ``reason`` with the path at its start."""
+    line = " ".join(reason.split())
+    return line if line.startswith(str(path)) else f"{path}: {line}"
+
+
+def _without(path: Path, reason: str) -> str:
+    """Return ``reason`` without the path at its start."""
+    return " ".join(reason.removeprefix(f"{path}: ").split())

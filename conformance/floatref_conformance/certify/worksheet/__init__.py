@@ -1,0 +1,1 @@
+"""The worksheet of a certification: contents, files, page, terminal and pictures."""

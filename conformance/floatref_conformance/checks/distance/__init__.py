@@ -1,0 +1,1 @@
+"""The checks of distance and of wavelengths: features and waves are where they are."""

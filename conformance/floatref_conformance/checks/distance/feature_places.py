@@ -1,0 +1,210 @@
+"""`distance`: features lie where the encoder tells, though it be wrong, slip and stand still."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
+from floatref_conformance.checks.distance.features import (
+    BESIDE_EVENT_M,
+    DRIVES,
+    END_M,
+    FARTHEST_M,
+    FEATURE_M,
+    Feature,
+    event_of,
+    featured,
+    find_features,
+    middles,
+    place,
+    scenario_of,
+)
+from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
+from floatref_conformance.judge.verdict import Measurement
+from floatref_conformance.proving_ground.staging import drive_of
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
+
+START_LIMITS: Limits = same_limit(0.05, 0.025)
+SCALE_LIMITS: Limits = same_limit(0.15, 0.05)
+STEP_LIMITS: Limits = same_limit(0.05, 0.025)
+REST_LIMITS: Limits = same_limit(0.05, 0.025)
+LOSS_LIMITS: Limits = {
+    DeviceClass.NOMINAL: 0.2,
+    DeviceClass.ADEQUATE: 0.1,
+    DeviceClass.REFERENCE: 0.05,
+}
+QUANTITIES = (
+    ("displacement of the start", "m", START_LIMITS),
+    ("error of distances", "%", SCALE_LIMITS),
+    ("step at the event", "m", STEP_LIMITS),
+    ("displacement of a feature", "m", REST_LIMITS),
+    ("loss of a feature", "", LOSS_LIMITS),
+)
+"""What is measured, its unit, and its limits."""
+SMOOTHEST, ROUGHEST = 1.5, 4.0
+"""IRI of the roads, in m/km."""
+VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
+COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
+
+
+@dataclass(frozen=True)
+class DistanceCheck:
+    """Looks for features of the road on the axis that the encoder gives."""
+
+    id: str = "distance"
+    title: str = "features lie where the encoder tells"
+    clause: str = (
+        "Derived: what the encoder tells is the profile's axis (Karamihas 2021, sections 3.3.9, "
+        "4.1.3 and 5.1); limits from the sensors' delays and the loss of correlation"
+    )
+    needs: frozenset[str] = frozenset()
+
+    @property
+    def derivation(self) -> str:
+        """How features are found, and how far from their places they may lie."""
+        return DERIVATION
+
+    @property
+    def floor(self) -> str:
+        """Every feature has to be there."""
+        return FLOOR
+
+    @property
+    def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
+        """The limits of the five quantities."""
+        return {
+            name: {c: f"{limit:.4g} {unit}".strip() for c, limit in limits.items()}
+            for name, unit, limits in QUANTITIES
+        }
+
+    @property
+    def simplest(self) -> Case:
+        """One stop from 72 km/h; the encoder's errors are those of the nominal sensor."""
+        return Case(self.id, scenario_of({"manoeuvre": "stop"}))
+
+    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
+        """Return the cases: `DRIVES` and vehicles in turn; roads and noise are drawn."""
+        source = np.random.SeedSequence([seed, *self.id.encode()])
+        roads = source.generate_state(COUNT[effort])
+        return tuple(
+            self._seeded(number, int(road), drive)
+            for number, (road, drive) in enumerate(zip(roads, cycle(DRIVES), strict=False))
+        )
+
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return any of the manoeuvres with any error of the encoder up to the largest."""
+        from hypothesis import strategies as st
+
+        shared = {
+            "seed": seeds(),
+            "vehicle": st.sampled_from(VEHICLES),
+            "iri_m_per_km": rounded(SMOOTHEST, ROUGHEST),
+            "speed_kmh": rounded(40, 90, 0),
+            "encoder_error_percent": rounded(-1.0, 1.0),
+            "slip_percent_per_g": rounded(0.0, 3.0),
+        }
+        slowing = {"deceleration_g": rounded(0.1, 0.4, 2)}
+        after = {"dwell_s": rounded(0.5, 20.0), "final_speed_kmh": rounded(30, 70, 0)}
+        release = {"event_speed_kmh": rounded(20, 30, 0)}
+        drives = (
+            {"manoeuvre": st.just("constant"), **shared},
+            {"manoeuvre": st.just("stop"), **shared, **slowing, **after},
+            {"manoeuvre": st.just("braking"), **shared, **slowing, **release},
+        )
+        numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
+        return numbers.map(lambda given: Case(self.id, scenario_of(given)))
+
+    def scored(self, case: Case) -> Stretches:
+        """Return the stretches in which features lie, ahead of an event and behind it.
+
+        Raises InputError for a drive that leaves no room for them.
+        """
+        length_m = drive_of(case.scenario).length_m
+        return fitting(featured(length_m, event_of(case.scenario)), length_m)
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
+        """Return how far from their places the features of every wheel path lie.
+
+        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        in one of them.
+        """
+        self.scored(case)
+        taken = bench.simulate(case.scenario)
+        profile = bench.run(taken)
+        axis, event_m = EncoderAxis.of(taken), event_of(case.scenario)
+        at = middles(drive_of(case.scenario).length_m, event_m)
+        told_m = None if event_m is None else float(axis.told(np.array([event_m]))[0])
+        measured: list[Measurement] = []
+        for track in taken.truth.tracks:
+            features = find_features(profile, taken.truth, track.name, axis, at)
+            measured += _measured(track.name, features, told_m)
+        return tuple(measured)
+
+    def _seeded(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
+        roughness = np.random.default_rng(road).uniform(SMOOTHEST, ROUGHEST)
+        numbers = {
+            **drive,
+            "seed": road,
+            "iri_m_per_km": round(roughness, 1),
+            "vehicle": VEHICLES[(number + number // len(DRIVES)) % len(VEHICLES)],
+        }
+        return Case(self.id, scenario_of(numbers), name=f"{self.id}-{number + 1}")
+
+
+def _measured(
+    track: str, features: tuple[Feature, ...], event_m: float | None
+) -> list[Measurement]:
+    placed = place(features, event_m)
+    values = (
+        abs(placed.start_m),
+        100.0 * abs(placed.scale),
+        abs(placed.step_m),
+        placed.rest_m,
+        max(feature.loss for feature in features),
+    )
+    return [
+        Measurement(name, track, value, unit, limits)
+        for (name, unit, limits), value in zip(QUANTITIES, values, strict=True)
+    ]
+
+
+DERIVATION = (
+    f"Features are stretches of {FEATURE_M:g} m of a rough road, {END_M:g} m or more from both "
+    f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
+    "event moves them. The truth is laid on the encoder's axis: at every sample the drive tells "
+    "where the vehicle was, and the recording what the encoder told. The encoder is up to 1 % "
+    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and stands "
+    "still at stops; a device that knows better from another sensor still owes the profile on "
+    "this axis. A device without a height sensor sees the road at a wheel, up to 5.07 m ahead of "
+    "where a laser would; it adds that way to what the encoder tells at the wheel, and so is the "
+    "truth laid for it: 1 % of the way, 51 mm, is an error of the encoder that it cannot know. "
+    "Slopes in the waveband of 1.6 to 8 m are cross-correlated with those of the truth "
+    f"at lags of up to {FARTHEST_M:g} m. A line through the lags, with a step at the event, gives "
+    "the four displacements. Start, step and rest: delays turn into distance. At 90 km/h the "
+    "anti-alias filter of 1000 Hz (2/ω, 0.32 ms) is worth 8 mm, the mean age of a laser reading "
+    "held at 3.24 kHz (0.155 ms) 4 mm, a sample at 16 kHz 1.6 mm, an interval of the profile 5 mm, "
+    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm, of which the "
+    "slower half of a drive keeps a part. Nominal and adequate allow twice that, 0.05 m, and "
+    "reference 0.025 m. Distances: with 0.15 % the ends of 160.9 m lie 0.12 m off when the middle "
+    "fits, a phase of 20 degrees at 2.1 m, where the car of the IRI has its axle hop at 80 km/h; "
+    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class reference "
+    "is allowed a third. A profile that does not cover the recorded distance is refused as such."
+)
+"""How features are found, and where the limits come from."""
+FLOOR = (
+    "Every feature has to be found: its correlation with the truth, by (2.16) and so by its "
+    "height as well, may fall short of 1 by 0.2 in class nominal, 0.1 in adequate, 0.05 in "
+    "reference. Lags, noise and slip cost sound software 0.01. A flat profile loses 1; a moving "
+    "average over 2 m takes all of the waves of 2 m and a tenth of those of 8 m."
+)
+"""What must be in the profile."""
+DISTANCE = DistanceCheck()

@@ -1,0 +1,178 @@
+"""Features of a profile: the drives that pass them, and where a profile has them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from floatref.measures import cross_correlation, on_common_grid, waveband_slope
+from floatref.values.arrays import FloatArray
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
+from floatref_conformance.checks.scoring import bridged
+from floatref_conformance.checks.stretches import Stretches, points, stretch
+from floatref_conformance.proving_ground.drives.runs import KMH
+from floatref_conformance.proving_ground.scenario import Scenario
+
+FEATURE_M = 25.0
+"""Length of road that makes a feature."""
+FARTHEST_M = 3.0
+"""A feature is looked for so far to both sides of its place."""
+BAND = "medium"
+"""1.6 to 8 m (section 2.1.5.2): no event disturbs such short waves beyond `BESIDE_EVENT_M`."""
+END_M = 110.0
+"""Features lie so far from both ends of the run, where a filter may leave points out."""
+BESIDE_EVENT_M = 60.0
+"""Features lie so far from a stop or a release of the brake."""
+
+
+@dataclass(frozen=True)
+class Feature:
+    """A stretch of road on the encoder's axis.
+
+    Attributes:
+        at_m: where its middle belongs, in m.
+        lag_m: how much farther along the profile has it, in m.
+        loss: one minus (2.16) at that lag.
+    """
+
+    at_m: float
+    lag_m: float
+    loss: float
+
+
+@dataclass(frozen=True)
+class Placement:
+    """The lags of features as a line along the axis, with a step at an event.
+
+    Attributes:
+        start_m: lag at distance 0, in m.
+        scale: gain of lag per distance.
+        step_m: gain of lag at the event, in m.
+        rest_m: largest lag beside the line and its step, in m.
+    """
+
+    start_m: float
+    scale: float
+    step_m: float
+    rest_m: float
+
+
+def featured(length_m: float, event_m: float | None) -> Stretches:
+    """Return the stretches of a drive that features fill, one beside the other."""
+    end_m = length_m - END_M
+    if event_m is None:
+        return (_filled(END_M, end_m),)
+    ahead, behind = event_m - BESIDE_EVENT_M, event_m + BESIDE_EVENT_M
+    return _filled(END_M, ahead), _filled(behind, end_m)
+
+
+def middles(length_m: float, event_m: float | None) -> FloatArray:
+    """Return where the middles of the features of a drive truly lie, in m."""
+    filled = featured(length_m, event_m)
+    return np.concatenate([_side_by_side(start, end) for start, end in filled])
+
+
+def find_features(
+    profile: Profile, truth: Profile, track: str, axis: EncoderAxis, middles_m: FloatArray
+) -> tuple[Feature, ...]:
+    """Return the features whose middles truly lie at ``middles_m``, in m.
+
+    Raises DeviceError if a point of one of them has no elevation.
+    """
+    wanted = _on_encoder_axis(truth, track, axis)
+    true, found = on_common_grid(wanted, profile)
+    places = [float(told) for told in axis.told(middles_m)]
+    for at in places:
+        stretch(found, track, at - FEATURE_M / 2, at + FEATURE_M / 2)
+    z = true.track(track).elevation
+    both = (z, bridged(found.track(track).elevation, z))
+    slopes = [waveband_slope(elevation, true.interval_m, BAND) for elevation in both]
+    return tuple(_found(slopes, true, at) for at in places)
+
+
+def place(features: Sequence[Feature], event_m: float | None) -> Placement:
+    """Return the line that fits the lags best; ``event_m`` is on the encoder's axis, too."""
+    at, lag = np.array([(f.at_m, f.lag_m) for f in features]).T
+    columns = [np.ones_like(at), at]
+    if event_m is not None:
+        columns.append(np.where(at > event_m, 1.0, 0.0))
+    matrix = np.stack(columns, axis=1)
+    line = np.linalg.lstsq(matrix, lag, rcond=None)[0]
+    rest = float(np.max(np.abs(lag - matrix @ line)))
+    step = 0.0 if event_m is None else float(line[2])
+    return Placement(float(line[0]), float(line[1]), step, rest)
+
+
+def _filled(start_m: float, end_m: float) -> tuple[float, float]:
+    """Return the stretch from ``start_m`` on that features fill, none beyond ``end_m``."""
+    return start_m, start_m + FEATURE_M * max(0, int((end_m - start_m) / FEATURE_M + 1e-6))
+
+
+def _side_by_side(start_m: float, end_m: float) -> FloatArray:
+    """Return the middles of the features that fill the stretch between two distances, in m."""
+    count = round((end_m - start_m) / FEATURE_M)
+    return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
+
+
+def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:
+    """Return one wheel path of ``truth`` against the distance that the encoder told."""
+    count = int((axis.told_m[-1] - axis.told_m[0]) / truth.interval_m) + 1
+    told = axis.told_m[0] + truth.interval_m * np.arange(count)
+    z = np.interp(axis.true(told), truth.distance_m, truth.track(track).elevation)
+    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.told_m[0]))
+
+
+def _found(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
+    inside = points(profile, at_m - FEATURE_M / 2, at_m + FEATURE_M / 2)
+    true, found = (slope[inside] for slope in slopes)
+    agreed = cross_correlation(true, found, profile.interval_m, FARTHEST_M)
+    return Feature(at_m, agreed.offset_m, 1.0 - agreed.cross_correlation)
+
+
+FEATURES = 4
+"""So many features lie ahead of an event, and behind it."""
+DRIVES: tuple[Mapping[str, Any], ...] = (
+    {
+        "manoeuvre": "stop",
+        "speed_kmh": 72.0,
+        "deceleration_g": 0.3,
+        "slip_percent_per_g": 3.0,
+    },
+    {"manoeuvre": "constant", "speed_kmh": 72.0, "encoder_error_percent": 1.0},
+    {
+        "manoeuvre": "braking",
+        "speed_kmh": 80.0,
+        "event_speed_kmh": 30.0,
+        "deceleration_g": 0.4,
+        "encoder_error_percent": -1.0,
+        "slip_percent_per_g": 3.0,
+    },
+    {
+        "manoeuvre": "stop",
+        "speed_kmh": 50.0,
+        "deceleration_g": 0.15,
+        "dwell_s": 15.0,
+        "final_speed_kmh": 40.0,
+        "encoder_error_percent": -0.5,
+        "slip_percent_per_g": 1.0,
+    },
+)
+"""The drives of the cases, in turn."""
+
+
+def scenario_of(numbers: Mapping[str, Any]) -> Scenario:
+    """Return the scenario of ``numbers``, its event and its end clear of the features."""
+    wanted = Scenario(**numbers)
+    braking_m = (wanted.speed_kmh * KMH) ** 2 / (2 * STANDARD_GRAVITY * wanted.deceleration_g)
+    room_m = BESIDE_EVENT_M + FEATURES * FEATURE_M + END_M
+    event_m = max(room_m, BESIDE_EVENT_M + 10.0 * ceil(0.13 * braking_m))
+    return Scenario(**{**numbers, "event_at_m": event_m, "length_m": event_m + room_m})
+
+
+def event_of(scenario: Scenario) -> float | None:
+    """Return the true distance of the stop or the release in m; None without an event."""
+    return None if scenario.manoeuvre == "constant" else scenario.event_at_m

@@ -1,0 +1,1 @@
+"""The checks that have a vehicle drive over a road."""

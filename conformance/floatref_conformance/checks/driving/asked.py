@@ -1,0 +1,90 @@
+"""Quantities of a stretch of profile that a rule asks for, each with its limits."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from floatref_conformance.checks import scoring
+from floatref_conformance.checks.driving.edition import Table
+from floatref_conformance.classes import DeviceClass, Limits
+from floatref_conformance.judge.evidence import Pair
+from floatref_conformance.judge.verdict import Measurement
+
+LOSS, ERROR = "correlation loss", "IRI error"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """One quantity of a stretch.
+
+    Attributes:
+        quantity: its name.
+        words: the limit of each class that has one.
+        measure: returns it of a pair of truth and result, and of the name of the wheel path.
+    """
+
+    quantity: str
+    words: Mapping[DeviceClass, str]
+    measure: Callable[[Pair, str], Measurement]
+
+
+def asked_of(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Asked:
+    """Return what an ``entry`` of the edition asks for, its limits by class.
+
+    ``in_m_per_km`` and ``in_percent`` are the names of an IRI error in these units.
+    """
+    kind, by_class = entry["kind"], {c: entry[c.value] for c in DeviceClass if c.value in entry}
+    if kind == "loss":
+        return loss(by_class)
+    if kind == "percent":
+        return percent(by_class, in_percent)
+    ((device_class, limit),) = by_class.items()
+    if kind == "either":
+        return either(device_class, limit["loss"], limit["percent"])
+    return within(in_m_per_km, device_class, limit["percent"], limit["m_per_km"])
+
+
+def limits_of(table: Table) -> Limits:
+    """Return the limits of a table of the edition by class."""
+    return {DeviceClass(name): limit for name, limit in table.items()}
+
+
+def loss(limits: Limits) -> Asked:
+    """Ask for one minus (2.16), the agreement of the IRI filter's outputs."""
+    words = {c: f"{limit:g}" for c, limit in limits.items()}
+    return Asked(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
+
+
+def percent(limits: Limits, quantity: str = ERROR) -> Asked:
+    """Ask for the IRI's error in percent of the road's."""
+
+    def measure(pair: Pair, track: str) -> Measurement:
+        return replace(scoring.roughness_percent(pair, track, limits), quantity=quantity)
+
+    return Asked(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
+
+
+def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Asked:
+    """Ask for the one of both that is farther within its limit, of one class alone."""
+
+    def measure(pair: Pair, track: str) -> Measurement:
+        return scoring.better(
+            scoring.correlation(pair, track, {device_class: loss_limit}),
+            scoring.roughness_percent(pair, track, {device_class: error_percent}),
+            device_class,
+        )
+
+    words = {device_class: f"{loss_limit:g}, or the IRI within {error_percent:g} %"}
+    return Asked(LOSS, words, measure)
+
+
+def within(
+    quantity: str, device_class: DeviceClass, error_percent: float, m_per_km: float
+) -> Asked:
+    """Ask for the IRI's error in m/km: percent of the road's, or m/km if that is more."""
+    limits = {device_class: (error_percent, m_per_km)}
+
+    def measure(pair: Pair, track: str) -> Measurement:
+        return scoring.roughness_within(pair, track, quantity, limits)
+
+    words = {device_class: f"{error_percent:g} % of the road's or {m_per_km:g} m/km"}
+    return Asked(quantity, words, measure)

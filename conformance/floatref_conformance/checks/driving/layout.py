@@ -1,0 +1,161 @@
+"""Where on the road a driving check puts its manoeuvre, and which stretches it scores.
+
+Whatever counts lies a cut-off wavelength or more from both ends of the run, where a high-pass
+filter may leave points without elevation.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import ceil
+
+from floatref.errors import InputError
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.checks.driving.bump import BESIDE_M
+from floatref_conformance.checks.flags import SLOW_MPS
+from floatref_conformance.checks.stretches import END_M, Stretches
+from floatref_conformance.proving_ground.drives.drive import Segment
+from floatref_conformance.proving_ground.drives.manoeuvres import RESTART, SLOW_COAST_DRAG
+from floatref_conformance.proving_ground.drives.phases import (
+    brake,
+    brake_to_stop,
+    extent,
+    set_off,
+    speed_change,
+)
+from floatref_conformance.proving_ground.drives.runs import KMH, RUNS
+from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
+from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
+
+STRETCH_M = 160.9
+"""Length over which the IRI is taken: 0.1 mile."""
+AHEAD_M = 96.0
+"""How far ahead of an event its stretch begins: 120 m of the section whose stops lie near 216 m."""
+BUMP_MM = 20.0
+BUMP_REACH_M = BUMP_LENGTH_M / 2 + BESIDE_M
+"""So far to either side of the bump's middle the profile is looked at."""
+BUMP_AT_M = 115.0
+"""Middle of the known bump, where the speed is still constant."""
+EVENT_M = 316.0
+"""Where the first event lies if the way to it is short enough."""
+CALM_M = 10.0
+"""Between the bump's stretch and the start of a brake."""
+STEADY_M = {"constant": 220.0, "creeping": 130.0, "dead-start": 110.0}
+"""Where the stretch of a drive without an event within it begins."""
+SLOW_START_M = 130.0
+"""The same below 16 km/h, where a drive takes long."""
+RUN_OUT_M = 119.1
+"""Behind what is scored a drive goes on so far, as a published run does."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What is scored of a drive; all in m of true distance.
+
+    Attributes:
+        events_m: where something happens whose surroundings may be flagged.
+        stretches: start and end of each stretch over which every point counts.
+    """
+
+    events_m: tuple[float, ...]
+    stretches: Stretches
+
+
+def layout_of(scenario: Scenario) -> Layout:
+    """Return what is scored of ``scenario``.
+
+    Raises InputError for a manoeuvre of another kind, and if a stretch or the bump comes within
+    `END_M` of an end of the run.
+    """
+    if scenario.manoeuvre in (*STATIONARY, *RUNS):
+        raise InputError(f"manoeuvre {scenario.manoeuvre}: not one that a driving check scores")
+    events = _events(scenario)
+    around = [event - AHEAD_M for event in (*events, *_also_scored(scenario))]
+    starts = around or [_steady_start(scenario)]
+    layout = Layout(events, tuple((start, start + STRETCH_M) for start in starts))
+    scored = [place for stretch in layout.stretches for place in stretch]
+    if scenario.bump_mm:
+        scored += [scenario.bump_at_m - BUMP_REACH_M, scenario.bump_at_m + BUMP_REACH_M]
+    if min(scored) < END_M or max(scored) > scenario.length_m - END_M:
+        raise InputError(
+            f"the drive of {scenario.length_m:g} m is scored from {min(scored):g} m to "
+            f"{max(scored):g} m, which must lie {END_M:g} m from its ends"
+        )
+    return layout
+
+
+def placed(scenario: Scenario) -> Scenario:
+    """Return ``scenario`` with its bump, event and length such that all that counts fits in."""
+    clear = BUMP_AT_M + BUMP_REACH_M + CALM_M
+    event = max(EVENT_M, ceil(clear + braked_m(scenario)))
+    there = replace(scenario, bump_mm=BUMP_MM, bump_at_m=BUMP_AT_M, event_at_m=event)
+    if scenario.manoeuvre == "dead-start":
+        there = replace(there, event_at_m=EVENT_M, bump_at_m=_steady_start(there) + 175.0)
+    ends = [*_events(there), *_also_scored(there)] or [_steady_start(there) + AHEAD_M]
+    scored = max(*ends, there.bump_at_m) - AHEAD_M + STRETCH_M
+    driven = max(_events(there), default=0.0) + driven_on_m(there)
+    return replace(there, length_m=float(ceil(max(scored + RUN_OUT_M, driven + 1.0))))
+
+
+def braked_m(s: Scenario) -> float:
+    """Return the length in m of the brake ahead of the scenario's event."""
+    speed, deceleration = s.speed_kmh * KMH, s.deceleration_g * STANDARD_GRAVITY
+    if s.manoeuvre == "stop":
+        return extent(speed, brake_to_stop(speed, deceleration))[0]
+    if s.manoeuvre in ("braking", "near-stop"):
+        return extent(speed, brake(speed, s.event_speed_kmh * KMH, deceleration))[0]
+    return 0.0
+
+
+def least_spacing_m(s: Scenario) -> float:
+    """Return how far apart stops have to lie at least, in m."""
+    speed, deceleration = s.final_speed_kmh * KMH, s.deceleration_g * STANDARD_GRAVITY
+    return _set_off_m(s) + extent(speed, brake_to_stop(speed, deceleration))[0]
+
+
+def driven_on_m(s: Scenario) -> float:
+    """Return how far behind its last event a drive changes its speed, in m."""
+    length = _DRIVEN_ON.get(s.manoeuvre)
+    return length(s) if length else 0.0
+
+
+def _speed_changed_m(s: Scenario) -> float:
+    speeds = s.speed_kmh * KMH, s.final_speed_kmh * KMH
+    return extent(speeds[0], speed_change(*speeds, s.deceleration_g * STANDARD_GRAVITY))[0]
+
+
+def _set_off_m(s: Scenario) -> float:
+    return extent(0.0, set_off(0.0, s.final_speed_kmh * KMH, RESTART))[0]
+
+
+def _crawled_m(s: Scenario) -> float:
+    coast = Segment(s.dwell_s, -SLOW_COAST_DRAG)
+    distance, slowest = extent(s.event_speed_kmh * KMH, (coast,))
+    return distance + extent(slowest, set_off(slowest, s.final_speed_kmh * KMH, RESTART))[0]
+
+
+_DRIVEN_ON: Mapping[str, Callable[[Scenario], float]] = {
+    "coasting": _speed_changed_m,
+    "throttle": _speed_changed_m,
+    "near-stop": _crawled_m,
+    "stop": _set_off_m,
+    "dead-start": _set_off_m,
+}
+
+
+def _events(s: Scenario) -> tuple[float, ...]:
+    if s.manoeuvre in STEADY_M:
+        return ()
+    count = s.stops if s.manoeuvre == "stop" else 1
+    return tuple(s.event_at_m + n * s.stop_spacing_m for n in range(count))
+
+
+def _also_scored(s: Scenario) -> tuple[float, ...]:
+    """Return where a slow change of speed ends: little happens near its start."""
+    if s.manoeuvre in ("coasting", "throttle"):
+        return (s.event_at_m + driven_on_m(s),)
+    return ()
+
+
+def _steady_start(s: Scenario) -> float:
+    slow = s.manoeuvre == "constant" and s.speed_kmh * KMH < SLOW_MPS
+    return SLOW_START_M if slow else STEADY_M[s.manoeuvre]

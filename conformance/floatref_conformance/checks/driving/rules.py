@@ -1,0 +1,132 @@
+"""What is asked of every wheel path of a drive, and the rule of each kind of drive."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import nan
+
+import numpy as np
+
+from floatref_conformance.checks import flags
+from floatref_conformance.checks.driving import bump
+from floatref_conformance.checks.driving.asked import Asked, asked_of, limits_of
+from floatref_conformance.checks.driving.edition import Table, edition
+from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
+from floatref_conformance.checks.flags import SLOW_MPS
+from floatref_conformance.checks.scoring import Compared
+from floatref_conformance.classes import DeviceClass, Limits
+from floatref_conformance.errors import DeviceError
+from floatref_conformance.judge.verdict import Measurement
+from floatref_conformance.proving_ground.drives.runs import KMH
+from floatref_conformance.proving_ground.scenario import Scenario
+
+ELSEWHERE = "flagged elsewhere"
+UNLIMITED = "not limited"
+UNFLAGGED, WHOLE = "IRI error, unflagged part", "IRI error, 160.9 m"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What is asked of a drive.
+
+    Attributes:
+        whole: of every scored stretch, whose points all count.
+        unflagged: of all points that the device vouches for.
+        flagged_elsewhere: limits of the flagged length in m around an event.
+        slow: whether the vehicle stays below 16 km/h, where any length may be flagged: then it
+            is not limited, and class nominal answers for nothing that it flags.
+    """
+
+    whole: tuple[Asked, ...]
+    unflagged: tuple[Asked, ...]
+    flagged_elsewhere: Limits
+    slow: bool
+
+    @property
+    def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
+        """For each quantity, the limit of each class in words."""
+        table: dict[str, dict[DeviceClass, str]] = {}
+        for asked in (*self.whole, *self.unflagged):
+            row = table.setdefault(asked.quantity, dict.fromkeys(DeviceClass, UNLIMITED))
+            row |= asked.words
+        if not self.slow:
+            table["flagged at an end"] = _words(flags.END_LIMITS, "m")
+            table[ELSEWHERE] = _words(self.flagged_elsewhere, "m")
+        table["bump error"] = _words(bump.LIMITS, "%")
+        return table
+
+    def measure(
+        self, compared: Compared, scenario: Scenario, layout: Layout
+    ) -> tuple[Measurement, ...]:
+        """Return what is asked of one wheel path.
+
+        Raises DeviceError for a point without elevation where every point counts.
+        """
+        found = [m for start, end in layout.stretches for m in self._whole(compared, start, end)]
+        trusted = compared.unflagged()
+        if trusted is not None:
+            found += [asked.measure(trusted, compared.track) for asked in self.unflagged]
+        if not self.slow:
+            ends, away = flags.flagged(compared, scenario, layout.events_m)
+            found += [ends, replace(away, quantity=ELSEWHERE, limits=self.flagged_elsewhere)]
+        if scenario.bump_mm:
+            found.append(self._bump(compared, scenario))
+        return tuple(found)
+
+    def _whole(self, compared: Compared, start: float, end: float) -> list[Measurement]:
+        try:
+            pair = compared.whole(start, end)
+        except DeviceError:
+            if not self.slow:
+                raise
+            return [_missing(asked.quantity, compared) for asked in self.whole]
+        return [asked.measure(pair, compared.track) for asked in self.whole]
+
+    def _bump(self, compared: Compared, scenario: Scenario) -> Measurement:
+        near = np.abs(compared.distance_m - scenario.bump_at_m) <= BUMP_REACH_M
+        if not self.slow or compared.valid[near].all():
+            return bump.measure_bump(compared, scenario)
+        try:
+            found = bump.measure_bump(compared, scenario)
+        except DeviceError:
+            return _missing("bump error", compared)
+        return replace(found, limits=_above_nominal(found.limits))
+
+
+def _missing(quantity: str, compared: Compared) -> Measurement:
+    """Return what no class above nominal passes: a quantity of points without elevation."""
+    return Measurement(
+        quantity, compared.track, nan, "", _above_nominal(dict.fromkeys(DeviceClass, 1.0))
+    )
+
+
+def _above_nominal(limits: Limits) -> Limits:
+    return {c: limit for c, limit in limits.items() if c is not DeviceClass.NOMINAL}
+
+
+def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
+    return {c: f"{limit:g} {unit}" for c, limit in limits.items()}
+
+
+def _rule(table: Table) -> Rule:
+    """Return the rule of a table of the edition."""
+    elsewhere = table.get("flagged_elsewhere")
+    return Rule(
+        tuple(asked_of(entry, WHOLE) for entry in table["whole"]),
+        tuple(asked_of(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())),
+        limits_of(elsewhere) if elsewhere else flags.EVENT_LIMITS,
+        table.get("slow", False),
+    )
+
+
+RULES: Mapping[str, Rule] = {name: _rule(table) for name, table in edition()["rules"].items()}
+"""Those of the edition, by name."""
+
+
+def rule_of(scenario: Scenario) -> Rule:
+    """Return the rule for the scenario's drive, one that a driving check scores."""
+    named = edition()["manoeuvres"][scenario.manoeuvre]
+    if "below_16_kmh" in named and scenario.speed_kmh * KMH < SLOW_MPS:
+        return RULES[named["below_16_kmh"]]
+    if "up_to_g" in named and scenario.deceleration_g > named["up_to_g"]:
+        return RULES[named["beyond"]]
+    return RULES[named["rule"]]

@@ -1,0 +1,168 @@
+"""Faults of inertial units, GNSS receivers and the sensors of a vehicle's response.
+
+A recording without the channels is returned as it is.
+"""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref.values.recording import Channel, Recording
+from floatref_conformance.checks.faults.injection import (
+    Fault,
+    Faulty,
+    Spoil,
+    dropout,
+    faulty_until,
+    hold,
+    lose,
+    saturation,
+    spoilt,
+    stuck,
+    times_of,
+)
+from floatref_conformance.checks.sameness.change import Numbers, each, number, with_samples
+from floatref_conformance.devices.interface import CAPABILITIES
+
+HEIGHT, QUALITY = "gnss_height", "gnss_quality"
+RATES = ("roll_rate", "pitch_rate", "yaw_rate")
+NONE, SINGLE, FLOAT = 0.0, 1.0, 5.0
+"""Values of `gnss_quality`."""
+WANDER_S = 40.0
+"""Period in which heights without fixed ambiguities wander."""
+
+
+def outage(recording: Recording, numbers: Numbers) -> Faulty:
+    """Leave the receiver without a fix for ``length_s``."""
+    everything = dict.fromkeys(CAPABILITIES["gnss"], lose)
+    return _for_a_while(recording, numbers, {**everything, QUALITY: _to(NONE)})
+
+
+def wrong_fix(recording: Recording, numbers: Numbers) -> Faulty:
+    """Have the receiver tell ``size_m`` too much height for ``length_s``, and a worse quality."""
+    size_m = number(numbers, "size_m")
+
+    def lift(values: FloatArray, where: slice) -> None:
+        values[where] += size_m
+
+    return _for_a_while(recording, numbers, {HEIGHT: lift, QUALITY: _to(SINGLE)})
+
+
+def float_solution(recording: Recording, numbers: Numbers) -> Faulty:
+    """Lose the fixed ambiguities for ``length_s``: the height wanders off by ``size_m``, and back.
+
+    The quality says so.
+    """
+    size_m = number(numbers, "size_m")
+
+    def wander(values: FloatArray, where: slice) -> None:
+        part = values[where]
+        part += size_m * np.sin(np.linspace(0.0, np.pi, part.size)) ** 2
+
+    return _for_a_while(recording, numbers, {HEIGHT: wander, QUALITY: _to(FLOAT)})
+
+
+def never_fixed(recording: Recording, numbers: Numbers) -> Faulty:
+    """Have the receiver never fix its ambiguities, and its height wander by ``size_m``.
+
+    Nothing may be flagged for it beyond the usual: a profiler does without a receiver.
+    """
+    size_m = number(numbers, "size_m")
+
+    def change(channel: Channel) -> Channel:
+        if channel.id.name == QUALITY:
+            return with_samples(channel, np.full(channel.values.size, FLOAT))
+        if channel.id.name == HEIGHT:
+            turns = channel.times_s / WANDER_S
+            wander = size_m * np.sin(2 * np.pi * turns)
+            return with_samples(channel, channel.values + wander)
+        return channel
+
+    if recording.find(QUALITY) is None:
+        return Faulty(recording, 0.0, 0.0)
+    return Faulty(each(recording, change), 0.0, 0.0)
+
+
+def jump(recording: Recording, numbers: Numbers) -> Faulty:
+    """Let the receiver tell ``size_m`` more from one fixed reading to the next, for good."""
+    size_m = number(numbers, "size_m")
+
+    def lift(values: FloatArray, where: slice) -> None:
+        values[where.start :] += size_m
+
+    return _for_a_while(recording, {**numbers, "length_s": 0.0}, {HEIGHT: lift})
+
+
+def stuck_height(recording: Recording, numbers: Numbers) -> Faulty:
+    """Have the receiver repeat one height for ``length_s``, as if it were fixed and fresh."""
+    return _for_a_while(recording, numbers, {HEIGHT: hold})
+
+
+def gyro_gap(recording: Recording, numbers: Numbers) -> Faulty:
+    """Lose all rates for ``length_s``."""
+    return _for_a_while(recording, numbers, dict.fromkeys(RATES, lose))
+
+
+def imu_flicker(recording: Recording, numbers: Numbers) -> Faulty:
+    """Lose ``count`` single samples of every channel of the inertial unit over ``span_m``."""
+    at_m, count = number(numbers, "at_m"), int(number(numbers, "count"))
+    span_m = number(numbers, "span_m")
+    hurt = recording
+    for n in range(count):
+        there = {**numbers, "at_m": at_m + n * span_m / count, "length_s": 0.0}
+        hurt = _for_a_while(hurt, there, dict.fromkeys(CAPABILITIES["imu"], lose)).recording
+    return Faulty(hurt, span_m, at_m)
+
+
+AUGMENTED: Mapping[str, Fault] = MappingProxyType(
+    {
+        "gnss-outage": outage,
+        "gnss-wrong-fix": wrong_fix,
+        "gnss-float": float_solution,
+        "gnss-jump": jump,
+        "gnss-stuck": stuck_height,
+        "gnss-never-fixed": never_fixed,
+        "gnss-outage-at-a-stop": outage,
+        "imu-gyro-gap": gyro_gap,
+        "imu-flicker": imu_flicker,
+    }
+)
+"""Injuries of sensors that a device has by a capability, which their names begin with."""
+
+
+def _to(quality: float) -> Spoil:
+    def worsen(values: FloatArray, where: slice) -> None:
+        values[where] = quality
+
+    return worsen
+
+
+def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Spoil]) -> Faulty:
+    """Return ``recording`` with the channels named in ``spoils`` spoilt for ``length_s``."""
+    begin_s, end_s = times_of(recording, numbers)
+
+    def spoil(channel: Channel) -> Channel:
+        how = spoils.get(channel.id.name)
+        return channel if how is None else spoilt(channel, begin_s, end_s, how)
+
+    there = any(channel.id.name in spoils for channel in recording.channels)
+    hurt = each(recording, spoil) if there else recording
+    return faulty_until(hurt, recording, numbers, end_s)
+
+
+WHEEL, BODY = "unsprung_specific_force", "sprung_specific_force"
+DEFLECTION = "suspension_deflection"
+
+RESPONSE: Mapping[str, Fault] = MappingProxyType(
+    {
+        "response-wheel-dropout": dropout(WHEEL),
+        "response-wheel-stuck": stuck(WHEEL),
+        "response-wheel-saturation": saturation(WHEEL),
+        "response-body-dropout": dropout(BODY),
+        "response-deflection-dropout": dropout(DEFLECTION),
+        "response-deflection-stuck": stuck(DEFLECTION),
+    }
+)
+"""Injuries of sensors that a device has by the capability `response`."""

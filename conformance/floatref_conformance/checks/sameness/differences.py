@@ -1,0 +1,103 @@
+"""Two results of one road side by side: how far they differ, and whose error is larger."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from floatref.measures import iri_trace
+from floatref.values.arrays import FloatArray
+from floatref_conformance.checks.scoring import Compared, correlation, not_flat, roughness_within
+from floatref_conformance.classes import DeviceClass, Limits, same_limit
+from floatref_conformance.judge.evidence import CorrelationLoss, Pair, Reference, RoughnessError
+from floatref_conformance.judge.verdict import Measurement
+
+NOMINAL, ADEQUATE, REFERENCE = DeviceClass
+LOSS_LIMITS: Limits = {NOMINAL: 0.008, ADEQUATE: 0.005, REFERENCE: 0.002}
+ROUGHNESS_LIMITS: Limits = {NOMINAL: 0.5, ADEQUATE: 0.3, REFERENCE: 0.2}
+"""In percent. Both are a tenth of what each class may be off the truth at constant speed."""
+PLACE_LIMITS: Limits = same_limit(0.02, 0.01)
+"""In m: samples at 2 kHz and 97 km/h are 13.5 mm apart, readings of the laser 8.3 mm."""
+RISE_PERCENT = 10.0
+"""By how much of it the error of the IRI may grow."""
+RISE_LIMITS: Limits = {NOMINAL: 0.10, ADEQUATE: 0.06, REFERENCE: 0.04}
+"""By how much more, in m/km: 5, 3 and 2 % of an IRI of 2 m/km, since noise is drawn anew."""
+
+
+@dataclass(frozen=True, eq=False)
+class RoughnessDifference:
+    """Two results, each beside the truth, for the difference of their IRI in percent of its."""
+
+    before: Pair
+    after: Pair
+
+    def value(self, reference: Reference) -> float:
+        """Return the magnitude of the difference."""
+        true, one = (_mean(trace) for trace in self.before.traces(reference))
+        other = _mean(self.after.traces(reference)[1])
+        return 100.0 * abs(other - one) / true
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorRise:
+    """Two results, each beside its truth, for the rise of the IRI's error."""
+
+    before: Pair
+    after: Pair
+
+    def value(self, reference: Reference) -> float:
+        """Return by how much the error's magnitude grew, in m/km; 0 if it did not."""
+        errors = [RoughnessError(p, False).value(reference) for p in (self.before, self.after)]
+        return max(errors[1] - errors[0], 0.0)
+
+
+def differences(
+    before: Compared, after: Compared, start_m: float, end_m: float
+) -> tuple[Measurement, ...]:
+    """Return how far two results differ from ``start_m`` to ``end_m``: shape, IRI, place.
+
+    Both are on the same truth's points. Raises DeviceError for a point without elevation there.
+    """
+    first, second = (compared.whole(start_m, end_m) for compared in (before, after))
+    pair = Pair(first.result, second.result, first.interval_m, first.counted)
+    loss = correlation(pair, before.track, LOSS_LIMITS)
+    return (
+        replace(loss, quantity="correlation loss between both"),
+        _roughness_difference(first, second, before.track),
+        Measurement(
+            "displacement between both", before.track, _lag_m(loss, pair), "m", PLACE_LIMITS
+        ),
+    )
+
+
+def rise(before: Pair, after: Pair, track: str) -> Measurement:
+    """Return by how much more the IRI of ``after`` is wrong than that of ``before``, in m/km."""
+    errors = [roughness_within(pair, track, "", {}).value for pair in (before, after)]
+    share = RISE_PERCENT / 100.0 * errors[0]
+    limits = {c: share + more for c, more in RISE_LIMITS.items()}
+    return Measurement(
+        "rise of the IRI error",
+        track,
+        max(errors[1] - errors[0], 0.0),
+        "m/km",
+        limits,
+        ErrorRise(before, after),
+    )
+
+
+def _roughness_difference(first: Pair, second: Pair, track: str) -> Measurement:
+    true, one, other = (
+        _mean(iri_trace(z, first.interval_m)[first.counted])
+        for z in (first.truth, first.result, second.result)
+    )
+    value = 100.0 * abs(other - one) / not_flat(true)
+    evidence = RoughnessDifference(first, second)
+    return Measurement("IRI difference of both", track, value, "%", ROUGHNESS_LIMITS, evidence)
+
+
+def _mean(trace: FloatArray) -> float:
+    return float(np.abs(trace).mean())
+
+
+def _lag_m(loss: Measurement, pair: Pair) -> float:
+    evidence = loss.evidence
+    return abs(evidence.lag) * pair.interval_m if isinstance(evidence, CorrelationLoss) else np.nan

@@ -1,0 +1,208 @@
+"""`invariance`: what must not matter does not matter."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.interface import Bench, Taken
+from floatref_conformance.checks.sameness import changed_drives
+from floatref_conformance.checks.sameness.change import Change, check_equipped
+from floatref_conformance.checks.sameness.changed_drives import (
+    BEFORE_M,
+    BEHIND_M,
+    END_M,
+    FREE_M,
+    STOP,
+)
+from floatref_conformance.checks.sameness.changes import CHANGES, LATER, begins_later_m, change_of
+from floatref_conformance.checks.sameness.differences import (
+    LOSS_LIMITS,
+    PLACE_LIMITS,
+    RISE_LIMITS,
+    RISE_PERCENT,
+    ROUGHNESS_LIMITS,
+    differences,
+    rise,
+)
+from floatref_conformance.checks.scoring import Compared, compare, correlation
+from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.devices.interface import NEEDS
+from floatref_conformance.judge.verdict import Measurement
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
+
+TRUTH_LIMITS: Limits = dict(zip(DeviceClass, (0.08, 0.05, 0.02), strict=True))
+"""Correlation loss with the truth, as at constant speed."""
+FROM_M = 150.0
+"""What counts begins so far into the shorter recording: the high-pass has run in by then, and
+the car of the IRI, too."""
+RAN_IN_M = 110.0
+"""Ahead of a stop the road shows from here on."""
+
+
+@dataclass(frozen=True)
+class InvarianceCheck:
+    """The device processes a recording and a changed one; both results are compared."""
+
+    id: str = changed_drives.CHECK
+    title: str = "what must not matter does not matter"
+    clause: str = "derived: a tenth of the class's limits at constant speed; 10 % more at a stop"
+    needs: frozenset[str] = frozenset()
+    meets: frozenset[str] = frozenset(NEEDS)
+    """What the device has of what may be needed: changes of sensors that it lacks are no cases."""
+
+    @property
+    def derivation(self) -> str:
+        """How the pairs are made, and why the limits are what they are."""
+        return DERIVATION
+
+    @property
+    def floor(self) -> str:
+        """The unchanged result has to show the road."""
+        return FLOOR
+
+    @property
+    def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
+        """The limits of the differences, of the rise at a stop, and of the floor."""
+        share = f"{RISE_PERCENT:g} % of it and "
+        return {
+            "correlation loss between both": _words(LOSS_LIMITS, ""),
+            "IRI difference of both": _words(ROUGHNESS_LIMITS, " %"),
+            "displacement between both": _words(PLACE_LIMITS, " m"),
+            "rise of the IRI error": _words(RISE_LIMITS, " m/km", share),
+            "correlation loss": _words(TRUTH_LIMITS, ""),
+        }
+
+    @property
+    def simplest(self) -> Case:
+        """Constant speed, one wheel path, stored with time stamps in place of a rate."""
+        scenario = changed_drives.drive("clock-storage", 0, rate_hz=4000.0)
+        return Case(self.id, scenario, {"change": "clock-storage"})
+
+    def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
+        """Return every change once, in a certification three times, each on a road of its own."""
+        cases = changed_drives.fixed(seed, effort)
+        return tuple(c for c in cases if c.variation["change"] in self._changes)
+
+    def strategy(self) -> "SearchStrategy[Case]":
+        """Return any change of any drive."""
+        return changed_drives.drawn(self._changes)
+
+    def fitted(self, meets: Iterable[str]) -> "InvarianceCheck":
+        """Return the check without changes of what is not among ``meets``."""
+        return replace(self, meets=frozenset(meets))
+
+    @property
+    def _changes(self) -> tuple[str, ...]:
+        return tuple(name for name, c in CHANGES.items() if c.needs <= self.meets)
+
+    def scored(self, case: Case) -> Stretches:
+        """Return what is compared; of a stop, what is compared and where the road shows.
+
+        Raises InputError for a variation without the numbers that tell where that begins.
+        """
+        if case.variation.get("change") == STOP:
+            stretches = (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
+            return fitting(stretches, drive_of(case.scenario).length_m)
+        start_m = FROM_M
+        if case.variation.get("change") == LATER:
+            start_m += changed_drives.later_m(case.scenario, case.variation)
+        length_m = drive_of(case.scenario).length_m
+        return fitting(((start_m, length_m - END_M),), length_m)
+
+    def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
+        """Return how far both results differ, and how well the unchanged one shows the road.
+
+        The changed recording comes first: what is kept of it has to serve both.
+        Raises InputError for a variation that names no change or lacks a number of it, for a
+        change of sensors that the device does not have, and for what `scored` refuses.
+        """
+        change = change_of(case.variation)
+        self.scored(case)
+        before = bench.simulate(case.scenario)
+        check_equipped(before.recording, change.needs, f"change {case.variation['change']}")
+        after = _changed(case, change, before, bench)
+        undone = change.profile(bench.run(after, "changed"), case.variation)
+        result = bench.run(before, "unchanged")
+        if case.variation["change"] == STOP:
+            pairs = zip(compare(before.truth, result), compare(after.truth, undone), strict=True)
+            return tuple(m for one, other in pairs for m in _at_a_stop(one, other, case.scenario))
+        start_m, end_m = FROM_M, before.truth.length_m - END_M
+        if case.variation["change"] == LATER:
+            start_m += begins_later_m(before.recording, after.recording)
+        pairs = zip(compare(before.truth, result), compare(before.truth, undone), strict=True)
+        return tuple(
+            m
+            for one, other in pairs
+            for m in (*differences(one, other, start_m, end_m), _shown(one, start_m, end_m))
+        )
+
+
+def _changed(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
+    """Return the changed recording; a drive that stays as it is is not simulated again."""
+    scenario = change.scenario(case.scenario, case.variation)
+    taken = before if scenario == case.scenario else bench.simulate(scenario)
+    return replace(
+        taken,
+        recording=change.recording(taken.recording, case.variation),
+        truth=change.truth(taken.truth, case.variation),
+    )
+
+
+def _shown(compared: Compared, start_m: float, end_m: float) -> Measurement:
+    return correlation(compared.whole(start_m, end_m), compared.track, TRUTH_LIMITS)
+
+
+def _around_the_stop(scenario: Scenario) -> tuple[float, float]:
+    return scenario.event_at_m - BEFORE_M, scenario.event_at_m + BEHIND_M
+
+
+def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
+    stretch = _around_the_stop(scenario)
+    return (
+        rise(before.whole(*stretch), after.whole(*stretch), before.track),
+        _shown(before, RAN_IN_M, FREE_M),
+    )
+
+
+def _words(limits: Limits, unit: str, more: str = "") -> dict[DeviceClass, str]:
+    return {c: f"{more}{limit:g}{unit}" for c, limit in limits.items()}
+
+
+DERIVATION = (
+    "Every case is processed twice, changed in one respect and then as recorded: the first samples "
+    "cut off, so that every block of the software begins elsewhere; a time stamp for each sample "
+    "in place of a rate; a bias of up to 0.03 m/s² (3 mg) added to the vertical accelerometers; "
+    "time stamps up to 1e6 s and distances up to 100 km from where they were, where single "
+    "precision is coarse; another sampling rate; the road 0.4 to 2.7 times as high under ideal "
+    "sensors, the result scaled back; twice the time at a standstill. Of a device that declares "
+    "a receiver: its heights up to 3 km from where they were, a half to a quarter of its readings; "
+    "an inertial unit: gyros at 125 to 400 Hz in place of 100, biases of up to 0.03 m/s² and "
+    "0.03 °/s; both: a road that climbs and leans by up to 2 %, on which gravity is no longer "
+    "along the body's axes; on steeper ones the heights that a laser sees, tilted with the body, "
+    "are themselves not those along the vertical. Drives of constant speed "
+    f"or throttle are compared from {FROM_M:g} m behind the later beginning to {END_M:g} m before "
+    "the end: what software starts with differs, and leaves the high-pass (105.91 m) and the "
+    "car of the IRI by then. Nothing there may differ by more than a tenth of what the class may "
+    "be off the truth at constant speed (0.92, 0.95, 0.98; 5, 3, 2 %), so that no change uses "
+    "up the class's allowance; noise that is drawn anew at another rate is in this. Samples at 2 "
+    "kHz and 97 km/h are 13.5 mm apart, readings of the laser held at 3.24 kHz 8.3 mm: results "
+    "may lie 20 mm apart, in class reference 10 mm. At a stop, the error of the IRI over the "
+    "160.9 m around it may grow by 10 % of it: drift grows with the square of the time, or its "
+    "cube, and has to be suppressed, not merely filtered. The noise of the longer recording is "
+    "another one, for which 5, 3 and 2 % of an IRI of 2 m/km are allowed."
+)
+"""How the pairs are made, and why the limits are what they are."""
+FLOOR = (
+    "The unchanged result has to agree with the truth, filtered alike, as at constant speed: a "
+    "correlation of 0.92, 0.95 and 0.98 by class over the same stretch, or ahead of the stop. A "
+    "profile that shows nothing would be as flat after every change."
+)
+"""What keeps a device from passing by delivering the same whatever it is given."""
+
+INVARIANCE = InvarianceCheck()

@@ -1,0 +1,92 @@
+"""What happens during a run, one value after another; renderers turn them into output."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from floatref_conformance.checks.catalogue import LeftOut
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.judge.verdict import CaseResult, CheckResult, RunResult
+
+
+@dataclass(frozen=True)
+class RunStarted:
+    """The run begins; nothing is said of the checks ``left_out``."""
+
+    spec: str
+    description: Description
+    checks: tuple[Check, ...]
+    left_out: tuple[LeftOut, ...]
+
+
+@dataclass(frozen=True)
+class CheckStarted:
+    """A check begins; it has ``cases`` seeded cases."""
+
+    id: str
+    cases: int
+
+
+@dataclass(frozen=True)
+class CaseFinished:
+    """One case of check ``id`` has been judged: seeded, drawn by the search, or a simpler one."""
+
+    id: str
+    result: CaseResult
+
+
+@dataclass(frozen=True)
+class SearchStarted:
+    """The seeded cases of check ``id`` are done; the search tries up to ``cases`` more."""
+
+    id: str
+    cases: int
+
+
+@dataclass(frozen=True)
+class ShrinkStarted:
+    """A case of check ``id`` fails; up to ``cases`` are tried to make it simpler."""
+
+    id: str
+    cases: int
+
+
+@dataclass(frozen=True)
+class CaseReplayed:
+    """A case kept from an earlier run has been judged."""
+
+    replayed: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class CheckFinished:
+    """A check has its outcome."""
+
+    result: CheckResult
+
+
+@dataclass(frozen=True)
+class RunFinished:
+    """The verdict is there."""
+
+    result: RunResult
+
+
+Event = (
+    RunStarted
+    | CheckStarted
+    | SearchStarted
+    | ShrinkStarted
+    | CaseFinished
+    | CaseReplayed
+    | CheckFinished
+    | RunFinished
+)
+
+
+class Renderer(Protocol):
+    """Turns the events of a run into one form of output."""
+
+    def handle(self, event: Event) -> None:
+        """Take note of ``event``; write what it brings."""

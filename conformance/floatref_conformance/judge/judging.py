@@ -1,0 +1,149 @@
+"""From the cases of a check to its outcome."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from floatref_conformance.case_files import name_of
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.catalogue import LeftOut
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.classes import DeviceClass, lowest
+from floatref_conformance.devices.interface import HEIGHT, NEEDS, RESPONSE
+from floatref_conformance.judge import oracle
+from floatref_conformance.judge.verdict import CaseResult, CheckResult, Measurement, Outcome
+
+
+def check_result(
+    check: Check,
+    cases: Sequence[CaseResult],
+    device_class: DeviceClass,
+    simpler: tuple[Case, CaseResult] | None = None,
+) -> CheckResult:
+    """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
+
+    A faulty device is an error; else the worst measurement decides. ``simpler`` is the simplest
+    failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
+    """
+    worst, worst_case = max(
+        ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
+        key=lambda measured: measured[0].rank(device_class),
+        default=(None, ""),
+    )
+    if worst is not None:
+        oracle.confirm(check.id, worst)
+    outcome, reason = _outcome(cases, worst, device_class)
+    failed = outcome in (Outcome.FAIL, Outcome.ERROR)
+    if failed and simpler and simpler[1].again:
+        reason = f"{reason}; the simplest case {_unsteady(simpler[1])}"
+    return CheckResult(
+        id=check.id,
+        clause=check.clause,
+        outcome=outcome,
+        reason=reason,
+        class_reached=_class_reached(cases, outcome),
+        cases=len(cases),
+        worst=worst,
+        worst_case=worst_case,
+        counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
+        flagged_m=max(case.flagged_m for case in cases),
+        passes=simpler[1].passes if failed and simpler else (),
+        scored_m=scored_by(check, simpler[0]) if failed and simpler else (),
+        worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",
+    )
+
+
+def scored_by(check: Check, case: Case) -> Stretches:
+    """Return the stretches that ``check`` scores of ``case``; none if it fails to say.
+
+    They are for pictures, which no verdict waits for.
+    """
+    try:
+        return tuple((float(start), float(end)) for start, end in check.scored(case))
+    except (Exception, SystemExit):
+        return ()
+
+
+def failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:
+    """Return the worst of ``cases`` that fails; None if none does."""
+    worst = max(cases, key=lambda case: case.ratio(device_class))
+    return worst if worst.ratio(device_class) > 1.0 else None
+
+
+def why(case: CaseResult, device_class: DeviceClass) -> str:
+    """Return in one line what is wrong with ``case``; empty if nothing is."""
+    if case.fault is not None:
+        return case.fault
+    worst = case.worst(device_class)
+    if worst is None or worst.within(device_class):
+        return ""
+    value, limit = (
+        f"{number:.4g} {worst.unit}".strip() for number in (worst.value, worst.limits[device_class])
+    )
+    return f"{worst.quantity}, track {worst.track}: {value}, limit {limit}"
+
+
+def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
+    """Return the result of a check that needs ``missing`` of `NEEDS` from the device."""
+    return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, lacking(missing))
+
+
+def lacking(missing: frozenset[str]) -> str:
+    """Return in words that a device lacks ``missing`` of what a check needs."""
+    undeclared = ", ".join(sorted(missing - {HEIGHT}))
+    parts = [f"needs {undeclared}, which the device does not declare"] if undeclared else []
+    if HEIGHT in missing:
+        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does without")
+    return "; ".join(parts)
+
+
+def left_out_result(left_out: LeftOut) -> CheckResult:
+    """Return the result of a check that was not run."""
+    return CheckResult(left_out.id, left_out.clause, Outcome.SKIP, left_out.reason)
+
+
+def given_up_result(check: Check, reason: str) -> CheckResult:
+    """Return the result of a check whose device is not asked any more."""
+    return CheckResult(check.id, check.clause, Outcome.ERROR, reason)
+
+
+def _class_reached(cases: Sequence[CaseResult], outcome: Outcome) -> DeviceClass | None:
+    if outcome not in (Outcome.PASS, Outcome.FAIL):
+        return None
+    return lowest([m.class_reached for case in cases for m in case.measurements])
+
+
+def _outcome(
+    cases: Sequence[CaseResult], worst: Measurement | None, device_class: DeviceClass
+) -> tuple[Outcome, str]:
+    faults = [case for case in cases if case.fault is not None]
+    if faults:
+        return Outcome.ERROR, f"{faults[0].name}: {faults[0].fault}"
+    failed = failing(cases, device_class)
+    if failed is not None:
+        return Outcome.FAIL, why(failed, device_class)
+    skipped = [case for case in cases if case.skipped is not None]
+    if skipped:
+        return Outcome.SKIP, f"{skipped[0].name}: {skipped[0].skipped}"
+    if worst is None:
+        return Outcome.ERROR, f"{cases[0].name}: nothing was measured"
+    return Outcome.PASS, ""
+
+
+def _counterexample(case: Case, result: CaseResult, device_class: DeviceClass) -> Mapping[str, Any]:
+    reason = why(result, device_class)
+    return {
+        "case": result.name,
+        "parameters": dict(result.parameters),
+        "reason": f"{reason}; {_unsteady(result)}" if result.again else reason,
+        "file": name_of(case),
+    }
+
+
+def _worst_track(case: CaseResult, device_class: DeviceClass) -> str:
+    worst = case.worst(device_class)
+    return "" if worst is None else worst.track
+
+
+def _unsteady(result: CaseResult) -> str:
+    return f"{result.again} when run again: the device does not fail it every time"

@@ -1,0 +1,55 @@
+"""The second opinion: what was measured, measured again by the reference implementation.
+
+An error in the measures of the SDK, by which the checks judge and with which a pipeline could
+have been tuned, would otherwise pass on both sides.
+"""
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.judge.verdict import Measurement
+from floatref_reference.chapter_2 import section_2_1_1_iri as section_2_1_1
+from floatref_reference.chapter_2 import section_2_1_5_comparison as section_2_1_5
+
+TOLERANCE = 1e-3
+"""Largest difference between the two values, relative to the value or to `SMALLEST` units."""
+SMALLEST = {"m/km": 1e-3, "%": 1e-1}
+"""Values below this are compared as if they were so large: they are differences of larger ones."""
+DIMENSIONLESS = 1e-3
+
+
+class PrintedMeasures:
+    """The reference's measures, in plain numbers."""
+
+    def iri(self, elevation: FloatArray, interval_m: float) -> float:
+        """Return the IRI of section 2.1.1 in m/km."""
+        return float(section_2_1_1.iri(np.array(elevation), interval_m))
+
+    def iri_trace(self, elevation: FloatArray, interval_m: float) -> FloatArray:
+        """Return the output of steps 1 to 3 of section 2.1.1 in m/km."""
+        trace = section_2_1_1.iri_trace(np.array(elevation), interval_m)
+        return np.asarray(trace, dtype=np.float64)
+
+    def score(self, p: FloatArray, q: FloatArray, lag: int) -> float:
+        """Return (2.14) times (2.15) at one offset."""
+        p, q = np.array(p), np.array(q)
+        rho = section_2_1_5.correlation(p, q, lag)
+        return float(rho * section_2_1_5.amplitude_factor(p, q, lag))
+
+
+def confirm(check: str, measured: Measurement) -> None:
+    """Raise SuiteError unless the reference gives ``measured`` too.
+
+    A measurement without evidence is of a kind that the reference does not have, and is left
+    alone.
+    """
+    if measured.evidence is None:
+        return
+    again = measured.evidence.value(PrintedMeasures())
+    scale = max(abs(again), SMALLEST.get(measured.unit, DIMENSIONLESS))
+    if not abs(again - measured.value) <= TOLERANCE * scale:
+        raise SuiteError(
+            f"check {check}, track {measured.track}: {measured.quantity} is "
+            f"{measured.value:.6g} {measured.unit}, by the reference {again:.6g}"
+        )

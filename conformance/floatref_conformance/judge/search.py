@@ -1,0 +1,145 @@
+"""The search for failing cases, and the simplest case that still fails.
+
+A case that fails is judged like any other, and made simpler by `shrinking`; an error of the suite
+ends the search. The number of cases is fixed, and the same seed draws the same ones.
+
+The budget is a number of cases, so that the same run gives the same case on any machine;
+Hypothesis' own shrinking stops by the clock, and does not count numbers.
+"""
+
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, replace
+from unittest import mock
+
+from floatref.errors import InputError
+from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
+from floatref_conformance.checks.interface import Check
+from floatref_conformance.errors import SuiteError
+
+FARTHEST = 1e3
+"""Ratios of value to limit beyond this, and faults, are all as bad."""
+
+
+def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) -> None:
+    """Have ``judge`` try ``count`` cases of ``check``, drawn towards the largest it returns.
+
+    ``judge`` returns the largest ratio of value to limit that it found; what it raises is raised.
+    """
+    if count < 1:
+        return
+    try:
+        import hypothesis
+    except ImportError as error:
+        raise SuiteError("the search needs: pip install 'floatref[conformance]'") from error
+    from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
+
+    tried = 0
+    raised: list[BaseException] = []
+
+    @hypothesis.seed(zlib.crc32(f"{seed} {check.id}".encode()))
+    @settings(
+        max_examples=count,
+        database=None,
+        deadline=None,
+        derandomize=False,
+        phases=(Phase.generate, Phase.target),
+        suppress_health_check=list(HealthCheck),
+        verbosity=Verbosity.quiet,
+    )
+    @given(check.strategy())
+    def attempt(case: Case) -> None:
+        nonlocal tried
+        if tried < count and not raised:
+            tried += 1
+            try:
+                ratio = judge(case)
+            except (Exception, SystemExit) as error:
+                raised.append(error)
+            else:
+                target(min(ratio, FARTHEST))
+
+    with _by_the_seed_alone():
+        attempt()
+    if raised:
+        raise raised[0]
+
+
+@contextmanager
+def _by_the_seed_alone() -> Iterator[None]:
+    """Keep Hypothesis from drawing constants of whatever modules happen to be imported."""
+    from hypothesis.internal.conjecture.providers import HypothesisProvider
+
+    nothing = mock.Mock(return_value=None)
+    with mock.patch.object(HypothesisProvider, "_maybe_draw_constant", nothing, create=True):
+        yield
+
+
+def simplest(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
+    """Return a case that still ``fails``, with as few numbers unlike those of ``base`` as found.
+
+    All numbers are taken from ``base`` at once, then halves of them, down to single ones, until
+    nothing more can go or ``budget`` cases have been tried.
+    """
+    shrinker = _Shrinker(base, budget, fails)
+    names = _unlike(case, base)
+    size = len(names)
+    while size and shrinker.left:
+        for start in range(0, len(names), size):
+            case = shrinker.without(case, names[start : start + size])
+        names = _unlike(case, base)
+        size = min(size // 2, len(names)) if size > 1 else 0
+    return case
+
+
+@dataclass
+class _Shrinker:
+    base: Case
+    left: int
+    fails: Callable[[Case], bool]
+    tried: set[Case] = field(default_factory=set)
+
+    def without(self, case: Case, names: Sequence[str]) -> Case:
+        """Return ``case`` with ``names`` as in the base, if that still fails."""
+        try:
+            simpler = _taking(case, self.base, names)
+        except InputError:
+            return case
+        if not names or not self.left or simpler == case or simpler in self.tried:
+            return case
+        self.left -= 1
+        self.tried.add(simpler)
+        return simpler if self._fails(simpler) else case
+
+    def _fails(self, case: Case) -> bool:
+        """Return whether a case fails; numbers that make no drive do not."""
+        try:
+            return self.fails(case)
+        except InputError:
+            return False
+
+
+def _unlike(case: Case, base: Case) -> list[str]:
+    """Return the names of the numbers in which two cases differ."""
+    names = [
+        f.name
+        for f in fields(case.scenario)
+        if f.name not in CHANNELS_BY_NEED
+        and getattr(case.scenario, f.name) != getattr(base.scenario, f.name)
+    ]
+    own = {*case.variation, *base.variation}
+    return names + sorted(n for n in own if case.variation.get(n) != base.variation.get(n))
+
+
+def _taking(case: Case, base: Case, names: Sequence[str]) -> Case:
+    """Return ``case`` with the numbers called ``names`` of ``base``."""
+    known = {f.name for f in fields(case.scenario)}
+    scenario = {n: getattr(base.scenario, n) for n in names if n in known}
+    variation = dict(case.variation)
+    for name in names:
+        if name not in known:
+            variation.pop(name, None)
+            if name in base.variation:
+                variation[name] = base.variation[name]
+    return replace(case, scenario=replace(case.scenario, **scenario), variation=variation)

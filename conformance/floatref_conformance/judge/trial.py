@@ -1,0 +1,172 @@
+"""One check on one device: seeded cases, a search, and the simplest case that fails."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from floatref.errors import InputError
+from floatref_conformance.case_files import KeptCase
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.interface import Check, Taken
+from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.judge.bench import DeviceBench, taken_of
+from floatref_conformance.judge.events import (
+    CaseFinished,
+    CheckStarted,
+    Event,
+    SearchStarted,
+    ShrinkStarted,
+)
+from floatref_conformance.judge.judging import check_result, failing, why
+from floatref_conformance.judge.replaying import judged, refuse_foreign
+from floatref_conformance.judge.search import search, simplest
+from floatref_conformance.judge.verdict import CaseResult, CheckResult, Measurement, Outcome
+from floatref_conformance.proving_ground.scenario import Scenario
+
+MOST_HANGS = 3
+"""A device that has hung so often in a run is not asked any more: a run has to end."""
+
+
+@dataclass
+class Trial:
+    """A device on its way through the checks.
+
+    Attributes:
+        device, description: what is judged.
+        device_class: whose limits decide.
+        emit: is told of every case.
+        fault: why the device could not describe itself, which every case is then charged with.
+        hangs: how often the device has not answered in time.
+        make: how a scenario becomes a recording.
+    """
+
+    device: Device
+    description: Description
+    device_class: DeviceClass
+    emit: Callable[[Event], None]
+    fault: str | None = None
+    hangs: int = 0
+    make: Callable[[Scenario], Taken] = taken_of
+    _judged: dict[Case, CaseResult] = field(default_factory=dict)
+
+    @property
+    def given_up(self) -> str:
+        """Why nothing more is asked of the device; empty as long as it is."""
+        return f"not asked: the device hung {self.hangs} times" if self._is_hopeless() else ""
+
+    def check(self, check: Check, seed: int, effort: Effort, searching: bool) -> CheckResult:
+        """Return what the device makes of ``check``."""
+        self._judged = {}
+        seeded = check.cases(seed, effort)
+        self.emit(CheckStarted(check.id, len(seeded)))
+        for case in seeded:
+            self._tried(check, case)
+        if searching and not self._failing() and not self._skipping():
+            self.emit(SearchStarted(check.id, effort.searched))
+            search(check, seed, effort.searched, lambda case: self._found(check, case))
+        cases = dict(self._judged)
+        simpler = self._simplest(check, effort.shrunk if searching else 0)
+        return check_result(check, tuple(cases.values()), self.device_class, simpler)
+
+    def replay(self, check: Check, kept: KeptCase) -> Mapping[str, Any]:
+        """Return what the device makes of a case that was kept, by the limits of this run.
+
+        Numbers that make no drive in this edition are skipped.
+        """
+        try:
+            refuse_foreign(check, kept.case)
+            result = self._judge(check, kept.case)
+        except InputError as error:
+            result = CaseResult(kept.case.name, kept.case.parameters, skipped=str(error))
+        reason = result.skipped or why(result, self.device_class)
+        return {
+            "file": kept.file,
+            "check": check.id,
+            "outcome": _outcome(result, reason).value,
+            "reason": reason,
+            **_figures(result.worst(self.device_class), self.device_class),
+        }
+
+    def _found(self, check: Check, case: Case) -> float:
+        named = replace(case, name=f"{check.id}-search-{len(self._judged) + 1}")
+        return self._tried(check, named).ratio(self.device_class)
+
+    def _tried(self, check: Check, case: Case) -> CaseResult:
+        """Return the result of ``case``, judged once; pictures are kept of the worst alone."""
+        if case in self._judged:
+            return self._judged[case]
+        result, worst = self._judge(check, case), self._failing()
+        ratio = result.ratio(self.device_class)
+        if ratio > max(1.0, worst.ratio(self.device_class) if worst else 0.0):
+            for other, judged in self._judged.items():
+                self._judged[other] = replace(judged, passes=())
+        else:
+            result = replace(result, passes=())
+        self._judged[case] = result
+        return result
+
+    def _judge(self, check: Check, case: Case) -> CaseResult:
+        if self.fault is not None or self._is_hopeless():
+            fault = self.fault or self.given_up
+            result = CaseResult(case.name, case.parameters, fault=fault)
+        else:
+            result = judged(check, case, DeviceBench(self.device, self.description, self.make))
+            self.hangs += result.hung
+        self.emit(CaseFinished(check.id, result))
+        return result
+
+    def _simplest(self, check: Check, budget: int) -> tuple[Case, CaseResult] | None:
+        worst = self._failing()
+        if worst is None:
+            return None
+        start = next(case for case, result in self._judged.items() if result is worst)
+        if self.fault is not None or self._is_hopeless() or self.hangs:
+            return start, worst
+        self.emit(ShrinkStarted(check.id, budget))
+        found = {start: worst}
+
+        def fails(case: Case) -> bool:
+            if self._is_hopeless():
+                return False
+            result = self._judge(check, replace(case, name=f"{start.name}, simplified"))
+            failed = result.ratio(self.device_class) > 1.0
+            if failed:
+                found[case] = result
+            return failed
+
+        simpler = simplest(start, check.simplest, budget, fails)
+        return simpler, self._once_more(check, simpler, found[simpler])
+
+    def _once_more(self, check: Check, case: Case, failed: CaseResult) -> CaseResult:
+        """Return ``failed``, which says so if the device does not fail ``case`` every time."""
+        if self._is_hopeless():
+            return failed
+        result = self._judge(check, replace(case, name=f"{case.name}, again"))
+        if result.ratio(self.device_class) > 1.0:
+            return failed
+        return replace(failed, again="passed" if result.skipped is None else "skipped")
+
+    def _failing(self) -> CaseResult | None:
+        return failing(tuple(self._judged.values()), self.device_class) if self._judged else None
+
+    def _skipping(self) -> bool:
+        return any(result.skipped is not None for result in self._judged.values())
+
+    def _is_hopeless(self) -> bool:
+        return self.hangs >= MOST_HANGS
+
+
+def _figures(worst: Measurement | None, device_class: DeviceClass) -> dict[str, Any]:
+    if worst is None:
+        return {"value": None, "limit": None, "unit": None}
+    limit = worst.limits.get(device_class)
+    return {"value": worst.value, "limit": limit, "unit": worst.unit}
+
+
+def _outcome(result: CaseResult, reason: str) -> Outcome:
+    if result.skipped is not None:
+        return Outcome.SKIP
+    if result.fault is not None:
+        return Outcome.ERROR
+    return Outcome.FAIL if reason else Outcome.PASS

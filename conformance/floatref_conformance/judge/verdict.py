@@ -1,0 +1,208 @@
+"""What is measured, what a check makes of it, and what the run makes of its checks."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from math import inf, isnan
+from pathlib import Path
+from typing import Any
+
+from floatref.values.profile import Profile
+from floatref_conformance.classes import DeviceClass, Limits, lowest
+from floatref_conformance.judge.evidence import Evidence
+from floatref_conformance.proving_ground.scenario import Scenario
+
+
+class Outcome(StrEnum):
+    """What became of one check."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    SKIP = "skip"
+    ERROR = "error"
+    WAIVED = "waived"
+    NOT_APPLICABLE = "not-applicable"
+
+
+class Verdict(StrEnum):
+    """What the run says of the device."""
+
+    PASS = "PASS"
+    FAIL = "FAIL"
+    INCOMPLETE = "INCOMPLETE"
+
+    @property
+    def exit_code(self) -> int:
+        """Exit code of a run with this verdict."""
+        return {Verdict.PASS: 0, Verdict.FAIL: 1, Verdict.INCOMPLETE: 4}[self]
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """One number of one wheel path against the largest value allowed in each class.
+
+    A class that ``limits`` lacks does not limit this quantity.
+    """
+
+    quantity: str
+    track: str
+    value: float
+    unit: str
+    limits: Limits
+    evidence: Evidence | None = None
+
+    def ratio(self, device_class: DeviceClass) -> float:
+        """Return value over limit: above 1 is a failure; a value that is NaN is one too.
+
+        0 where ``device_class`` has no limit.
+        """
+        if device_class not in self.limits:
+            return 0.0
+        return inf if isnan(self.value) else self.value / self.limits[device_class]
+
+    def rank(self, device_class: DeviceClass) -> tuple[float, bool]:
+        """Return what sorts measurements towards the worst: the ratio, then whether limited."""
+        return self.ratio(device_class), device_class in self.limits
+
+    def within(self, device_class: DeviceClass) -> bool:
+        """Return whether the value keeps the limit of ``device_class``."""
+        return self.ratio(device_class) <= 1.0
+
+    @property
+    def class_reached(self) -> DeviceClass | None:
+        """The strictest class whose limit, and those of all easier ones, the value keeps."""
+        reached = None
+        for device_class in DeviceClass:
+            if not self.within(device_class):
+                break
+            reached = device_class
+        return reached
+
+
+@dataclass(frozen=True, eq=False)
+class Pass:
+    """One recording that the device processed: what it should have found, and what it found.
+
+    ``truth`` is the unfiltered elevation along the laser's path.
+    """
+
+    label: str
+    truth: Profile
+    result: Profile
+    scenario: Scenario
+
+
+@dataclass(frozen=True, eq=False)
+class CaseResult:
+    """What one case came to.
+
+    Attributes:
+        name: within its check.
+        parameters: the numbers that make the case again.
+        measurements: of every wheel path.
+        fault: what the device did wrong, if it did.
+        hung: whether it did not answer in time.
+        skipped: why the device did not take the case, if it did not.
+        flagged_m: largest length of a wheel path that the device flagged invalid, in m.
+        passes: what it processed, kept for the pictures of a case that fails.
+        again: what a second run of a case that failed came to, if it did not fail.
+    """
+
+    name: str
+    parameters: Mapping[str, Any]
+    measurements: tuple[Measurement, ...] = ()
+    fault: str | None = None
+    hung: bool = False
+    skipped: str | None = None
+    flagged_m: float = 0.0
+    passes: tuple[Pass, ...] = ()
+    again: str = ""
+
+    def ratio(self, device_class: DeviceClass) -> float:
+        """Return the largest ratio of value to limit; infinite for a faulty device."""
+        if self.fault is not None:
+            return inf
+        return max((m.ratio(device_class) for m in self.measurements), default=0.0)
+
+    def worst(self, device_class: DeviceClass) -> Measurement | None:
+        """Return the measurement nearest to its limit, or farthest beyond; None without any.
+
+        One that ``device_class`` does not limit is returned only if it limits none.
+        """
+        return max(self.measurements, key=lambda m: m.rank(device_class), default=None)
+
+
+@dataclass(frozen=True, eq=False)
+class CheckResult:
+    """What one check came to; ``reason`` says in one line why it did not pass.
+
+    Attributes:
+        id, clause: of the check.
+        outcome: what became of it.
+        reason: in one line why it did not pass.
+        class_reached: the strictest class whose limits every case keeps.
+        cases: how many were judged, seeded and found by the search.
+        worst: the measurement nearest to its limit, or farthest beyond.
+        worst_case: name of its case.
+        counterexample: the simplest case found that fails: ``case``, ``parameters``,
+            ``reason``, and ``file``, its name in a report directory.
+        flagged_m: the largest of its cases'.
+        passes: of the counterexample.
+        worst_track: the wheel path that fails it, empty if none was measured.
+        scored_m: start and end of each stretch whose points count in it, in m.
+    """
+
+    id: str
+    clause: str
+    outcome: Outcome
+    reason: str = ""
+    class_reached: DeviceClass | None = None
+    cases: int = 0
+    worst: Measurement | None = None
+    worst_case: str = ""
+    counterexample: Mapping[str, Any] | None = None
+    flagged_m: float = 0.0
+    passes: tuple[Pass, ...] = ()
+    scored_m: tuple[tuple[float, float], ...] = ()
+    worst_track: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class RunResult:
+    """The verdict on a device, and the checks that it rests on.
+
+    ``replayed`` says of every case kept from an earlier run what it came to: ``file``, ``check``,
+    ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
+    ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
+    user gave them, and None if not given.
+    """
+
+    device: Mapping[str, Any]
+    device_class: DeviceClass
+    seed: int
+    effort: str
+    checks: tuple[CheckResult, ...]
+    replayed: tuple[Mapping[str, Any], ...] = ()
+    timeout_s: float | None = None
+    report: Path | None = None
+
+    @property
+    def verdict(self) -> Verdict:
+        """FAIL if a check or a kept case failed, INCOMPLETE if one was left out, else PASS."""
+        outcomes = [check.outcome for check in self.checks]
+        return verdict_on([*outcomes, *(Outcome(case["outcome"]) for case in self.replayed)])
+
+    @property
+    def class_reached(self) -> DeviceClass | None:
+        """The class that every check reached; None while a check is left out."""
+        judged = [c for c in self.checks if c.outcome is not Outcome.NOT_APPLICABLE]
+        return lowest([c.class_reached for c in judged])
+
+
+def verdict_on(outcomes: Sequence[Outcome]) -> Verdict:
+    """Return the verdict that ``outcomes`` make together; nothing judged is INCOMPLETE."""
+    if Outcome.FAIL in outcomes or Outcome.ERROR in outcomes:
+        return Verdict.FAIL
+    if Outcome.SKIP in outcomes or Outcome.WAIVED in outcomes or Outcome.PASS not in outcomes:
+        return Verdict.INCOMPLETE
+    return Verdict.PASS

@@ -1,0 +1,78 @@
+"""Waivers: failures that the user knows of. One a line: the check's id, then why."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from floatref.errors import InputError
+from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
+
+MOST_BYTES = 1 << 20
+
+
+def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
+    """Return why each check in file ``path`` is waived.
+
+    A line holds an id and, after white space, the reason; what follows a # is a comment, and the
+    reason if there is no other. Raises InputError for a check that is not in ``known``, named
+    twice, or no text.
+    """
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"{path}: larger than any list of waivers; name another file")
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not UTF-8; write a check's id and why, one a line") from error
+    waivers: dict[str, str] = {}
+    for number, line in enumerate(lines, start=1):
+        text, _, comment = line.partition("#")
+        id_, reason = [*text.split(maxsplit=1), "", ""][:2]
+        if not id_:
+            continue
+        if id_ in waivers or id_ not in {**known, **IDS}:
+            what = "waived twice" if id_ in waivers else "unknown check"
+            raise InputError(f"{path}, line {number}: {id_}: {what}; known: {', '.join(known)}")
+        waivers[id_] = reason.strip() or comment.strip() or "no reason given"
+    return waivers
+
+
+def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
+    """Return ``result``, waived if it is beyond a limit and ``waivers`` say so.
+
+    A known limit is no excuse for a crash, a hang or garbage: an error stays one.
+    """
+    if result.id not in waivers or result.outcome is not Outcome.FAIL:
+        return result
+    return replace(
+        result,
+        outcome=Outcome.WAIVED,
+        reason=f"waived ({waivers[result.id]}): {result.reason}",
+    )
+
+
+def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> None:
+    """Raise InputError naming a waiver of ``path`` that no failure of ``result`` needed.
+
+    Of a check that ended in an error nobody knows whether it still needs its waiver.
+    """
+    found = {check.id: {check.outcome} for check in result.checks}
+    for case in result.replayed:
+        found.setdefault(case["check"], set()).add(Outcome(case["outcome"]))
+    for id_ in waivers:
+        if not {Outcome.WAIVED, Outcome.ERROR} & found.get(id_, set()):
+            raise InputError(f"{path}: {id_}: {_not_needed(id_, result)}")
+
+
+def _not_needed(id_: str, result: RunResult) -> str:
+    """Return in words why nothing of check ``id_`` was waived."""
+    check = next((check for check in result.checks if check.id == id_), None)
+    if check is None or (check.outcome is Outcome.SKIP and not check.cases):
+        return "was not run: nothing to waive; run it too, or take the line out"
+    if check.outcome is Outcome.SKIP:
+        return "was skipped by the device: nothing to waive; take the line out"
+    if check.outcome is Outcome.NOT_APPLICABLE:
+        return "does not apply to the device: nothing to waive; take the line out"
+    return "did not fail: nothing to waive; take the line out"

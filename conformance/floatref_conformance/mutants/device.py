@@ -1,0 +1,58 @@
+"""Mutants: devices wrong on purpose, each with the checks that must fail it.
+
+A mutant is a sound pipeline with one thing wrong, before it or after it, so that a check
+that passes the pipeline and fails the mutant has seen just that; or a program that delivers
+what is sound and behaves badly.
+"""
+
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from floatref.errors import InputError
+from floatref.files import read_recording, write_profile
+from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.devices.builtin import BuiltinDevice, quietly_processed
+from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
+from floatref_conformance.mutants import MUTATIONS
+from floatref_conformance.mutants.hostile import HOSTILE, hostile_device
+from floatref_conformance.mutants.mutation import Mutation
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A device with one mistake."""
+
+    mutation: Mutation
+
+    def describe(self) -> Mapping[str, Any]:
+        """Return the description of a device like the sound pipeline."""
+        return {**BuiltinDevice(self.mutation.pipeline).describe(), "name": self.mutation.name}
+
+    def run(self, recording: Path, profile: Path) -> None:
+        """Spoil ``recording``, process it, spoil the profile and write it."""
+        wrong, recorded = self.mutation, read_recording(recording)
+        made = quietly_processed(wrong.before(recorded), wrong.pipeline, wrong.settings)
+        write_profile(wrong.after(made, recorded), profile)
+
+
+def make(name: str) -> Device:
+    """Return mutant ``name``, which remembers nothing yet; InputError if there is none."""
+    for mutation in MUTATIONS:
+        if mutation.name == name:
+            return Mutant(deepcopy(mutation))
+    if name in [hostile.name for hostile in HOSTILE]:
+        return hostile_device(name)
+    known = ", ".join(entry.name for entry in entries())
+    raise InputError(f"device mutant:{name}: unknown mutant; known: {known}")
+
+
+def entries() -> tuple[DeviceEntry, ...]:
+    """Return one entry per mutant; a program that behaves badly fails whatever is asked of it."""
+    wrong = tuple(DeviceEntry(m.name, m.wrong, m.fails) for m in MUTATIONS)
+    return wrong + tuple(DeviceEntry(h.name, h.wrong, tuple(IDS)) for h in HOSTILE)
+
+
+MUTANT = DeviceKind("mutant", "NAME", make, entries)

@@ -1,0 +1,172 @@
+"""Stages that are missing or wrong, and vehicles known wrongly."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+from floatref.values.vehicle_setup import VehicleSetup
+from floatref_conformance.mutants.engine import (
+    Elevations,
+    Signals,
+    in_time,
+    over_distance,
+    remade,
+)
+from floatref_conformance.mutants.mutation import (
+    RESPONSE,
+    SPATIAL,
+    After,
+    Before,
+    Mutation,
+    all_but,
+)
+
+
+def _as_read(signals: Signals) -> Signals:
+    return signals
+
+
+def _by(elevations: Elevations, change: Callable[[Signals], Signals] = _as_read) -> After:
+    """Return what puts the engine's elevations in place, of signals spoilt by ``change``."""
+
+    def spoil(profile: Profile, recording: Recording) -> Profile:
+        return remade(recording, profile, lambda signals, sound: elevations(change(signals), sound))
+
+    return spoil
+
+
+def _gravity_kept(signals: Signals) -> Signals:
+    return replace(signals, acceleration=signals.acceleration + STANDARD_GRAVITY)
+
+
+def _height_in_mm(signals: Signals) -> Signals:
+    return replace(signals, height=1000.0 * signals.height)
+
+
+IN_PROCESSING = (
+    Mutation(
+        "gravity-kept",
+        "does not take gravity from the acceleration",
+        (
+            "constant-speed",
+            "coasting",
+            "throttle",
+            "braking",
+            "near-stop",
+            "stop",
+            "waveband",
+            "faults",
+        ),
+        after=_by(in_time(), _gravity_kept),
+    ),
+    Mutation(
+        "height-in-mm",
+        "takes heights in mm for m",
+        all_but("low-speed"),
+        after=_by(in_time(), _height_in_mm),
+    ),
+    Mutation(
+        "tilt-ignored",
+        "does nothing against what tilt under braking adds to the acceleration",
+        ("throttle", "braking", "near-stop", "stop", "invariance"),
+        pipeline="temporal-basic",
+    ),
+    Mutation(
+        "reverse-pass-missing",
+        "leaves out the pass that takes the filter's delay out",
+        ("waveband", "faults"),
+        after=_by(in_time(backward=False)),
+    ),
+    Mutation(
+        "cut-off-long",
+        "filters 10 % too far up in wavelength",
+        ("waveband",),
+        settings={"cutoff_wavelength_m": 1.1 * 105.91},
+    ),
+    Mutation(
+        "cut-off-short",
+        "filters 10 % too far down in wavelength",
+        ("waveband",),
+        settings={"cutoff_wavelength_m": 0.9 * 105.91},
+    ),
+    Mutation(
+        "carry-leaking",
+        "keeps 0.9 of an integral from one block of 4096 samples to the next",
+        all_but("quiescent", "low-speed", "coasting"),
+        after=_by(in_time(carry=0.9)),
+    ),
+    Mutation(
+        "reflection-sign",
+        "reflects the height sensor with the wrong sign",
+        ("stop", "faults"),
+        after=_by(over_distance(reflection=-1.0)),
+        pipeline=SPATIAL,
+    ),
+    Mutation(
+        "stop-uncontained",
+        "integrates over distance through a stop as if it took no time limit",
+        ("throttle", "braking", "near-stop", "stop", "dead-start", "invariance", "faults"),
+        pipeline="spatial-basic",
+    ),
+)
+"""What is wrong inside."""
+
+
+STIFF = 100.0
+"""A tyre so many times as stiff hardly deflects."""
+LIGHT = 0.5
+"""Share of its parameters that the vehicle of another fleet has."""
+
+
+def _knowing(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
+    """Return what changes the vehicle that a recording knows of."""
+
+    def spoil(recording: Recording) -> Recording:
+        vehicle = recording.setup.vehicle
+        if vehicle is None:
+            return recording
+        return replace(recording, setup=replace(recording.setup, vehicle=change(vehicle)))
+
+    return spoil
+
+
+def _stiff(vehicle: VehicleSetup) -> VehicleSetup:
+    tyre = STIFF * vehicle.parameters["tyre_n_per_m"]
+    return replace(vehicle, parameters={**vehicle.parameters, "tyre_n_per_m": tyre})
+
+
+def _unsprung_halved(vehicle: VehicleSetup) -> VehicleSetup:
+    wheel = LIGHT * vehicle.parameters["unsprung_kg"]
+    return replace(vehicle, parameters={**vehicle.parameters, "unsprung_kg": wheel})
+
+
+def _at_the_origin(vehicle: VehicleSetup) -> VehicleSetup:
+    return replace(vehicle, x_m=0.0)
+
+
+IN_RESPONSE = (
+    Mutation(
+        "tyre-forgotten",
+        "takes the path of the wheel for the road: the tyre does not deflect",
+        ("constant-speed", "invariance"),
+        _knowing(_stiff),
+        pipeline=RESPONSE,
+    ),
+    Mutation(
+        "wheel-place-forgotten",
+        "takes the wheel to be at the point that all offsets are from",
+        ("distance", "invariance"),
+        _knowing(_at_the_origin),
+        pipeline=RESPONSE,
+    ),
+    Mutation(
+        "wheel-mass-halved",
+        "takes half the mass of wheel and axle",
+        ("constant-speed", "invariance"),
+        _knowing(_unsprung_halved),
+        pipeline=RESPONSE,
+    ),
+)
+"""What is wrong with what is known of the vehicle."""

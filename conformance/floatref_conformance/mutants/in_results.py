@@ -1,0 +1,185 @@
+"""Profiles changed on their way out: shape, place, flags, or an older result."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Recording
+from floatref_conformance.mutants import profiles as p
+from floatref_conformance.mutants.drive_conditions import middle_m
+from floatref_conformance.mutants.mutation import Mutation, all_but
+
+BEGINNING = 2000
+"""So many samples of every channel tell whether two recordings begin alike."""
+
+
+class Repeated:
+    """Delivers the profile before when a recording begins like the one before.
+
+    It lies over the distances of the new recording: what the vehicle passed at the same time has
+    the same elevation, whatever became of the sensors since.
+    """
+
+    def __init__(self) -> None:
+        """Begin with no recording."""
+        self.kept: tuple[Profile, Recording] | None = None
+
+    def __call__(self, profile: Profile, recording: Recording) -> Profile:
+        """Return what was kept if ``recording`` begins alike, else keep ``profile``."""
+        if self.kept is not None and _begin_alike(self.kept[1], recording):
+            return _moved_over(*self.kept, profile, recording)
+        self.kept = profile, recording
+        return profile
+
+
+def _begin_alike(one: Recording, other: Recording) -> bool:
+    return len(one.channels) == len(other.channels) and all(
+        a.id == b.id and np.array_equal(a.values[:BEGINNING], b.values[:BEGINNING], equal_nan=True)
+        for a, b in zip(one.channels, other.channels, strict=True)
+    )
+
+
+def _moved_over(
+    kept: Profile, before: Recording, profile: Profile, recording: Recording
+) -> Profile:
+    """Return ``kept``, made of ``before``, on the points of ``profile``, made of ``recording``."""
+    times, told = _travel(recording)
+    told, first = np.unique(told, return_index=True)
+    passed_s = np.interp(profile.distance_m, told, times[first])
+    places_m = np.interp(passed_s, *_travel(before))
+
+    def move(track: ProfileTrack) -> ProfileTrack:
+        z = np.interp(places_m, kept.distance_m, track.elevation)
+        valid = np.interp(places_m, kept.distance_m, track.valid.astype(np.float64))
+        return ProfileTrack.of(track.name, z, valid == 1.0)
+
+    return replace(profile, tracks=tuple(move(track) for track in kept.tracks))
+
+
+def _travel(recording: Recording) -> tuple[FloatArray, FloatArray]:
+    """Return times from the beginning in s and the farthest distance told by then in m."""
+    encoder = recording.channel("distance")
+    seen = np.isfinite(encoder.values)
+    farthest = np.maximum.accumulate(encoder.values[seen])
+    return encoder.times_s[seen] - encoder.times_s[0], farthest
+
+
+IN_RESULTS = (
+    Mutation("all-zeros", "delivers a flat profile", all_but("low-speed"), after=p.scaled(0.0)),
+    Mutation(
+        "upside-down",
+        "delivers the profile upside down",
+        all_but("low-speed", "faults"),
+        after=p.scaled(-1.0),
+    ),
+    Mutation("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scaled(0.8)),
+    Mutation("in-mm", "delivers mm for m", all_but("low-speed"), after=p.scaled(1000.0)),
+    Mutation("in-feet", "delivers feet for m", all_but("low-speed"), after=p.scaled(1 / 0.3048)),
+    Mutation(
+        "over-smoothed",
+        "averages the profile over 2 m",
+        all_but("low-speed"),
+        after=p.averaged(2.0),
+    ),
+    Mutation(
+        "staircase",
+        "holds each elevation for 0.5 m",
+        all_but("low-speed", "throttle", "braking", "stop"),
+        after=p.in_steps(0.5),
+    ),
+    Mutation(
+        "coarse", "delivers whole millimetres", ("waveband", "invariance"), after=p.rounded(0.001)
+    ),
+    Mutation(
+        "noisy-where-flat",
+        "adds noise of 0.07 m/km to a flat profile",
+        ("quiescent",),
+        after=p.noisy_where_flat(0.00008),
+    ),
+    Mutation(
+        "motion-where-flat",
+        "lets 1 % of the body's motion into a flat profile",
+        ("bounce",),
+        after=p.moved_where_flat(0.01),
+    ),
+    Mutation(
+        "displaced",
+        "delivers every feature 0.3 m late",
+        ("quiescent", "bounce", "waveband", "distance"),
+        after=p.moved(0.3),
+    ),
+    Mutation(
+        "stretched",
+        "makes distances 0.3 % too long",
+        ("quiescent", "bounce", "waveband", "distance", "invariance"),
+        after=p.stretched(0.003),
+    ),
+    Mutation(
+        "backwards",
+        "delivers the last point first",
+        all_but("low-speed", "faults"),
+        after=p.backwards,
+    ),
+    Mutation(
+        "swapped-tracks",
+        "delivers left as right, right as left",
+        all_but("low-speed", "invariance"),
+        after=p.swapped,
+    ),
+    Mutation(
+        "tracks-alike",
+        "delivers the mean of all wheel paths in each",
+        all_but("low-speed", "invariance"),
+        after=p.alike,
+    ),
+    Mutation("previous-result", "delivers the profile before", all_but(), after=p.Previous()),
+    Mutation(
+        "repeated-result",
+        "delivers the profile before when a recording begins like the one before",
+        ("faults",),
+        after=Repeated(),
+    ),
+    Mutation(
+        "nan-at-the-end",
+        "leaves out the last 120 m",
+        all_but("low-speed", "waveband"),
+        after=p.missing_at_the_end(120.0),
+    ),
+    Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.beginning_late(5.0)),
+    Mutation(
+        "vouches-always",
+        "says of every point that it is valid",
+        ("low-speed", "near-stop", "stop", "faults"),
+        after=p.vouched,
+    ),
+    Mutation(
+        "vouches-never",
+        "says of no point that it is valid",
+        (
+            "constant-speed",
+            "coasting",
+            "throttle",
+            "braking",
+            "near-stop",
+            "stop",
+            "dead-start",
+            "faults",
+        ),
+        after=p.flagged,
+    ),
+    Mutation(
+        "middle-flagged",
+        "flags 124 m in the middle of every run",
+        ("constant-speed", "braking", "near-stop", "stop", "dead-start", "faults"),
+        after=p.flagged_around(middle_m, 124.0),
+    ),
+    Mutation(
+        "held-at-the-stop",
+        "holds the elevation 20 m to either side of the slowest point, and vouches for it",
+        all_but("dead-start", "distance"),
+        after=p.held_at_the_slowest(20.0),
+    ),
+)
+"""What is wrong with all that is delivered."""

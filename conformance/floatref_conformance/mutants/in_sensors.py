@@ -1,0 +1,114 @@
+"""Sensors read wrongly: signs, scales, units, delays, samples that are lost."""
+
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref_conformance.mutants import recordings as r
+from floatref_conformance.mutants.mutation import Mutation, all_but
+
+FOOT_M = 0.3048
+
+IN_SENSORS = (
+    Mutation(
+        "accelerometer-sign",
+        "takes upward acceleration for downward",
+        all_but("quiescent", "low-speed"),
+        r.changed(r.FORCE, r.upside_down),
+    ),
+    Mutation(
+        "laser-sign",
+        "takes a longer range for a higher road",
+        all_but("low-speed"),
+        r.changed(r.HEIGHT, r.mirrored),
+    ),
+    Mutation(
+        "accelerometer-high",
+        "reads accelerations 1 % too large",
+        ("bounce", "waveband"),
+        r.changed(r.FORCE, r.shaken(1.01)),
+    ),
+    Mutation(
+        "accelerometer-low",
+        "reads accelerations 1 % too small",
+        ("bounce", "waveband"),
+        r.changed(r.FORCE, r.shaken(0.99)),
+    ),
+    Mutation(
+        "laser-high",
+        "reads heights 1 % too large",
+        ("bounce", "waveband"),
+        r.changed(r.HEIGHT, r.scaled(1.01)),
+    ),
+    Mutation(
+        "laser-low",
+        "reads heights 1 % too small",
+        ("bounce", "waveband"),
+        r.changed(r.HEIGHT, r.scaled(0.99)),
+    ),
+    Mutation(
+        "late-laser",
+        "reads the laser 2 ms late",
+        ("bounce", "waveband", "distance"),
+        r.changed(r.HEIGHT, r.late(0.002)),
+    ),
+    Mutation(
+        "late-accelerometer",
+        "reads the accelerometer 2 ms late",
+        ("bounce", "waveband"),
+        r.changed(r.FORCE, r.late(0.002)),
+    ),
+    Mutation(
+        "height-only",
+        "ignores the accelerometer",
+        all_but("quiescent", "low-speed"),
+        r.changed(r.FORCE, r.at_rest),
+    ),
+    Mutation(
+        "accelerometer-only", "ignores the laser", all_but("low-speed"), r.changed(r.HEIGHT, r.held)
+    ),
+    Mutation(
+        "force-in-g",
+        "takes accelerations in g for m/s²",
+        all_but("quiescent", "low-speed"),
+        r.changed(r.FORCE, r.shaken(1 / STANDARD_GRAVITY)),
+    ),
+    Mutation(
+        "height-in-feet",
+        "takes heights in feet for m",
+        all_but("low-speed"),
+        r.changed(r.HEIGHT, r.scaled(1 / FOOT_M)),
+    ),
+    Mutation(
+        "distance-in-feet",
+        "takes distances in feet for m",
+        all_but(),
+        r.changed(r.DISTANCE, r.scaled(1 / FOOT_M)),
+    ),
+    Mutation(
+        "sample-lost",
+        "loses one of 4096 samples of the accelerometer",
+        ("bounce", "dead-start", "waveband", "repeatability", "invariance"),
+        r.changed(r.FORCE, r.losing(4096)),
+    ),
+    Mutation(
+        "accelerometer-clipped",
+        "clips accelerations at 0.5 g",
+        ("bounce", "stop"),
+        r.changed(r.FORCE, r.clipped(0.5 * STANDARD_GRAVITY)),
+    ),
+    Mutation(
+        "time-rounded", "keeps times in single precision", ("invariance",), r.in_single_precision
+    ),
+    Mutation(
+        "missing-height-zero",
+        "takes a missing height for 0",
+        ("faults",),
+        r.changed(r.HEIGHT, r.missing_as(0.0)),
+    ),
+    Mutation(
+        "missing-force-zero",
+        "takes a missing acceleration for 0",
+        ("faults",),
+        r.changed(r.FORCE, r.missing_as(0.0)),
+    ),
+    Mutation("gaps-vouched", "bridges what is missing and vouches for it", ("faults",), r.bridged),
+)
+"""What is wrong before anything is processed."""

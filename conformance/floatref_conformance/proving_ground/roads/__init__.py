@@ -1,0 +1,1 @@
+"""Roads of the proving ground: random, measured, and of sine waves."""

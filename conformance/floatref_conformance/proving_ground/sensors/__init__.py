@@ -1,0 +1,1 @@
+"""Sensors of the proving ground: what they deliver, with every error."""

@@ -1,0 +1,101 @@
+"""The GNSS receiver: height, vertical velocity, attitude and position of its antenna."""
+
+import numpy as np
+
+from floatref.values.arrays import FloatArray
+from floatref.values.clock import StampedClock
+from floatref.values.recording import Channel, Setup, Vector
+from floatref_conformance.proving_ground.sensors.chain import Chain, sampled
+from floatref_conformance.proving_ground.sensors.noise import gauss_markov, stream
+
+FIRST_S = 0.0125
+"""Time of the first fix: the receiver's clock is not the accelerometers'."""
+RTK_FIXED = 4.0
+START_RAD = (np.radians(45.26), np.radians(-93.71))
+"""Latitude and longitude of distance 0; the course starts northward."""
+EARTH_RADIUS_M = 6371e3
+
+
+def gnss_channels(
+    chain: Chain, setup: Setup, curvature: float, standing: bool = False
+) -> tuple[Channel, ...]:
+    """Return all GNSS channels on the receiver's own time stamps.
+
+    Args:
+        chain: suite, seed and true motion.
+        setup: where the antenna and the first track's reference point sit.
+        curvature: of the course, left turn positive, in 1/m.
+        standing: the vehicle is parked and its distance an artificial encoder's.
+    """
+    last_s = (chain.count - 1) / chain.rate_hz
+    fixes = int(max(0.0, last_s - FIRST_S) * chain.suite.gnss_rate_hz) + 1
+    times = FIRST_S + np.arange(fixes) / chain.suite.gnss_rate_hz
+    at = np.minimum(times, last_s) * chain.rate_hz
+    attitude = _attitude(chain, at)
+    antenna = setup.gnss_antenna_offset_m
+    reference = next(iter(setup.tracks.values())).reference_point_m
+    lever = np.subtract(antenna, reference)
+    travel = np.zeros(fixes) if standing else sampled(chain.motion.distance, at)
+    true = {
+        **_vertical(chain, at, attitude, lever),
+        "gnss_pitch": attitude[0],
+        "gnss_roll": np.arcsin(np.cos(attitude[0]) * np.sin(attitude[1])),
+        **_horizontal(travel, antenna, curvature),
+    }
+    clock = StampedClock.of(times)
+    errors = _errors(chain)
+    channels = [Channel.of("gnss_quality", np.full(fixes, RTK_FIXED), clock)]
+    for name, values in true.items():
+        rng = stream(chain.seed, name)
+        noise, drift = errors[name]
+        values = values + gauss_markov(rng, drift, chain.suite.gnss_drift_s, times)
+        channels.append(Channel.of(name, values + noise * rng.standard_normal(fixes), clock))
+    return tuple(channels)
+
+
+def _attitude(chain: Chain, at: FloatArray) -> FloatArray:
+    """Return pitch and roll at fractional samples, shape (2, fixes), in rad."""
+    return sampled(np.stack([chain.motion.pitch, chain.motion.roll]), at)
+
+
+def _vertical(
+    chain: Chain, at: FloatArray, attitude: FloatArray, lever: FloatArray
+) -> dict[str, FloatArray]:
+    """Carry height and velocity from the reference point to the antenna, (6.39)."""
+    motion = chain.motion
+    first = next(iter(motion.tracks.values()))
+    height, velocity = sampled(np.stack([first.height_m, first.velocity]), at)
+    pitch, roll = attitude
+    up = np.stack([-np.sin(pitch), np.cos(pitch) * np.sin(roll), np.cos(pitch) * np.cos(roll)])
+    whirl = np.cross(sampled(motion.rates, at), lever[:, None], axis=0)
+    return {
+        "gnss_height": height + lever @ up,
+        "gnss_vertical_velocity": velocity + np.sum(up * whirl, axis=0),
+    }
+
+
+def _horizontal(travel: FloatArray, antenna_m: Vector, curvature: float) -> dict[str, FloatArray]:
+    """Return latitude and longitude in rad after ``travel`` in m at constant curvature."""
+    heading = curvature * travel
+    chord = travel * np.sinc(heading / (2 * np.pi))
+    north = chord * np.cos(heading / 2) + antenna_m[0] * np.cos(heading)
+    west = chord * np.sin(heading / 2) + antenna_m[0] * np.sin(heading)
+    latitude, longitude = START_RAD
+    return {
+        "gnss_latitude": latitude + north / EARTH_RADIUS_M,
+        "gnss_longitude": longitude - west / (EARTH_RADIUS_M * np.cos(latitude)),
+    }
+
+
+def _errors(chain: Chain) -> dict[str, tuple[float, float]]:
+    """Return the standard deviations of noise and correlated drift of every channel."""
+    suite = chain.suite
+    position = suite.gnss_position_drift_m / EARTH_RADIUS_M
+    return {
+        "gnss_height": (suite.gnss_height_noise_m, suite.gnss_height_drift_m),
+        "gnss_vertical_velocity": (suite.gnss_velocity_noise, 0.0),
+        "gnss_pitch": (suite.gnss_pitch_noise, suite.gnss_pitch_drift),
+        "gnss_roll": (suite.gnss_roll_noise, suite.gnss_roll_drift),
+        "gnss_latitude": (0.0, position),
+        "gnss_longitude": (0.0, position),
+    }

@@ -1,0 +1,1 @@
+"""Vehicles of the proving ground, and how they move over a road."""

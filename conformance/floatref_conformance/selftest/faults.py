@@ -1,0 +1,89 @@
+"""Graded errors of `faults`: beside a fault, around it, and at the ends."""
+
+from dataclasses import replace
+
+from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.driving.rules import ELSEWHERE
+from floatref_conformance.checks.faults.check import FaultsCheck
+from floatref_conformance.checks.faults.fault_scores import BASE_M
+from floatref_conformance.classes import Effort
+from floatref_conformance.devices.interface import CAPABILITIES, Description
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.selftest import put_in
+from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
+
+INTERVAL_M = 0.02
+LOCAL_AT_M = 400.0
+"""A local error lies here, away from the fault."""
+EQUIPPED = Description("perfect", "1", "temporal", tuple(CAPABILITIES))
+LABEL = "with the fault"
+CLEAR_M = 30.0
+"""Farther than this from a stop no vehicle travels below 16 km/h."""
+
+
+def situations(check: FaultsCheck) -> tuple[Situation, ...]:
+    """Return one fault of each part, in a drive of its own, with ideal sensors."""
+    parts: dict[str, Case] = {}
+    for case in check.cases(0, Effort.QUICK):
+        parts.setdefault(str(case.variation["fault"]).partition("-")[0], case)
+    rolling = next(c for c in check.cases(0, Effort.QUICK) if c.scenario.manoeuvre == "stop")
+    around = Graded(("flagged around an event",), _flagged_before(rolling.scenario.event_at_m))
+    return (
+        *(_of(check, part, case) for part, case in parts.items()),
+        Situation(check, _plain(rolling), (around,), description=EQUIPPED),
+    )
+
+
+def _flagged_before(event_m: float) -> Put:
+    end_m = event_m - CLEAR_M
+    return lambda v: put_in.flagged(end_m - v, end_m)
+
+
+def _of(check: FaultsCheck, part: str, case: Case) -> Situation:
+    plain = _plain(case)
+    beyond = Graded((f"flagged beyond a fault: {part}",), _flagged_from(case))
+    graded = (beyond, *_shared(plain.scenario)) if part == "laser" else (beyond,)
+    return Situation(check, plain, graded, description=EQUIPPED)
+
+
+def _plain(case: Case) -> Case:
+    """Return ``case`` with one wheel path and ideal sensors."""
+    scenario = replace(
+        case.scenario,
+        tracks=("left",),
+        rate_hz=4000.0,
+        sensors=0.0,
+        iri_m_per_km=3.0,
+        profile_interval_m=INTERVAL_M,
+    )
+    return replace(case, scenario=scenario)
+
+
+def _shared(scenario: Scenario) -> tuple[Graded, ...]:
+    """Return the quantities that do not depend on what is injured."""
+    middle_m = scenario.length_m / 2
+    return (
+        Graded(("IRI error, unflagged",), lambda v: put_in.rougher(v, 0.0, scenario.length_m)),
+        Graded(("local error, unflagged",), _faulty(_local)),
+        Graded(("flagged at an end",), put_in.flagged_end),
+        Graded(
+            (ELSEWHERE,),
+            lambda v: put_in.flagged(middle_m - v / 2, middle_m + v / 2),
+        ),
+    )
+
+
+def _faulty(put: Put) -> Put:
+    return lambda amount: put_in.only(put(amount), LABEL)
+
+
+def _local(m_per_km: float) -> Spoil:
+    """Return what changes the IRI filter's output by ``m_per_km`` over the base length."""
+    return put_in.local(m_per_km, LOCAL_AT_M, BASE_M)
+
+
+def _flagged_from(case: Case) -> Put:
+    """Return what flags the distance travelled during the fault, and a length around it."""
+    at_m, speed = float(case.variation["at_m"]), case.scenario.speed_kmh / 3.6
+    extent_m = speed * float(case.variation["length_s"])
+    return _faulty(lambda v: put_in.flagged(at_m - v / 2, at_m + extent_m + v / 2))

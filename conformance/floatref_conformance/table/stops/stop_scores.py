@@ -1,0 +1,93 @@
+"""How a profile around a stop compares with the truth."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from floatref.measures import high_pass, on_common_grid
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.stretches import points
+from floatref_conformance.errors import DeviceError
+from floatref_conformance.proving_ground.drives.runs import SECTION_START_M
+from floatref_conformance.table.scores import AVERAGE_M, score
+
+STRETCH_M = (SECTION_START_M + AVERAGE_M[0], SECTION_START_M + AVERAGE_M[1])
+"""What counts of a drive, in m of true distance; the stop lies 96 m into its 160.9 m."""
+
+
+@dataclass(frozen=True)
+class StopScores:
+    """How one wheel path of a drive compares with the truth within `STRETCH_M`.
+
+    Attributes:
+        cross_correlation: agreement (2.16) after the IRI filter, -1 to 1.
+        iri_error_percent: error of the IRI in percent of the truth's.
+        peak_m_per_km: highest short-interval roughness within 48 m around the stop.
+        within_two_sigma_percent: of the points, those at which the truth lies within two of the
+            profile's 1-sigma, along the encoder's distance, which is the profile's axis; None
+            where the profile has no sigma.
+        within_two_sigma_true_distance_percent: the same along the true distance, so that sigma
+            would have to hold what the axis is off.
+    """
+
+    cross_correlation: float
+    iri_error_percent: float
+    peak_m_per_km: float
+    within_two_sigma_percent: float | None = None
+    within_two_sigma_true_distance_percent: float | None = None
+
+
+def stop_scores(truth: Profile, told_m: FloatArray, profile: Profile) -> dict[str, StopScores]:
+    """Return the scores of every wheel path of ``truth``, the unfiltered laser path.
+
+    ``told_m`` holds the distance that the encoder tells at the truth's points. The truth is
+    high-pass filtered as profiles are (-3 dB at 91.44 m). Raises DeviceError for a profile
+    that lacks points within `STRETCH_M`, InputError for a missing wheel path.
+    """
+    _check_reach(profile)
+    reference, told = _filtered(truth), _filtered(_along(truth, told_m))
+    return {
+        name: StopScores(
+            scores.cross_correlation,
+            scores.iri_error_percent,
+            scores.peak_m_per_km,
+            _within_two_sigma(told, profile, name),
+            _within_two_sigma(reference, profile, name),
+        )
+        for name, scores in score(reference, profile).items()
+    }
+
+
+def _check_reach(profile: Profile) -> None:
+    """Raise DeviceError unless ``profile`` covers all of `STRETCH_M`."""
+    end_m = profile.start_m + profile.length_m
+    if profile.start_m > STRETCH_M[0] or end_m < STRETCH_M[1]:
+        raise DeviceError(
+            f"the profile covers {profile.start_m:.1f} m to {end_m:.1f} m; "
+            f"{STRETCH_M[0]:.1f} m to {STRETCH_M[1]:.1f} m count"
+        )
+
+
+def _along(truth: Profile, told_m: FloatArray) -> Profile:
+    """Return ``truth`` against the distance that the encoder tells, at the same interval."""
+    told = truth.interval_m * np.arange(int(told_m[-1] / truth.interval_m) + 1)
+    tracks = (ProfileTrack.of(t.name, np.interp(told, told_m, t.elevation)) for t in truth.tracks)
+    return replace(truth, tracks=tuple(tracks))
+
+
+def _filtered(profile: Profile) -> Profile:
+    """Return ``profile`` after the high-pass."""
+    interval_m = profile.interval_m
+    tracks = (ProfileTrack.of(t.name, high_pass(t.elevation, interval_m)) for t in profile.tracks)
+    return replace(profile, tracks=tuple(tracks))
+
+
+def _within_two_sigma(reference: Profile, profile: Profile, name: str) -> float | None:
+    """Return the share in percent on the profile's own points; a sigma of NaN holds nothing."""
+    found, true = on_common_grid(profile, reference)
+    inside, track = points(found, *STRETCH_M), found.track(name)
+    if track.sigma is None:
+        return None
+    error = np.abs(true.track(name).elevation - track.elevation)[inside]
+    return 100.0 * float(np.mean(error <= 2.0 * track.sigma[inside]))

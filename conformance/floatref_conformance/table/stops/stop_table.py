@@ -1,0 +1,211 @@
+"""The table of drawn stops: made, summed up, and as JSON, ``conformance-stops/1``."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from itertools import groupby
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref_conformance.errors import DeviceError, SuiteError
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.schemas import enforce
+from floatref_conformance.table.making import Watch
+from floatref_conformance.table.passes import Processing
+from floatref_conformance.table.stops.stop_scores import STRETCH_M, StopScores, stop_scores
+from floatref_conformance.table.stops.stop_settings import STOP_ROADS, StopSettings
+
+
+@dataclass(frozen=True)
+class WheelPath:
+    """One wheel path of one drive through one pipeline.
+
+    Attributes:
+        pipeline: its name.
+        track: name of the wheel path.
+        scenario: the drive; `conformance simulate` makes it again.
+        scores: what came out.
+    """
+
+    pipeline: str
+    track: str
+    scenario: Scenario
+    scores: StopScores
+
+
+@dataclass(frozen=True)
+class StopTable:
+    """All wheel paths, drive by drive, and the settings that made them."""
+
+    settings: StopSettings
+    paths: tuple[WheelPath, ...]
+
+    def of(
+        self, pipeline: str, vehicle: str | None = None, road: str | None = None
+    ) -> tuple[WheelPath, ...]:
+        """Return the wheel paths of ``pipeline``, of one vehicle or kind of road if given."""
+        return tuple(
+            path
+            for path in self.paths
+            if path.pipeline == pipeline
+            and vehicle in (None, path.scenario.vehicle)
+            and road in (None, path.scenario.road)
+        )
+
+    def lowest(self, pipeline: str) -> WheelPath:
+        """Return the wheel path of ``pipeline`` with the lowest cross correlation."""
+        return min(self.of(pipeline), key=lambda path: path.scores.cross_correlation)
+
+
+@dataclass(frozen=True)
+class Ends:
+    """The lowest, the median and the highest of several values."""
+
+    lowest: float
+    median: float
+    highest: float
+
+
+@dataclass(frozen=True)
+class StopSummary:
+    """How wheel paths score together.
+
+    Attributes:
+        wheel_paths: how many they are.
+        cross_correlation_median, cross_correlation_percentile_1, cross_correlation_lowest: of
+            the cross correlations with the truth. The first percentile lies linearly between
+            the two values next to it.
+        iri_error_median_percent, iri_error_largest_percent: of the magnitudes of the errors.
+        within_two_sigma_percent, within_two_sigma_true_distance_percent: of the shares of points
+            of each wheel path, as in `StopScores`; None where no sigma is told.
+    """
+
+    wheel_paths: int
+    cross_correlation_median: float
+    cross_correlation_percentile_1: float
+    cross_correlation_lowest: float
+    iri_error_median_percent: float
+    iri_error_largest_percent: float
+    within_two_sigma_percent: Ends | None
+    within_two_sigma_true_distance_percent: Ends | None
+
+
+def summary(paths: Sequence[WheelPath]) -> StopSummary:
+    """Return the summary of ``paths``; InputError for none."""
+    if not paths:
+        raise InputError("no wheel path to sum up; make at least one drive")
+    scores = [path.scores for path in paths]
+    correlations = [each.cross_correlation for each in scores]
+    errors = [abs(each.iri_error_percent) for each in scores]
+    return StopSummary(
+        len(paths),
+        float(np.median(correlations)),
+        float(np.percentile(correlations, 1)),
+        min(correlations),
+        float(np.median(errors)),
+        max(errors),
+        _ends([each.within_two_sigma_percent for each in scores]),
+        _ends([each.within_two_sigma_true_distance_percent for each in scores]),
+    )
+
+
+def _ends(values: Sequence[float | None]) -> Ends | None:
+    """Return the ends of the values that there are; None for none."""
+    told = [value for value in values if value is not None]
+    if not told:
+        return None
+    return Ends(min(told), float(np.median(told)), max(told))
+
+
+FORMAT = "conformance-stops/1"
+
+
+def stop_document(table: StopTable) -> dict[str, Any]:
+    """Return the JSON object of ``table``; SuiteError if it breaks its own schema."""
+    settings = table.settings
+    made = {
+        "format": FORMAT,
+        "seed": settings.seed,
+        "stops": settings.stops,
+        "vehicles": list(settings.vehicles),
+        "roads": [asdict(road) for road in STOP_ROADS],
+        "stretch_m": list(STRETCH_M),
+        "pipelines": [_pipeline(table, name) for name in settings.pipelines],
+        "passes": list(_passes(table)),
+    }
+    enforce("conformance-stops-1", made)
+    return made
+
+
+def _pipeline(table: StopTable, name: str) -> dict[str, Any]:
+    """Return the summaries of one pipeline, and where its lowest cross correlation is."""
+    lowest = table.lowest(name)
+    return {
+        "pipeline": name,
+        "all": _finite(asdict(summary(table.of(name)))),
+        "vehicles": {
+            vehicle: _finite(asdict(summary(table.of(name, vehicle=vehicle))))
+            for vehicle in table.settings.vehicles
+        },
+        "roads": {
+            road.name: _finite(asdict(summary(table.of(name, road=road.kind))))
+            for road in STOP_ROADS
+        },
+        "lowest": {"track": lowest.track, "scenario": lowest.scenario.to_dict()},
+    }
+
+
+def _passes(table: StopTable) -> Iterator[dict[str, Any]]:
+    """Yield every drive with the scores of each wheel path through each pipeline."""
+    for _, group in groupby(table.paths, key=lambda path: path.scenario.seed):
+        paths = tuple(group)
+        yield {
+            "scenario": paths[0].scenario.to_dict(),
+            "wheel_paths": [_wheel_path(path) for path in paths],
+        }
+
+
+def _wheel_path(path: WheelPath) -> dict[str, Any]:
+    return {
+        "pipeline": path.pipeline,
+        "track": path.track,
+        **_finite(asdict(path.scores)),
+    }
+
+
+def _finite(figures: dict[str, Any]) -> dict[str, Any]:
+    """Return ``figures`` with null in place of a number that JSON cannot say."""
+    return {
+        name: None if isinstance(value, float) and not isfinite(value) else value
+        for name, value in figures.items()
+    }
+
+
+def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = None) -> StopTable:
+    """Return the table of ``settings``; ``watch`` is told of every drive before it starts.
+
+    Raises SuiteError for a pipeline that fails or leaves out points that count.
+    """
+    settings = settings or StopSettings()
+    watch = watch or (lambda _: None)
+    processing = Processing(settings.pipelines)
+    paths: list[WheelPath] = []
+    for name, scenario in settings.scenarios(processing.capabilities):
+        watch(name)
+        paths += _driven(processing, name, scenario)
+    return StopTable(settings, tuple(paths))
+
+
+def _driven(processing: Processing, name: str, scenario: Scenario) -> list[WheelPath]:
+    """Return every wheel path of one drive through every pipeline."""
+    driven = processing.driven(scenario, name)
+    paths: list[WheelPath] = []
+    for pipeline, profile in driven.profiles.items():
+        try:
+            scores = stop_scores(driven.truth, driven.told_m, profile)
+        except (DeviceError, InputError) as error:
+            raise SuiteError(f"pipeline {pipeline}, {name}: {error}") from error
+        paths += [WheelPath(pipeline, track, scenario, found) for track, found in scores.items()]
+    return paths

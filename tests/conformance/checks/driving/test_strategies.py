@@ -1,0 +1,163 @@
+"""Every drive that may be asked for can be driven, fits its road and reads well."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+
+from floatref.errors import InputError
+from floatref_conformance.checks.case import DEFAULT, Case
+from floatref_conformance.checks.driving import strategies
+from floatref_conformance.checks.driving.check import DRIVING_CHECKS
+from floatref_conformance.checks.driving.edition import ROADS
+from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, placed
+from floatref_conformance.proving_ground.drives.runs import KMH
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
+
+DRAWS = settings(
+    deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+def simplest(strategy):
+    """Return what Hypothesis starts with, which is what it shrinks to."""
+    found = []
+
+    @settings(database=None, max_examples=1, phases=[Phase.generate])
+    @given(strategy)
+    def first(value):
+        found.append(value)
+
+    first()
+    return found[0]
+
+
+@pytest.fixture(params=DRIVING_CHECKS)
+def drives(request):
+    return strategies.drives(request.param)
+
+
+@given(data=st.data())
+@DRAWS
+def test_a_drive_is_possible_and_what_is_scored_lies_far_from_its_ends(drives, data):
+    scenario = data.draw(drives)
+    drive, layout = drive_of(scenario), layout_of(scenario)
+    assert drive.length_m >= scenario.length_m - 1e-6
+    for start, end in layout.stretches:
+        assert end - start == pytest.approx(160.9)
+        assert start >= END_M
+        assert end <= scenario.length_m - END_M
+
+
+@given(data=st.data())
+@DRAWS
+def test_the_bump_lies_in_no_scored_stretch_and_ahead_of_every_brake(drives, data):
+    scenario = data.draw(drives)
+    first, last = scenario.bump_at_m - BUMP_REACH_M, scenario.bump_at_m + BUMP_REACH_M
+    assert all(last <= start or end <= first for start, end in layout_of(scenario).stretches)
+    drive = drive_of(scenario)
+    motion = drive.motion(np.linspace(0.0, drive.duration_s, 4000))
+    near = (motion.distance > first - 10.0) & (motion.distance < last + 10.0)
+    if scenario.manoeuvre not in ("creeping", "dead-start"):
+        assert np.ptp(motion.speed[near]) < 1e-9
+
+
+@given(data=st.data())
+@DRAWS
+def test_numbers_are_rounded_and_make_the_same_case_again(drives, data):
+    case = Case("any", data.draw(drives))
+    assert Case.of("any", case.parameters) == case
+    values = [v for v in case.parameters["scenario"].values() if isinstance(v, float)]
+    assert all(value == round(value, 5) for value in values)
+
+
+@given(data=st.data())
+@DRAWS
+def test_speeds_stay_on_their_side_of_16_km_per_h(data):
+    slow, fast = (
+        data.draw(strategies.drives("low-speed")),
+        data.draw(strategies.drives("constant-speed")),
+    )
+    assert drive_of(slow).knot_speeds_mps.max() < 16 * KMH
+    assert drive_of(fast).knot_speeds_mps.min() > 16 * KMH
+    released = data.draw(strategies.drives("braking")).event_speed_kmh
+    assert released == 15.0 or released >= 17.0
+
+
+@given(data=st.data())
+@DRAWS
+def test_no_brake_is_released_within_a_second_of_a_standstill(data):
+    brake = data.draw(strategies.drives("braking"))
+    assert brake.event_speed_kmh / 3.6 >= 9.80665 * brake.deceleration_g * 1.1
+    assert 0.05 <= brake.deceleration_g <= 0.84
+
+
+def test_the_corners_of_braking_are_in_its_domain():
+    for speed, released, g in ((100.0, 15.0, 0.05), (100.0, 60.0, 0.84), (30.0, 15.0, 0.38)):
+        numbers = {"manoeuvre": "braking", "speed_kmh": speed, "event_speed_kmh": released}
+        assert strategies.hardest_release_g(released) >= g
+        layout_of(placed(Scenario(**numbers, deceleration_g=g)))
+
+
+def test_the_simplest_drive_of_each_is_on_the_default_road(drives):
+    scenario = simplest(drives)
+    names = ("seed", "road", "vehicle", "iri_m_per_km", "profile_interval_m")
+    for name in (*names, "grade_percent", "cross_slope_percent", "curvature_per_km", "stops"):
+        assert getattr(scenario, name) == getattr(DEFAULT, name)
+
+
+@given(st.integers(-40, 40), st.integers(0, 80), st.sampled_from([0.01, 0.1, 0.5, 10.0]), st.data())
+@DRAWS
+def test_a_number_is_a_whole_count_of_steps_from_the_simplest_within_its_limits(
+    first, count, step, data
+):
+    low, high = round(first * step, 6), round((first + count) * step, 6)
+    value = data.draw(strategies.number(low, high, step))
+    assert low <= value <= high
+    assert value / step == pytest.approx(round(value / step), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "simple"), [(4.0, 9.0, 4.0), (-9.0, -2.0, -2.0), (-3.0, 3.0, 0.0)]
+)
+def test_a_number_shrinks_to_the_simplest_one_that_is_allowed(low, high, simple):
+    assert simplest(strategies.number(low, high, 0.5)) == simple
+    assert simplest(strategies.number(-20.0, 20.0, 0.5, 7.5)) == 7.5
+
+
+@pytest.mark.parametrize("roads", ROADS.values(), ids=ROADS)
+def test_the_roads_of_cases_are_of_every_kind_and_within_their_roughness(roads):
+    drawn = [roads.drawn_for(Scenario(), (7, n)) for n in range(200)]
+    assert {scenario.road for scenario in drawn} == set(roads.kinds)
+    assert set(roads.kinds) <= set(ROADS["everyday"].kinds)
+    values = [scenario.iri_m_per_km for scenario in drawn]
+    assert (min(values), max(values)) == (roads.smoothest, roads.roughest)
+    assert len({scenario.seed for scenario in drawn}) == len(drawn)
+    assert roads.drawn_for(Scenario(), (7, 3)) == drawn[3]
+
+
+@given(data=st.data())
+@DRAWS
+def test_placing_a_placed_drive_changes_nothing(drives, data):
+    scenario = data.draw(drives)
+    assert placed(scenario) == scenario
+
+
+@pytest.mark.parametrize(
+    "change", [{"length_m": 480.0}, {"event_at_m": 200.0}, {"bump_mm": 20.0, "bump_at_m": 108.0}]
+)
+def test_a_drive_without_room_for_what_is_scored_is_refused(change):
+    with pytest.raises(InputError, match="must lie 106 m from its ends"):
+        layout_of(Scenario(**{"manoeuvre": "stop", **change}))
+
+
+def test_hypothesis_is_imported_only_when_a_strategy_is_asked_for():
+    code = (
+        "import sys; import floatref_conformance.checks.driving.strategies;"
+        "sys.exit('hypothesis' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,106 @@
+"""The mutants: known mistakes, each failed by a check that it names, and sound but for it."""
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.errors import InputError
+from floatref.files import read_profile, write_recording
+from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
+from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
+from floatref_conformance.classes import Effort
+from floatref_conformance.judge.bench import taken_of
+from floatref_conformance.mutants import MUTATIONS
+from floatref_conformance.mutants.engine import in_time, over_distance, remade
+from floatref_conformance.mutants.hostile import HOSTILE
+from floatref_conformance.mutants.mutation import RECOMMENDED, SPATIAL
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.selftest.trying import Try, attempt
+
+KIND = load_registry().kinds["mutant"]
+ENTRIES = KIND.entries()
+KNOWN = {
+    *("accelerometer-sign", "laser-sign", "accelerometer-high", "accelerometer-low"),
+    *("laser-high", "laser-low", "late-laser", "late-accelerometer", "gravity-kept"),
+    *("tilt-ignored", "reverse-pass-missing", "cut-off-long", "cut-off-short", "sample-lost"),
+    *("carry-leaking", "road-lost-at-a-stop", "held-at-the-stop", "reflection-sign", "all-zeros"),
+    *("over-smoothed", "previous-result", "nan-at-the-end", "vouches-never", "vouches-always"),
+    *("in-mm", "in-feet", "height-in-mm", "height-in-feet", "distance-in-feet", "force-in-g"),
+    *("out-of-order", "hang", "crash", "flood", "garbage"),
+}
+CHEAPEST_FIRST = ("quiescent", "bounce", "low-speed", "dead-start", "coasting", "waveband")
+
+
+def cheapest(fails):
+    return next((id_ for id_ in CHEAPEST_FIRST if id_ in fails), fails[0])
+
+
+def test_the_mutants_have_the_known_mistakes_and_different_names():
+    names = [entry.name for entry in ENTRIES]
+    assert set(names) >= KNOWN
+    assert len(set(names)) == len(names)
+
+
+def test_each_mutant_says_what_is_wrong_and_names_checks_that_there_are():
+    for entry in ENTRIES:
+        assert entry.summary
+        assert entry.fails
+        assert set(entry.fails) <= set(IDS)
+        assert list(entry.fails) == [id_ for id_ in IDS if id_ in entry.fails]
+
+
+def test_each_check_is_the_only_one_that_some_mutant_names():
+    assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
+
+
+@pytest.mark.parametrize("mutation", MUTATIONS, ids=lambda mutation: mutation.name)
+def test_each_mistake_is_failed_by_a_check_that_it_names(mutation):
+    assert attempt(Try(f"mutant:{mutation.name}", cheapest(mutation.fails), 0)).fails
+
+
+def test_what_a_mutant_repairs_is_no_news(tmp_path):
+    """A warning would be an error here."""
+    scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
+    hurt = SENSOR_FAULTS["laser-dropout"](
+        taken_of(scenario).recording, {"at_m": 280.0, "length_s": 0.5}
+    )
+    write_recording(hurt.recording, tmp_path / "hurt")
+    KIND.make("noisy-where-flat").run(tmp_path / "hurt", tmp_path / "profile")
+    assert not read_profile(tmp_path / "profile").track("left").valid.all()
+
+
+def test_programs_that_behave_badly_are_mutants_too():
+    assert {hostile.name for hostile in HOSTILE} <= {entry.name for entry in ENTRIES}
+    assert "out-of-order" in {entry.name for entry in ENTRIES}
+    assert "seq" in attempt(Try("mutant:out-of-order", "quiescent", 0)).fails
+
+
+def test_an_unknown_mutant_is_wrong_usage():
+    with pytest.raises(InputError, match="mutant:none: unknown mutant; known: accelerometer-sign"):
+        KIND.make("none")
+
+
+def test_a_mutant_that_remembers_begins_with_nothing(tmp_path):
+    case = BOUNCE.cases(0, Effort.QUICK)[1]
+    delivered = []
+    for n in range(2):
+        write_recording(taken_of(case.scenario).recording, tmp_path / f"{n}")
+        KIND.make("previous-result").run(tmp_path / f"{n}", tmp_path / f"p{n}")
+        delivered.append(read_profile(tmp_path / f"p{n}").track("left").elevation)
+        case = QUIESCENT.cases(0, Effort.QUICK)[1]
+    assert not np.array_equal(*delivered)
+
+
+@pytest.mark.parametrize(
+    ("pipeline", "elevations"), [(RECOMMENDED, in_time()), (SPATIAL, over_distance())]
+)
+def test_the_engine_of_mutants_without_a_mistake_is_the_pipeline(pipeline, elevations):
+    scenario = Scenario(manoeuvre="stop", rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
+    recording = taken_of(scenario).recording
+    sound = floatref.process(recording, pipeline)
+    z = remade(recording, sound, elevations).track("left").elevation
+    difference = z - sound.track("left").elevation
+    assert np.nanstd(difference) < 1e-4
+    assert np.nanmax(np.abs(difference)) < 5e-4

@@ -1,0 +1,21 @@
+"""Every limit of the suite: what is 1.5 times as much fails, what is 0.67 times as much passes."""
+
+import pytest
+
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.selftest.work import graded, without_grader
+
+CHECKS = load_registry().checks
+
+
+@pytest.mark.parametrize("id_", CHECKS)
+def test_every_limit_of_the_check_holds_on_both_sides(id_):
+    check = CHECKS[id_]
+    limits = tuple(graded([check]))
+    assert [(x.quantity, x.device_class, x.faults) for x in limits if x.faults] == []
+    assert without_grader([check], limits) == ()
+
+
+def test_the_limits_of_other_checks_are_known_to_have_no_grader(toy_check):
+    check = toy_check(limits={"IRI error": {"nominal": "0.1 m/km"}})
+    assert without_grader([check], tuple(graded([check]))) == ("toy: IRI error, class nominal",)
