@@ -13,11 +13,11 @@ from floatref.values.recording import Channel, Recording, Setup
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
+from floatref_conformance.checks.evidence import Pair
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.scoring import roughness_within
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.evidence import Pair
 from floatref_conformance.judge.runner import Plan, run
 from floatref_conformance.proving_ground.scenario import Scenario
 

@@ -12,9 +12,9 @@ from floatref.errors import InputError
 from floatref_conformance import EDITION
 from floatref_conformance.case_files import document, name_of, read_case, read_cases
 from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
+from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import RunFinished, RunStarted
-from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.proving_ground.scenario import LIMITS, MANOEUVRES, ROADS, Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 from floatref_conformance.render.cases import CaseFiles

@@ -15,9 +15,9 @@ from floatref_conformance.certify.locating.placing import MAX_OFFSET_M
 from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 from floatref_conformance.certify.worksheet import keeping
 from floatref_conformance.checks.stretches import END_M
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.main import main
-from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.schemas import read_schema
 
 DOCS = Path(__file__).parents[2] / "docs"

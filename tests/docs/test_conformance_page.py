@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.judge.trial import MOST_HANGS
-from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.plugins import load_registry
 
 PAGE = (Path(__file__).parents[2] / "docs" / "conformance.md").read_text(encoding="utf-8")

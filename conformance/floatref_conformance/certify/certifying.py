@@ -8,6 +8,12 @@ from pathlib import Path
 from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref_conformance import EDITION
+from floatref_conformance.certify.judging.contents import (
+    Criterion,
+    SectionSheet,
+    StationarySheet,
+    Worksheet,
+)
 from floatref_conformance.certify.judging.criteria import verdict_of
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import judge_readings
@@ -24,12 +30,6 @@ from floatref_conformance.certify.plan.plan_document import (
     StationaryPlan,
 )
 from floatref_conformance.certify.plan.run_paths import names_of
-from floatref_conformance.certify.worksheet.contents import (
-    Criterion,
-    SectionSheet,
-    StationarySheet,
-    Worksheet,
-)
 from floatref_conformance.classes import DeviceClass
 
 MEASURED_BY = ("floatref", "numpy", "scipy", "numba")

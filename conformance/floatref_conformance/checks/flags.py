@@ -6,8 +6,8 @@ import numpy as np
 
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref_conformance.checks.scoring import Compared
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 

@@ -8,8 +8,8 @@ from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from floatref.errors import InputError
 from floatref.measures import cross_correlation, high_pass, iri_trace, on_common_grid
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.evidence import CorrelationLoss, Pair, RoughnessError
 from floatref_conformance.checks.stretches import points, stretch
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
-from floatref_conformance.judge.evidence import CorrelationLoss, Pair, RoughnessError
-from floatref_conformance.judge.verdict import Measurement
 
 LEAD_M = 120.0
 """The car of the IRI starts so far ahead of the stretch that counts: at the section's start."""

@@ -12,8 +12,8 @@ from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify_options import Limit, limits_with, plan_of
 
 if TYPE_CHECKING:
+    from floatref_conformance.certify.judging.contents import Worksheet
     from floatref_conformance.certify.judging.limits import CertificationLimits
-    from floatref_conformance.certify.worksheet.contents import Worksheet
 
 FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)

@@ -9,6 +9,7 @@ from typing import NoReturn
 
 import click
 
+from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.cli.no_verdict import (
     FAULT_OF_THE_SUITE,
     INTERRUPTED,
@@ -18,7 +19,6 @@ from floatref_conformance.cli.no_verdict import (
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import Event, Renderer, RunFinished
 from floatref_conformance.judge.runner import Plan, run
-from floatref_conformance.judge.verdict import RunResult
 from floatref_conformance.render.terminal import TerminalRenderer
 
 

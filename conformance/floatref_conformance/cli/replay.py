@@ -9,11 +9,11 @@ from rich.text import Text
 
 from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase, read_case
+from floatref_conformance.checks.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
 from floatref_conformance.judge.exercise import closed_on_error
 from floatref_conformance.judge.replaying import replay as replayed
-from floatref_conformance.judge.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 

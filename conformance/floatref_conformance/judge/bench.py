@@ -13,10 +13,10 @@ import numpy as np
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
 from floatref_conformance.checks.interface import Taken
+from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.exercise import exercise
-from floatref_conformance.judge.verdict import Pass
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate

@@ -6,8 +6,8 @@ from typing import Any, Protocol
 
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.verdict import CaseResult, CheckResult, RunResult
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.judge.verdict import CaseResult, CheckResult, RunResult
 
 
 @dataclass(frozen=True)

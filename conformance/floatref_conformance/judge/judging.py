@@ -8,10 +8,10 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.classes import DeviceClass, lowest
 from floatref_conformance.devices.interface import HEIGHT, NEEDS, RESPONSE
 from floatref_conformance.judge import oracle
-from floatref_conformance.judge.verdict import CaseResult, CheckResult, Measurement, Outcome
 
 
 def check_result(

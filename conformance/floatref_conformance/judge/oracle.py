@@ -7,8 +7,8 @@ have been tuned, would otherwise pass on both sides.
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.verdict import Measurement
 from floatref_reference.chapter_2 import section_2_1_1_iri as section_2_1_1
 from floatref_reference.chapter_2 import section_2_1_5_comparison as section_2_1_5
 

@@ -6,13 +6,13 @@ from floatref.errors import InputError
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.verdict import CaseResult
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
 from floatref_conformance.judge.judging import lacking
-from floatref_conformance.judge.verdict import CaseResult
 
 
 def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:

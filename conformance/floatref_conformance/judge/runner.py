@@ -10,6 +10,7 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
 from floatref_conformance.checks.interface import Check, fitted
+from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.errors import DeviceError, SuiteError
@@ -28,7 +29,6 @@ from floatref_conformance.judge.judging import (
     not_applicable_result,
 )
 from floatref_conformance.judge.trial import Trial
-from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.judge.waivers import waived
 
 UNDESCRIBED = Description("unknown", "unknown", "unknown", ())

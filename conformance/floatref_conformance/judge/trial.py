@@ -8,6 +8,7 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, Taken
+from floatref_conformance.checks.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.judge.bench import DeviceBench, taken_of
@@ -21,7 +22,6 @@ from floatref_conformance.judge.events import (
 from floatref_conformance.judge.judging import check_result, failing, why
 from floatref_conformance.judge.replaying import judged, refuse_foreign
 from floatref_conformance.judge.search import search, simplest
-from floatref_conformance.judge.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.proving_ground.scenario import Scenario
 
 MOST_HANGS = 3

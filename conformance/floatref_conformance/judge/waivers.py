@@ -6,7 +6,7 @@ from pathlib import Path
 
 from floatref.errors import InputError
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
+from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 
 MOST_BYTES = 1 << 20
 

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, Setup
-from floatref_conformance.proving_ground.drives.parked import parked
+from floatref_conformance.proving_ground.parked import parked
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError

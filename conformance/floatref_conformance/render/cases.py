@@ -7,8 +7,8 @@ from pathlib import Path
 from floatref.files.atomic import replacing_file
 from floatref_conformance.case_files import FOLDER, document, name_of
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.verdict import CheckResult, RunResult
 from floatref_conformance.judge.events import Event, RunFinished
-from floatref_conformance.judge.verdict import CheckResult, RunResult
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from floatref_conformance.judge.verdict import CheckResult, Pass, RunResult
+from floatref_conformance.checks.verdict import CheckResult, Pass, RunResult
 from floatref_conformance.render import wording
 from floatref_conformance.render.figures import figure_of
 

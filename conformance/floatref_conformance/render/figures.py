@@ -9,7 +9,7 @@ from floatref.measures import high_pass, short_interval_roughness
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.stretches import Stretches
-from floatref_conformance.judge.verdict import Pass
+from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.render import places
 from floatref_conformance.render.svg import WIDTH, Figure, Line, Mark, Panel, Shade, drawn
 

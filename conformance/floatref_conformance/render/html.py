@@ -6,8 +6,8 @@ from pathlib import Path
 
 from floatref.files.atomic import replacing_file
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.judge.events import Event, RunFinished, RunStarted
-from floatref_conformance.judge.verdict import RunResult
 from floatref_conformance.render.page import page_of
 from floatref_conformance.render.text import filled, needs_jinja
 

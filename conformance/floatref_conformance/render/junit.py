@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from floatref.files.atomic import replacing_file
 from floatref_conformance import EDITION
+from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import (
     CheckFinished,
@@ -19,7 +20,6 @@ from floatref_conformance.judge.events import (
     RunFinished,
     RunStarted,
 )
-from floatref_conformance.judge.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.render import wording
 from floatref_conformance.render.text import printable
 

@@ -10,9 +10,9 @@ from typing import Any
 from floatref.errors import InputError
 from floatref_conformance import EDITION
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge.judging import scored_by
-from floatref_conformance.judge.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.render import wording
 from floatref_conformance.render.drawing import drawing_svg
 from floatref_conformance.render.failures import Failure, Markup, failure

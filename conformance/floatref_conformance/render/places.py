@@ -12,8 +12,8 @@ from floatref_conformance.proving_ground.drives.artificial import (
     artificial_drive,
 )
 from floatref_conformance.proving_ground.drives.drive import Drive
-from floatref_conformance.proving_ground.drives.parked import plates_of
 from floatref_conformance.proving_ground.drives.runs import KMH, RUNS, SECTION_START_M
+from floatref_conformance.proving_ground.parked import plates_of
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M, drive_of
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from floatref_conformance import EDITION
+from floatref_conformance.checks.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import Event, RunFinished
-from floatref_conformance.judge.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.render.wording import margin
 from floatref_conformance.schemas import enforce
 

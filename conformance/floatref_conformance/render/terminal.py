@@ -9,6 +9,7 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
+from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import (
     CaseFinished,
@@ -21,7 +22,6 @@ from floatref_conformance.judge.events import (
     SearchStarted,
     ShrinkStarted,
 )
-from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.render import wording
 from floatref_conformance.render.text import printable
 

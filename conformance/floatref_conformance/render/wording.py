@@ -7,9 +7,9 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from floatref_conformance.case_files import FOLDER
+from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import RESPONSE
-from floatref_conformance.judge.verdict import CheckResult, Measurement, Outcome, RunResult
 
 FAILED = (Outcome.FAIL, Outcome.ERROR)
 WHERE = "this case alone, where the run was started"

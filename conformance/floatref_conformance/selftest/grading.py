@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, Taken
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.judge.bench import seen_by, taken_of
 from floatref_conformance.judge.perfect import perfect
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NOMINAL = Description("perfect", "1", "temporal", ())

@@ -7,11 +7,11 @@ from typing import ClassVar
 
 import pytest
 
+from floatref_conformance.checks.verdict import Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.judge.events import Event
 from floatref_conformance.judge.runner import Plan, run
-from floatref_conformance.judge.verdict import Outcome, RunResult
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.wording import reproduction

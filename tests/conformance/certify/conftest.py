@@ -12,10 +12,10 @@ from floatref.files import write_profile
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.judging import sections
+from floatref_conformance.certify.judging.contents import SectionSheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.plan.plan_document import SectionPlan
-from floatref_conformance.certify.worksheet.contents import SectionSheet
 from floatref_conformance.proving_ground.roads.random_roads import sayers_road
 from floatref_conformance.proving_ground.roads.road import Road
 

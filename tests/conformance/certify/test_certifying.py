@@ -17,6 +17,7 @@ from floatref.files import read_profile, write_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify import certifying
 from floatref_conformance.certify.certifying import certify
+from floatref_conformance.certify.judging.contents import Judged, RunSheet, Worksheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.plan.converting import converted
 from floatref_conformance.certify.plan.cutting import within
@@ -27,9 +28,8 @@ from floatref_conformance.certify.plan.plan_document import (
     SectionPlan,
     StationaryPlan,
 )
-from floatref_conformance.certify.worksheet.contents import Judged, RunSheet, Worksheet
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 

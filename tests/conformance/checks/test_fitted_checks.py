@@ -6,9 +6,9 @@ import pytest
 
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge.events import CheckStarted
-from floatref_conformance.judge.verdict import Outcome
 
 
 @pytest.mark.parametrize(

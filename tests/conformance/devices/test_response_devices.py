@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from floatref.files import read_recording
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.cli.main import main
 from floatref_conformance.devices.interface import CAPABILITIES, Description
@@ -14,7 +15,6 @@ from floatref_conformance.exporting import export
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.replaying import replay
 from floatref_conformance.judge.runner import run
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render.html import HtmlReport

@@ -6,9 +6,9 @@ import sys
 import numpy as np
 import pytest
 
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.judge.exercise import MIN_INTERVAL_M
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.proving_ground.scenario import LIMITS
 
 

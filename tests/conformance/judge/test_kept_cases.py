@@ -4,10 +4,10 @@ import pytest
 
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import DeviceError, DeviceSkipped
 from floatref_conformance.judge.events import CaseReplayed, CheckFinished
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.proving_ground.scenario import Scenario
 
 SMOOTH, ROUGH = Scenario(seed=1, iri_m_per_km=1.0), Scenario(seed=1, iri_m_per_km=6.0)

@@ -9,17 +9,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.measures import iri
+from floatref_conformance.checks.evidence import Pair, Roughness
 from floatref_conformance.checks.scoring import (
     bridged,
     correlation,
     roughness_percent,
     roughness_within,
 )
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.evidence import Pair, Roughness
 from floatref_conformance.judge.oracle import DIMENSIONLESS, SMALLEST, TOLERANCE, confirm
-from floatref_conformance.judge.verdict import Measurement
 
 INTERVAL, POINTS = 0.05, 1200
 LIMITS = dict.fromkeys(DeviceClass, 1.0)

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import pytest
 
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.events import CaseFinished, CheckFinished, RunFinished
 from floatref_conformance.judge.runner import run
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.render.report import as_json
 
 

@@ -6,11 +6,11 @@ from types import ModuleType
 import pytest
 
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import CaseFinished, SearchStarted
 from floatref_conformance.judge.search import search
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.proving_ground.scenario import Scenario
 
 

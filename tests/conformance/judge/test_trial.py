@@ -4,11 +4,11 @@ import pytest
 
 from floatref.errors import InputError
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.events import SearchStarted, ShrinkStarted
 from floatref_conformance.judge.trial import MOST_HANGS
-from floatref_conformance.judge.verdict import Outcome, Verdict
 from floatref_conformance.proving_ground.scenario import Scenario
 
 

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.judge.waivers import check_used, read_waivers, waived
 
 KNOWN = {"toy": None, "second": None}

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.proving_ground.drives.parked import plates_of
 from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.parked import plates_of
 from floatref_conformance.proving_ground.scenario import MANOEUVRES, Scenario
 from floatref_conformance.render.drawing import drawing, drawing_svg
 from floatref_conformance.render.places import events, joined, speed_along

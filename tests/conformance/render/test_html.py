@@ -11,10 +11,10 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.judge.events import RunFinished, RunStarted
-from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render import text
 from floatref_conformance.render.html import HtmlReport, as_html

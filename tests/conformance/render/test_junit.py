@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 import pytest
 import xmlschema
 
+from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.judge.events import CheckFinished, CheckStarted, RunFinished
-from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render.junit import JUnitReport
 
 SCHEMA = xmlschema.XMLSchema(Path(__file__).parent / "data" / "junit.xsd")

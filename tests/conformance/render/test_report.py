@@ -7,10 +7,10 @@ from math import nan
 import pytest
 from jsonschema import Draft202012Validator
 
+from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, same_limit
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import RunFinished
-from floatref_conformance.judge.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.render.report import JsonReport, as_json, write
 from floatref_conformance.schemas import read_schema
 

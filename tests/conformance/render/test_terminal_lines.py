@@ -6,6 +6,7 @@ from math import nan
 import pytest
 from rich.console import Console
 
+from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.judge.events import (
@@ -17,7 +18,6 @@ from floatref_conformance.judge.events import (
     SearchStarted,
     ShrinkStarted,
 )
-from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render.terminal import TerminalRenderer
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.cli import replay, run
 from floatref_conformance.cli.main import main
-from floatref_conformance.judge.verdict import Outcome
 from floatref_conformance.render import wording
 
 SPEC = "exec:./firmware 'x y'"

@@ -8,6 +8,7 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.judging.comparing import with_others
+from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import (
     joined,
@@ -16,7 +17,6 @@ from floatref_conformance.certify.judging.reasons import (
     of_track,
     with_causes,
 )
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet, RunTrack
 
 
 def outliers(pairs: FloatArray, limit: float) -> tuple[list[int], float]:

@@ -5,6 +5,7 @@ from math import nan
 
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet
 from floatref_conformance.certify.judging.correlations import (
     judge_accuracy,
     judge_bias,
@@ -13,8 +14,7 @@ from floatref_conformance.certify.judging.correlations import (
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import joined, judged_by, listed, reported, unused
 from floatref_conformance.certify.judging.scales import judge_distance, judge_height
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet
-from floatref_conformance.judge.verdict import Verdict
+from floatref_conformance.checks.verdict import Verdict
 
 MISSING_PERCENT = 2.0
 """Part of a section for which a run may lack elevations; ours.

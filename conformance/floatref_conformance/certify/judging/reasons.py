@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from math import isnan
 
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet, RunTrack
+from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
 
 NAMED = 5
 """Runs that a reason names; of the others it gives the number."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import inf, isnan, nan
 
 from floatref.errors import InputError
+from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.correlations import mean
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import (
@@ -15,7 +16,6 @@ from floatref_conformance.certify.judging.reasons import (
     reported,
 )
 from floatref_conformance.certify.plan.plan_document import DistancePlan
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged, RunSheet, RunTrack
 
 DISTANCE = (
     "AASHTO R 56-14: distance within 0.15 %; ours: told from the section's profiles, and every "

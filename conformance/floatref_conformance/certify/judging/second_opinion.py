@@ -13,17 +13,17 @@ import numpy as np
 from floatref.measures import agreement, iri, on_common_grid
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     RunTrack,
     SectionSheet,
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
+from floatref_conformance.checks.evidence import CorrelationLoss, Evidence, Pair, Roughness
 from floatref_conformance.checks.stretches import points
-from floatref_conformance.judge.evidence import CorrelationLoss, Evidence, Pair, Roughness
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.judge.oracle import confirm
-from floatref_conformance.judge.verdict import Measurement
 
 MOST_POINTS = 40_000
 """Points that the reference is given: 200 m at 5 mm."""

@@ -19,13 +19,13 @@ from floatref_conformance.certify.judging.comparing import (
     correlate_pairs,
     with_others,
 )
+from floatref_conformance.certify.judging.contents import RunSheet, RunTrack, SectionSheet
 from floatref_conformance.certify.judging.criteria import judge_section
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import agrees
 from floatref_conformance.certify.locating.fit import fit
 from floatref_conformance.certify.plan.cutting import section_of, within
 from floatref_conformance.certify.plan.plan_document import SectionPlan
-from floatref_conformance.certify.worksheet.contents import RunSheet, RunTrack, SectionSheet
 
 LEAST_IRI = 0.01
 """IRI in m/km below which a reference is level or in other units; the best roads have 0.3."""

@@ -13,10 +13,10 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.contents import Criterion, Judged, StationarySheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import judged_by
 from floatref_conformance.certify.plan.plan_document import StationaryPlan, Stretch
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged, StationarySheet
 from floatref_conformance.checks.stretches import END_M, points
 
 SHORTEST_M = 50.0

@@ -4,14 +4,14 @@ from collections.abc import Iterator
 from math import inf, isnan
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import pictures, wording
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     RunSheet,
     RunTrack,
     SectionSheet,
     StationarySheet,
 )
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.worksheet import pictures, wording
 from floatref_conformance.certify.worksheet.pictures import lag_picture
 from floatref_conformance.certify.worksheet.wording import correlation
 from floatref_conformance.render.failures import Markup, Picture

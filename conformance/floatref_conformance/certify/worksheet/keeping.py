@@ -14,7 +14,7 @@ from pathlib import Path
 
 from floatref.errors import InputError
 from floatref.files import write_profile
-from floatref_conformance.certify.worksheet.contents import Worksheet
+from floatref_conformance.certify.judging.contents import Worksheet
 
 DOCUMENT = "worksheet.json"
 PAGE = "worksheet.html"

@@ -6,9 +6,7 @@ from pathlib import Path
 
 from floatref.files.atomic import replacing_file
 from floatref.values.profile import Profile
-from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import wording
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Criterion,
     Judged,
     RunSheet,
@@ -16,6 +14,8 @@ from floatref_conformance.certify.worksheet.contents import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.figures import of_section, of_test
 from floatref_conformance.render.failures import Picture
 from floatref_conformance.render.text import filled, needs_jinja

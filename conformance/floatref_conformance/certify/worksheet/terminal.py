@@ -6,8 +6,7 @@ from rich.table import Table
 from rich.text import Text
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.worksheet import wording
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Criterion,
     Judged,
     RunSheet,
@@ -15,6 +14,7 @@ from floatref_conformance.certify.worksheet.contents import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.render.text import printable
 

@@ -3,9 +3,7 @@
 from collections.abc import Mapping, Sequence
 from math import isnan
 
-from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.scales import scales_agree
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Cause,
     Criterion,
     Judged,
@@ -15,6 +13,8 @@ from floatref_conformance.certify.worksheet.contents import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.scales import scales_agree
 
 NOTHING = "–"
 """Stands for a number that could not be had."""

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from floatref.files.atomic import replacing_file
 from floatref.files.document import plain
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Criterion,
     RunSheet,
     SectionSheet,

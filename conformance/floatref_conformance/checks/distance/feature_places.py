@@ -26,8 +26,8 @@ from floatref_conformance.checks.distance.features import (
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.staging import drive_of
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
 from floatref_conformance.checks.stretches import Stretches, fitting, points, stretch
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.roads.sines import (
     BEYOND_M,
     CUT_OFF_M,

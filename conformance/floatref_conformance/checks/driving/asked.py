@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 from floatref_conformance.checks import scoring
 from floatref_conformance.checks.driving.edition import Table
+from floatref_conformance.checks.evidence import Pair
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
-from floatref_conformance.judge.evidence import Pair
-from floatref_conformance.judge.verdict import Measurement
 
 LOSS, ERROR = "correlation loss", "IRI error"
 

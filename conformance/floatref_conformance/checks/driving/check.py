@@ -19,8 +19,8 @@ from floatref_conformance.checks.driving.strategies import drives
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.scoring import compare
 from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:

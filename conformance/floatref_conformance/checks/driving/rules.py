@@ -13,9 +13,9 @@ from floatref_conformance.checks.driving.edition import Table, edition
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
 from floatref_conformance.checks.flags import SLOW_MPS
 from floatref_conformance.checks.scoring import Compared
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 

@@ -22,9 +22,9 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.sameness.change import check_equipped
 from floatref_conformance.checks.scoring import Compared, compare
 from floatref_conformance.checks.stretches import Stretches
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.devices.interface import HEIGHT, NEEDS
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:

@@ -9,12 +9,12 @@ import numpy as np
 from floatref.measures import high_pass, iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
+from floatref_conformance.checks.evidence import Pair, Reference
 from floatref_conformance.checks.faults.injection import Faulty
 from floatref_conformance.checks.flags import EVENT_LIMITS
 from floatref_conformance.checks.scoring import Compared, bridged, compare, roughness_within
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
-from floatref_conformance.judge.evidence import Pair, Reference
-from floatref_conformance.judge.verdict import Measurement
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 ROUGHNESS: Mapping[DeviceClass, tuple[float, float]] = MappingProxyType(

@@ -6,10 +6,10 @@ import numpy as np
 
 from floatref.measures import iri_trace
 from floatref.values.arrays import FloatArray
+from floatref_conformance.checks.evidence import CorrelationLoss, Pair, Reference, RoughnessError
 from floatref_conformance.checks.scoring import Compared, correlation, not_flat, roughness_within
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits, same_limit
-from floatref_conformance.judge.evidence import CorrelationLoss, Pair, Reference, RoughnessError
-from floatref_conformance.judge.verdict import Measurement
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 LOSS_LIMITS: Limits = {NOMINAL: 0.008, ADEQUATE: 0.005, REFERENCE: 0.002}

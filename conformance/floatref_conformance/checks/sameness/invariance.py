@@ -27,9 +27,9 @@ from floatref_conformance.checks.sameness.differences import (
 )
 from floatref_conformance.checks.scoring import Compared, compare, correlation
 from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.devices.interface import NEEDS
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 

@@ -15,8 +15,8 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
 from floatref_conformance.checks.stretches import Stretches, fitting, stretch
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called

@@ -11,13 +11,13 @@ from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.evidence import Roughness
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stationary import plate
 from floatref_conformance.checks.stretches import END_M, Stretches, fitting, stretch
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.devices.interface import HEIGHT
-from floatref_conformance.judge.evidence import Roughness
-from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.drives.artificial import artificial_drive
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario

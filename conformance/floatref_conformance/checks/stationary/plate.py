@@ -7,9 +7,9 @@ import numpy as np
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.stretches import stretch
+from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits, same_limit
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.verdict import Measurement
 
 PLATE_M = 0.005
 """Thickness of the plate, in m."""

@@ -6,12 +6,12 @@ from itertools import permutations
 import numpy as np
 import pytest
 
+from floatref_conformance.certify.judging.contents import Criterion, Judged
 from floatref_conformance.certify.judging.criteria import verdict_of
 from floatref_conformance.certify.judging.limits import CertificationLimits, limits_of
 from floatref_conformance.certify.judging.sections import Run
-from floatref_conformance.certify.worksheet.contents import Criterion, Judged
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import Verdict
 
 NOISY_M = 3e-3
 

@@ -5,10 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref_conformance.certify.judging.contents import Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import judge_distance, judge_height, judge_readings
 from floatref_conformance.certify.plan.plan_document import DistancePlan
-from floatref_conformance.certify.worksheet.contents import Judged, RunSheet, RunTrack
 
 NAN = float("nan")
 LIMITS = CertificationLimits()

@@ -8,15 +8,15 @@ import pytest
 from click.testing import CliRunner
 
 from floatref_conformance.certify.judging import second_opinion
+from floatref_conformance.certify.judging.contents import Worksheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
 from floatref_conformance.certify.judging.stationary import stationary_sheet
 from floatref_conformance.certify.plan.plan_document import StationaryPlan
-from floatref_conformance.certify.worksheet.contents import Worksheet
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.main import main
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.verdict import Verdict
 
 LIMITS = CertificationLimits()
 

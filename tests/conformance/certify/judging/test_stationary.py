@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.certify.judging.contents import Judged
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.stationary import stationary_sheet
 from floatref_conformance.certify.plan.plan_document import StationaryPlan
-from floatref_conformance.certify.worksheet.contents import Judged
 from floatref_conformance.checks.stretches import END_M
 
 INTERVAL = 0.05

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Cause,
     Criterion,
     Judged,
@@ -18,10 +17,11 @@ from floatref_conformance.certify.worksheet.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import (
+from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.checks.verdict import (
     Verdict,
 )
+from floatref_conformance.classes import DeviceClass
 
 
 def rough(seed=0, metres=160.0, interval=0.05):

@@ -12,13 +12,13 @@ from floatref.errors import InputError
 from floatref.files import read_profile
 from floatref.measures import agreement, on_common_grid
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.contents import StationarySheet, Worksheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.plan.plan_document import SectionPlan
-from floatref_conformance.certify.worksheet.contents import StationarySheet, Worksheet
 from floatref_conformance.certify.worksheet.keeping import check_report, folders_of, write_report
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import Verdict
 
 
 @pytest.fixture(scope="module")

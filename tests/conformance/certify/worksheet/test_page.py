@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from floatref.errors import InputError
-from floatref_conformance.certify.worksheet.contents import Judged
+from floatref_conformance.certify.judging.contents import Judged
 from floatref_conformance.certify.worksheet.page import as_html, write_page
 from floatref_conformance.render import text
 

@@ -10,14 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet.contents import (
+from floatref_conformance.certify.judging.contents import (
     Cause,
     RunSheet,
     RunTrack,
     SectionSheet,
     StationarySheet,
 )
+from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.worksheet.figures import heat_map
 from floatref_conformance.certify.worksheet.pictures import (
     CLOSE_M,

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from floatref_conformance.certify.judging.contents import Cause, Judged
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet.contents import Cause, Judged
 from floatref_conformance.certify.worksheet.page import as_html
 from floatref_conformance.certify.worksheet.terminal import MOST_RUNS, print_worksheet
 from floatref_conformance.certify.worksheet.wording import is_bad

@@ -8,22 +8,22 @@ from pathlib import Path
 import pytest
 
 from floatref.errors import InputError
+from floatref_conformance.certify.judging.contents import Cause, Worksheet
 from floatref_conformance.certify.judging.criteria import verdict_of
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import judge_readings
 from floatref_conformance.certify.judging.sections import Run
 from floatref_conformance.certify.judging.stationary import stationary_sheet
 from floatref_conformance.certify.plan.plan_document import DistancePlan, StationaryPlan
-from floatref_conformance.certify.worksheet.contents import Cause, Worksheet
 from floatref_conformance.certify.worksheet.worksheet_document import (
     FORMAT,
     SCHEMA,
     as_json,
     write_worksheet,
 )
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.verdict import Verdict
 from floatref_conformance.schemas import enforce
 
 LIMITS = CertificationLimits()

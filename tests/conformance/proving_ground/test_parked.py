@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.proving_ground.drives.artificial import artificial_drive
-from floatref_conformance.proving_ground.drives.parked import APART_M, plates_of
+from floatref_conformance.proving_ground.parked import APART_M, plates_of
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, stationary
 

@@ -6,9 +6,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floatref_conformance.checks.verdict import (
+    CaseResult,
+    Measurement,
+    Outcome,
+    Verdict,
+    verdict_on,
+)
 from floatref_conformance.classes import DeviceClass, lowest, same_limit
 from floatref_conformance.judge.judging import why
-from floatref_conformance.judge.verdict import CaseResult, Measurement, Outcome, Verdict, verdict_on
 
 NEUTRAL = [Outcome.PASS, Outcome.NOT_APPLICABLE]
 LEFT_OUT = [Outcome.SKIP, Outcome.WAIVED]

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from floatref.values.profile import Profile
+from floatref_conformance.checks.evidence import Evidence
 from floatref_conformance.classes import DeviceClass, Limits, lowest
-from floatref_conformance.judge.evidence import Evidence
 from floatref_conformance.proving_ground.scenario import Scenario
 
 

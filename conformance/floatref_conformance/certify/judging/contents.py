@@ -7,8 +7,8 @@ from enum import StrEnum
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.verdict import Verdict
 
 
 class Judged(StrEnum):
