@@ -11,6 +11,8 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 FlagArray = NDArray[np.uint8]
+Records = NDArray[np.record]
+"""Elements that have fields with names, read and written in place."""
 
 
 class Flag(IntFlag):
@@ -44,6 +46,12 @@ def frozen(values: ArrayLike) -> FloatArray:
     view = (array if array.flags.c_contiguous else array.copy()).view()
     view.flags.writeable = False
     return view
+
+
+def new_record(fields: np.dtype[np.void]) -> np.record:
+    """Return one record of these ``fields``, all zero; a deep copy has memory of its own."""
+    record: np.record = np.zeros(1, fields).view(np.recarray)[0]
+    return record
 
 
 def release(values: NDArray[Any]) -> None:

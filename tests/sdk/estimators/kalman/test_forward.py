@@ -5,14 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from floatref.kernels.kalman_layout import DRIFT, KINDS, OFFSET, STATES, TRUSTED
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman import forward, layout
-from floatref.estimators.kalman.layout import DRIFT, KINDS, OFFSET, STATES, TRUSTED
+from floatref.estimators.kalman import forward
 from floatref.estimators.kalman.noise import Noise
 from floatref.estimators.kalman.references import Plan
 from floatref.estimators.kalman.track import TrackFilter
+from floatref.kernels import kalman_layout as layout
 from floatref_reference.appendix_c.process_model import matrix_a, matrix_q, matrix_w
 from floatref_reference.chapter_6.section_6_1_3_multi_rate import multi_rate_update
 from floatref_reference.chapter_6.section_6_3_6_system import f, h

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from floatref.kernels.kalman_layout import CAPTURE, FORGET, REFLECTED, RELATIVE, RENEW, TRUSTED
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman.layout import CAPTURE, FORGET, REFLECTED, RELATIVE, RENEW, TRUSTED
 from floatref.estimators.kalman.noise import Noise
 from floatref.estimators.kalman.references import Plan, References, Stretch
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from floatref.kernels.kalman_layout import STATES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman.layout import STATES
 from floatref.estimators.smoothing import covariance
 
 laws = settings(deadline=None, max_examples=20)

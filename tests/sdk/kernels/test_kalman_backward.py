@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from floatref.kernels.kalman_layout import BIAS, LEAN, OFFSET, STATES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman import backward, layout
-from floatref.estimators.kalman.layout import BIAS, LEAN, OFFSET, STATES
+from floatref.kernels import kalman_backward
+from floatref.kernels import kalman_layout as layout
 
 STEP = 0.01
 TURNED = [2, 3, 5, 6]
@@ -64,7 +65,7 @@ def test_the_adjoint_goes_back_through_updates_and_transitions(seed, renewed):
     at, nodes, updates = drawn(seed, renewed)
     adjoint = np.random.default_rng(seed).normal(size=STATES)
     found, corrections = adjoint.copy(), np.empty((len(at), 4))
-    backward.smooth(at, nodes, updates, 5, STEP, found, corrections)
+    kalman_backward.smooth(at, nodes, updates, 5, STEP, found, corrections)
     expected = []
     for node, (F, done) in zip(nodes[::-1], [*parts(at, nodes, updates, 5)][::-1], strict=True):
         behind = -(covariance(node) @ adjoint)[:2]
@@ -84,7 +85,7 @@ def test_an_error_passes_on_through_the_closed_loop(seed, renewed, data):
     last = len(at) - 1
     wanted = [*sorted(data.draw(st.sets(st.integers(0, last - 1)))), last] if last else [0]
     passed, gathered = np.full((2, len(wanted), STATES, STATES), np.nan)
-    backward.closed_loop(at, nodes, updates, 5, STEP, np.array(wanted), passed, gathered)
+    kalman_backward.closed_loop(at, nodes, updates, 5, STEP, np.array(wanted), passed, gathered)
     psi, sums, k = np.eye(STATES), np.zeros((STATES, STATES)), 0
     for number, (F, done) in enumerate(parts(at, nodes, updates, 5)):
         psi = F @ psi
