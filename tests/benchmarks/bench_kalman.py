@@ -22,11 +22,11 @@ os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
 
 import kalman_peers as peers
 import numpy as np
-from floatref.kernels.kalman_layout import FORGET
 from kalman_task import TRACK, Prepared, Task
 from timing import RATE_HZ, in_turns, line, ratio, report_start
 
 from floatref.estimators.kalman import Noise, Plan
+from floatref.kernels.kalman_values import FORGET
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 

@@ -48,7 +48,7 @@ def marked(observations: Observations, sample: int, mark: int) -> Observations:
     return joined([head, alone, tail])
 
 
-def part(observations: Observations, where: slice) -> Observations:
+def part(observations: Observations, where: slice | IndexArray) -> Observations:
     """Return the observations ``where``."""
     return Observations(*(values[where] for values in observations))
 

@@ -1,12 +1,12 @@
 """GNSS readings that the filter does not believe are counted, and told by channel."""
 
 import pytest
-from floatref.kernels.kalman_layout import BELIEVED_AT
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.estimators.kalman.inputs import GNSS
+from floatref.kernels.kalman_values import BELIEVED_AT
 
 RATE, SECONDS, ORIGIN_S = 200, 8.0, 17.25
 WILD = (1.5, -3.0, 0.3, -0.3)

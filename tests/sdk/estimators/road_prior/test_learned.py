@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from floatref.kernels.road_prior_layout import LEAN, STATES, TILT
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.learned import Brake, pooled
+from floatref.kernels.road_prior_values import LEAN, STATES, TILT
 from floatref.values.channels import ChannelId
 
 HEIGHT = ChannelId("floating_reference_height", "left")

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from floatref.kernels.kalman_layout import STATES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.smoothing import covariance
+from floatref.kernels.kalman_values import STATES
 
 laws = settings(deadline=None, max_examples=20)
 SEEDS = st.integers(0, 2**32 - 1)
