@@ -2,7 +2,7 @@
 
 import mmap
 from enum import IntFlag
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,6 +46,11 @@ def frozen(values: ArrayLike) -> FloatArray:
     view = (array if array.flags.c_contiguous else array.copy()).view()
     view.flags.writeable = False
     return view
+
+
+def new_records(count: int, fields: np.dtype[np.void]) -> Records:
+    """Return ``count`` records of these ``fields``, all zero."""
+    return cast(Records, np.zeros(count, fields))
 
 
 def new_record(fields: np.dtype[np.void]) -> np.record:

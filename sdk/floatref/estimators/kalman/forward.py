@@ -443,9 +443,9 @@ def _believed(
         memory.in_a_row = 0.0 if kind == HEIGHT else memory.in_a_row
         return True
     if kind == HEIGHT:
-        memory.in_a_row += 1.0
-        if memory.in_a_row >= BELIEVED_AT:
-            memory.in_a_row = 0.0
+        another = memory.in_a_row + 1.0 >= BELIEVED_AT
+        memory.in_a_row = 0.0 if another else memory.in_a_row + 1.0
+        if another:
             state.p[DRIFT, DRIFT] += model.datum
             return True
     if memory.rejected[kind] == 0:

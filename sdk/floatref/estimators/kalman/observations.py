@@ -50,7 +50,8 @@ def marked(observations: Observations, sample: int, mark: int) -> Observations:
 
 def part(observations: Observations, where: slice | IndexArray) -> Observations:
     """Return the observations ``where``."""
-    return Observations(*(values[where] for values in observations))
+    at, marks, values, variances, drifted = observations
+    return Observations(at[where], marks[where], values[where], variances[where], drifted[where])
 
 
 def joined(parts: Sequence[Observations]) -> Observations:

@@ -77,12 +77,14 @@ class TrackFilter:
     ) -> "TrackFilter":
         """Return the filter before its first sample; ``arm`` leads to the antenna, in m."""
         length = sub_block(step)
+        white, roll, pitch, yaw, walk, walk_roll, walk_pitch = noise.process().tolist()
         model = Model(
             step,
             length,
             STANDARD_GRAVITY,
             *arm,
-            *noise.process().tolist(),
+            *(white, roll, pitch, yaw),
+            *(walk, walk_roll, walk_pitch),
             datum=DATUM_M**2,
             floors=np.array(FLOORS),
             lean=noise.lean_rad**2,

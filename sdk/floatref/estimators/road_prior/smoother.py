@@ -34,6 +34,7 @@ from floatref.values.arrays import (
     IndexArray,
     Records,
     frozen,
+    new_records,
 )
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
@@ -203,7 +204,7 @@ class RoadPriorSmoother(Stage):
         """Return what all wheel paths know at the nodes, see `road_prior_values`."""
         distance = block[ChannelId(DISTANCE)]
         quiet = self.memory["quiet"].take(block.first, distance) - block.first
-        ends = np.zeros(nodes.size, ENDS)
+        ends = new_records(nodes.size, ENDS)
         if nodes.size == 0:
             return ends
         a, response = known

@@ -6,7 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from floatref.values.arrays import FlagArray, FloatArray, IndexArray, Records, new_record
+from floatref.values.arrays import (
+    FlagArray,
+    FloatArray,
+    IndexArray,
+    Records,
+    new_record,
+    new_records,
+)
 
 CORRECTION = np.dtype(
     [
@@ -56,7 +63,7 @@ class Nodes:
     @classmethod
     def room(cls, kind: Kind, nodes: int, updates: int) -> "Nodes":
         """Return room for that many ``nodes`` and ``updates``."""
-        return cls(kind, np.empty(nodes, kind.node), np.empty(updates, kind.update))
+        return cls(kind, new_records(nodes, kind.node), new_records(updates, kind.update))
 
     @property
     def at(self) -> IndexArray:
@@ -107,7 +114,7 @@ class Nodes:
         """
         from floatref.kernels import backward
 
-        found = np.empty(len(self.rows), CORRECTION)
+        found = new_records(len(self.rows), CORRECTION)
         backward.smooth(self.rows, self.updates, before, step, adjoint, found)
         return found
 
