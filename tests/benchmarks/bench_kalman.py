@@ -26,7 +26,7 @@ from kalman_task import TRACK, Prepared, Task
 from timing import RATE_HZ, in_turns, line, ratio, report_start
 
 from floatref.estimators.kalman import Noise, Plan
-from floatref.estimators.kalman.layout import FORGET
+from floatref.estimators.models.kalman_values import FORGET
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 

@@ -45,10 +45,10 @@ SHORT = Scenario(
 """Its first four seconds are what the peers filter."""
 PARTS = {
     "road_prior.py": "filter forward",
-    "road_prior_backward.py:smooth": "smoother backward",
+    "backward.py:smooth": "smoother backward",
     "between_nodes.py": "smoother backward",
-    "road_prior_backward.py:correct": "smoother backward",
-    "road_prior_backward.py:closed_loop": "1-sigma, lag",
+    "backward.py:correct": "smoother backward",
+    "backward.py:closed_loop": "1-sigma, lag",
     "covariance.py": "1-sigma, lag",
     "excitation.py": "longitudinal acceleration",
 }

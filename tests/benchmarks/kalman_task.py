@@ -79,15 +79,20 @@ class Task:
         heard: list[Any] = []
         run = forward.run
 
-        def listening(u: Any, first: int, size: int, model: Any, *rest: Any) -> int:
-            at, marks, rows, x, p = rest[:5]
-            heard.append((u, at, marks, rows, size, model, x.copy(), np.diag(p).copy()))
-            return run(u, first, size, model, *rest)
+        def listening(model: Any, u: Any, observed: Any, state: Any, out: Any) -> int:
+            y, variances, drifted = observed[2:]
+            rows = np.hstack((y, variances, drifted[:, np.newaxis]))
+            x, variance = state.x.copy(), np.diag(state.p).copy()
+            heard.append((u[1:], observed.at, observed.marks, rows, model, x, variance))
+            return run(model, u, observed, state, out)
 
         with mock.patch.object(forward, "run", listening):
             self.height, self.sigma = prepared.result(plan, noise)
         inputs, at, marks, rows = zip(*(call[:4] for call in heard), strict=True)
-        self.sub_block, self.model, self.x, self.variance = heard[0][4:]
+        model, self.x, self.variance = heard[0][4:]
+        self.sub_block = model.sub_block
+        constants = (value for name, value in model._asdict().items() if name != "sub_block")
+        self.model = np.hstack([*constants])
         self.distance = np.concatenate([block[ChannelId(DISTANCE)] for block in prepared.blocks])
         self.u = [np.concatenate(pieces) for pieces in zip(*inputs, strict=True)]
         self.at = np.concatenate(at).astype(np.int64)

@@ -12,16 +12,12 @@ PACKAGES = {
     "reference_impl": "floatref_reference",
 }
 LONGEST = 260
-LONG = {
-    "sdk/floatref/estimators/kalman/forward.py": 570,
-    "sdk/floatref/estimators/road_prior/forward.py": 300,
-}
+LONG = {"sdk/floatref/estimators/kalman/forward.py": 580}
 """Compiled loops that call each other share a file, or their caches go stale."""
 FULL = 16
 SAME_ROLE = {
     "__main__": "what `python -m` runs",
     "adapter": "the class by which a format is read",
-    "backward": "the backward pass of a smoother",
     "command": "the sub-command of a folder of `cli`",
     "forward": "the forward pass of a filter",
 }

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
 from numba import njit
+from numba.extending import overload
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -30,3 +31,26 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     except RuntimeError:
         kernel = njit(**options)(function)
     return kernel
+
+
+def chosen(field: str, having: Callable[P, R], lacking: Callable[P, R]) -> Callable[P, R]:
+    """Return a function of three arguments for compiled callers, the first of them a record.
+
+    It is ``having`` where the record has a ``field`` of that name, else ``lacking``: that is
+    decided when the caller is compiled, for each type of record, and takes no time after that.
+    Both have to be in the file of their caller, for the sake of its cache.
+    """
+
+    def choice(*_: P.args, **__: P.kwargs) -> R:
+        raise NotImplementedError("only compiled functions can call this")
+
+    @overload(choice)
+    def choose(record: Any, value: Any, array: Any) -> Callable[..., Any]:
+        function: Any = having if field in record.fields else lacking
+
+        def call(record: Any, value: Any, array: Any) -> Any:
+            return function(record, value, array)
+
+        return call
+
+    return choice

@@ -2,7 +2,7 @@
 
 import mmap
 from enum import IntFlag
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,8 @@ FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 FlagArray = NDArray[np.uint8]
+Records = NDArray[np.record]
+"""Elements that have fields with names, read and written in place."""
 
 
 class Flag(IntFlag):
@@ -44,6 +46,17 @@ def frozen(values: ArrayLike) -> FloatArray:
     view = (array if array.flags.c_contiguous else array.copy()).view()
     view.flags.writeable = False
     return view
+
+
+def new_records(count: int, fields: np.dtype[np.void]) -> Records:
+    """Return ``count`` records of these ``fields``, all zero."""
+    return cast(Records, np.zeros(count, fields))
+
+
+def new_record(fields: np.dtype[np.void]) -> np.record:
+    """Return one record of these ``fields``, all zero; a deep copy has memory of its own."""
+    record: np.record = np.zeros(1, fields).view(np.recarray)[0]
+    return record
 
 
 def release(values: NDArray[Any]) -> None:

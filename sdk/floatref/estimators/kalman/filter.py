@@ -1,6 +1,6 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from floatref.estimators.kalman.inputs import (
     channel_of,
     stretch_of,
 )
-from floatref.estimators.kalman.layout import MEMORY, REJECTED, REJECTED_AT
 from floatref.estimators.kalman.noise import Noise
 from floatref.estimators.kalman.references import Plan
 from floatref.estimators.kalman.track import FLOORS, TrackFilter
@@ -36,18 +35,18 @@ from floatref.values.recording import ORIGIN
 UNITS = ("m", "m/s", "rad", "rad")
 
 
-def left_out(memories: FloatArray, origin_s: float, step: float) -> Iterator[str]:
+def left_out(memories: Sequence[np.record], origin_s: float, step: float) -> Iterator[str]:
     """Yield a line for each channel of GNSS with readings that were left out.
 
-    ``memories``, shape (tracks, MEMORY), are those of the filters of all wheel paths, which read
-    the same; sample 0 was at ``origin_s``, and ``step`` in s lies between two.
+    ``memories`` are those of the filters of all wheel paths, which read the same; sample 0 was at
+    ``origin_s``, and ``step`` in s lies between two.
     """
     for kind, (channel, floor, unit) in enumerate(zip(GNSS, FLOORS, UNITS, strict=True)):
-        counts = memories[:, REJECTED + kind]
-        if not counts.any():
+        found = [each for each in memories if each.rejected[kind]]
+        if not found:
             continue
-        at = memories[counts > 0.0, REJECTED_AT + kind].min()
-        count = int(counts.max())
+        at = min(int(each.rejected_at[kind]) for each in found)
+        count = max(int(each.rejected[kind]) for each in found)
         readings = "1 reading" if count == 1 else f"{count} readings"
         yield (
             f"channel {channel}: {readings} left out, more than {floor:.3g} {unit} and ten times "
@@ -109,7 +108,7 @@ class KalmanStage(Stage):
     def told(self) -> tuple[str, ...]:
         """Say which kinds of GNSS readings were left out, how often, and from when on."""
         filters: dict[str, TrackFilter] = self.memory["filters"]
-        memories = np.array([each.memory for each in filters.values()]).reshape(-1, MEMORY)
+        memories = [each.state.memory for each in filters.values()]
         assert self._header is not None
         return tuple(left_out(memories, self._header.origin, self._header.step))
 

@@ -6,9 +6,9 @@ from operator import itemgetter
 
 import numpy as np
 
-from floatref.estimators.kalman.layout import KINDS
 from floatref.estimators.kalman.references import Plan, Stretch
-from floatref.estimators.kalman.track import Inputs
+from floatref.estimators.models.kalman_values import HEIGHT as OF_HEIGHT
+from floatref.estimators.models.kalman_values import KINDS, Inputs
 from floatref.stages.signals import ACCELERATION, HEIGHT, TRAVEL_SPEED
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Block, Event, Header
@@ -52,10 +52,9 @@ class InputChannels:
         return cls(track, (longitudinal, lateral, ChannelId(ACCELERATION, track), *rates))
 
     def inputs(self, block: Block) -> Inputs:
-        """Return the six inputs; of Z the vertical acceleration."""
+        """Return the inputs; of Z the vertical acceleration."""
         # Read-only throughout: the kernel is compiled for one kind of array.
-        x, y, z, roll, pitch, yaw = (frozen(block[name]) for name in self.names)
-        return x, y, z, roll, pitch, yaw
+        return Inputs(block.first, *(frozen(block[name]) for name in self.names))
 
 
 @dataclass
@@ -83,7 +82,7 @@ class Readings:
 
     def _hold(self, events: Sequence[Event]) -> None:
         times, rows = np.array([event.time_s for event in events]), _rows(events)
-        usable = (rows[:, KINDS] == FIXED) & ~np.isnan(rows[:, 0])
+        usable = (rows[:, KINDS] == FIXED) & ~np.isnan(rows[:, OF_HEIGHT])
         times, rows = times[usable], rows[usable]
         if times.size == 0:
             return

@@ -4,54 +4,58 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from floatref.estimators.kalman.layout import KINDS, OBSERVATION
+from floatref.estimators.models.kalman_values import KINDS, Observations
 from floatref.values.arrays import FloatArray, IndexArray
 
 UNSEEN = np.full(KINDS, np.nan)
-Chunk = tuple[IndexArray, IndexArray, FloatArray]
-"""Samples (m,), marks (m,), and values with variances (m, 9) of observations in order."""
 
 
-def chunk_of(
+def observations_of(
     at: IndexArray,
     mark: int,
-    y: FloatArray,
-    variance: FloatArray,
-    moved: FloatArray | float = 0.0,
-) -> Chunk:
-    """Return observations ``y`` at the samples ``at``, all with the same ``mark``."""
-    rows = np.empty((at.size, OBSERVATION))
-    rows[:, :KINDS], rows[:, KINDS:-1], rows[:, -1] = y, variance, moved
-    return at, np.full(at.size, mark), rows
+    values: FloatArray,
+    variances: FloatArray,
+    drifted: FloatArray | float = 0.0,
+) -> Observations:
+    """Return ``values`` observed at the samples ``at``, all with the same ``mark``."""
+    y, r = np.empty((2, at.size, KINDS))
+    y[:], r[:] = values, variances
+    return Observations(at, np.full(at.size, mark), y, r, np.full(at.size, drifted, np.float64))
 
 
-def merged(one: Chunk, other: Chunk) -> Chunk:
+def merged(one: Observations, other: Observations) -> Observations:
     """Return both in the order of time; what comes at one sample becomes one observation."""
-    at = np.union1d(one[0], other[0])
-    marks, rows = np.zeros(at.size, np.int64), np.full((at.size, OBSERVATION), np.nan)
-    rows[:, -1] = 0.0
-    for times, mark, row in (one, other):
-        place = np.searchsorted(at, times)
-        marks[place] |= mark
-        rows[place] = np.where(np.isnan(row), rows[place], row)
-    return at, marks, rows
+    at = np.union1d(one.at, other.at)
+    found = observations_of(at, 0, UNSEEN, UNSEEN)
+    for part in (one, other):
+        place = np.searchsorted(at, part.at)
+        found.marks[place] |= part.marks
+        for rows, own in ((found.values, part.values), (found.variances, part.variances)):
+            rows[place] = np.where(np.isnan(own), rows[place], own)
+        found.drifted[place] = part.drifted
+    return found
 
 
-def marked(chunk: Chunk, sample: int, mark: int) -> Chunk:
-    """Return ``chunk`` with ``mark`` at ``sample``, which need not have an observation."""
-    at, marks, rows = chunk
+def marked(observations: Observations, sample: int, mark: int) -> Observations:
+    """Return ``observations`` with ``mark`` at ``sample``, where there need not be one."""
+    at = observations.at
     place = int(np.searchsorted(at, sample))
     if place < at.size and at[place] == sample:
-        marks[place] |= mark
-        return chunk
-    alone = chunk_of(np.array([sample]), mark, UNSEEN, UNSEEN)
-    head, tail = ((at[w], marks[w], rows[w]) for w in (slice(place), slice(place, None)))
+        observations.marks[place] |= mark
+        return observations
+    alone = observations_of(np.array([sample]), mark, UNSEEN, UNSEEN)
+    head, tail = part(observations, slice(place)), part(observations, slice(place, None))
     return joined([head, alone, tail])
 
 
-def joined(chunks: Sequence[Chunk]) -> Chunk:
-    """Return ``chunks``, each behind the one before, as one."""
-    if not chunks:
-        return np.empty(0, np.int64), np.empty(0, np.int64), np.empty((0, OBSERVATION))
-    at, marks, rows = zip(*chunks, strict=True)
-    return np.concatenate(at), np.concatenate(marks), np.concatenate(rows)
+def part(observations: Observations, where: slice | IndexArray) -> Observations:
+    """Return the observations ``where``."""
+    at, marks, values, variances, drifted = observations
+    return Observations(at[where], marks[where], values[where], variances[where], drifted[where])
+
+
+def joined(parts: Sequence[Observations]) -> Observations:
+    """Return ``parts``, each behind the one before, as one."""
+    if not parts:
+        return observations_of(np.empty(0, np.int64), 0, UNSEEN, UNSEEN)
+    return Observations(*(np.concatenate(values) for values in zip(*parts, strict=True)))

@@ -6,17 +6,20 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.estimators.kalman.layout import (
+from floatref.estimators.kalman.noise import Noise
+from floatref.estimators.kalman.observations import joined, marked, merged, observations_of
+from floatref.estimators.models.kalman_values import (
     CAPTURE,
     FORGET,
+    HEIGHT,
     KINDS,
+    PITCH,
     REFLECTED,
     RELATIVE,
     RENEW,
     TRUSTED,
+    Observations,
 )
-from floatref.estimators.kalman.noise import Noise
-from floatref.estimators.kalman.observations import Chunk, chunk_of, joined, marked, merged
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 PATIENCE_S = 0.5
@@ -107,16 +110,16 @@ class References:
     origin: float = np.nan
     last: tuple[int, int] = (0, 0)
 
-    def schedule(self, stretch: Stretch) -> Chunk:
+    def schedule(self, stretch: Stretch) -> Observations:
         """Return the observations of ``stretch``, which follows the one before."""
-        chunks = []
+        parts = []
         for part, standing in _runs(stretch, self.plan.reflects):
-            chunks.append(self._standing(part) if standing else self._moving(part))
-        chunk = chunks[0] if len(chunks) == 1 else joined(chunks)
-        told = np.flatnonzero(chunk[1] != FORGET)[-1:]
-        if told.size:
-            self.last = int(chunk[0][told[0]]), int(chunk[1][told[0]])
-        return chunk
+            parts.append(self._standing(part) if standing else self._moving(part))
+        found = parts[0] if len(parts) == 1 else joined(parts)
+        observed = np.flatnonzero(found.marks != FORGET)[-1:]
+        if observed.size:
+            self.last = int(found.at[observed[0]]), int(found.marks[observed[0]])
+        return found
 
     def ending(self, end: int) -> tuple[FloatArray, FloatArray]:
         """Return what to observe at sample ``end``, the last: values and variances, shape (4,).
@@ -131,23 +134,23 @@ class References:
         weight = 0.5 * (2 * behind + 1 - self.sub_block)
         if mark & RELATIVE and behind < self.sub_block and weight:
             y, variance = np.zeros(KINDS), self.noise.constants(weight * self.step)
-            y[0] = np.nan if mark & REFLECTED else 0.0
+            y[HEIGHT] = np.nan if mark & REFLECTED else 0.0
         return y, variance
 
-    def _moving(self, stretch: Stretch) -> Chunk:
+    def _moving(self, stretch: Stretch) -> Observations:
         self.origin = np.nan
         observed = self._observed(stretch, heights=True)
         for sample in stretch.quiet.tolist():
             observed = marked(observed, sample, FORGET)
         return observed
 
-    def _standing(self, stretch: Stretch) -> Chunk:
+    def _standing(self, stretch: Stretch) -> Observations:
         """Return the height sensor's readings in place of heights, the rest as ever."""
         beside = self._observed(stretch, heights=False)
-        beside[2][:, [0, -1]] = np.nan, 0.0
+        beside.values[:, HEIGHT], beside.drifted[:] = np.nan, 0.0
         return merged(beside, self._reflections(stretch))
 
-    def _observed(self, stretch: Stretch, heights: bool) -> Chunk:
+    def _observed(self, stretch: Stretch, heights: bool) -> Observations:
         """Return GNSS readings, and constants where they are missing."""
         end, taken = stretch.first + stretch.height.size, stretch.taken
         if not self.plan.gnss:
@@ -167,7 +170,7 @@ class References:
         self.latest = int(edges[-2])
         return merged(readings, joined(gaps)) if gaps else readings
 
-    def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Chunk:
+    def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Observations:
         """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
 
         The datum may have moved slowly since the reading before, and anywhere in an outage, behind
@@ -177,36 +180,36 @@ class References:
         if at.size == 0:
             return joined([])
         if np.isnan(self.datum):
-            self.datum = float(stretch.readings[0, 0]) - self.arm_m - self.start_m
+            self.datum = float(stretch.readings[0, HEIGHT]) - self.arm_m - self.start_m
         y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
         crowded = np.where(interval_s < READING_S, USUAL_S / interval_s, 1.0)
         variance = self.noise.readings() * crowded[:, None]
         if not self.plan.attitude:
-            y[:, 2:] = 0.0
-            variance[:, 2:] = self.noise.constants(USUAL_S)[2:] * crowded[:, None]
+            y[:, PITCH:] = 0.0
+            variance[:, PITCH:] = self.noise.constants(USUAL_S)[PITCH:] * crowded[:, None]
         moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
         moved[again] = DATUM_M**2
         self.heard = int(at[-1]) if heights else self.heard
-        return chunk_of(at, 0, y, variance, moved)
+        return observations_of(at, 0, y, variance, moved)
 
-    def _constants(self, begin: int, end: int) -> Chunk:
+    def _constants(self, begin: int, end: int) -> Observations:
         """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
         if at.size == 0:
             return joined([])
         weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
         variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
-        chunk = chunk_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
+        found = observations_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
         if not self.constant:
-            chunk[1][0] |= CAPTURE
+            found.marks[0] |= CAPTURE
         self.constant = True
-        return chunk
+        return found
 
     def _ends(self, begin: int, end: int) -> IndexArray:
         """Return the samples from ``begin`` up to ``end`` that end a sub-block."""
         return np.arange(-(-begin // self.sub_block) * self.sub_block, end, self.sub_block)
 
-    def _reflections(self, stretch: Stretch) -> Chunk:
+    def _reflections(self, stretch: Stretch) -> Observations:
         """Return the readings of the height sensor as its own motion, (6.58)-(6.60)."""
         at = self._ends(stretch.first, stretch.first + stretch.height.size)
         at = at[stretch.there[at - stretch.first]]
@@ -217,13 +220,13 @@ class References:
         if begins:
             self.origin = float(height[0])
         y = np.full((at.size, KINDS), np.nan)
-        y[:, 0] = height - self.origin
+        y[:, HEIGHT] = height - self.origin
         variance = np.full(KINDS, np.nan)
-        variance[0] = self.noise.reflection**2 / (self.sub_block * self.step)
-        chunk = chunk_of(at, TRUSTED | REFLECTED, y, variance)
+        variance[HEIGHT] = self.noise.reflection**2 / (self.sub_block * self.step)
+        found = observations_of(at, TRUSTED | REFLECTED, y, variance)
         if begins:
-            chunk[1][0] |= RENEW
-        return chunk
+            found.marks[0] |= RENEW
+        return found
 
 
 def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.estimators.road_prior.layout import ROAD, SLOPE
+from floatref.estimators.models.road_prior_values import ROAD, SLOPE, Model
 from floatref.values.arrays import FloatArray
 
 LEAST_MEMORY_M = 32.0
@@ -65,15 +65,25 @@ class RoadPrior:
             least = f"give {LEAST_MEMORY_M:g} m or more"
             raise InputError(f"setting road_memory_m: {self.road_memory_m:g} m; {least}")
 
-    def model(self, step: float) -> FloatArray:
-        """Return what the kernels take of them, for samples ``step`` in s apart."""
-        densities = self.acceleration, self.acceleration_walk, self.walk_along, self.reading_m
-        deviations = self.lean_sigma_rad, self.tilt_sigma, self.missing_acceleration
-        squares = np.square([*densities, *deviations])
-        road = self.road, self.road_reach_m
-        expected = self.lean_expected_rad, self.tilt_expected
-        others = self.long_waves, self.edge_sigmas**2, *expected
-        return np.array([step, *squares[:4], *road, *squares[4:], *others])
+    def model(self, step: float, sub_block: int) -> Model:
+        """Return what the kernels take of them: samples ``step`` in s apart, and of a sub-block."""
+        return Model(
+            step=step,
+            sub_block=sub_block,
+            white=_squared(self.acceleration),
+            walk=_squared(self.acceleration_walk),
+            walk_along=_squared(self.walk_along),
+            gap=_squared(self.missing_acceleration),
+            reading=_squared(self.reading_m),
+            road=float(self.road),
+            slope=float(self.long_waves),
+            reach=float(self.road_reach_m),
+            lean=float(self.lean_expected_rad),
+            tilt=float(self.tilt_expected),
+            lean_prior=_squared(self.lean_sigma_rad),
+            tilt_prior=_squared(self.tilt_sigma),
+            edge=float(self.edge_sigmas**2),
+        )
 
     def start(self) -> FloatArray:
         """Return the covariance before the first reading; the height is that of a flat road."""
@@ -84,3 +94,7 @@ class RoadPrior:
         found = np.diag([1.0, 1.0, bias, road_m2, self.long_waves * half, lean, tilt])
         found[ROAD, SLOPE] = found[SLOPE, ROAD] = self.long_waves * half**2
         return found
+
+
+def _squared(value: float) -> float:
+    return float(np.square(value))

@@ -10,245 +10,204 @@ from math import exp, expm1
 
 import numpy as np
 
-from floatref.estimators.road_prior.layout import (
-    ALONG,
-    ANEW,
-    BEFORE,
+from floatref.estimators.models.road_prior_values import (
     BIAS,
-    CLIMBS,
-    EDGE,
-    GAP,
-    INNOVATION,
-    JUMP,
-    LATEST,
+    HEIGHT,
     LEAN,
-    LEAN_EXPECTED,
-    LEAN_PRIOR,
-    MISSING,
-    ONCE,
-    READING,
-    RENEWED,
     ROAD,
-    ROAD_REACH,
-    ROAD_STEP,
-    SEEN,
     SLOPE,
-    SLOPE_STEP,
-    SPREAD,
     STATES,
-    STAYS,
-    STEP,
-    STEPS,
-    STILL,
     TILT,
-    TILT_EXPECTED,
-    TILT_PRIOR,
-    TRAVEL,
-    TWICE,
-    WALK,
-    WALK_ALONG,
-    WHITE,
+    VELOCITY,
+    Filter,
+    Inputs,
+    Model,
+    Output,
 )
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray, Records
 
 STANDING_S = 0.05
 """Where the vehicle has stood for so long, the laser may sway over an edge of the road."""
 
 
 @compiled
-def run(
-    a: FloatArray,
-    first: int,
-    sub_block: int,
-    model: FloatArray,
-    ends: FloatArray,
-    x: FloatArray,
-    p: FloatArray,
-    memory: FloatArray,
-    height: FloatArray,
-    node_at: IndexArray,
-    rows: FloatArray,
-    updates: FloatArray,
-) -> int:
-    """Advance by the accelerations ``a`` in m/s² and return the number of nodes.
+def run(model: Model, inputs: Inputs, state: Filter, out: Output) -> int:
+    """Filter the samples of ``inputs``, change ``state``, write ``out``; return how many nodes.
 
-    Sample number ``first`` is absolute; every multiple of ``sub_block`` is a node, and ``ends``
-    tells what is known there. ``x``, ``p`` and ``memory`` are changed; ``height`` gets the height
-    integrated from the node before, and ``node_at`` (k, 2), ``rows`` and ``updates`` what the
-    backward pass needs.
+    Every multiple of the sub-block is a node. Heights are integrated from the node before.
     """
-    count = 0
+    a, first, count = inputs.acceleration, inputs.first, 0
     # A literal 0 has what is called with it compiled once more.
     begin = done = int(np.int64(0))
     while begin < a.size:
-        node = begin + (-(first + begin)) % sub_block
-        _integrate(a, begin, min(node + 1, a.size), first, model[STEP], memory, height)
-        begin = node + 1
-        if node >= a.size:
+        at = begin + (-(first + begin)) % model.sub_block
+        _integrate(model.step, inputs, begin, min(at + 1, a.size), state.memory, out.height)
+        begin = at + 1
+        if at >= a.size:
             break
-        done = _node(model, ends[count], x, p, memory, rows[count], updates, done)
-        node_at[count, 0], node_at[count, 1] = first + node, done
-        height[node] = x[0]
+        node = out.nodes[count]
+        done = _node(model, inputs.ends[count], state, node, out.updates, done)
+        node.at = first + at
+        out.height[at] = state.x[HEIGHT]
         count += 1
     return count
 
 
 @compiled
 def end(
-    at: int,
-    model: FloatArray,
-    known: FloatArray,
-    x: FloatArray,
-    p: FloatArray,
-    memory: FloatArray,
-    node_at: IndexArray,
-    rows: FloatArray,
+    model: Model, at: int, known: np.record, state: Filter, nodes: Records, updates: Records
 ) -> int:
     """Make a node of sample ``at``, the last, unless it is one; returns how many it made."""
-    if memory[STEPS] == 0.0:
+    if state.memory.steps == 0.0:
         return 0
     nothing = int(np.int64(0))
-    _node(model, known, x, p, memory, rows[0], np.empty((1, STATES)), nothing)
-    node_at[0, 0], node_at[0, 1] = at, 0
+    _node(model, known, state, nodes[0], updates, nothing)
+    nodes[0].at = at
     return 1
 
 
 @compiled
 def _integrate(
-    a: FloatArray,
-    begin: int,
-    end: int,
-    first: int,
-    step: float,
-    memory: FloatArray,
-    height: FloatArray,
+    step: float, inputs: Inputs, begin: int, end: int, memory: np.record, height: FloatArray
 ) -> None:
-    if begin < end and first + begin == 0:
-        memory[LATEST] = a[0]
-        height[0] = memory[0]
+    """Add what accelerations linear between samples make of velocity and height."""
+    a = inputs.acceleration
+    if begin < end and inputs.first + begin == 0:
+        memory.acceleration = a[0]
+        height[0] = memory.height
         begin = 1
-    r, v, latest = memory[0], memory[1], memory[LATEST]
+    r, v, latest = memory.height, memory.velocity, memory.acceleration
     half, sixth = 0.5 * step, step * step / 6.0
     for i in range(begin, end):
         r += step * v + sixth * (2.0 * latest + a[i])
         v += half * (latest + a[i])
         latest = a[i]
         height[i] = r
-    memory[0], memory[1], memory[LATEST] = r, v, latest
-    memory[STEPS] += max(end - begin, 0)
+    memory.height, memory.velocity, memory.acceleration = r, v, latest
+    memory.steps += max(end - begin, 0)
 
 
 @compiled
 def _node(
-    model: FloatArray,
-    known: FloatArray,
-    x: FloatArray,
-    p: FloatArray,
-    memory: FloatArray,
-    row: FloatArray,
-    updates: FloatArray,
-    done: int,
+    model: Model, known: np.record, state: Filter, node: np.record, updates: Records, done: int
 ) -> int:
     """Predict to the node, begin lean and tilt anew if asked, and update by the reading."""
-    near_r, near_v = memory[0], memory[1]
-    span = memory[STEPS] * model[STEP]
-    for j in range(2):
-        row[ONCE + j] = 0.5 * span * (memory[BEFORE + j] + known[j])
-        row[TWICE + j] = span * span * (memory[BEFORE + j] / 3.0 + known[j] / 6.0)
-    row[STAYS] = exp(-known[TRAVEL] / model[ROAD_REACH])
-    row[CLIMBS] = row[STAYS] * known[TRAVEL]
+    x, p, memory = state.x, state.p, state.memory
+    near_r, near_v = memory.height, memory.velocity
+    span = memory.steps * model.step
+    _integrate_inputs(model, known, span, memory, node)
     if span > 0.0:
-        _predict(model, known, span, row, x, p, memory)
-    memory[STILL] = memory[STILL] + span if known[TRAVEL] <= 0.0 else 0.0
-    row[RENEWED] = known[ANEW]
-    if known[ANEW] > 0.0:
-        _renew(LEAN, model[LEAN_EXPECTED], model[LEAN_PRIOR], x, p)
-        _renew(TILT, model[TILT_EXPECTED], model[TILT_PRIOR], x, p)
-    if known[SEEN] == known[SEEN]:
-        innovation = known[SEEN] - x[0] + x[ROAD]
-        _let_go(innovation, model, memory[STILL], p)
-        _update(innovation, model[READING], x, p, updates[done])
+        _predict(model, known, span, node, state)
+    memory.still = memory.still + span if known.travel <= 0.0 else 0.0
+    node.renewed = known.anew
+    if known.anew > 0.0:
+        _renew(LEAN, model.lean, model.lean_prior, x, p)
+        _renew(TILT, model.tilt, model.tilt_prior, x, p)
+    if known.seen == known.seen:
+        innovation = known.seen - x[HEIGHT] + x[ROAD]
+        _let_go(model, innovation, memory.still, p)
+        _update(innovation, model.reading, x, p, updates[done])
         done += 1
-    row[JUMP], row[JUMP + 1] = x[0] - near_r, x[1] - near_v
-    at = SPREAD
-    for i in range(STATES):
-        for j in range(i, STATES):
-            row[at] = p[i, j]
-            at += 1
-    memory[0], memory[1], memory[STEPS] = x[0], x[1], 0.0
-    for j in range(3):
-        memory[BEFORE + j] = known[j]
+    node.rise, node.climb, node.updated = x[HEIGHT] - near_r, x[VELOCITY] - near_v, done
+    _keep_covariance(p, node)
+    memory.height, memory.velocity, memory.steps = x[HEIGHT], x[VELOCITY], 0.0
+    memory.leaning, memory.tilting, memory.along = known.leaning, known.tilting, known.along
     return done
 
 
 @compiled
-def _let_go(innovation: float, model: FloatArray, still: float, p: FloatArray) -> None:
+def _integrate_inputs(
+    model: Model, known: np.record, span: float, memory: np.record, node: np.record
+) -> None:
+    """Write the elements of F: inputs linear since the node before, and the road's memory."""
+    node.lean_once = 0.5 * span * (memory.leaning + known.leaning)
+    node.tilt_once = 0.5 * span * (memory.tilting + known.tilting)
+    node.lean_twice = span * span * (memory.leaning / 3.0 + known.leaning / 6.0)
+    node.tilt_twice = span * span * (memory.tilting / 3.0 + known.tilting / 6.0)
+    node.stays = exp(-known.travel / model.reach)
+    node.climbs = node.stays * known.travel
+
+
+@compiled
+def _keep_covariance(p: FloatArray, node: np.record) -> None:
+    upper, k = node.covariance, 0
+    for i in range(STATES):
+        for j in range(i, STATES):
+            upper[k] = p[i, j]
+            k += 1
+
+
+@compiled
+def _let_go(model: Model, innovation: float, still: float, p: FloatArray) -> None:
     """At a standstill, take the road for another one where a reading is too far off for this."""
     if still < STANDING_S:
         return
-    expected = p[0, 0] - 2.0 * p[0, ROAD] + p[ROAD, ROAD] + model[READING]
-    if innovation * innovation > model[EDGE] * expected:
+    expected = p[HEIGHT, HEIGHT] - 2.0 * p[HEIGHT, ROAD] + p[ROAD, ROAD] + model.reading
+    if innovation * innovation > model.edge * expected:
         p[ROAD, ROAD] += innovation * innovation
 
 
 @compiled
-def _predict(
-    model: FloatArray,
-    known: FloatArray,
-    span: float,
-    row: FloatArray,
-    x: FloatArray,
-    p: FloatArray,
-    memory: FloatArray,
-) -> None:
-    """Move x and P from the node before, whose height and velocity are integrated already."""
-    x[0] = memory[0] - 0.5 * span * span * x[BIAS] - row[TWICE] * x[LEAN] - row[TWICE + 1] * x[TILT]
-    x[1] = memory[1] - span * x[BIAS] - row[ONCE] * x[LEAN] - row[ONCE + 1] * x[TILT]
-    x[ROAD] = row[STAYS] * x[ROAD] + row[CLIMBS] * x[SLOPE]
-    x[SLOPE] *= row[STAYS]
+def _predict(model: Model, known: np.record, span: float, node: np.record, state: Filter) -> None:
+    """Move x, and P <- F P F' + Q, from the node before.
+
+    Height and velocity without the states' part are integrated already.
+    """
+    x, p, memory = state.x, state.p, state.memory
+    x[HEIGHT] = (
+        memory.height
+        - 0.5 * span * span * x[BIAS]
+        - node.lean_twice * x[LEAN]
+        - node.tilt_twice * x[TILT]
+    )
+    x[VELOCITY] = (
+        memory.velocity - span * x[BIAS] - node.lean_once * x[LEAN] - node.tilt_once * x[TILT]
+    )
+    x[ROAD] = node.stays * x[ROAD] + node.climbs * x[SLOPE]
+    x[SLOPE] *= node.stays
     # Rows of P F', and once turned, of F P F'.
     for i in range(STATES):
-        _carry(row, span, p[i])
+        _carry(node, span, p[i])
     for i in range(STATES):
         for j in range(i):
             p[i, j], p[j, i] = p[j, i], p[i, j]
     for i in range(STATES):
-        _carry(row, span, p[i])
-    along = 0.5 * (memory[BEFORE + ALONG] ** 2 + known[ALONG] ** 2)
-    walk = model[WALK] + model[WALK_ALONG] * along
-    white = model[WHITE] + (model[GAP] - model[WHITE]) * known[MISSING]
+        _carry(node, span, p[i])
+    along = 0.5 * (memory.along**2 + known.along**2)
+    walk = model.walk + model.walk_along * along
+    white = model.white + (model.gap - model.white) * known.missing
     t2, t3 = span * span, span * span * span
-    _spread(p, 0, 0, white * t3 / 3.0 + walk * t3 * t2 / 20.0)
-    _spread(p, 0, 1, white * t2 / 2.0 + walk * t2 * t2 / 8.0)
-    _spread(p, 1, 1, white * span + walk * t3 / 3.0)
-    _spread(p, 0, BIAS, -walk * t3 / 6.0)
-    _spread(p, 1, BIAS, -walk * t2 / 2.0)
+    _spread(p, HEIGHT, HEIGHT, white * t3 / 3.0 + walk * t3 * t2 / 20.0)
+    _spread(p, HEIGHT, VELOCITY, white * t2 / 2.0 + walk * t2 * t2 / 8.0)
+    _spread(p, VELOCITY, VELOCITY, white * span + walk * t3 / 3.0)
+    _spread(p, HEIGHT, BIAS, -walk * t3 / 6.0)
+    _spread(p, VELOCITY, BIAS, -walk * t2 / 2.0)
     _spread(p, BIAS, BIAS, walk * span)
-    _roughen(model, known[TRAVEL], p)
+    _roughen(model, known.travel, p)
 
 
 @compiled
-def _roughen(model: FloatArray, travel: float, p: FloatArray) -> None:
+def _roughen(model: Model, travel: float, p: FloatArray) -> None:
     """Add what ``travel`` in m brings of new road, without differences of exponentials."""
-    gone = 2.0 * travel / model[ROAD_REACH]
-    fresh = -0.5 * model[ROAD_REACH] * expm1(-gone)
+    gone = 2.0 * travel / model.reach
+    fresh = -0.5 * model.reach * expm1(-gone)
     # The integrals of x exp(-2x / reach) and of its x-fold, within 1e-3 gone^2.
     once = fresh * travel / (2.0 + gone / 3.0)
     twice = fresh * travel * travel / (3.0 + 0.75 * gone)
-    _spread(p, ROAD, ROAD, model[ROAD_STEP] * fresh + model[SLOPE_STEP] * twice)
-    _spread(p, ROAD, SLOPE, model[SLOPE_STEP] * once)
-    _spread(p, SLOPE, SLOPE, model[SLOPE_STEP] * fresh)
+    _spread(p, ROAD, ROAD, model.road * fresh + model.slope * twice)
+    _spread(p, ROAD, SLOPE, model.slope * once)
+    _spread(p, SLOPE, SLOPE, model.slope * fresh)
 
 
 @compiled
-def _carry(row: FloatArray, span: float, c: FloatArray) -> None:
+def _carry(node: np.record, span: float, c: FloatArray) -> None:
     """Replace ``c`` by F c."""
-    c[0] += span * (c[1] - 0.5 * span * c[BIAS])
-    c[0] -= row[TWICE] * c[LEAN] + row[TWICE + 1] * c[TILT]
-    c[1] -= span * c[BIAS] + row[ONCE] * c[LEAN] + row[ONCE + 1] * c[TILT]
-    c[ROAD] = row[STAYS] * c[ROAD] + row[CLIMBS] * c[SLOPE]
-    c[SLOPE] *= row[STAYS]
+    c[HEIGHT] += span * (c[VELOCITY] - 0.5 * span * c[BIAS])
+    c[HEIGHT] -= node.lean_twice * c[LEAN] + node.tilt_twice * c[TILT]
+    c[VELOCITY] -= span * c[BIAS] + node.lean_once * c[LEAN] + node.tilt_once * c[TILT]
+    c[ROAD] = node.stays * c[ROAD] + node.climbs * c[SLOPE]
+    c[SLOPE] *= node.stays
 
 
 @compiled
@@ -268,23 +227,25 @@ def _renew(state: int, expected: float, variance: float, x: FloatArray, p: Float
 
 @compiled
 def _update(
-    innovation: float, variance: float, x: FloatArray, p: FloatArray, update: FloatArray
+    innovation: float, variance: float, x: FloatArray, p: FloatArray, update: np.record
 ) -> None:
     """Joseph form with H of +1 for the height and -1 for the road."""
-    total = p[0, 0] - 2.0 * p[0, ROAD] + p[ROAD, ROAD] + variance
+    gain = update.gain
+    total = p[HEIGHT, HEIGHT] - 2.0 * p[HEIGHT, ROAD] + p[ROAD, ROAD] + variance
     for i in range(STATES):
-        update[i] = (p[i, 0] - p[i, ROAD]) / total
-        x[i] += update[i] * innovation
+        gain[i] = (p[i, HEIGHT] - p[i, ROAD]) / total
+        x[i] += gain[i] * innovation
+    # P (I - K H)', then (I - K H) times that, then K R K' added.
     for i in range(STATES):
-        seen = p[i, 0] - p[i, ROAD]
+        seen = p[i, HEIGHT] - p[i, ROAD]
         for j in range(STATES):
-            p[i, j] -= seen * update[j]
+            p[i, j] -= seen * gain[j]
     for j in range(STATES):
-        seen = p[0, j] - p[ROAD, j]
+        seen = p[HEIGHT, j] - p[ROAD, j]
         for i in range(STATES):
-            p[i, j] -= update[i] * seen
+            p[i, j] -= gain[i] * seen
     for i in range(STATES):
         for j in range(i, STATES):
-            p[i, j] += variance * update[i] * update[j]
+            p[i, j] += variance * gain[i] * gain[j]
             p[j, i] = p[i, j]
-    update[INNOVATION], update[INNOVATION + 1] = innovation / total, 1.0 / total
+    update.innovation, update.information = innovation / total, 1.0 / total

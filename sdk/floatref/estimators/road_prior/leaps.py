@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from floatref.estimators.road_prior.layout import INNOVATION, SEEN, TRAVEL
-from floatref.estimators.road_prior.nodes import RoadNodes
-from floatref.values.arrays import Flag, FlagArray, FloatArray
+from floatref.estimators.models.road_prior_values import HEIGHT, VELOCITY
+from floatref.estimators.smoothing.nodes import Nodes
+from floatref.values.arrays import Flag, FlagArray, FloatArray, Records
 
 LEAST_M = 0.01
 """Less than that is an edge of the road under a laser that sways: cracks, joints, leaves."""
@@ -20,33 +20,34 @@ class Leap(NamedTuple):
     by_m: float
 
 
-def changes(nodes: RoadNodes, ends: FloatArray) -> FloatArray:
+def changes(nodes: Nodes, ends: Records) -> FloatArray:
     """Return what the readings of ``nodes`` change in height, in m, and velocity, in m/s.
 
-    Shape (2, n); for ``ends`` see `road_prior_layout`.
+    Shape (2, n); for ``ends`` see `road_prior_values`.
     """
     found = np.zeros((2, len(ends)))
-    found[:, ~np.isnan(ends[:, SEEN])] = nodes.updates[:, :2].T * _innovations(nodes)
+    gain = nodes.updates["gain"][:, [HEIGHT, VELOCITY]]
+    found[:, ~np.isnan(ends["seen"])] = gain.T * _innovations(nodes)
     return found
 
 
-def leaps(nodes: RoadNodes, ends: FloatArray, edge: float) -> list[Leap]:
+def leaps(nodes: Nodes, ends: Records, edge: float) -> list[Leap]:
     """Return the readings at a standstill for which the road was let go, if far enough off.
 
     ``edge`` is the square of how many deviations off that needs.
     """
-    seen = ~np.isnan(ends[:, SEEN])
-    innovation, standing = _innovations(nodes), ends[seen, TRAVEL] <= 0.0
+    seen = ~np.isnan(ends["seen"])
+    innovation, standing = _innovations(nodes), ends["travel"][seen] <= 0.0
     # The square of the innovation was added to its variance there.
-    share = innovation**2 * nodes.updates[:, INNOVATION + 1]
+    share = innovation**2 * nodes.updates["information"]
     let_go = (share >= edge / (1.0 + edge)) & (share < 1.0)
     there = np.flatnonzero(standing & let_go & (np.abs(innovation) > LEAST_M))
-    samples = nodes.at[seen, 0][there].tolist()
+    samples = nodes.at[seen][there].tolist()
     return [Leap(*each) for each in zip(samples, innovation[there].tolist(), strict=True)]
 
 
-def _innovations(nodes: RoadNodes) -> FloatArray:
-    found: FloatArray = nodes.updates[:, INNOVATION] / nodes.updates[:, INNOVATION + 1]
+def _innovations(nodes: Nodes) -> FloatArray:
+    found: FloatArray = nodes.updates["innovation"] / nodes.updates["information"]
     return found
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.estimators.models.road_prior_values import LEAN, TILT
 from floatref.estimators.road_prior.constants import RoadPrior
-from floatref.estimators.road_prior.layout import LEAN, TILT
 from floatref.values.arrays import FloatArray
 
 BOTH = np.array([LEAN, TILT])

@@ -7,18 +7,9 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.estimators.kalman.inputs import Quiet
+from floatref.estimators.models.road_prior_values import ENDS, Inputs
 from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
-from floatref.estimators.road_prior.layout import (
-    ALONG,
-    ANEW,
-    ENDS,
-    LEANING,
-    MISSING,
-    SEEN,
-    TILTING,
-    TRAVEL,
-)
 from floatref.estimators.road_prior.leaps import lines, marked
 from floatref.estimators.road_prior.learned import pooled
 from floatref.estimators.road_prior.track import RoadTrack, sub_block
@@ -35,7 +26,16 @@ from floatref.stages.signals import (
     REFERENCE_HEIGHT,
     SIGMA,
 )
-from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray, frozen
+from floatref.values.arrays import (
+    BoolArray,
+    Flag,
+    FlagArray,
+    FloatArray,
+    IndexArray,
+    Records,
+    frozen,
+    new_records,
+)
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -130,7 +130,7 @@ class RoadPriorSmoother(Stage):
         ending = {name: (each.end(at, travel), None) for name, each in filters.items()}
         for name, each in filters.items():
             # A node now, with the bias and the tilt since the one before.
-            backlog.lines[name].heights[-1][1][-1] = each.x[0]
+            backlog.lines[name].heights[-1][1][-1] = each.height_m
         backlog.finish(ending)
         return tuple(map(self._doubted, backlog.come_out()))
 
@@ -180,12 +180,12 @@ class RoadPriorSmoother(Stage):
         for track in self._header.tracks:
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
             ends, a = shared.copy(), block[vertical]
-            ends[:, SEEN] = _trusted(block, range_, nodes)
+            ends["seen"] = _trusted(block, range_, nodes)
             share = self._missing(track, _lost(block, vertical), len(block), nodes)
-            ends[:, MISSING] = np.maximum(shared[:, MISSING], share)
+            ends["missing"] = np.maximum(shared["missing"], share)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
-            passed = own.advance(values, block.first, ends)
+            passed = own.advance(Inputs(block.first, values, ends))
             flags = flags_of(block, vertical, range_)
             flags = marked(flags, own.leaps, block.first, len(block))
             found[track] = Filtered(*passed, flags)
@@ -200,19 +200,19 @@ class RoadPriorSmoother(Stage):
             filters[track] = RoadTrack.of(self.constants, self._header.step, start)
         return filters[track]
 
-    def _shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> FloatArray:
-        """Return what all wheel paths know at the nodes, see `road_prior_layout`."""
+    def _shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> Records:
+        """Return what all wheel paths know at the nodes, see `road_prior_values`."""
         distance = block[ChannelId(DISTANCE)]
         quiet = self.memory["quiet"].take(block.first, distance) - block.first
-        ends = np.zeros((nodes.size, ENDS))
+        ends = new_records(nodes.size, ENDS)
         if nodes.size == 0:
             return ends
         a, response = known
-        ends[:, LEANING], ends[:, TILTING], ends[:, ALONG] = a, a * response, a
-        ends[:, TRAVEL] = self._travel(distance[nodes])
+        ends["leaning"], ends["tilting"], ends["along"] = a, a * response, a
+        ends["travel"] = self._travel(distance[nodes])
         if UNKNOWN in block.values:
-            ends[:, MISSING] = block[UNKNOWN][nodes]
-        ends[np.searchsorted(nodes, quiet), ANEW] = 1.0
+            ends["missing"] = block[UNKNOWN][nodes]
+        ends["anew"][np.searchsorted(nodes, quiet)] = 1.0
         return ends
 
     def _travel(self, places: FloatArray) -> FloatArray:

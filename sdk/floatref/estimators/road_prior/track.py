@@ -5,34 +5,29 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.estimators.road_prior.constants import RoadPrior
-from floatref.estimators.road_prior.layout import (
-    ANEW,
-    BEFORE,
-    EDGE,
+from floatref.estimators.models.road_prior_values import (
     ENDS,
-    LEAN_PRIOR,
+    HEIGHT,
     MEMORY,
-    MODEL,
-    READING,
-    ROAD_STEP,
-    SEEN,
-    SLOPE_STEP,
+    NODE,
     STATES,
-    STILL,
-    TILT_PRIOR,
-    TRAVEL,
+    UPDATE,
+    Filter,
+    Inputs,
+    Model,
+    Output,
 )
+from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.estimators.road_prior.leaps import Leap, changes, leaps
 from floatref.estimators.road_prior.learned import BOTH, Brake
-from floatref.estimators.road_prior.nodes import RoadNodes
 from floatref.estimators.road_prior.spectrum import RoadSpectrum
-from floatref.values.arrays import FloatArray
+from floatref.estimators.smoothing.nodes import Kind, Nodes
+from floatref.values.arrays import FloatArray, Records, new_record
 
+NODES = Kind(NODE, UPDATE, np.eye(STATES), np.eye(STATES))
+"""The road tells every state in time, at a stop as well."""
 NODES_PER_S = 500.0
 """A node every 32 samples at 16 kHz."""
-
-
 RENEWAL = 500
 """After so many nodes the road is taken for what it has been."""
 
@@ -47,8 +42,8 @@ class RoadTrack:
     """State and covariance of the filter of one wheel path.
 
     Attributes:
-        model, x, p, memory: see `road_prior_layout`.
-        sub_block: samples between two nodes.
+        model: what sensors, vehicle and road are taken for at present.
+        state: x, P and what goes from sample to sample.
         spectrum: of the road that it has gone.
         bends: how far the road bends, in m, from which sample on.
         reading_m2: least variance of a reading of the height sensor, in m².
@@ -56,11 +51,8 @@ class RoadTrack:
         leaps: of the height sensor at standstills.
     """
 
-    model: FloatArray
-    sub_block: int
-    x: FloatArray
-    p: FloatArray
-    memory: FloatArray
+    model: Model
+    state: Filter
     spectrum: RoadSpectrum
     bends: list[tuple[int, float]]
     reading_m2: float
@@ -70,66 +62,67 @@ class RoadTrack:
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
         """Return the filter before its first sample, at the height ``start_m``."""
-        model = constants.model(step)
-        assert model.size == MODEL
-        x, memory = np.zeros(STATES), np.zeros(MEMORY)
-        x[0] = memory[0] = start_m
-        x[BOTH] = constants.lean_expected_rad, constants.tilt_expected
-        spectrum = RoadSpectrum.of(constants, step * sub_block(step))
-        begun = model, sub_block(step), x, constants.start(), memory
-        return cls(*begun, spectrum, [(0, spectrum.bend_m)], float(model[READING]))
+        model = constants.model(step, sub_block(step))
+        state = Filter(np.zeros(STATES), constants.start(), new_record(MEMORY))
+        state.x[HEIGHT] = state.memory.height = start_m
+        state.x[BOTH] = constants.lean_expected_rad, constants.tilt_expected
+        spectrum = RoadSpectrum.of(constants, step * model.sub_block)
+        return cls(model, state, spectrum, [(0, spectrum.bend_m)], model.reading)
 
-    def advance(self, a: FloatArray, first: int, ends: FloatArray) -> tuple[FloatArray, RoadNodes]:
-        """Return the heights integrated from the accelerations ``a``, in m, and the nodes.
-
-        ``ends`` has a row for each node, see `road_prior_layout`.
-        """
-        height, parts = np.empty(a.size), [RoadNodes.room(0, 0)]
+    def advance(self, u: Inputs) -> tuple[FloatArray, Nodes]:
+        """Return the heights integrated from the accelerations of ``u``, in m, and the nodes."""
+        a, first, ends = u.acceleration, u.first, u.ends
+        height, parts = np.empty(a.size), [Nodes.room(NODES, 0, 0)]
         roads, brakes = self._changes(first, a.size, ends)
         cuts = sorted({first, *roads, *brakes, first + a.size})
         for low, high in pairwise(cuts):
             if low in roads:
-                self.model[[ROAD_STEP, SLOPE_STEP]] = self.spectrum.road()
-                self.model[READING] = max(self.reading_m2, self.spectrum.reading_m2())
-                self.bends.append((low, self.spectrum.bend_m))
+                self._renew_road(low)
             if low in brakes:
                 self.brakes = self.told()
-            count = -(-high // self.sub_block) - -(-low // self.sub_block)
+            count = -(-high // self.model.sub_block) - -(-low // self.model.sub_block)
             inside = slice(low - first, high - first)
-            parts.append(self._advance(a[inside], low, ends[:count], height[inside]))
+            parts.append(self._advance(Inputs(low, a[inside], ends[:count]), height[inside]))
             ends = ends[count:]
-        return height, RoadNodes.joined(parts)
+        return height, Nodes.joined(parts)
+
+    @property
+    def height_m(self) -> float:
+        """The filtered height at the latest node."""
+        return float(self.state.x[HEIGHT])
+
+    def _renew_road(self, sample: int) -> None:
+        """Take the road from ``sample`` on for what it has been."""
+        road, slope = self.spectrum.road().tolist()
+        reading = max(self.reading_m2, self.spectrum.reading_m2())
+        self.model = self.model._replace(road=road, slope=slope, reading=reading)
+        self.bends.append((sample, self.spectrum.bend_m))
 
     def told(self) -> list[Brake]:
         """Return the brakes that have told of lean and tilt, with the one that has not ended."""
-        latest = Brake.of(self.x, self.p)
-        news = latest.tells(self.model[[LEAN_PRIOR, TILT_PRIOR]])
+        latest = Brake.of(self.state.x, self.state.p)
+        news = latest.tells(np.array([self.model.lean_prior, self.model.tilt_prior]))
         return [*self.brakes, latest] if news else self.brakes
 
-    def _changes(self, first: int, size: int, ends: FloatArray) -> tuple[set[int], set[int]]:
+    def _changes(self, first: int, size: int, ends: Records) -> tuple[set[int], set[int]]:
         """Return samples at which the road is renewed, and before which a brake has ended.
 
         The latter follow the node before the one where lean and tilt begin anew.
         """
-        every = self.sub_block * RENEWAL
-        nodes = -(-first // self.sub_block) + np.flatnonzero(ends[:, ANEW] > 0.0)
-        behind = np.maximum((nodes - 1) * self.sub_block + 1, first)
+        every = self.model.sub_block * RENEWAL
+        nodes = -(-first // self.model.sub_block) + np.flatnonzero(ends["anew"] > 0.0)
+        behind = np.maximum((nodes - 1) * self.model.sub_block + 1, first)
         return {*range(first + -first % every, first + size, every)}, {*behind.tolist()}
 
-    def _advance(
-        self, a: FloatArray, first: int, ends: FloatArray, height: FloatArray
-    ) -> RoadNodes:
+    def _advance(self, u: Inputs, height: FloatArray) -> Nodes:
         from floatref.estimators.road_prior import forward
 
-        nodes = RoadNodes.room(len(ends), len(ends))
-        kept = nodes.at, nodes.rows, nodes.updates
-        state = self.x, self.p, self.memory
-        count = forward.run(a, first, self.sub_block, self.model, ends, *state, height, *kept)
-        found = nodes.filled(count)
-        at = found.at[:, 0]
-        elevation = height[at - first] - ends[:, SEEN]
-        self.spectrum.add(elevation, ends[:, TRAVEL], changes(found, ends))
-        self.leaps += leaps(found, ends, self.model[EDGE])
+        nodes = Nodes.room(NODES, len(u.ends), len(u.ends))
+        out = Output(height, nodes.rows, nodes.updates)
+        found = nodes.filled(forward.run(self.model, u, self.state, out))
+        elevation = height[found.at - u.first] - u.ends["seen"]
+        self.spectrum.add(elevation, u.ends["travel"].copy(), changes(found, u.ends))
+        self.leaps += leaps(found, u.ends, self.model.edge)
         return found
 
     def bends_of(self, first: int, size: int) -> FloatArray:
@@ -142,13 +135,13 @@ class RoadTrack:
         ]
         return found
 
-    def end(self, at: int, travel_m: float) -> RoadNodes:
+    def end(self, at: int, travel_m: float) -> Nodes:
         """Return a node at sample ``at``, the last, or none if it is one already."""
         from floatref.estimators.road_prior import forward
 
-        known = np.full(ENDS, np.nan)
-        known[:3], known[3:] = self.memory[BEFORE:STILL], (travel_m, np.nan, 0.0, 0.0)
-        nodes = RoadNodes.room(1, 0)
-        state = self.x, self.p, self.memory
-        count = forward.end(at, self.model, known, *state, nodes.at, nodes.rows)
+        known, memory = new_record(ENDS), self.state.memory
+        known.leaning, known.tilting, known.along = memory.leaning, memory.tilting, memory.along
+        known.travel, known.seen = travel_m, np.nan
+        nodes = Nodes.room(NODES, 1, 1)
+        count = forward.end(self.model, at, known, self.state, nodes.rows, nodes.updates)
         return nodes.filled(count)

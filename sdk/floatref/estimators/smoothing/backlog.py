@@ -63,7 +63,7 @@ class Backlog:
         for track, passed in found.items():
             line = self.lines[track]
             line.heights.append((block.first, passed.height))
-            line.add(passed.nodes, distance[passed.nodes.at[:, 0] - block.first])
+            line.add(passed.nodes, distance[passed.nodes.at - block.first])
             flags.update(_flagged(track, passed))
         full = range(block.first // self.length, (block.first + len(block)) // self.length)
         for number in full:

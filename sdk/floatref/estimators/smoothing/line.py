@@ -10,7 +10,7 @@ from floatref.estimators.smoothing.lag import changes
 from floatref.estimators.smoothing.nodes import Nodes
 from floatref.estimators.smoothing.segment import Marks, Segment
 from floatref.estimators.smoothing.sigma import REACH, Settled, sigma
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray, IndexArray, Records
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Line:
         self._settle(count)
         del self.segments[:count]
 
-    def _smooth(self, found: Sequence[tuple[Segment, FloatArray, FloatArray]]) -> None:
+    def _smooth(self, found: Sequence[tuple[Segment, Records, FloatArray]]) -> None:
         """Correct the heights of segments by the corrections at their nodes, with lambda before.
 
         What has come out stays, and what follows begins there.
@@ -107,13 +107,13 @@ class Line:
         for segment, corrections, behind in found:
             start = segment.start(behind)
             if segment is self.segments[0] and self.behind is not None:
-                shift = self.told - float(start[2])
+                shift = self.told - float(start.far_height)
             shift = segment.shift(start, corrections, shift, place)
             place = float(np.fmax(place, segment.marks.distance_m[-1]))
             low = bisect_right(firsts, segment.before + 1) - 1
             pieces = self.heights[low : bisect_right(firsts, segment.last)]
             segment.smooth(corrections, start, self.rule.step, pieces)
-            self.told = float(corrections[-1, 2])
+            self.told = float(corrections["far_height"][-1])
 
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""

@@ -1,102 +1,166 @@
 """What a filter leaves behind for the backward pass."""
 
-from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar, NamedTuple, Self
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from floatref.values.arrays import FlagArray, FloatArray, IndexArray
+from floatref.values.arrays import (
+    FlagArray,
+    FloatArray,
+    IndexArray,
+    Records,
+    new_record,
+    new_records,
+)
+
+CORRECTION = np.dtype(
+    [
+        (f"{side}_{state}", np.float64)
+        for side in ("near", "far")
+        for state in ("height", "velocity")
+    ],
+    align=True,
+)
+"""What is added to height and velocity at a node, on the near and on the far side of its update."""
 
 
-@dataclass(eq=False)
-class Nodes(ABC):
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """What the nodes of one kind of filter have of their own.
+
+    Attributes:
+        node: fields of a node, among them `at`, the sample, `updated`, the end of its updates, how
+            far these `rise` and `climb`, and the upper half of the `covariance`.
+        update: fields of a scalar update, among them `gain`, `innovation` and `information`.
+        seen: what readings to come can tell of a state, shape (m, states).
+        standing: the same at a stop.
+    """
+
+    node: np.dtype[np.void]
+    update: np.dtype[np.void]
+    seen: FloatArray
+    standing: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
     """The nodes of a stretch of a wheel path: places where the filter's covariance is known.
 
     The first state is the height, the second its velocity.
 
     Attributes:
-        at: sample, and end of the updates, shape (k, 2).
-        rows: what the filter keeps of a node, shape (k, width).
-        updates: what it keeps of a scalar update, shape (m, update_width).
+        kind: of the filter.
+        rows: one for each node.
+        updates: one for each scalar update, in order.
     """
 
-    states: ClassVar[int]
-    width: ClassVar[int]
-    update_width: ClassVar[int]
-
-    at: IndexArray
-    rows: FloatArray
-    updates: FloatArray
+    kind: Kind
+    rows: Records
+    updates: Records
 
     @classmethod
-    def room(cls, nodes: int, updates: int) -> Self:
-        """Return room for so many ``nodes`` and ``updates``."""
-        rows, kept = np.empty((nodes, cls.width)), np.empty((updates, cls.update_width))
-        return cls(np.empty((nodes, 2), np.int64), rows, kept)
+    def room(cls, kind: Kind, nodes: int, updates: int) -> "Nodes":
+        """Return room for that many ``nodes`` and ``updates``."""
+        return cls(kind, new_records(nodes, kind.node), new_records(updates, kind.update))
 
-    def filled(self, count: int) -> Self:
+    @property
+    def at(self) -> IndexArray:
+        """The samples of the nodes, shape (k,)."""
+        at: IndexArray = self.rows["at"]
+        return at
+
+    @property
+    def states(self) -> int:
+        """The number of states."""
+        return int(self.kind.seen.shape[1])
+
+    def filled(self, count: int) -> "Nodes":
         """Return the first ``count``, without the room behind them."""
-        end = int(self.at[count - 1, 1]) if count else 0
-        return type(self)(self.at[:count], self.rows[:count], self.updates[:end])
+        end = int(self.rows["updated"][count - 1]) if count else 0
+        return replace(self, rows=self.rows[:count], updates=self.updates[:end])
 
-    def parted(self, sample: int) -> tuple[Self, Self]:
+    def parted(self, sample: int) -> tuple["Nodes", "Nodes"]:
         """Return those before ``sample``, and those behind."""
-        count = int(np.searchsorted(self.at[:, 0], sample))
-        head = self.filled(count)
+        head = self.filled(int(np.searchsorted(self.at, sample)))
         end = len(head.updates)
-        at = self.at[count:] - np.array([0, end])
-        return head, type(self)(at, self.rows[count:], self.updates[end:])
+        rows = _moved(self.rows[len(head.rows) :], -end)
+        return head, replace(self, rows=rows, updates=self.updates[end:])
 
     @classmethod
-    def joined(cls, parts: Sequence[Self]) -> Self:
+    def joined(cls, parts: Sequence["Nodes"]) -> "Nodes":
         """Return ``parts``, one or more and each behind the one before, as one."""
-        parts = [part for part in parts if len(part.at)] or parts[:1]
+        parts = [part for part in parts if len(part.rows)] or parts[:1]
         if len(parts) == 1:
             return parts[0]
-        ends = np.cumsum([0, *(len(p.updates) for p in parts)])
-        at = [p.at + np.array([0, end]) for p, end in zip(parts, ends, strict=False)]
-        rows, updates = [p.rows for p in parts], [p.updates for p in parts]
-        return cls(np.concatenate(at), np.concatenate(rows), np.concatenate(updates))
+        ends = np.cumsum([0, *(len(part.updates) for part in parts)])
+        rows = [_moved(part.rows, end) for part, end in zip(parts, ends.tolist(), strict=False)]
+        updates = np.concatenate([part.updates for part in parts])
+        return cls(parts[0].kind, np.concatenate(rows), updates)
 
-    def last(self) -> Self:
+    def last(self) -> "Nodes":
         """Return the last node alone, without its updates."""
-        at = np.array([[self.at[-1, 0], 0]])
-        return type(self)(at, self.rows[-1:].copy(), self.updates[:0])
+        rows = self.rows[-1:].copy()
+        rows["updated"] = 0
+        return replace(self, rows=rows, updates=self.updates[:0])
 
-    @abstractmethod
-    def back(self, before: int, step: float, adjoint: FloatArray) -> FloatArray:
-        """Return the corrections of height and velocity on both sides of each node, shape (k, 4).
+    def back(self, before: int, step: float, adjoint: FloatArray) -> Records:
+        """Return the corrections at each node.
 
-        ``adjoint``, shape (states,), is lambda behind the last node and becomes that behind the
-        sample ``before``, where the node before these lies; ``step`` in s lies between samples.
+        It goes back by (I - K H)' and F', in place of (6.17). ``adjoint``, shape (states,), is
+        lambda behind the last node and becomes that behind the sample ``before``, where the node
+        before these lies; ``step`` in s lies between samples.
         """
+        from floatref.estimators.smoothing import backward
 
-    @abstractmethod
-    def correction(self, adjoint: FloatArray) -> FloatArray:
-        """Return the correction behind the last node, shape (4,), by lambda there."""
+        found = new_records(len(self.rows), CORRECTION)
+        backward.smooth(self.rows, self.updates, before, step, adjoint, found)
+        return found
 
-    @abstractmethod
+    def correction(self, adjoint: FloatArray) -> np.record:
+        """Return the correction on the far side of the last node, -P lambda, by lambda there."""
+        from floatref.estimators.smoothing import backward
+
+        found = new_record(CORRECTION)
+        backward.correct(self.rows[-1], adjoint, found)
+        return found
+
     def passes(self, before: int, step: float, chosen: IndexArray) -> tuple[FloatArray, FloatArray]:
         """Return how errors pass on between the nodes ``chosen``, shapes (n, states, states).
 
         The first is Psi, the product of (I - K H) F from the one chosen before (the first from
         ``before``), the second the sum of Psi' H' H Psi / S on the way.
         """
+        from floatref.estimators.smoothing import backward
 
-    @abstractmethod
+        passed, gathered = np.empty((2, chosen.size, self.states, self.states))
+        backward.closed_loop(self.rows, self.updates, before, step, chosen, passed, gathered)
+        return passed, gathered
+
     def column(self, chosen: IndexArray) -> FloatArray:
         """Return P e_r at the nodes ``chosen``, shape (n, states)."""
+        column: FloatArray = self.rows["covariance"][chosen, : self.states]
+        return column
 
-    @abstractmethod
     def latest(self) -> FloatArray:
         """Return P at the last node, shape (states, states)."""
+        found, upper = np.empty((self.states, self.states)), np.triu_indices(self.states)
+        found[upper] = found.T[upper] = self.rows["covariance"][-1]
+        return found
 
-    @classmethod
-    @abstractmethod
-    def seen(cls, standing: bool) -> FloatArray:
+    def seen(self, standing: bool) -> FloatArray:
         """Return what readings to come can tell of a state, shape (m, states)."""
+        return self.kind.standing if standing else self.kind.seen
+
+
+def _moved(rows: Records, by: int) -> Records:
+    """Return ``rows`` whose updates are counted from ``by`` places further back."""
+    if by == 0:
+        return rows
+    moved = rows.copy()
+    moved["updated"] += by
+    return moved
 
 
 class Filtered(NamedTuple):
@@ -111,9 +175,3 @@ class Filtered(NamedTuple):
     height: FloatArray
     nodes: Nodes
     flags: FlagArray | None
-
-
-def upper(states: int) -> tuple[IndexArray, IndexArray]:
-    """Return where the upper half of a covariance has its entries, row by row."""
-    rows, columns = np.triu_indices(states)
-    return rows, columns

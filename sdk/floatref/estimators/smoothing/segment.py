@@ -5,36 +5,38 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.estimators.smoothing.nodes import Nodes
+from floatref.estimators.smoothing.nodes import CORRECTION, Nodes
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray, IndexArray, Records, new_record
 
 
 @compiled
 def interpolate(
-    node_at: IndexArray,
-    corrections: FloatArray,
+    begin: int,
+    start: np.record,
+    at: IndexArray,
+    corrections: Records,
     first: int,
-    start: FloatArray,
     step: float,
     height: FloatArray,
 ) -> None:
-    """Add the corrections to the filtered ``height`` of samples ``first`` on.
+    """Add the corrections at nodes ``at`` to the filtered ``height`` of samples ``first`` on.
 
-    ``start`` holds sample number, height and velocity correction of the node before.
+    ``start`` is the correction of the node before, at sample ``begin``. Between two nodes it is the
+    cubic of values and slopes at both.
     """
-    begin, r_0, v_0, behind = int(start[0]), start[1], start[2], first + height.size
-    for k in range(node_at.shape[0]):
-        end = node_at[k, 0]
+    r_0, v_0, behind = start.far_height, start.far_velocity, first + height.size
+    for k in range(at.size):
+        end, near = at[k], corrections[k]
         span = (end - begin) * step
-        r_1, slope_0, slope_1 = corrections[k, 0], span * v_0, span * corrections[k, 1]
+        r_1, slope_0, slope_1 = near.near_height, span * v_0, span * near.near_velocity
         rise = r_1 - r_0
         square, cube = 3.0 * rise - 2.0 * slope_0 - slope_1, slope_0 + slope_1 - 2.0 * rise
         scale = 1.0 / max(end - begin, 1)
         for i in range(max(begin, first), min(end, behind)):
             t = (i - begin) * scale
             height[i - first] += r_0 + t * (slope_0 + t * (square + t * cube))
-        begin, r_0, v_0 = end, corrections[k, 2], corrections[k, 3]
+        begin, r_0, v_0 = end, near.far_height, near.far_velocity
     if first <= begin < behind:
         height[begin - first] += r_0
 
@@ -90,9 +92,9 @@ class Marks:
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        chosen = _chosen(nodes.at[:, 0], distance_m, step)
+        chosen = _chosen(nodes.at, distance_m, step)
         passed, gathered = nodes.passes(max(before, 0), step, chosen)
-        place = nodes.at[chosen, 0], distance_m[chosen]
+        place = nodes.at[chosen], distance_m[chosen]
         return cls(*place, nodes.column(chosen), nodes.latest(), passed, gathered)
 
 
@@ -130,19 +132,17 @@ class Segment:
     @property
     def last(self) -> int:
         """Sample of the last node."""
-        return int(self.nodes.at[-1, 0])
+        return int(self.nodes.at[-1])
 
-    def back(self, adjoint: FloatArray, step: float) -> FloatArray:
+    def back(self, adjoint: FloatArray, step: float) -> Records:
         """Return the corrections at the nodes; ``adjoint`` goes from the last to ``before``."""
         return self.nodes.back(max(self.before, 0), step, adjoint)
 
-    def start(self, adjoint: FloatArray) -> FloatArray:
-        """Return the corrections at ``before``, shape (4,); ``adjoint`` is lambda behind it."""
-        return np.zeros(4) if self.origin is None else self.origin.correction(adjoint)
+    def start(self, adjoint: FloatArray) -> np.record:
+        """Return the corrections at ``before``; ``adjoint`` is lambda behind it."""
+        return new_record(CORRECTION) if self.origin is None else self.origin.correction(adjoint)
 
-    def shift(
-        self, start: FloatArray, corrections: FloatArray, step_m: float, place_m: float
-    ) -> float:
+    def shift(self, start: np.record, corrections: Records, step_m: float, place_m: float) -> float:
         """Shift all corrections by ``step_m``, less with the travel from ``place_m`` on.
 
         Returns what is left of it at the last node.
@@ -152,14 +152,16 @@ class Segment:
         marks = np.append(max(self.before, 0), self.marks.at)
         travel = np.fmax.accumulate(np.append(place_m, self.marks.distance_m)) - place_m
         left = step_m * np.exp(-travel / FADE_M)
-        start[2] += step_m
-        corrections[:, ::2] += np.interp(self.nodes.at[:, 0], marks, left)[:, np.newaxis]
+        start.far_height += step_m
+        at_nodes = np.interp(self.nodes.at, marks, left)
+        corrections["near_height"] += at_nodes
+        corrections["far_height"] += at_nodes
         return float(left[-1])
 
     def smooth(
         self,
-        corrections: FloatArray,
-        start: FloatArray,
+        corrections: Records,
+        start: np.record,
         step: float,
         pieces: Iterable[tuple[int, FloatArray]],
     ) -> None:
@@ -167,9 +169,8 @@ class Segment:
 
         A piece has the number of its first sample; ``start`` are the corrections at ``before``.
         """
-        place = np.array([max(self.before, 0), start[2], start[3]])
-        end = self.last + 1
+        begin, end = max(self.before, 0), self.last + 1
         for first, height in pieces:
             low = max(self.before + 1, first)
             part = height[low - first : max(end, first) - first]
-            interpolate(self.nodes.at, corrections, low, place, step, part)
+            interpolate(begin, start, self.nodes.at, corrections, low, step, part)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.vehicle_response.estimators.estimate import Estimate
-from floatref.vehicle_response.estimators.joint_layout import Memory, System, Told
+from floatref.vehicle_response.estimators.joint_values import Estimates, Memory, System
 from floatref.vehicle_response.estimators.observability import check_readings
 from floatref.vehicle_response.models.model import Tyre, VehicleModel
 from floatref.vehicle_response.models.outputs import Reading, output_matrices
@@ -156,32 +156,32 @@ class JointInputState:
         array = self._checked(samples)
         count, (states, inputs) = array.shape[0], self.system.after.shape
         shapes = [(count, inputs)] * 2 + [(count, states)] * 2
-        told = Told(*(np.empty(shape) for shape in shapes))
-        done = joint_input_state(array, self.system, memory, told)
+        out = Estimates(*(np.empty(shape) for shape in shapes))
+        done = joint_input_state(array, self.system, memory, out)
         if done < count:
             raise InputError(
                 f"model {self.model.name}: the covariance is no longer finite and positive at "
                 f"sample {done} of {count}; give a smaller initial covariance or step"
             )
-        return self._estimate(told)
+        return self._estimate(out)
 
-    def _estimate(self, told: Told) -> Estimate:
+    def _estimate(self, found: Estimates) -> Estimate:
         size = 2 * len(self.model.freedoms)
-        states_sigma = np.sqrt(np.maximum(told.states_variance, 0.0))
-        force_sigma = np.sqrt(told.force_variance)
-        road, road_sigma = np.empty_like(told.forces), np.empty_like(told.forces)
+        states_sigma = np.sqrt(np.maximum(found.states_variance, 0.0))
+        force_sigma = np.sqrt(found.force_variance)
+        road, road_sigma = np.empty_like(found.forces), np.empty_like(found.forces)
         place = size
         for column, tyre in enumerate(self.model.tyres):
             if tyre.damping > 0:
-                known = np.isfinite(told.forces[:, column])
-                road[:, column] = np.where(known, told.states[:, place], np.nan)
+                known = np.isfinite(found.forces[:, column])
+                road[:, column] = np.where(known, found.states[:, place], np.nan)
                 road_sigma[:, column] = np.where(known, states_sigma[:, place], np.nan)
                 place += 1
             else:
-                road[:, column] = told.forces[:, column] / tyre.stiffness
+                road[:, column] = found.forces[:, column] / tyre.stiffness
                 road_sigma[:, column] = force_sigma[:, column] / tyre.stiffness
-        states, sigma = told.states[:, :size], states_sigma[:, :size]
-        return Estimate(road, road_sigma, states, sigma, told.forces, force_sigma)
+        states, sigma = found.states[:, :size], states_sigma[:, :size]
+        return Estimate(road, road_sigma, states, sigma, found.forces, force_sigma)
 
     def _checked(self, samples: ArrayLike) -> FloatArray:
         array = np.ascontiguousarray(samples, dtype=np.float64)

@@ -6,15 +6,15 @@ import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray, IndexArray
-from floatref.vehicle_response.estimators.joint_layout import Memory, System, Told
+from floatref.vehicle_response.estimators.joint_values import Estimates, Memory, System
 
 DEFICIENT = 1e-10
-"""Of a column of J, squared, what has to be its own for its input to be told from the others."""
+"""Share of a column of J, squared, that the others must not have, else its input is unknown."""
 
 
 @compiled
-def joint_input_state(samples: FloatArray, system: System, memory: Memory, told: Told) -> int:
-    """Run over ``samples``, shape (N, m), and write what they tell; return samples done.
+def joint_input_state(samples: FloatArray, system: System, memory: Memory, out: Estimates) -> int:
+    """Estimate inputs and states of ``samples``, shape (N, m), into ``out``; return samples done.
 
     That is less than N when states or covariance are no longer finite, or rounding has left it not
     positive. Readings not finite are left out. Where J of the others has no full rank, the step
@@ -32,7 +32,7 @@ def joint_input_state(samples: FloatArray, system: System, memory: Memory, told:
             _lose(system.unknown, memory.spread)
         elif not _update(samples[k], present, count, system, memory):
             return k
-        _tell(k, ranked, system.after, memory, told)
+        _write(k, ranked, system.after, memory, out)
         _predict(system, memory, ranked)
         if not _stays_finite(memory):
             return k
@@ -75,7 +75,7 @@ def _same(present: IndexArray, count: int, before: IndexArray, known: int) -> bo
 
 @compiled
 def _lose(unknown: FloatArray, spread: FloatArray) -> None:
-    """Write the covariance of inputs that no reading tells."""
+    """Write the covariance of inputs that no reading shows."""
     for i in range(unknown.size):
         for j in range(unknown.size):
             spread[i, j] = unknown[i] if i == j else 0.0
@@ -217,12 +217,12 @@ def _estimate(
 
 
 @compiled
-def _tell(k: int, seen: bool, after: FloatArray, memory: Memory, told: Told) -> None:
+def _write(k: int, seen: bool, after: FloatArray, memory: Memory, out: Estimates) -> None:
     """Write inputs, states with ``after`` times the inputs, and their variances."""
     size, inputs = after.shape
     for j in range(inputs):
-        told.forces[k, j] = memory.force[j] if seen else np.nan
-        told.force_variance[k, j] = memory.spread[j, j] if seen else np.nan
+        out.forces[k, j] = memory.force[j] if seen else np.nan
+        out.force_variance[k, j] = memory.spread[j, j] if seen else np.nan
     for i in range(size):
         mean, square = memory.state[i], memory.covariance[i, i]
         for j in range(inputs):
@@ -230,7 +230,7 @@ def _tell(k: int, seen: bool, after: FloatArray, memory: Memory, told: Told) -> 
             square += 2.0 * after[i, j] * memory.crossed[i, j]
             for m in range(inputs):
                 square += after[i, j] * after[i, m] * memory.spread[j, m]
-        told.states[k, i], told.states_variance[k, i] = mean, square
+        out.states[k, i], out.states_variance[k, i] = mean, square
 
 
 @compiled

@@ -8,11 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman import forward, layout
-from floatref.estimators.kalman.layout import DRIFT, KINDS, OFFSET, STATES, TRUSTED
+from floatref.estimators.kalman import forward
 from floatref.estimators.kalman.noise import Noise
 from floatref.estimators.kalman.references import Plan
 from floatref.estimators.kalman.track import TrackFilter
+from floatref.estimators.models import kalman_values as values
+from floatref.estimators.models.kalman_values import DRIFT, HEIGHT, KINDS, OFFSET, STATES, TRUSTED
+from floatref.values.arrays import new_record
 from floatref_reference.appendix_c.process_model import matrix_a, matrix_q, matrix_w
 from floatref_reference.chapter_6.section_6_1_3_multi_rate import multi_rate_update
 from floatref_reference.chapter_6.section_6_3_6_system import f, h
@@ -31,27 +33,30 @@ class Out(NamedTuple):
 
     x: np.ndarray
     p: np.ndarray
-    memory: np.ndarray
+    memory: np.record
     height: np.ndarray
-    at: np.ndarray
     nodes: np.ndarray
     updates: np.ndarray
 
 
 def run(u, x, p, at=(), marks=(), rows=(), noise=STILL, sub_block=5, step=STEP):
     """Run the kernel over inputs ``u`` (n, 6), with gravity, from the state ``x``."""
+    state = values.Filter(x.copy(), p.copy(), new_record(values.MEMORY))
+    nodes = np.empty(len(u) // sub_block + len(at) + 2, values.NODE)
+    out = values.Output(np.empty(len(u)), nodes, np.empty(KINDS * len(at), values.UPDATE))
+    inputs = values.Inputs(0, *map(np.ascontiguousarray, (u - [0, 0, G, 0, 0, 0]).T))
+    rows = np.array(rows).reshape(len(at), 2 * KINDS + 1)
+    y, variances = np.ascontiguousarray(rows[:, :KINDS]), np.ascontiguousarray(rows[:, KINDS:-1])
+    times = np.array(at, np.int64), np.array(marks, np.int64)
+    observations = values.Observations(*times, y, variances, rows[:, -1].copy())
+    count = forward.run(model_of(noise, sub_block, step), inputs, observations, state, out)
+    updates = out.updates[: nodes["updated"][count - 1]]
+    return Out(*state, out.height, nodes[:count], updates)
+
+
+def model_of(noise, sub_block, step=STEP):
     model = TrackFilter.of(Plan(), noise, step, ARM, 0.0).model
-    x, p, memory, height = x.copy(), p.copy(), np.zeros(layout.MEMORY), np.empty(len(u))
-    count = len(u) // sub_block + len(at) + 2
-    node_at, nodes = np.empty((count, 2), np.int64), np.empty((count, layout.NODE))
-    updates = np.empty((KINDS * len(at), layout.UPDATE))
-    inputs = tuple(np.ascontiguousarray(c) for c in (u - [0, 0, G, 0, 0, 0]).T)
-    observed = np.array(at, np.int64), np.array(marks, np.int64)
-    y = np.array(rows).reshape(len(at), layout.OBSERVATION)
-    out = x, p, memory, height, node_at, nodes, updates
-    count = forward.run(inputs, 0, sub_block, model, *observed, y, *out)
-    end = node_at[count - 1, 1]
-    return Out(x, p, memory, height, node_at[:count], nodes[:count], updates[:end])
+    return model._replace(sub_block=sub_block)
 
 
 def drawn(seed, count=6, turning=1.0):
@@ -140,10 +145,11 @@ def test_rows_and_predictions_are_those_of_the_measurement_model(seed):
     reach = 1e-6 * SCALES[:7]
     ends = [[h(x[:7] + sign * dx, u, ARM) for dx in np.diag(reach)] for sign in (1, -1)]
     H = np.subtract(*ends).T / (2 * reach)
-    np.testing.assert_allclose(out.updates[:, :7], H, atol=1e-7)
-    assert out.updates[:, DRIFT].tolist() == [1.0, 0.0, 0.0, 0.0]
-    assert not out.updates[:, [7, OFFSET]].any()
-    innovation = out.updates[:, layout.INNOVATION] / out.updates[:, layout.INNOVATION + 1]
+    rows = out.updates["row"]
+    np.testing.assert_allclose(rows[:, :7], H, atol=1e-7)
+    assert rows[:, DRIFT].tolist() == [1.0, 0.0, 0.0, 0.0]
+    assert not rows[:, [values.LEAN, OFFSET]].any()
+    innovation = out.updates["innovation"] / out.updates["information"]
     expected = h(x[:7], u, ARM) + np.eye(KINDS)[0] * x[DRIFT]
     np.testing.assert_allclose(0.1 - innovation, expected, atol=1e-9)
 
@@ -154,7 +160,7 @@ def test_rows_and_predictions_are_those_of_the_measurement_model(seed):
 def test_one_reading_after_the_other_is_the_update_by_all(seed, lost, size):
     _, x, p = drawn(seed)
     tiny, u = observed(x, 1e-12 * p, np.zeros(KINDS), np.ones(KINDS), TRUSTED)
-    H, expected = tiny.updates[:, :STATES], h(x[:7], u, ARM)
+    H, expected = tiny.updates["row"], h(x[:7], u, ARM)
     expected[0] += x[DRIFT]
     y = expected + 0.01
     y[list(lost)] = np.nan
@@ -168,15 +174,15 @@ def test_one_reading_after_the_other_is_the_update_by_all(seed, lost, size):
 def test_a_held_height_is_the_antennas_and_a_reflected_one_the_reference_points():
     _, x, p = drawn(3)
     height = np.array([0.01, np.nan, np.nan, np.nan])
-    held, _ = observed(x, p, height, np.ones(KINDS), layout.RELATIVE | layout.CAPTURE | TRUSTED)
-    assert held.updates[0, DRIFT] == held.updates[0, OFFSET] == 0.0
-    innovation = held.updates[0, layout.INNOVATION] / held.updates[0, layout.INNOVATION + 1]
+    held, _ = observed(x, p, height, np.ones(KINDS), values.RELATIVE | values.CAPTURE | TRUSTED)
+    assert held.updates["row"][0, DRIFT] == held.updates["row"][0, OFFSET] == 0.0
+    innovation = held.updates["innovation"] / held.updates["information"]
     assert innovation == pytest.approx(0.01, abs=1e-12)
-    risen, _ = observed(x, p, height, np.ones(KINDS), layout.REFLECTED | layout.RENEW | TRUSTED)
-    assert np.flatnonzero(risen.updates[0, :STATES]).tolist() == [0, OFFSET]
-    innovation = risen.updates[0, layout.INNOVATION] / risen.updates[0, layout.INNOVATION + 1]
+    risen, _ = observed(x, p, height, np.ones(KINDS), values.REFLECTED | values.RENEW | TRUSTED)
+    assert np.flatnonzero(risen.updates["row"][0]).tolist() == [HEIGHT, OFFSET]
+    innovation = risen.updates["innovation"] / risen.updates["information"]
     assert innovation == pytest.approx(0.01, abs=1e-12)
-    assert risen.updates[0, layout.INNOVATION + 1] == pytest.approx(1.0)
+    assert risen.updates["information"] == pytest.approx(1.0)
 
 
 @laws
@@ -192,18 +198,18 @@ def test_a_wild_reading_is_left_out_unless_it_is_trusted(kind, off, trusted):
     floor = [0.2, 0.5, np.radians(3.0), np.radians(3.0)][kind]
     wild = off > floor and off > 0.11 and not trusted
     assert len(out.updates) == (0 if wild else 1)
-    assert out.memory[layout.REJECTED + kind] == wild
+    assert out.memory.rejected[kind] == wild
     assert np.array_equal(out.x, x) == wild
 
 
 def test_heights_that_insist_are_another_datum():
     """Left out as often as needed, they move the drift and not the height."""
-    count, leap = layout.BELIEVED_AT + 30, 5.0
+    count, leap = values.BELIEVED_AT + 30, 5.0
     u = np.tile([0.0, 0, G, 0, 0, 0], (count, 1))
     row = np.array([ARM[2] + leap, *[np.nan] * 3, *[1e-4] * 4, 0.0])
     p = np.diag(np.square(1e-3 * SCALES))
     out = run(u, np.zeros(STATES), p, range(count), [0] * count, [row] * count, sub_block=1)
-    assert count - len(out.updates) == out.memory[layout.REJECTED] == layout.BELIEVED_AT - 1
+    assert count - len(out.updates) == out.memory.rejected[HEIGHT] == values.BELIEVED_AT - 1
     assert out.x[DRIFT] == pytest.approx(leap, abs=1e-3)
     assert np.abs(out.height).max() < 1e-3
 
@@ -214,15 +220,15 @@ def test_the_covariance_stays_one(seed, noise, size, data):
     """At every node it is symmetric, and no variance of any direction is negative."""
     rng = np.random.default_rng(seed)
     u, x, _ = drawn(seed, count=60)
-    held = layout.RELATIVE | layout.CAPTURE | TRUSTED
-    marks = [0, TRUSTED, held, layout.REFLECTED | TRUSTED, layout.REFLECTED | layout.RENEW]
+    held = values.RELATIVE | values.CAPTURE | TRUSTED
+    marks = [0, TRUSTED, held, values.REFLECTED | TRUSTED, values.REFLECTED | values.RENEW]
     at = sorted(data.draw(st.sets(st.integers(0, 59), min_size=1, max_size=30)))
     chosen = rng.choice(marks, len(at))
     rows = np.hstack([0.01 * rng.normal(size=(len(at), 4)), np.full((len(at), 4), size)])
     rows = np.hstack([rows, rng.choice([0.0, 1e-6, 1e4], (len(at), 1))])
     out = run(u, x, np.diag(np.square(SCALES)), at, chosen, rows, noise)
     spread = np.empty((len(out.nodes), STATES, STATES))
-    spread.transpose(0, 2, 1)[UPPER] = spread[UPPER] = out.nodes[:, layout.SPREAD :]
+    spread.transpose(0, 2, 1)[UPPER] = spread[UPPER] = out.nodes["covariance"]
     np.testing.assert_array_equal(spread[-1], out.p)
     for p in spread:
         spread = np.diag(np.diag(p) + 1e-8 * SCALES**2)
@@ -244,12 +250,11 @@ def test_what_is_known_without_noise_is_not_moved_by_any_reading(seed):
 def test_the_last_sample_becomes_a_node_unless_it_is_one(length, sub_block):
     u, x, p = drawn(5, count=length)
     out = run(u, x, p, sub_block=sub_block, noise=Noise())
-    model = TrackFilter.of(Plan(), Noise(), STEP, ARM, 0.0).model
-    node_at, nodes = np.empty((1, 2), np.int64), np.empty((1, layout.NODE))
-    made = forward.end(model, out.x, out.p, out.memory, node_at, nodes)
+    nodes, state = np.empty(1, values.NODE), values.Filter(out.x, out.p, out.memory)
+    made = forward.end(model_of(Noise(), sub_block), state, nodes)
     assert made == (0 if (length - 1) % sub_block == 0 else 1)
-    assert out.at[:, 0].tolist() == list(range(0, length, sub_block))
+    assert out.nodes["at"].tolist() == list(range(0, length, sub_block))
     if made:
-        assert node_at[0].tolist() == [length - 1, 0]
+        assert (nodes["at"][0], nodes["updated"][0]) == (length - 1, 0)
         every = run(u, x, p, sub_block=length - 1, noise=Noise())
         np.testing.assert_allclose(relative(out.p), relative(every.p), atol=1e-4)

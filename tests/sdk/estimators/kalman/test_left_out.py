@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.estimators.kalman.inputs import GNSS
-from floatref.estimators.kalman.layout import BELIEVED_AT
+from floatref.estimators.models.kalman_values import BELIEVED_AT
 
 RATE, SECONDS, ORIGIN_S = 200, 8.0, 17.25
 WILD = (1.5, -3.0, 0.3, -0.3)

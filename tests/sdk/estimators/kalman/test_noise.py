@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from floatref.estimators.kalman import KalmanSmoother, Noise, Plan
 from floatref.estimators.kalman.references import Stretch
 from floatref.estimators.kalman.track import TrackFilter
+from floatref.estimators.models.kalman_values import Inputs
 from floatref.values.channels import ChannelId
 
 laws = settings(deadline=None, max_examples=20)
@@ -23,12 +24,12 @@ def spread(noise, rate, seconds=0.4):
     """Return the covariance of a vehicle at rest on level ground before anything is observed."""
     count = round(seconds * rate) + 1
     track = TrackFilter.of(Plan(), noise, 1.0 / rate, (0.0, 0.0, 0.0), 0.0)
-    track.p[:] = 0.0
+    track.state.p[:] = 0.0
     moving, there = np.zeros(count, np.bool_), np.ones(count, np.bool_)
     zero = np.zeros(count)
     zero.flags.writeable = False
-    track.advance((zero,) * 6, Stretch(0, moving, np.zeros(count), there, *NONE))
-    return track.p
+    track.advance(Inputs(0, *[zero] * 6), Stretch(0, moving, np.zeros(count), there, *NONE))
+    return track.state.p
 
 
 @laws

@@ -7,9 +7,21 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman.layout import CAPTURE, FORGET, REFLECTED, RELATIVE, RENEW, TRUSTED
 from floatref.estimators.kalman.noise import Noise
+from floatref.estimators.kalman.observations import joined, part
 from floatref.estimators.kalman.references import Plan, References, Stretch
+from floatref.estimators.models.kalman_values import (
+    CAPTURE,
+    FORGET,
+    HEIGHT,
+    KINDS,
+    PITCH,
+    REFLECTED,
+    RELATIVE,
+    RENEW,
+    TRUSTED,
+    VELOCITY,
+)
 
 LENGTH, SUB_BLOCK, STEP = 400, 5, 0.01
 PATIENCE = 50
@@ -61,11 +73,10 @@ SELDOM = Stretch(
 
 
 def scheduled(plan, stretch, cuts=()):
-    """Return samples, marks and rows of all observations, from a run cut at ``cuts``."""
+    """Return all observations, from a run cut at ``cuts``."""
     references = References(plan, NOISE, SUB_BLOCK, STEP, 0.3, 1.6)
     edges = [0, *sorted(set(cuts)), LENGTH]
-    chunks = [references.schedule(stretch.part(a, b)) for a, b in pairwise(edges)]
-    return tuple(np.concatenate(part) for part in zip(*chunks, strict=True))
+    return joined([references.schedule(stretch.part(a, b)) for a, b in pairwise(edges)])
 
 
 @laws
@@ -83,43 +94,42 @@ def test_it_does_not_matter_how_the_run_is_split(plan, stretch, cuts):
 @laws
 @given(plan=PLANS, stretch=RUNS)
 def test_samples_are_in_order_and_there_is_one_observation_at_each(plan, stretch):
-    at, marks, rows = scheduled(plan, stretch)
-    assert (np.diff(at) > 0).all()
-    assert at.size == marks.size == len(rows)
-    assert ((at >= 0) & (at < LENGTH)).all()
-    assert (rows[:, 4:8][~np.isnan(rows[:, :4])] > 0).all()
-    assert (rows[:, 8] >= 0).all()
+    found = scheduled(plan, stretch)
+    assert (np.diff(found.at) > 0).all()
+    assert len({len(values) for values in found}) == 1
+    assert ((found.at >= 0) & (found.at < LENGTH)).all()
+    assert (found.variances[~np.isnan(found.values)] > 0).all()
+    assert (found.drifted >= 0).all()
 
 
-def rows_at(schedule, wanted):
-    at, marks, rows = schedule
-    place = np.searchsorted(at, wanted)
-    np.testing.assert_array_equal(at[place], wanted)
-    return marks[place], rows[place]
+def observed_at(schedule, wanted):
+    place = np.searchsorted(schedule.at, wanted)
+    np.testing.assert_array_equal(schedule.at[place], wanted)
+    return part(schedule, place)
 
 
 @laws
 @given(stretch=RUNS)
 def test_every_reading_is_observed_and_its_height_unless_the_vehicle_stands(stretch):
-    marks, rows = rows_at(scheduled(Plan(), stretch), stretch.taken)
-    np.testing.assert_array_equal(rows[:, 1:4], stretch.readings[:, 1:4])
+    found = observed_at(scheduled(Plan(), stretch), stretch.taken)
+    np.testing.assert_array_equal(found.values[:, VELOCITY:], stretch.readings[:, VELOCITY:KINDS])
     moving = ~stretch.standing[stretch.taken]
     told = stretch.readings[:, 0] - stretch.readings[:1, 0] + 1.6 + 0.3
-    np.testing.assert_allclose(rows[moving, 0], told[moving], atol=1e-12)
-    assert not (marks & (RELATIVE | CAPTURE)).any()
-    assert not (marks[moving] & (TRUSTED | REFLECTED | RENEW)).any()
+    np.testing.assert_allclose(found.values[moving, HEIGHT], told[moving], atol=1e-12)
+    assert not (found.marks & (RELATIVE | CAPTURE)).any()
+    assert not (found.marks[moving] & (TRUSTED | REFLECTED | RENEW)).any()
 
 
 @laws
 @given(stretch=RUNS, attitude=st.booleans())
 def test_a_level_attitude_comes_with_every_reading_if_gnss_gives_none(stretch, attitude):
     plan = Plan(attitude=attitude, reflects=False)
-    _, rows = rows_at(scheduled(plan, stretch), stretch.taken)
+    found = observed_at(scheduled(plan, stretch), stretch.taken)
     if attitude:
-        np.testing.assert_array_equal(rows[:, 2:4], stretch.readings[:, 2:4])
+        np.testing.assert_array_equal(found.values[:, PITCH:], stretch.readings[:, PITCH:KINDS])
     else:
-        assert not rows[:, 2:4].any()
-        np.testing.assert_allclose(rows[:, 6], NOISE.constant_pitch**2 / 0.05)
+        assert not found.values[:, PITCH:].any()
+        np.testing.assert_allclose(found.variances[:, PITCH], NOISE.constant_pitch**2 / 0.05)
 
 
 @laws
@@ -127,15 +137,15 @@ def test_a_level_attitude_comes_with_every_reading_if_gnss_gives_none(stretch, a
 def test_readings_say_no_more_for_coming_faster(stretch, interval_s):
     """Variance times rate is bounded by that of 20 readings a second."""
     stretch.readings[:, 4] = interval_s
-    _, rows = rows_at(scheduled(Plan(reflects=False), stretch), stretch.taken)
+    found = observed_at(scheduled(Plan(reflects=False), stretch), stretch.taken).variances
     least = NOISE.readings() * max(1.0, 0.05 / interval_s * (interval_s < 0.045))
-    np.testing.assert_allclose(rows[:, 4:8], np.broadcast_to(least, (len(rows), 4)))
+    np.testing.assert_allclose(found, np.broadcast_to(least, found.shape))
 
 
 @laws
 @given(stretch=RUNS, reflects=st.booleans())
 def test_constants_stand_in_half_a_second_after_the_last_reading(stretch, reflects):
-    at, marks, rows = scheduled(Plan(reflects=reflects), stretch)
+    at, marks, values, *_ = scheduled(Plan(reflects=reflects), stretch)
     held = (marks & RELATIVE) > 0
     before = np.concatenate(([0], stretch.taken))
     samples = np.arange(LENGTH)
@@ -143,36 +153,36 @@ def test_constants_stand_in_half_a_second_after_the_last_reading(stretch, reflec
     wanted = (waited >= PATIENCE) & (samples % SUB_BLOCK == 0) & ~np.isin(samples, stretch.taken)
     np.testing.assert_array_equal(at[held], samples[wanted])
     assert (marks[held] & TRUSTED).all()
-    assert not rows[held, 1:4].any()
+    assert not values[held, VELOCITY:].any()
     moving = ~stretch.standing[at] | (not reflects)
-    assert not rows[held & moving, 0].any()
+    assert not values[held & moving, HEIGHT].any()
 
 
 @laws
 @given(stretch=RUNS)
 @example(stretch=SELDOM)
 def test_every_outage_captures_a_height_once_and_ends_with_another_datum(stretch):
-    at, marks, rows = scheduled(Plan(reflects=False), stretch)
+    at, marks, _, _, drifted = scheduled(Plan(reflects=False), stretch)
     outage = -1
-    for sample, mark, row in zip(at, marks, rows, strict=True):
+    for sample, mark, moved in zip(at, marks, drifted, strict=True):
         if mark & RELATIVE:
             assert bool(mark & CAPTURE) == (outage < 0)
             outage = sample
         elif sample in stretch.taken:
-            assert row[8] >= 100.0**2 or outage < 0
+            assert moved >= 100.0**2 or outage < 0
             outage = -1
 
 
 @laws
 @given(stretch=RUNS)
 def test_the_drift_walks_for_all_of_the_time_between_two_heights(stretch):
-    at, _, rows = scheduled(Plan(), stretch)
+    at, _, _, _, drifted = scheduled(Plan(), stretch)
     heights = np.isin(at, stretch.taken) & ~stretch.standing[at]
     elapsed = np.diff(at[heights], prepend=0) * STEP
-    walked = rows[heights, 8]
+    walked = drifted[heights]
     renewed = walked >= 100.0**2
     np.testing.assert_allclose(walked[~renewed], NOISE.gnss_height_walk**2 * elapsed[~renewed])
-    assert not rows[~heights, 8].any()
+    assert not drifted[~heights].any()
     assert (elapsed[renewed] > PATIENCE * STEP).all()
 
 
@@ -180,18 +190,18 @@ def test_the_drift_walks_for_all_of_the_time_between_two_heights(stretch):
 @laws
 @given(stretch=RUNS)
 def test_at_a_stop_the_height_sensor_tells_the_way_since_it_began(stretch):
-    at, marks, rows = scheduled(Plan(), stretch)
+    at, marks, values, variances, _ = scheduled(Plan(), stretch)
     reflected = (marks & REFLECTED) > 0
     samples = np.arange(LENGTH)
     wanted = stretch.standing & stretch.there & (samples % SUB_BLOCK == 0)
     np.testing.assert_array_equal(at[reflected], samples[wanted])
     assert (marks[reflected] & TRUSTED).all()
     variance = NOISE.reflection**2 / (SUB_BLOCK * STEP)
-    np.testing.assert_allclose(rows[reflected, 4], variance)
+    np.testing.assert_allclose(variances[reflected, HEIGHT], variance)
     for begin, end in stops(stretch.standing):
         inside = np.flatnonzero(reflected & (at >= begin) & (at < end))
         told = stretch.height[at[inside]] - stretch.height[at[inside[:1]]]
-        np.testing.assert_allclose(rows[inside, 0], told)
+        np.testing.assert_allclose(values[inside, HEIGHT], told)
         assert ((marks[inside] & RENEW) > 0).tolist() == [k == 0 for k in range(inside.size)]
     assert ((marks & RENEW) > 0).sum() <= len(stops(stretch.standing))
 
@@ -204,12 +214,13 @@ def stops(standing):
 @laws
 @given(stretch=RUNS, plan=PLANS)
 def test_the_lean_is_forgotten_at_a_constant_speed_and_nothing_else_there(stretch, plan):
-    at, marks, rows = scheduled(plan, stretch)
+    found = scheduled(plan, stretch)
     moving = ~(stretch.standing[stretch.quiet] & plan.reflects)
-    forgotten = (marks & FORGET) > 0
-    np.testing.assert_array_equal(at[forgotten], stretch.quiet[moving])
+    forgotten = (found.marks & FORGET) > 0
+    np.testing.assert_array_equal(found.at[forgotten], stretch.quiet[moving])
     other = scheduled(plan, stretch.__class__(**{**vars(stretch), "quiet": np.empty(0, int)}))
-    kept = np.isin(at, other[0])
+    kept = np.isin(found.at, other.at)
     assert forgotten[~kept].all()
-    np.testing.assert_array_equal(rows[kept], other[2])
-    assert np.isnan(rows[~kept, :4]).all()
+    for field in ("values", "variances", "drifted"):
+        np.testing.assert_array_equal(getattr(found, field)[kept], getattr(other, field))
+    assert np.isnan(found.values[~kept]).all()

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floatref.estimators.models.road_prior_values import LEAN, STATES, TILT
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.estimators.road_prior.excitation import Excitation
-from floatref.estimators.road_prior.layout import LEAN, STATES, TILT
 from floatref.estimators.road_prior.learned import Brake, pooled
 from floatref.values.channels import ChannelId
 

@@ -5,6 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.smoothing import segment
+from floatref.estimators.smoothing.nodes import CORRECTION
+from floatref.values.arrays import new_record
 
 STEP = 0.01
 laws = settings(deadline=None, max_examples=30)
@@ -27,13 +29,14 @@ def test_between_nodes_a_correction_is_the_cubic_of_its_ends(seed, spans, data):
     ends = begin + np.cumsum(spans)
     near = [value_and_slope(cubics[k], end) for k, end in enumerate(ends)]
     far = [value_and_slope(cubics[k + 1], end) for k, end in enumerate(ends)]
-    start = np.array([begin, *value_and_slope(cubics[0], begin)])
+    start = new_record(CORRECTION)
+    start.far_height, start.far_velocity = value_and_slope(cubics[0], begin)
     height = rng.normal(size=ends[-1] - begin)
     filled = height.copy()
-    at = np.column_stack((ends, np.zeros_like(ends)))
-    corrections, cut = np.hstack((near, far)), data.draw(st.integers(0, height.size))
+    corrections = np.array([(*n, *f) for n, f in zip(near, far, strict=True)], CORRECTION)
+    cut = data.draw(st.integers(0, height.size))
     for first, part in ((begin + 1, filled[:cut]), (begin + 1 + cut, filled[cut:])):
-        segment.interpolate(at, corrections, first, start, STEP, part)
+        segment.interpolate(begin, start, ends, corrections, first, STEP, part)
     samples = np.arange(begin + 1, ends[-1] + 1)
     which = np.searchsorted(ends, samples, "right")
     expected = [np.polyval(cubics[k], i * STEP) for k, i in zip(which, samples, strict=True)]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.estimators.kalman.layout import STATES
+from floatref.estimators.models.kalman_values import STATES
 from floatref.estimators.smoothing import covariance
 
 laws = settings(deadline=None, max_examples=20)

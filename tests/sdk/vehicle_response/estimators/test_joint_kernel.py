@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.vehicle_response.estimators.joint_kernel import joint_input_state
-from floatref.vehicle_response.estimators.joint_layout import Memory, System, Told
+from floatref.vehicle_response.estimators.joint_values import Estimates, Memory, System
 
 laws = settings(deadline=None, max_examples=25)
 SEEDS = st.integers(0, 2**32 - 1)
@@ -45,10 +45,10 @@ def started(system):
 
 def run(system, samples, memory=None):
     states, inputs = system.after.shape
-    told = Told(*(np.full((len(samples), s), 9.0) for s in (inputs, inputs, states, states)))
-    done = joint_input_state(samples, system, memory or started(system), told)
+    out = Estimates(*(np.full((len(samples), s), 9.0) for s in (inputs, inputs, states, states)))
+    done = joint_input_state(samples, system, memory or started(system), out)
     assert done == len(samples)
-    return told
+    return out
 
 
 def written_out(system, samples):
@@ -87,8 +87,8 @@ def test_it_is_steps_a_to_c_of_the_readings_that_are_there(seed, sizes, gone):
     system, samples = drawn(seed, *sizes)
     rng = np.random.default_rng(seed + 1)
     samples[rng.random(samples.shape) < gone] = rng.choice([np.nan, np.inf])
-    told, expected = run(system, samples), written_out(system, samples)
-    for found, right in zip(told, expected, strict=True):
+    out, expected = run(system, samples), written_out(system, samples)
+    for found, right in zip(out, expected, strict=True):
         scale = 1.0 + np.nanmax(np.abs(right), initial=0.0)
         np.testing.assert_allclose(found, right, rtol=0, atol=1e-9 * scale)
 
@@ -108,7 +108,7 @@ def test_it_stops_where_the_covariance_is_no_longer_finite():
     system, samples = drawn(1, 2, 1, 1)
     samples[:] = np.nan
     growing = system._replace(transition=10.0 * np.eye(2))
-    told = Told(*(np.zeros((400, s)) for s in (1, 1, 2, 2)))
-    done = joint_input_state(np.full((400, 2), np.nan), growing, started(growing), told)
+    out = Estimates(*(np.zeros((400, s)) for s in (1, 1, 2, 2)))
+    done = joint_input_state(np.full((400, 2), np.nan), growing, started(growing), out)
     # P grows by 100 a step, up to the largest number, 1.8e308.
     assert 150 <= done <= 158

@@ -1,4 +1,7 @@
-"""What the joint input-state filter is given, keeps and tells; nothing compiled."""
+"""What the joint input-state filter takes, stores and estimates; nothing compiled.
+
+See `floatref.estimators.models.kalman_values` on caches of compiled kernels.
+"""
 
 from typing import NamedTuple
 
@@ -17,7 +20,7 @@ class System(NamedTuple):
     direct: FloatArray
     """J, (m, p)."""
     feedthrough: FloatArray
-    """J + G·after, (m, p): what stands for J in steps (a) and (b)."""
+    """J + G·after, (m, p): takes the place of J in steps (a) and (b)."""
     variance: FloatArray
     """The diagonal of R, (m,)."""
     disturbance: FloatArray
@@ -25,9 +28,9 @@ class System(NamedTuple):
     after: FloatArray
     """Influence of the inputs on states at the same time, (s, p)."""
     unknown: FloatArray
-    """Variance about their last value of inputs that no reading tells, (p,)."""
+    """Variance about their last value of inputs that no reading shows, (p,)."""
     stays: float
-    """What of their error is the same one sample later."""
+    """Share of their error that is the same one sample later."""
 
 
 class Memory(NamedTuple):
@@ -45,8 +48,8 @@ class Memory(NamedTuple):
     """P_XF, (s, p)."""
 
 
-class Told(NamedTuple):
-    """What comes out for N samples: inputs (N, p), states (N, s) and their variances."""
+class Estimates(NamedTuple):
+    """Inputs (N, p) and states (N, s) of N samples, with their variances."""
 
     forces: FloatArray
     force_variance: FloatArray

@@ -1,0 +1,1 @@
+"""States, constants and values of both filters, field by field; nothing compiled."""
