@@ -23,6 +23,11 @@ SAME_ROLE = {
 }
 """Names of modules that may stand in three rooms or more: each has the same role in all."""
 
+ROOMS_OF_TESTS = {
+    "sdk/estimators/kalman/plain": "a second filter, written plainly, with fixtures of its own",
+}
+"""Folders of tests that mirror no room."""
+
 
 def modules(room: str) -> list[Path]:
     """Return the modules of ``room``, packages left out."""
@@ -72,4 +77,5 @@ def test_tests_mirror_the_rooms() -> None:
         code = ROOT / room / package
         for path in (ROOT / "tests" / room).rglob("test_*.py"):
             folder = path.parent.relative_to(ROOT / "tests" / room)
-            assert (code / folder).is_dir(), f"{path.relative_to(ROOT)} tests no room"
+            listed = f"{room}/{folder.as_posix()}" in ROOMS_OF_TESTS
+            assert listed or (code / folder).is_dir(), f"{path.relative_to(ROOT)} tests no room"
