@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from floatref import Channel, Recording, UniformClock
-from floatref_adapters.libraries import library
-from floatref_adapters.testing.writing import Floats, by_clock, quantum_of, rounded, start_of
+from floatref_adapters.shared.libraries import library
+from floatref_adapters.testing.file_writing import Floats, by_clock, quantum_of, rounded, start_of
 
 ROWS = 1 << 16
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording, UniformClock
-from floatref_adapters.ratios import simplest
+from floatref_adapters.shared.simplest_ratio import simplest
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from floatref import Recording
-from floatref_adapters.libraries import library
+from floatref_adapters.shared.libraries import library
 from floatref_adapters.testing.arrow_batches import batches
-from floatref_adapters.testing.writing import check_quanta, replacing
+from floatref_adapters.testing.file_writing import check_quanta, replacing
 
 
 def write_parquet(
