@@ -1,7 +1,7 @@
 """ASAM MDF 4 files, through asammdf: each channel group is a stream, its master the clock.
 
-asammdf reads what the file says of its channels, and converts; the records are read here, in
-one pass over a group whatever the number of its columns.
+asammdf reads the metadata, sorts records of several groups and converts; `data_blocks` reads the
+records of sorted files.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from floatref import Column, InputError, NativeClock, NativeFile, Rows, Stream
-from floatref_adapters.formats.mdf4.channel_group import Group
-from floatref_adapters.formats.mdf4.data_blocks import Bytes
+from floatref_adapters.formats.mdf4.channel_group import Group, Piece
 from floatref_adapters.formats.mdf4.master_clock import Timing, is_clock, start_of, timing_of
 from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, first_line, opened, quiet
 from floatref_adapters.formats.mdf4.record_fields import Field, unit_of
@@ -63,8 +60,8 @@ def _native(source: Path, mdf: Any) -> NativeFile:
     told = [about_start] if about_start else []
     names = numbered([_name(origin, k) for k, origin in enumerate(mdf.groups)])
     streams = []
-    for origin, name in zip(mdf.groups, names, strict=True):
-        group = Group(source, mdf, origin, name)
+    for number, (origin, name) in enumerate(zip(mdf.groups, names, strict=True)):
+        group = Group(source, mdf, number, origin, name)
         left_out = _left_out(group)
         if left_out:
             told.append(f"{name}: {left_out}")
@@ -127,7 +124,7 @@ def _undecoded(group: Group, faults: list[str]) -> Iterator[str]:
 
 def _count(group: Group, told: list[str]) -> int:
     """Return how many records are delivered: what the file says, if it holds as many."""
-    said, held = int(group.origin.channel_group.cycles_nr), group.held()
+    said, held = int(group.origin.channel_group.cycles_nr), group.count_stored()
     if said > held:
         told.append(f"{group.name}: {said - held} of {said} rows are missing; the file is cut off")
     return min(said, held)
@@ -147,21 +144,25 @@ class Reader:
         for name in names:
             if name not in self.fields:
                 raise self._fault(f"{name}: not a column of numbers; see floatref channels")
-        pieces = self.group.records(self.count)
+        wanted = [self.fields[name] for name in names]
+        time = [self.timing.field] if self.timing.field else []
+        pieces = self.group.read(self.count, [*wanted, *time])
         while True:
             with quiet():
-                rows = self._next(pieces, names)
+                rows = self._read_next(pieces, names)
             if rows is None:
                 return
             yield rows
 
-    def _next(self, pieces: Iterator[tuple[int, Bytes]], names: Sequence[str]) -> Rows | None:
+    def _read_next(self, pieces: Iterator[Piece], names: Sequence[str]) -> Rows | None:
         try:
-            first, rows = next(pieces, (0, np.empty((0, 0), np.uint8)))
-            if not len(rows):
+            piece = next(pieces, None)
+            if piece is None:
                 return None
-            values = {name: self.fields[name].values(rows, first) for name in names}
-            return Rows(values, self.timing.ticks(rows, first))
+            fields = {name: self.fields[name] for name in names}
+            values = {n: field.to_values(*piece.read(field)) for n, field in fields.items()}
+            time = self.timing.field
+            return Rows(values, time and self.timing.to_ticks(time, piece.read(time)[0]))
         except InputError as error:
             raise self._fault(str(error)) from error
         except Exception as error:

@@ -1,19 +1,22 @@
 """The records of an MDF 4 data group, piece by piece, from blocks that may be compressed.
 
-A compressed block is expanded by as many bytes as it says and not one more, and only if so many
-can come of what it holds: a small file cannot fill the memory.
+By hand, for asammdf 8.8 does not stream: `select` reads each channel of a sorted file as a whole
+whatever `record_count` says (332 MB of memory for a file of 200 MB, here 162 MB), expands a block
+again for every piece (35 s for one of 200 MB, here 2 s), and expands it without a limit. Here a
+block gives the number of bytes that it states and no more, and only if its stored bytes can give
+them: a small file cannot fill the memory.
 """
 
 import struct
-from collections.abc import Iterable, Iterator
-from typing import BinaryIO
+import zlib
+from collections.abc import Callable, Iterable, Iterator
+from typing import BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError
 from floatref_adapters.formats.mdf4.block_links import read_block
-from floatref_adapters.formats.mdf4.expansion import Part, expanded
 
 Bytes = NDArray[np.uint8]
 LARGEST_PART = 1 << 28
@@ -23,7 +26,21 @@ MOST_EXPANDED = 1032
 READ_BYTES = 1 << 22
 
 
-def parts_of(file: BinaryIO, address: int, size: int) -> list[Part]:
+DEFLATE, ZSTD, LZ4 = 0, 2, 4
+"""Methods; one more is the same with the bytes of the records transposed."""
+
+
+class Part(NamedTuple):
+    """Bytes of a data block: where they are, and how they are compressed, None if not."""
+
+    address: int
+    stored: int
+    bytes: int
+    method: int | None = None
+    width: int = 0
+
+
+def find_parts(file: BinaryIO, address: int, size: int) -> list[Part]:
     """Return the parts of the data that begin at ``address``, 0 if there are none.
 
     What lies after the end of the file is left out: the parts then hold less than was recorded.
@@ -41,14 +58,14 @@ def parts_of(file: BinaryIO, address: int, size: int) -> list[Part]:
         if block.kind == b"##HL":
             address = block.links[0] if block.links else 0
         elif block.kind == b"##DL":
-            parts.extend(_listed(file, block.links[1:], size))
+            parts.extend(_find_listed(file, block.links[1:], size))
             address = block.links[0] if block.links else 0
         else:
-            return [*parts, *_listed(file, (address,), size)]
+            return [*parts, *_find_listed(file, (address,), size)]
     return parts
 
 
-def _listed(file: BinaryIO, addresses: Iterable[int], size: int) -> Iterator[Part]:
+def _find_listed(file: BinaryIO, addresses: Iterable[int], size: int) -> Iterator[Part]:
     for address in addresses:
         if not address or address + 24 > size:
             return
@@ -58,7 +75,7 @@ def _listed(file: BinaryIO, addresses: Iterable[int], size: int) -> Iterator[Par
             there = min(block.length - 24, size - start)
             yield Part(start, there, there)
         elif block.kind == b"##DZ":
-            yield from _compressed(file, address, size)
+            yield from _find_compressed(file, address, size)
         else:
             name = block.kind.decode("latin-1")[2:]
             raise InputError(
@@ -67,7 +84,7 @@ def _listed(file: BinaryIO, addresses: Iterable[int], size: int) -> Iterator[Par
             )
 
 
-def _compressed(file: BinaryIO, address: int, size: int) -> Iterator[Part]:
+def _find_compressed(file: BinaryIO, address: int, size: int) -> Iterator[Part]:
     file.seek(address + 26)
     head = file.read(22)
     if len(head) < 22:
@@ -82,19 +99,19 @@ def _compressed(file: BinaryIO, address: int, size: int) -> Iterator[Part]:
         yield Part(address + 48, stored, count, method, width)
 
 
-def pieces_of(file: BinaryIO, parts: Iterable[Part]) -> Iterator[bytes]:
+def read_parts(file: BinaryIO, parts: Iterable[Part]) -> Iterator[bytes]:
     """Yield the bytes of ``parts`` in order, at most one part or 4 MiB together."""
     for part in parts:
         if part.method is not None:
             file.seek(part.address)
-            yield expanded(part, file.read(part.stored))
+            yield expand(part, file.read(part.stored))
             continue
         for start in range(0, part.bytes, READ_BYTES):
             file.seek(part.address + start)
             yield file.read(min(READ_BYTES, part.bytes - start))
 
 
-def rows_of(pieces: Iterable[bytes], width: int, rows: int) -> Iterator[Bytes]:
+def split_records(pieces: Iterable[bytes], width: int, rows: int) -> Iterator[Bytes]:
     """Yield records of ``width`` bytes, ``rows`` together, as arrays of shape (n, ``width``).
 
     A record that is cut off at the end is left out.
@@ -113,3 +130,70 @@ def rows_of(pieces: Iterable[bytes], width: int, rows: int) -> Iterator[Bytes]:
 def _rows(data: bytearray, width: int) -> Bytes:
     count = len(data) // width
     return np.frombuffer(data, np.uint8, count * width).reshape(count, width)
+
+
+def expand(part: Part, stored: bytes) -> bytes:
+    """Return the bytes of ``part``, of which the file holds ``stored``; InputError otherwise."""
+    try:
+        data = _inflate(part, stored)
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(f"{_where(part)} cannot be expanded ({error}); copy the file again") from (
+            error
+        )
+    if len(data) != part.bytes:
+        raise InputError(f"{_where(part)} does not hold {part.bytes} bytes; copy the file again")
+    return _transpose(data, part.width) if part.method and part.method % 2 else data
+
+
+def _where(part: Part) -> str:
+    return f"the compressed block at byte {part.address - 48}"
+
+
+def _inflate(part: Part, stored: bytes) -> bytes:
+    method = part.method or DEFLATE
+    if method & ~1 == DEFLATE:
+        return _choose_inflater()(stored, part.bytes + 1)
+    if method & ~1 == LZ4:
+        from lz4.frame import LZ4FrameDecompressor
+
+        whole: bytes = LZ4FrameDecompressor().decompress(stored, max_length=part.bytes + 1)
+        return whole
+    if method & ~1 == ZSTD and _read_zstd_size(stored) == part.bytes:
+        from zstd import decompress
+
+        data: bytes = decompress(stored)
+        return data
+    raise InputError(f"{_where(part)} is compressed by method {method}; save it with deflate")
+
+
+def _read_zstd_size(stored: bytes) -> int | None:
+    """Return what a zstd frame says it holds, to which its decoder keeps; None if it does not."""
+    if stored[:4] != b"\x28\xb5\x2f\xfd":
+        return None
+    described = stored[4]
+    single = described >> 5 & 1
+    start = 5 + (not single) + (0, 1, 2, 4)[described & 3]
+    size = (single, 2, 4, 8)[described >> 6]
+    count = int.from_bytes(stored[start : start + size], "little")
+    return count + 256 * (size == 2) if size else None
+
+
+def _choose_inflater() -> Callable[[bytes, int], bytes]:
+    """Return what inflates bytes to at most so many; ISA-L, as asammdf itself, if it is there."""
+    try:
+        from isal import isal_zlib
+    except ImportError:
+        return zlib.decompressobj().decompress
+    inflate: Callable[[bytes, int], bytes] = isal_zlib.decompressobj().decompress
+    return inflate
+
+
+def _transpose(data: bytes, width: int) -> bytes:
+    """Return records of ``width`` bytes whose first bytes come first, then the second ones."""
+    if width == 0:
+        return data
+    lines = len(data) // width
+    square = np.frombuffer(data, np.uint8, lines * width).reshape(width, lines)
+    return square.T.tobytes() + data[lines * width :]

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Epoch, InputError, NativeClock
-from floatref_adapters.formats.mdf4.data_blocks import Bytes
-from floatref_adapters.formats.mdf4.record_fields import FLOATS, Field, converted
+from floatref_adapters.formats.mdf4.conversions import convert
+from floatref_adapters.formats.mdf4.record_fields import FLOATS, Field, Numbers
 from floatref_adapters.shared.simplest_ratio import simplest
 
 Ticks = NDArray[np.int64] | NDArray[np.float64]
@@ -33,15 +33,12 @@ class Timing:
     field: Field | None = None
     whole: bool = False
 
-    def ticks(self, rows: Bytes, first: int) -> Ticks | None:
-        """Return the ticks of ``rows``, the first of which is record ``first``."""
-        if self.field is None:
-            return None
-        raw = self.field.raw(rows, first)
+    def to_ticks(self, field: Field, raw: Numbers) -> Ticks:
+        """Return the ticks of the stored numbers ``raw`` of ``field``."""
         if not self.whole:
-            return converted(self.field.origin.conversion, raw)
+            return convert(field.origin.conversion, raw)
         if raw.dtype == np.uint64 and raw.size and raw.max() > np.iinfo(np.int64).max:
-            raise InputError(f"{self.field.origin.name}: tick {raw.max()}; the file is damaged")
+            raise InputError(f"{field.origin.name}: tick {raw.max()}; the file is damaged")
         return raw.astype(np.int64)
 
 

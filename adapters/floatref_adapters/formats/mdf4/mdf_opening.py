@@ -13,8 +13,7 @@ from typing import Any, BinaryIO
 
 from floatref import InputError
 from floatref_adapters.formats.mdf4.block_links import check_links, read_block
-from floatref_adapters.formats.mdf4.data_blocks import parts_of
-from floatref_adapters.formats.mdf4.expansion import Part, expanded
+from floatref_adapters.formats.mdf4.data_blocks import Part, expand, find_parts
 
 MAGIC = (b"MDF     ", b"UnFinMF ")
 LAST_LENGTHS = 0b10100
@@ -76,7 +75,7 @@ def _check(file: BinaryIO, size: int) -> None:
         # The length of the only data block may not be known yet: asammdf finds it.
         if unfinished & LAST_LENGTHS and data and _one_block(file, data, size):
             continue
-        parts = parts_of(file, data, size)
+        parts = find_parts(file, data, size)
         file.seek(address + RECORD_IDS)
         if unfinished or file.read(1) not in (b"", b"\0"):
             _check_expansion(file, parts)
@@ -103,4 +102,4 @@ def _check_expansion(file: BinaryIO, parts: Iterable[Part]) -> None:
     for part in parts:
         if part.method is not None:
             file.seek(part.address)
-            expanded(part, file.read(part.stored))
+            expand(part, file.read(part.stored))

@@ -7,17 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref_adapters.formats.mdf4.conversion_tables import numbers_of, of_ranges, scales_of
+from floatref_adapters.formats.mdf4.conversions import convert, find_conversion_fault, scales_of
 from floatref_adapters.formats.mdf4.data_blocks import Bytes
 
 Numbers = NDArray[Any]
+Marks = NDArray[np.bool_]
 VALUE, MASTER, VIRTUAL_MASTER, SYNC, VIRTUAL = 0, 2, 3, 4, 6
 """Types of channel that hold a number per record."""
 INTEGERS, SIGNED, FLOATS, BIG_ENDIAN = (0, 1, 2, 3), (2, 3), (4, 5), (1, 3, 5)
 """Types of data."""
-ALGEBRAIC, RANGES, FIRST_TEXT = 3, 6, 7
-"""Types of conversion: a formula, a table by ranges, and the first of those that give text."""
-TEXT = "text by a table"
 ALL_INVALID, SOME_INVALID = 1, 2
 
 
@@ -25,9 +23,11 @@ ALL_INVALID, SOME_INVALID = 1, 2
 class Field:
     """Where in a record a channel is, how it is converted, and how it is marked as missing.
 
-    ``origin`` is asammdf's channel; ``whole`` and ``invalid`` are bytes of a record.
+    ``origin`` is asammdf's channel, number ``index`` of its group; ``whole`` and ``invalid`` are
+    bytes of a record.
     """
 
+    index: int
     origin: Any
     whole: int
     invalid: int
@@ -53,7 +53,7 @@ class Field:
             return "text or bytes"
         if not self.virtual and not self._fits():
             return f"{channel.bit_count} bits that do not lie in a record as a number"
-        return conversion_fault(channel.conversion)
+        return find_conversion_fault(channel.conversion)
 
     def note(self) -> str:
         """Return what is to be known of its numbers; "" if nothing."""
@@ -68,21 +68,28 @@ class Field:
             return offset == 0 and bits in (16, 32, 64)
         return bits > 0 and self.stored_bytes <= 8
 
-    def raw(self, rows: Bytes, first: int) -> Numbers:
-        """Return the numbers as stored in ``rows``, the first of which is record ``first``."""
-        if self.virtual:
-            return np.arange(first, first + len(rows), dtype=np.int64)
+    def read(self, rows: Bytes) -> Numbers:
+        """Return the numbers as stored in ``rows``; the field is not virtual."""
         start, size = self.origin.byte_offset, self.stored_bytes
         order = ">" if self.origin.data_type in BIG_ENDIAN else "<"
         field = rows[:, start : start + size]
         if self.origin.bit_offset or self.origin.bit_count not in (8, 16, 32, 64):
-            return self._bits(field, order)
+            return self._read_bits(field, order)
         kind = "f" if self.origin.data_type in FLOATS else "u"
         kind = "i" if self.origin.data_type in SIGNED else kind
         native: Numbers = np.ascontiguousarray(field).view(f"{order}{kind}{size}")[:, 0]
         return native
 
-    def _bits(self, field: Bytes, order: str) -> Numbers:
+    def read_marks(self, rows: Bytes) -> Marks | None:
+        """Return which of ``rows`` are marked invalid; None if the field has no mark."""
+        if not (self.origin.flags & SOME_INVALID and self.invalid):
+            return None
+        byte, bit = divmod(self.origin.pos_invalidation_bit, 8)
+        if byte >= self.invalid:
+            return None
+        return (rows[:, self.whole + byte] >> bit & 1).astype(bool)
+
+    def _read_bits(self, field: Bytes, order: str) -> Numbers:
         """Return integers of any number of bits, up to 64 with the bits before them."""
         wide = np.zeros((len(field), 8), np.uint8)
         wide[:, slice(8 - field.shape[1], 8) if order == ">" else slice(field.shape[1])] = field
@@ -94,54 +101,15 @@ class Field:
             return numbers.view(np.int64) >> np.int64(spare)
         return numbers >> spare
 
-    def values(self, rows: Bytes, first: int) -> NDArray[np.float64]:
-        """Return the converted numbers of ``rows`` as float64, NaN where marked invalid."""
-        numbers = converted(self.origin.conversion, self.raw(rows, first))
+    def to_values(self, raw: Numbers, marks: Marks | None) -> NDArray[np.float64]:
+        """Return ``raw`` converted to float64, NaN where it is marked invalid."""
+        numbers = convert(self.origin.conversion, raw)
         numbers = np.array(numbers, np.float64) if numbers.base is not None else numbers
         if self.origin.flags & ALL_INVALID:
             numbers[:] = np.nan
-        elif self.origin.flags & SOME_INVALID and self.invalid:
-            byte, bit = divmod(self.origin.pos_invalidation_bit, 8)
-            if byte < self.invalid:
-                numbers[(rows[:, self.whole + byte] >> bit & 1).astype(bool)] = np.nan
+        elif marks is not None:
+            numbers[marks] = np.nan
         return numbers
-
-
-def conversion_fault(conversion: Any) -> str:
-    """Return why ``conversion`` gives no numbers; "" if it does."""
-    if conversion is None:
-        return ""
-    if conversion.conversion_type >= FIRST_TEXT:
-        scales = scales_of(conversion).values()
-        return next(filter(None, map(conversion_fault, scales)), "") if scales else TEXT
-    try:
-        converted(conversion, np.arange(2))
-    except Exception:
-        return "a conversion that cannot be computed"
-    return ""
-
-
-def converted(conversion: Any, raw: Numbers) -> NDArray[np.float64]:
-    """Return ``raw`` converted by asammdf's ``conversion``, as float64."""
-    if conversion is None:
-        return raw.astype(np.float64)
-    with np.errstate(all="ignore"):
-        if scales_of(conversion):
-            return numbers_of(conversion, raw, converted)
-        if conversion.conversion_type == ALGEBRAIC:
-            return _computed(conversion.formula, raw.astype(np.float64))
-        if conversion.conversion_type == RANGES:
-            return of_ranges(conversion, raw)
-        return np.asarray(conversion.convert(raw.astype(np.float64)), np.float64)
-
-
-def _computed(formula: str, raw: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return ``formula`` of X; asammdf's own way would leave a bad one out without a word."""
-    from numexpr import evaluate
-
-    text = re.sub(r"\bX1?\b", "X", formula)
-    found = evaluate(text, local_dict={"X": raw}, global_dict={}, sanitize=True)
-    return np.broadcast_to(np.asarray(found, np.float64), raw.shape).copy()
 
 
 def unit_of(channel: Any) -> str:
