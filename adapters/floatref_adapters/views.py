@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref import Channel, Profile, Recording, UniformClock
-from floatref_adapters.shared.libraries import library
 from floatref_adapters.shared.profile_columns import DISTANCE, as_json, columns_of
+from floatref_adapters.shared.refusals import library
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -42,19 +42,19 @@ def write(form: str, path: Path, megabytes: float) -> None:
 
 
 def _mdf4_compressed(path: Path, megabytes: float) -> None:
-    from floatref_adapters.testing.mdf4_blocks import write as write_blocks
+    from floatref_adapters.testing.mdf4 import write as write_blocks
 
     write_blocks(_stored_groups(1, megabytes, True), path)
 
 
 def _mdf4_mixed(path: Path, megabytes: float) -> None:
-    from floatref_adapters.testing.mdf4_blocks import write as write_blocks
+    from floatref_adapters.testing.mdf4 import write as write_blocks
 
     write_blocks(_stored_groups(3, megabytes / 8, False), path, mixed=True)
 
 
 def _stored_groups(groups: int, megabytes: float, compressed: bool) -> list[Any]:
-    from floatref_adapters.testing.mdf4_blocks import MASTER, Stored, StoredGroup
+    from floatref_adapters.testing.mdf4 import MASTER, Stored, StoredGroup
 
     count = int(megabytes * 1e6 / (8 * 9 * groups))
     noise = np.random.default_rng(3)

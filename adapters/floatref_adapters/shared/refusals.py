@@ -1,7 +1,9 @@
-"""What is wrong, with the name of what it is wrong with before it."""
+"""What an adapter refuses, in one line: a library that is missing, or what is wrong with a file."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
+from typing import Any
 
 from floatref import InputError
 
@@ -15,4 +17,10 @@ def naming(where: object) -> Iterator[None]:
         raise InputError(f"{where}: {error}") from error
 
 
-__all__ = ["naming"]
+def library(name: str, task: str) -> Any:
+    """Return the module ``name``; InputError, saying that ``task`` needs it, if it is missing."""
+    try:
+        return import_module(name)
+    except ImportError as error:
+        package = name.split(".")[0]
+        raise InputError(f"{task} needs {package}; install floatref[adapters]") from error

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, InputError, Recording, UniformClock
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.testing.file_writing import (
     Floats,
     by_clock,

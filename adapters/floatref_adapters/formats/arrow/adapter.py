@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 
 from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.formats.arrow.arrow_schema import Table, is_temporal, tables_of, text_of
-from floatref_adapters.shared.libraries import library
-from floatref_adapters.shared.piece_rows import keep_freed_memory
-from floatref_adapters.shared.refusals import naming
+from floatref_adapters.shared.refusals import library, naming
+from floatref_adapters.shared.row_pieces import keep_freed_memory
 
 CONTINUED = b"\xff\xff\xff\xff"
 """How an IPC stream begins."""

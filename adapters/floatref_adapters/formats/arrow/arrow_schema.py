@@ -11,8 +11,8 @@ from fractions import Fraction
 from typing import Any
 
 from floatref import Column, Epoch, InputError, NativeClock
-from floatref_adapters.shared.libraries import library
 from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.stated_clock import number, stated_clock
 from floatref_adapters.shared.time_columns import NONE, UNKNOWN, of_epoch, time_column
 

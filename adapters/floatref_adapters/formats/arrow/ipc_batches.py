@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from floatref import InputError
-from floatref_adapters.shared.libraries import library
-from floatref_adapters.shared.piece_rows import MOST_ROWS, rows_for
+from floatref_adapters.shared.refusals import library
+from floatref_adapters.shared.row_pieces import MOST_ROWS, rows_for
 
 MAGIC = b"ARROW1"
 MOST_COMPRESSED, MOST_TOGETHER = 1 << 25, 1 << 26

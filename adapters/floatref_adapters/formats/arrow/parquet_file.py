@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from floatref_adapters.shared.libraries import library
-from floatref_adapters.shared.piece_rows import rows_for
+from floatref_adapters.shared.refusals import library
+from floatref_adapters.shared.row_pieces import rows_for
 
 BUFFER = 1 << 20
 """Bytes of a column chunk that are read at once, however long it is."""

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Profile, ProfileTrack
-from floatref_adapters.shared.libraries import library
 from floatref_adapters.shared.profile_columns import DISTANCE, columns_of, described, metadata_of
+from floatref_adapters.shared.refusals import library
 
 MARK = b"PAR1"
 FORMAT = "floatref-profile/1"

@@ -16,8 +16,8 @@ from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, S
 from floatref_adapters.formats.can_log.can_database import Database, Message
 from floatref_adapters.formats.can_log.can_frames import Frame, Frames
 from floatref_adapters.formats.can_log.log_formats import looks_like
-from floatref_adapters.shared.piled_rows import piled
 from floatref_adapters.shared.record_spool import Spool
+from floatref_adapters.shared.row_pieces import piled
 
 MOST_IDS = 20_000
 SHOWN = 8

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref import Column, InputError
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 
 LARGEST = 1 << 26
 """Bytes of a database that is read; those of whole vehicles have a few million."""

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from floatref_adapters.formats.can_log.blf import SoundBlf
 from floatref_adapters.formats.can_log.log_formats import LATEST_NS, Format, format_of
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.text_lines import text_lines
 
 STANDARD = 0x7FF

@@ -19,9 +19,10 @@ from floatref import InputError, NativeClock, NativeFile, Rows, Stream
 from floatref_adapters.formats.csv_table.table_layout import Layout, layout_of
 from floatref_adapters.formats.csv_table.table_rows import Piece, is_cut_short, pieces
 from floatref_adapters.formats.csv_table.text_pieces import encoding_of
-from floatref_adapters.formats.csv_table.written_times import Times, Writing, has_zone, writing_of
+from floatref_adapters.formats.csv_table.written_times import Times, Writing, find_writing
 from floatref_adapters.shared.refusals import naming
 from floatref_adapters.shared.time_columns import UNKNOWN, of_epoch, time_column
+from floatref_adapters.shared.time_texts import has_zone
 
 SUFFIXES = (".csv", ".tsv", ".txt")
 LISTED = 1024
@@ -137,7 +138,7 @@ def _measured(source: Path, layout: Layout, times: Times | None) -> tuple[_Exten
             piece = Piece(layout, piece.first, piece.text + b"\n")
         if ended or not cut:
             rows += piece.rows
-            times = times.seen(piece) if times else None
+            times = times.measure(piece) if times else None
         before = piece.text[:-1].rpartition(b"\n")[2]
     return _Extent(rows, cut), times
 
@@ -149,7 +150,7 @@ def _times(layout: Layout, option: str | None) -> tuple[Times | None, tuple[str,
         return None, (UNKNOWN,)
     column = layout.columns[found.index]
     texts = [row[found.index] for row in layout.body]
-    writing = writing_of(texts, layout.decimal)
+    writing = find_writing(texts, layout.decimal)
     if writing is None:
         if option is not None:
             raise InputError(f"time = {option!r}: holds {texts[0]!r}, no time; name another column")

@@ -1,6 +1,5 @@
 """Times written as text: numbers with their decimals, ISO 8601, or the time of a day, as ticks."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -12,18 +11,13 @@ from numpy.typing import NDArray
 from floatref import Epoch, InputError, NativeClock
 from floatref_adapters.formats.csv_table.table_fields import is_number
 from floatref_adapters.formats.csv_table.table_rows import Piece
+from floatref_adapters.shared.time_texts import CLOCK, ISO, read_day_ns, read_iso_ns
 
 MOST_DIGITS = 18
 """Digits of a tick that int64 holds, whatever they are."""
 LARGEST = 2.0**63
 EXACT_DIGITS = 15
 """Digits that a float64 holds, so that its product with a power of ten rounds to the tick."""
-_ISO = re.compile(
-    r"(?:(?P<date>(?:19|2[01])\d\d-\d\d-\d\d)|(?P<day>\d\d?)\.(?P<month>\d\d?)\.(?P<year>\d{4}))"
-    r"[T ](?P<clock>\d\d:\d\d(?::\d\d)?)"
-    r"(?:[.,](?P<part>\d{1,9})\d*)?(?P<zone> ?Z|[+-]\d\d:?\d\d)?"
-)
-_CLOCK = re.compile(r"(?P<clock>\d?\d:\d\d:\d\d)(?:[.,](?P<part>\d{1,9})\d*)?")
 
 
 class Writing(Enum):
@@ -34,16 +28,16 @@ class Writing(Enum):
     DAY = "day"
 
 
-def writing_of(texts: Sequence[str], decimal: str) -> Writing | None:
+def find_writing(texts: Sequence[str], decimal: str) -> Writing | None:
     """Return how the times ``texts`` are written, or None if they are none."""
     there = [text for text in texts if text]
     if not there:
         return None
     if all(is_number(text, decimal) for text in there):
         return Writing.NUMBER
-    if all(_ISO.fullmatch(text) for text in there):
+    if all(ISO.fullmatch(text) for text in there):
         return Writing.ISO
-    if all(_CLOCK.fullmatch(text) for text in there):
+    if all(CLOCK.fullmatch(text) for text in there):
         return Writing.DAY
     # A bad field in a column of numbers is found when it is read.
     return Writing.NUMBER if any(is_number(text, decimal) for text in there) else None
@@ -68,21 +62,21 @@ class Times:
     exact: bool = True
     largest: float = 0.0
 
-    def seen(self, piece: Piece) -> "Times":
+    def measure(self, piece: Piece) -> "Times":
         """Return this, with the decimals and digits in ``piece`` taken into account."""
         if self.writing is not Writing.NUMBER:
             return self
-        seen = self._seen_digits(piece)
+        seen = self._measure_digits(piece)
         if seen.decimals + seen.whole <= MOST_DIGITS:
             return seen
         values = np.abs(piece.numbers([self.column]))
         return replace(seen, largest=float(np.fmax.reduce(values[:, 0], initial=self.largest)))
 
-    def _seen_digits(self, piece: Piece) -> "Times":
+    def _measure_digits(self, piece: Piece) -> "Times":
         plain = piece.grid.plain([self.column]) if piece.grid else None
         if plain is None:
             # What is not plain is read field by field anyway.
-            return self._seen_fields(piece)
+            return self._measure_fields(piece)
         codes = np.frombuffer(plain, np.uint8)
         ends = np.flatnonzero(codes == ord(","))
         starts = np.concatenate(([0], ends[:-1] + 1))
@@ -91,16 +85,17 @@ class Times:
         point = np.minimum(point, ends)
         decimals = int(np.maximum(ends - point - 1, 0).max(initial=0))
         whole = int((point - starts).max(initial=0))
-        return self._most(decimals, whole, b"e" not in plain.lower())
+        return self.widen(decimals, whole, b"e" not in plain.lower())
 
-    def _seen_fields(self, piece: Piece) -> "Times":
-        seen = self
+    def _measure_fields(self, piece: Piece) -> "Times":
+        found = self
         for text in piece.texts(self.column):
             whole, _, part = text.partition(self.decimal)
-            seen = seen._most(len(part), len(whole), "e" not in text.lower())
-        return seen
+            found = found.widen(len(part), len(whole), "e" not in text.lower())
+        return found
 
-    def _most(self, decimals: int, whole: int, exact: bool) -> "Times":
+    def widen(self, decimals: int, whole: int, exact: bool) -> "Times":
+        """Return this, with room for another number."""
         if decimals <= self.decimals and whole <= self.whole and exact >= self.exact:
             return self
         return replace(
@@ -154,7 +149,7 @@ class Times:
 
     def _of_text(self, piece: Piece) -> NDArray[np.int64]:
         texts = piece.texts(self.column)
-        read = iso_ns if self.writing is Writing.ISO else day_ns
+        read = read_iso_ns if self.writing is Writing.ISO else read_day_ns
         found = np.empty(len(texts), np.int64)
         for k, text in enumerate(texts):
             tick = read(text)
@@ -170,42 +165,4 @@ class Times:
         )
 
 
-def iso_ns(text: str) -> int | None:
-    """Return the ns since 1970 UTC of an ISO 8601 time, or None; without a zone it is UTC.
-
-    A date may be written as 22.11.2026 too, which has a single meaning.
-    """
-    match = _ISO.fullmatch(text)
-    if not match:
-        return None
-    date = match["date"] or f"{match['year']}-{match['month']:0>2}-{match['day']:0>2}"
-    try:
-        seconds = int(np.datetime64(f"{date}T{match['clock']}", "s").astype(np.int64))
-    except ValueError:
-        return None
-    zone = (match["zone"] or "Z").strip().replace(":", "")
-    if zone != "Z":
-        sign = -1 if zone[0] == "-" else 1
-        seconds -= sign * (int(zone[1:3]) * 3600 + int(zone[3:]) * 60)
-    return seconds * 10**9 + int((match["part"] or "0").ljust(9, "0"))
-
-
-def day_ns(text: str) -> int | None:
-    """Return the ns since midnight of a time such as 12:30:00.25, or None."""
-    match = _CLOCK.fullmatch(text)
-    if not match:
-        return None
-    hours, minutes, seconds = (int(part) for part in match["clock"].split(":"))
-    if minutes > 59 or seconds > 60:
-        return None
-    part = int((match["part"] or "0").ljust(9, "0"))
-    return (hours * 3600 + minutes * 60 + seconds) * 10**9 + part
-
-
-def has_zone(text: str) -> bool:
-    """Tell whether the ISO 8601 time ``text`` states its zone."""
-    match = _ISO.fullmatch(text)
-    return bool(match and match["zone"])
-
-
-__all__ = ["Times", "Writing", "day_ns", "has_zone", "iso_ns", "writing_of"]
+__all__ = ["Times", "Writing", "find_writing"]

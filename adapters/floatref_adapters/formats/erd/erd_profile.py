@@ -1,8 +1,7 @@
 """ERD, the text format of UMTRI that ProVAL and RoadRuf open: profiles out and in."""
 
-from collections import Counter
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,10 @@ from floatref_adapters.formats.erd.erd_header import (
 )
 from floatref_adapters.formats.erd.erd_numbers import read_numbers
 from floatref_adapters.formats.erd.erd_writing import ELEVATION, FORMAT, PIPELINE, VALID, write_erd
-from floatref_adapters.formats.erd.lengths import Ratio, in_metres, length_unit
+from floatref_adapters.shared.numbered_names import numbered
+
+Ratio = tuple[int, int]
+"""Numerator and denominator: a number times one, over the other, is rounded but once."""
 
 WHEEL_PATHS = {"lelev": "left", "relev": "right"}
 """Names that ProVAL's own examples give the two wheel paths."""
@@ -105,7 +107,7 @@ def _elevations(header: ErdHeader) -> tuple[list[Elevation], list[str]]:
     if not chosen:
         there = ", ".join(f"{c.title} ({c.unit or 'no unit'})" for c in header.channels[:8])
         raise InputError(f"no channel is an elevation in a unit of length: {there}")
-    tracks = _unique([_wheel_path(header.channels[i], i) for i in chosen])
+    tracks = numbered([_wheel_path(header.channels[i], i) for i in chosen])
     units = [_unit(header.channels[i]) for i in chosen]
     found = [Elevation(*parts) for parts in zip(tracks, chosen, units, strict=True)]
     return found, [c.title for i, c in enumerate(header.channels) if i not in chosen]
@@ -149,22 +151,6 @@ def _wheel_path(channel: ErdChannel, index: int) -> str:
     return WHEEL_PATHS.get(name.lower(), name)
 
 
-def _unique(names: list[str]) -> list[str]:
-    """Return ``names`` with numbers behind those that are there already."""
-    seen: Counter[str] = Counter()
-    taken = set(names)
-    unique = []
-    for name in names:
-        seen[name] += 1
-        numbered = name
-        while seen[name] > 1 and numbered in taken:
-            numbered = f"{name} #{seen[name]}"
-            seen[name] += numbered in taken
-        taken.add(numbered)
-        unique.append(numbered)
-    return unique
-
-
 def _track(elevation: Elevation, columns: dict[int, NDArray[np.float64]]) -> ProfileTrack:
     values = in_metres(columns[elevation.channel], elevation.unit)
     valid = None if elevation.valid is None else columns[elevation.valid]
@@ -184,5 +170,34 @@ def _pipeline(header: ErdHeader) -> str:
 def _provenance(header: ErdHeader, left_out: list[str]) -> dict[str, Any]:
     if _is_ours(header):
         return {}
-    told = {"title": header.title, "history": list(header.history), "left_out": left_out}
-    return {"erd": {key: value for key, value in told.items() if value}}
+    found = {"title": header.title, "history": list(header.history), "left_out": left_out}
+    return {"erd": {key: value for key, value in found.items() if value}}
+
+
+_SPELLINGS: dict[Ratio, str] = {
+    (1, 1): "m meter meters metre metres",
+    (1, 100): "cm",
+    (1, 1000): "mm millimeter millimeters millimetre millimetres",
+    (1, 1_000_000): "um micron microns",
+    (1000, 1): "km kilometer kilometers kilometre kilometres",
+    (254, 10_000): "in inch inches",
+    (254, 10_000_000): "mil mils",
+    (3048, 10_000): "ft foot feet",
+    (1_609_344, 1000): "mi mile miles",
+}
+LENGTHS = {word: ratio for ratio, words in _SPELLINGS.items() for word in words.split()}
+
+
+def length_unit(text: str) -> Ratio | None:
+    """Return what one ``text`` is in m, whatever its case; None if it is no unit of length."""
+    return LENGTHS.get(text.strip().rstrip(".").lower())
+
+
+@overload
+def in_metres(value: float, unit: Ratio) -> float: ...
+@overload
+def in_metres(value: NDArray[np.float64], unit: Ratio) -> NDArray[np.float64]: ...
+def in_metres(value: float | NDArray[np.float64], unit: Ratio) -> float | NDArray[np.float64]:
+    """Return ``value`` in m; one in m comes back as it is, with every digit."""
+    numerator, denominator = unit
+    return value if numerator == denominator else value * numerator / denominator

@@ -15,7 +15,7 @@ from threading import Timer
 from typing import Any, BinaryIO
 
 from floatref import InputError, NativeFile, Rows
-from floatref_adapters.shared.piece_rows import keep_freed_memory
+from floatref_adapters.shared.row_pieces import keep_freed_memory
 
 LONGEST_SILENCE_S = 60.0
 MOST_MEMORY = 1 << 30

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from floatref import Column, Epoch, InputError, NativeClock
-from floatref_adapters.formats.csv_table.written_times import iso_ns
 from floatref_adapters.formats.hdf5.object_tree import Group, Tree
 from floatref_adapters.formats.hdf5.series import Series, series_of
 from floatref_adapters.shared.numbered_names import numbered
@@ -18,6 +17,7 @@ from floatref_adapters.shared.time_columns import (
     time_column,
     unit_of,
 )
+from floatref_adapters.shared.time_texts import read_iso_ns
 
 ROOT = "root"
 """What the group that holds all others is called."""
@@ -172,9 +172,9 @@ def _made(
     assert found is not None
     tick = found.unit_s * (time.scale if time.integral else 1)
     _, since, origin = time.column.unit.partition(" since ")
-    began = iso_ns(origin.strip()) if since else None
+    began = read_iso_ns(origin.strip()) if since else None
     if since and began is None:
-        began = iso_ns(f"{origin.strip()} 00:00")
+        began = read_iso_ns(f"{origin.strip()} 00:00")
     if began is not None:
         return NativeClock(tick_s=tick, epoch=Epoch.UTC, origin_ns=began, name="utc")
     return of_epoch(NativeClock(tick_s=tick), options)

@@ -12,7 +12,7 @@ from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.formats.hdf5.clock_tables import Table, tables_of
 from floatref_adapters.formats.hdf5.object_tree import opened, text_of, tree_of
 from floatref_adapters.formats.hdf5.series import MOST_HELD, Held, Series, chosen
-from floatref_adapters.shared.piece_rows import MOST_ROWS, keep_freed_memory, rows_for
+from floatref_adapters.shared.row_pieces import MOST_ROWS, keep_freed_memory, rows_for
 
 
 def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref import InputError
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.stated_clock import RATES, STARTS, STEPS
 
 MOST_OBJECTS = 20_000

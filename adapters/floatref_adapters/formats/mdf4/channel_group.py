@@ -20,7 +20,7 @@ from floatref_adapters.formats.mdf4.data_blocks import (
     split_records,
 )
 from floatref_adapters.formats.mdf4.record_fields import Field, Marks, Numbers
-from floatref_adapters.shared.piece_rows import MOST_ROWS
+from floatref_adapters.shared.row_pieces import MOST_ROWS
 
 PIECE_BYTES = 1 << 23
 METHODS = (None, 0, 1, 4, 5, 2, 3)

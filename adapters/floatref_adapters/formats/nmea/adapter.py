@@ -17,8 +17,8 @@ from floatref import Epoch, InputError, NativeClock, NativeFile, Rows, Stream
 from floatref_adapters.formats.nmea.day_count import DAY_NS, DayCount, ordinal_of, time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, MOST, NotANumber, Quantity
 from floatref_adapters.formats.nmea.sentences import MOST_KINDS, Sentence, Sentences
-from floatref_adapters.shared.piled_rows import piled
 from floatref_adapters.shared.record_spool import Spool
+from floatref_adapters.shared.row_pieces import piled
 from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 13

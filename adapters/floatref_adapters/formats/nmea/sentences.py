@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from floatref_adapters.formats.nmea.day_count import time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, Fields
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.text_lines import first_bytes, text_lines
 
 SENTENCE = re.compile(r"[$!]([A-Za-z][A-Za-z0-9]{3,9})(,[^*$!]*)(?:(\*[0-9A-Fa-f]{2})(?!\w))?")

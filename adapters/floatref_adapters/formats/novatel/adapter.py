@@ -19,8 +19,8 @@ from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, S
 from floatref_adapters.formats.novatel.decoder import Decoder
 from floatref_adapters.formats.novatel.log_frames import WEEK_MS, Frames, Log, is_sound
 from floatref_adapters.formats.novatel.log_layouts import LogLayout
-from floatref_adapters.shared.piled_rows import piled
 from floatref_adapters.shared.record_spool import Spool
+from floatref_adapters.shared.row_pieces import piled
 from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 16

@@ -5,7 +5,7 @@ from typing import Any
 
 from floatref_adapters.formats.novatel.log_frames import WEEK_MS, Log
 from floatref_adapters.formats.novatel.log_layouts import LogLayout, layout_of
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.shared.refusals import library
 
 TIMELESS = 80
 """A time status of less is no time."""

@@ -1,6 +1,6 @@
 """NI TDMS files, through npTDMS: the channels of a group that share a clock are a stream.
 
-npTDMS reads what the file says of its channels, and scales; the values are read here, by rows.
+npTDMS reads the metadata of each segment, and scales; values are read by rows in `channel_values`.
 An index file beside the file is not used.
 """
 
@@ -12,9 +12,8 @@ from pathlib import Path
 from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Stream
 from floatref_adapters.formats.tdms.group_rows import Reader, Source
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
-from floatref_adapters.formats.tdms.tdms_opening import MAGIC, first_line, opened, quiet
-from floatref_adapters.formats.tdms.waveform_clock import NS, UNKNOWN
-from floatref_adapters.formats.tdms.waveforms import Waveforms
+from floatref_adapters.formats.tdms.tdms_opening import MAGIC, first_line, quiet, read_metadata
+from floatref_adapters.formats.tdms.waveform_clock import NS, UNKNOWN, Waveforms
 from floatref_adapters.shared.numbered_names import numbered
 from floatref_adapters.shared.time_columns import time_column
 
@@ -36,14 +35,14 @@ class Tdms:
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the groups of ``source``; InputError if it cannot be read."""
         try:
-            tdms, changes, file = opened(source)
+            contents = read_metadata(source)
         except InputError as error:
             raise InputError(f"{source}: {error}") from error
         except OSError as error:
             raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
         try:
-            with file, quiet():
-                return _native(Source(source, tdms, changes))
+            with quiet():
+                return _native(Source(source, contents))
         except Exception as error:
             fault = str(error) if isinstance(error, InputError) else first_line(error)
             raise InputError(f"{source}: {fault}; the file is damaged") from error
@@ -52,17 +51,14 @@ class Tdms:
 def _native(source: Source) -> NativeFile:
     told = list(_cut_off(source))
     found: list[tuple[str, Timed]] = []
-    for number, group in enumerate(source.tdms.groups()):
-        name = group.name.strip() or f"group {number}"
-        inherited = (group.properties, source.tdms.properties)
-        channels = [
-            TdmsChannel(channel, inherited, source.changes.of(channel.path, len(channel)))
-            for channel in group.channels()
-        ]
-        empty = sum(not len(channel.origin) for channel in channels)
+    for number, (stated, (properties, objects)) in enumerate(source.contents.groups().items()):
+        name = stated.strip() or f"group {number}"
+        inherited = (properties, source.contents.properties)
+        channels = [TdmsChannel(item, inherited) for item in objects]
+        empty = sum(not channel.origin.count for channel in channels)
         if empty:
             told.append(f"{name}: {empty} channels hold no values")
-        held = [channel for channel in channels if len(channel.origin)]
+        held = [channel for channel in channels if channel.origin.count]
         found += [(name, timed) for timed in _timed(source, held)]
     names = numbered([name for name, _ in found])
     streams = [
@@ -73,7 +69,7 @@ def _native(source: Source) -> NativeFile:
 
 def _cut_off(source: Source) -> Iterator[str]:
     lost = sum(source.lost.values())
-    if lost or source.tdms.file_status.incomplete_final_segment:
+    if lost or source.contents.cut_off:
         channels = len(source.lost)
         yield f"the last segment is cut off: {lost} values of {channels} channels are missing"
 
@@ -137,8 +133,8 @@ def _stream(source: Source, name: str, timed: Timed, told: list[str]) -> Stream:
     bad = [fault for fault in faults if fault]
     told.extend(f"{name}: {bad.count(f)} channels are {f}" for f in dict.fromkeys(bad))
     every = [*channels, timed.time] if timed.time else channels
-    count = min(len(channel.origin) for channel in every)
-    spare = sum(len(channel.origin) - count for channel in every)
+    count = min(channel.origin.count for channel in every)
+    spare = sum(channel.origin.count - count for channel in every)
     if spare:
         told.append(f"{name}: {spare} values after the last complete row")
     columns = [

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from floatref import InputError, Rows
 from floatref_adapters.formats.tdms.channel_values import Values, Window
 from floatref_adapters.formats.tdms.extents import extents_of
-from floatref_adapters.formats.tdms.property_changes import Changes
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
-from floatref_adapters.formats.tdms.tdms_opening import first_line, opened, quiet
-from floatref_adapters.formats.tdms.waveform_clock import ns_of
-from floatref_adapters.formats.tdms.waveforms import Waveforms
-from floatref_adapters.shared.piece_rows import MOST_ROWS, keep_freed_memory, rows_for
+from floatref_adapters.formats.tdms.tdms_objects import Contents
+from floatref_adapters.formats.tdms.tdms_opening import first_line, open_guarded, quiet
+from floatref_adapters.formats.tdms.waveform_clock import Waveforms, ns_of
+from floatref_adapters.shared.row_pieces import MOST_ROWS, keep_freed_memory, rows_for
 
 PIECE_BYTES = 1 << 24
 Numbers = NDArray[Any]
@@ -25,28 +24,19 @@ Numbers = NDArray[Any]
 
 @dataclass(eq=False)
 class Source:
-    """A file by its path, npTDMS's TdmsFile of what it says of its channels, and its changes."""
+    """A file by its path, and what it says of its channels."""
 
     path: Path
-    tdms: Any
-    changes: Changes
+    contents: Contents
 
     @cached_property
     def lost(self) -> dict[str, int]:
         """How many values of the last chunk are missing, by the paths of the channels."""
-        statuses = self.tdms.file_status.channel_statuses or {}
-        lost = {path: s.expected_length - s.read_length for path, s in statuses.items()}
-        return {path: count for path, count in lost.items() if count > 0}
-
-    @property
-    def segments(self) -> Sequence[Any]:
-        """NpTDMS's segments, in order."""
-        found: Sequence[Any] = self.tdms._reader._segments
-        return found
+        return self.contents.count_lost()
 
     def length(self, channel: TdmsChannel) -> int:
         """Return how many values ``channel`` would have if the file were complete."""
-        return len(channel.origin) + self.lost.get(channel.origin.path, 0)
+        return channel.origin.count + self.lost.get(channel.origin.path, 0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +95,7 @@ class Reader:
     def _direct(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
         """Yield the values of ``channels``, which lie in the file one by one or row by row."""
         paths = [channel.origin.path for channel in channels]
-        extents = extents_of(self.source.segments, paths)
+        extents = extents_of(self.source.contents.segments, paths)
         lying = [Values(extents[path]) for path in paths]
         makers = [self._maker(channel) for channel in channels]
         widest = max(values.row_bytes for values in lying)
@@ -135,10 +125,14 @@ class Reader:
 
         It reads the chunks of the file one after the other, for all channels at once.
         """
-        tdms, _, file = opened(self.source.path)
+        from nptdms import TdmsFile
+
         held = [np.empty(0)] * len(channels)
         left = self.count
-        with file:
+        with (
+            open_guarded(self.source.path) as file,
+            TdmsFile.open(file, raw_timestamps=True) as tdms,
+        ):
             for chunk in tdms.data_chunks():
                 held = [_joined(h, chunk, c) for h, c in zip(held, channels, strict=True)]
                 while (rows := min(left, MOST_ROWS)) and min(map(len, held)) >= rows:
@@ -148,7 +142,7 @@ class Reader:
 
 def _joined(held: Numbers, chunk: Any, channel: TdmsChannel) -> Numbers:
     """Return ``held`` and what ``chunk`` has of ``channel`` behind it."""
-    more = chunk[channel.origin.group_name][channel.origin.name][:]
+    more = chunk[channel.origin.group][channel.origin.name][:]
     if not len(more):
         return held
     more = ns_of(more) if channel.stamps else np.asarray(more, np.float64)

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref_adapters.formats.tdms.property_changes import SCALING, History
-from floatref_adapters.formats.tdms.waveforms import Waveforms, waveforms_of
+from floatref_adapters.formats.tdms.tdms_objects import SCALING, StoredObject
+from floatref_adapters.formats.tdms.waveform_clock import Waveforms, waveforms_of
 
 SCALES = (
     "Polynomial",
@@ -33,14 +33,10 @@ STAMPS, TEXT, RAW_BUFFERS = "TimeStamp", "String", "DaqMxRawData"
 
 @dataclass(frozen=True, eq=False)
 class TdmsChannel:
-    """A channel of npTDMS, ``origin``, with the properties of its group and its file.
+    """A channel, with the properties of its group and its file."""
 
-    ``changes`` are those of its own properties that change on the way.
-    """
-
-    origin: Any
+    origin: StoredObject
     inherited: tuple[Mapping[str, Any], ...]
-    changes: Mapping[str, History]
 
     @property
     def kind(self) -> str:
@@ -67,7 +63,7 @@ class TdmsChannel:
     @cached_property
     def waveforms(self) -> Waveforms | None:
         """Its time properties, if it has them."""
-        return waveforms_of(self.origin.properties, self.changes)
+        return waveforms_of(self.origin.properties, self.origin.histories)
 
     def unreadable(self) -> str:
         """Return why it gives no numbers; "" if it does."""
@@ -81,7 +77,7 @@ class TdmsChannel:
         return self._scaling_fault()
 
     def _scaling_fault(self) -> str:
-        if any(name.startswith(SCALING) for name in self.changes):
+        if any(name.startswith(SCALING) for name in self.origin.histories):
             return "numbers whose scale or unit changes on the way"
         for properties in (self.origin.properties, *self.inherited):
             kinds = [str(properties[name]) for name in properties if _NAMES_SCALE.match(name)]

@@ -1,4 +1,4 @@
-"""TDMS files opened with npTDMS, once it is sure that it will come to an end with them."""
+"""TDMS files opened, once it is sure that npTDMS will come to an end with them."""
 
 import contextlib
 import io
@@ -7,14 +7,16 @@ import struct
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 from floatref import InputError
-from floatref_adapters.formats.tdms.property_changes import Changes, watched
-from floatref_adapters.shared.libraries import library
+from floatref_adapters.formats.tdms.tdms_objects import Contents, read_contents
+from floatref_adapters.shared.refusals import library
 
 MAGIC = b"TDSm"
 LEAD_IN = 28
+BIG_ENDIAN = 1 << 6
+"""Flag of a segment."""
 MOST_SEGMENTS = 2_000_000
 LONGEST_READ = 1 << 26
 """Most bytes of one name or text; a damaged length would fill the memory."""
@@ -30,27 +32,34 @@ class Guarded(io.BufferedReader):
         return super().read(size)
 
 
-def opened(source: Path) -> tuple[Any, Changes, BinaryIO]:
-    """Return npTDMS's TdmsFile of ``source``, how properties change in it, and the file itself.
+def open_guarded(source: Path) -> Guarded:
+    """Return ``source``, opened; InputError if it is no chain of segments.
 
     An index file beside it is left alone: it may belong to another version of the file, and
-    then values would be read from where they are not. InputError in one line if the file is
-    damaged.
+    then values would be read from where they are not.
     """
     library("nptdms", "reading TDMS")
     file = Guarded(io.FileIO(source))
     try:
-        _check(file, os.fstat(file.fileno()).st_size)
+        for _ in _read_leads(file):
+            pass
         file.seek(0)
-        with quiet():
-            return *watched(file), file
     except InputError:
         file.close()
         raise
-    except Exception as error:
-        file.close()
-        fault = f"npTDMS cannot read it ({first_line(error)}); copy the complete file"
-        raise InputError(fault) from error
+    return file
+
+
+def read_metadata(source: Path) -> Contents:
+    """Return what ``source`` says of its channels; InputError in one line if it is damaged."""
+    with open_guarded(source) as file, quiet():
+        try:
+            return read_contents(file, _read_leads(file))
+        except InputError:
+            raise
+        except Exception as error:
+            fault = f"npTDMS cannot read it ({first_line(error)}); copy the complete file"
+            raise InputError(fault) from error
 
 
 def first_line(error: Exception) -> str:
@@ -73,20 +82,28 @@ def quiet() -> Iterator[None]:
         log_manager.set_level(was)
 
 
-def _check(file: BinaryIO, size: int) -> None:
-    """Raise InputError unless ``file`` is a chain of segments, not too many."""
+def _read_leads(file: BinaryIO) -> Iterator[tuple[int, int, int, int, bool]]:
+    """Yield position, kind, end and start of the values of each segment, and if it is cut off.
+
+    The file is then where the metadata begin. InputError unless ``file`` is a chain of segments.
+    """
+    size = file.seek(0, os.SEEK_END)
     position = segments = 0
     while position + LEAD_IN <= size:
         file.seek(position)
-        tag, kind, length = struct.unpack("<4sl4xQ8x", file.read(LEAD_IN))
-        if kind & 1 << 6:
-            (length,) = struct.unpack(">Q", struct.pack("<Q", length))
+        lead = file.read(LEAD_IN)
+        tag, kind = struct.unpack_from("<4sl", lead)
+        length, metadata = struct.unpack_from(">QQ" if kind & BIG_ENDIAN else "<QQ", lead, 12)
         if tag != MAGIC:
             raise InputError(
                 f"no segment where one has to be, at byte {position}; copy the complete file"
             )
-        position, segments = position + LEAD_IN + length, segments + 1
+        end, values = position + LEAD_IN + length, position + LEAD_IN + metadata
+        if end > size and values > size:
+            break
+        yield position, kind, min(end, size), values, end > size
+        position, segments = end, segments + 1
         if segments > MOST_SEGMENTS:
             raise InputError(f"more than {MOST_SEGMENTS} segments; defragment the file")
-    if not segments:
+    if not size >= LEAD_IN:
         raise InputError("not a TDMS file; copy the complete file")

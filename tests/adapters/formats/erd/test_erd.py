@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import InputError, Profile, ProfileTrack
-from floatref_adapters.formats.erd.bridging import bridged, gaps_of
 from floatref_adapters.formats.erd.erd_profile import Erd
+from floatref_adapters.formats.erd.erd_writing import bridged, gaps_of
 
 KEYWORDS = {
     "TITLE",

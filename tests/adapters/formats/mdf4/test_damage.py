@@ -14,7 +14,7 @@ import pytest
 
 from floatref import InputError
 from floatref_adapters.formats.mdf4.adapter import Mdf4
-from floatref_adapters.testing.mdf4_blocks import (
+from floatref_adapters.testing.mdf4 import (
     MASTER,
     VALUE,
     VIRTUAL_MASTER,

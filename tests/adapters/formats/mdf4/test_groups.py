@@ -9,7 +9,7 @@ import pytest
 
 from floatref import Epoch
 from floatref_adapters.formats.mdf4.adapter import Mdf4
-from floatref_adapters.testing.mdf4_blocks import MASTER, Stored, StoredGroup, write
+from floatref_adapters.testing.mdf4 import MASTER, Stored, StoredGroup, write
 from floatref_adapters.testing.whole_reading import read_whole
 
 NS = (1e-9, 0.0)

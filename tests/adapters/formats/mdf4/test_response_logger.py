@@ -12,7 +12,7 @@ from floatref.cli.main import main
 from floatref.errors import InputError
 from floatref.files import read_recording, write_recording
 from floatref.mapping import read_native
-from floatref_adapters.testing.mdf4_blocks import MASTER, Stored, StoredGroup, write
+from floatref_adapters.testing.mdf4 import MASTER, Stored, StoredGroup, write
 
 G = 9.80665
 TIMES = np.arange(2000) / 500

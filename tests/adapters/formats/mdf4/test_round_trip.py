@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from floatref import Recording
 from floatref.architectures.plugins import plugins
 from floatref_adapters.formats.mdf4.adapter import Mdf4
-from floatref_adapters.testing.mdf4 import write_mdf4
-from floatref_adapters.testing.mdf4_blocks import MASTER, Stored, StoredGroup, write
+from floatref_adapters.testing.mdf4 import MASTER, Stored, StoredGroup, write, write_mdf4
 from floatref_adapters.testing.whole_reading import read_whole
 
 NS = (1e-9, 0.0)

@@ -12,7 +12,7 @@ import pytest
 
 from floatref import InputError
 from floatref_adapters.formats.tdms.adapter import Tdms
-from floatref_adapters.testing.tdms_segments import (
+from floatref_adapters.testing.tdms import (
     INTERLEAVED,
     META,
     NEW,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from floatref_adapters.formats.tdms.adapter import Tdms
-from floatref_adapters.testing.tdms_segments import (
+from floatref_adapters.testing.tdms import (
     META,
     NEW,
     RAW,

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref_adapters.formats.tdms.adapter import Tdms
-from floatref_adapters.testing.tdms_segments import (
+from floatref_adapters.testing.tdms import (
     BIG,
     INTERLEAVED,
     META,

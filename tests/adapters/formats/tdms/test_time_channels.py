@@ -10,7 +10,7 @@ import pytest
 
 from floatref import Epoch
 from floatref_adapters.formats.tdms.adapter import Tdms
-from floatref_adapters.testing.tdms_segments import (
+from floatref_adapters.testing.tdms import (
     DOUBLE,
     META,
     NEW,

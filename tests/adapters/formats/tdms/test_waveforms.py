@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from floatref import Epoch
 from floatref_adapters.formats.tdms.adapter import Tdms
-from floatref_adapters.testing.tdms_segments import (
+from floatref_adapters.testing.tdms import (
     META,
     NEW,
     RAW,

@@ -1,16 +1,26 @@
-"""A recording as Arrow record batches: one column per channel, clocks as metadata of its field.
+"""A recording as an Arrow IPC file or a Parquet file: one column per channel.
 
-Columns that are shorter than the longest are filled up with nulls, and say their `count`. The
-times of stamped channels are columns `<channel>.time_s`, which their fields name.
+Clocks are metadata of the fields. Columns that are shorter than the longest are filled up with
+nulls, and say their `count`. The times of stamped channels are columns `<channel>.time_s`, which
+their fields name.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from floatref import Channel, Recording, UniformClock
-from floatref_adapters.shared.libraries import library
-from floatref_adapters.testing.file_writing import Floats, by_clock, quantum_of, rounded, start_of
+from floatref_adapters.shared.refusals import library
+from floatref_adapters.testing.file_writing import (
+    Floats,
+    by_clock,
+    check_quanta,
+    quantum_of,
+    replacing,
+    rounded,
+    start_of,
+)
 
 ROWS = 1 << 16
 
@@ -64,4 +74,38 @@ def _batches(schema: Any, parts: Sequence[_Part], rows: int) -> Iterator[Any]:
         yield pa.record_batch(arrays, schema=schema)
 
 
-__all__ = ["batches"]
+def write_arrow(
+    recording: Recording, path: Path, quanta: Mapping[str, float] | None = None
+) -> None:
+    """Write ``recording`` to ``path``; InputError if that fails.
+
+    Samples of channels in ``quanta`` are rounded to multiples of theirs.
+    """
+    pa = library("pyarrow", "writing Arrow")
+
+    check_quanta(recording, quanta)
+    schema, rows = batches(recording, quanta)
+    with replacing(path) as beside, pa.ipc.new_file(beside, schema) as writer:
+        for batch in rows:
+            writer.write_batch(batch)
+
+
+def write_parquet(
+    recording: Recording, path: Path, quanta: Mapping[str, float] | None = None
+) -> None:
+    """Write ``recording`` to ``path``; InputError if that fails.
+
+    Samples of channels in ``quanta`` are rounded to multiples of theirs.
+    """
+    pq = library("pyarrow.parquet", "writing Parquet")
+
+    check_quanta(recording, quanta)
+    schema, rows = batches(recording, quanta)
+    with (
+        replacing(path) as beside,
+        pq.ParquetWriter(
+            beside, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
+        ) as writer,
+    ):
+        for batch in rows:
+            writer.write_batch(batch)
