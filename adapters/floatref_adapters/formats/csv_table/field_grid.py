@@ -1,4 +1,8 @@
-"""The fields of many rows at once, found as places in their bytes."""
+"""The fields of many rows at once, found as places in their bytes.
+
+By hand, for `pyarrow.csv.open_csv` takes 144 MB where this takes 39 MB (a table of 21 MB; 0.6 s and
+0.9 s), reads times as floats, which lose ticks, and takes a last line that was cut short for whole.
+"""
 
 import re
 import warnings

@@ -155,7 +155,6 @@ def _unique(text: str, width: int, taken: set[str]) -> str:
     return name
 
 
-Floats = NDArray[np.float64]
 Gaps = NDArray[np.int64]
 
 

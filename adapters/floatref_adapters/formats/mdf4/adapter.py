@@ -162,7 +162,8 @@ class Reader:
             fields = {name: self.fields[name] for name in names}
             values = {n: field.to_values(*piece.read(field)) for n, field in fields.items()}
             time = self.timing.field
-            return Rows(values, time and self.timing.to_ticks(time, piece.read(time)[0]))
+            ticks = self.timing.to_ticks(time, piece.read(time)[0]) if time else None
+            return Rows(values, ticks)
         except InputError as error:
             raise self._fault(str(error)) from error
         except Exception as error:

@@ -87,7 +87,8 @@ class Field:
         byte, bit = divmod(self.origin.pos_invalidation_bit, 8)
         if byte >= self.invalid:
             return None
-        return (rows[:, self.whole + byte] >> bit & 1).astype(bool)
+        marks: Marks = (rows[:, self.whole + byte] >> bit & 1).astype(np.bool_)
+        return marks
 
     def _read_bits(self, field: Bytes, order: str) -> Numbers:
         """Return integers of any number of bits, up to 64 with the bits before them."""

@@ -1,4 +1,8 @@
-"""The sentences in a text log, with what is wrong with those that cannot be used."""
+"""The sentences in a text log, with the fault of those that cannot be used.
+
+By hand but for the checksum, for `NMEAStreamReader` of pynmea2 takes a line for one sentence, and a
+receiver that is interrupted writes the next one behind it.
+"""
 
 import re
 from collections import Counter

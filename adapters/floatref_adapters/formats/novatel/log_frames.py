@@ -2,7 +2,11 @@
 
 A log is ASCII (`#NAMEA,...;...*crc`, `%NAMESA,...;...*crc` with the short header) or binary
 (AA 44 12, or AA 44 13 with the short header); a CRC-32 ends each. Whatever lies between is
-counted and left. Nothing here needs the receiver's list of logs.
+counted. Nothing here needs the receiver's list of logs.
+
+By hand, for the `Framer` of novatel_edie finds the same logs (0.5 s of 8 s for 20 MB, here 0.8 s)
+but does not tell damaged logs, which are counted here, from other bytes. Its `FileParser` decodes
+at once, also a log shorter than its definition, beyond whose end it reads.
 """
 
 import re

@@ -62,6 +62,7 @@ def test_integers_are_within_half_a_quantum_and_missing_samples_stay_missing(
     size=st.sampled_from([1, 2, 4, 8]),
     order=st.sampled_from("<>"),
     signed=st.booleans(),
+    mixed=st.booleans(),
 )
 def test_a_value_of_any_bits_is_taken_from_among_its_neighbours(
     tmp_path_factory: pytest.TempPathFactory,
@@ -71,6 +72,7 @@ def test_a_value_of_any_bits_is_taken_from_among_its_neighbours(
     size: int,
     order: str,
     signed: bool,
+    mixed: bool,
 ) -> None:
     path = tmp_path_factory.mktemp("mdf4") / "bits.mf4"
     count = min(count, 8 * size - first)
@@ -83,12 +85,19 @@ def test_a_value_of_any_bits_is_taken_from_among_its_neighbours(
     if order == ">":
         whole_bits = [bits >> 8 * (size - taken) for bits in whole_bits]
     master = Stored("t", np.arange(len(numbers)), "s", NS, MASTER)
-    write([StoredGroup("g", [master, Stored("x", stored, bits=(first, count))])], path)
+    marks = np.arange(len(numbers)) % 3 == 2
+    field = Stored("x", stored, bits=(first, count), invalid=marks)
+    groups = [StoredGroup(name, [master, field]) for name in "gh"[: 1 + mixed]]
+    write(groups, path, mixed=mixed)
     expected = [bits >> first & (1 << count) - 1 for bits in whole_bits]
     if signed:
         expected = [v - (1 << count) if v >> (count - 1) else v for v in expected]
-    _, [(values, _)] = read(path)
-    np.testing.assert_array_equal(values["x"], np.array(expected, float))
+    _, numbers_of_groups = read(path)
+    assert len(numbers_of_groups) == 1 + mixed
+    for values, _ in numbers_of_groups:
+        np.testing.assert_array_equal(
+            values["x"], np.where(marks, np.nan, np.array(expected, float))
+        )
 
 
 def test_reading_begins_anew_and_two_streams_can_be_read_in_turn(tmp_path: Path) -> None:
