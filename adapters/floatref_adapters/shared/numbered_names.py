@@ -1,9 +1,9 @@
-"""Names of a file that have to be told apart."""
+"""Names of a file, made to differ from each other."""
 
 from collections.abc import Sequence
 
 
-def numbered(names: Sequence[str]) -> list[str]:
+def number_repeats(names: Sequence[str]) -> list[str]:
     """Return ``names``, a repeated one with a number: `speed`, `speed #2`, `speed #3`.
 
     All names returned differ, also where the file itself has a name such as `speed #2`.

@@ -15,8 +15,8 @@ ELEVATION, VALID, SIGMA = "_elevation_m", "_valid", "_sigma_m"
 """How the columns of a wheel path end."""
 
 
-class Described(NamedTuple):
-    """What the metadata of a table say of its profile."""
+class Description(NamedTuple):
+    """The profile of a table, as its metadata describe it."""
 
     tracks: tuple[str, ...]
     interval_m: float
@@ -47,7 +47,7 @@ class Described(NamedTuple):
         )
 
 
-def columns_of(profile: Profile, first: int, last: int) -> dict[str, NDArray[Any]]:
+def make_columns(profile: Profile, first: int, last: int) -> dict[str, NDArray[Any]]:
     """Return points ``first`` to ``last`` by column; only the distance is not a view."""
     last = min(last, profile.tracks[0].elevation.size)
     steps = np.arange(first, last, dtype=np.float64)
@@ -60,7 +60,7 @@ def columns_of(profile: Profile, first: int, last: int) -> dict[str, NDArray[Any
     return columns
 
 
-def metadata_of(profile: Profile) -> dict[str, str]:
+def make_metadata(profile: Profile) -> dict[str, str]:
     """Return what made ``profile``, as text; settings and provenance are JSON, NaN is null.
 
     Raises InputError for what JSON cannot hold.
@@ -75,12 +75,12 @@ def metadata_of(profile: Profile) -> dict[str, str]:
     }
 
 
-def described(metadata: Mapping[str, str]) -> Described:
+def read_description(metadata: Mapping[str, str]) -> Description:
     """Return what ``metadata`` say; InputError naming the key that is missing or wrong."""
     tracks = _json(metadata, "tracks", list)
     if not tracks or not all(isinstance(name, str) for name in tracks):
         raise InputError("metadata tracks names no tracks; write the file again")
-    return Described(
+    return Description(
         tuple(tracks),
         _number(metadata, "interval_m"),
         _number(metadata, "start_m"),

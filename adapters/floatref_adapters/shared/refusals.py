@@ -9,7 +9,7 @@ from floatref import InputError
 
 
 @contextmanager
-def naming(where: object) -> Iterator[None]:
+def prefix_errors(where: object) -> Iterator[None]:
     """Put ``where: `` before the text of any InputError raised inside."""
     try:
         yield

@@ -15,8 +15,8 @@ KEPT_BYTES = (1 << 25) - (1 << 16)
 """Just below the most that glibc learns from."""
 
 
-def rows_for(columns: int) -> int:
-    """Return how many rows of so many columns are a piece; all of it is in memory at once."""
+def count_piece_rows(columns: int) -> int:
+    """Return how many rows of ``columns`` columns are a piece; a whole piece is in memory."""
     return min(max(MOST_SAMPLES // max(columns, 1), FEWEST_ROWS), MOST_ROWS)
 
 
@@ -34,7 +34,7 @@ ROWS = 1 << 13
 """Rows handed on together."""
 
 
-def piled(rows: Iterable[tuple[int, Sequence[float]]], names: Sequence[str]) -> Iterator[Rows]:
+def pile_rows(rows: Iterable[tuple[int, Sequence[float]]], names: Sequence[str]) -> Iterator[Rows]:
     """Yield ``rows``, each a tick and the values of the columns ``names``, in pieces.
 
     Values that are not finite are missing.

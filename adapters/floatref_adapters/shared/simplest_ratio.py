@@ -4,7 +4,7 @@ import math
 from fractions import Fraction
 
 
-def simplest(value: float) -> Fraction:
+def find_simplest(value: float) -> Fraction:
     """Return the simplest fraction that rounds to ``value``: 1/3240 for 0.00030864197530864197.
 
     The simplest has the smallest denominator. ``value`` is finite; ValueError or OverflowError

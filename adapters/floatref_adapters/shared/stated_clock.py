@@ -22,7 +22,7 @@ SIMPLEST = 1_000_000
 """Largest denominator of a rate that a float64 is taken for."""
 
 
-def stated_clock(attributes: Mapping[str, Any], where: str) -> NativeClock | None:
+def read_stated_clock(attributes: Mapping[str, Any], where: str) -> NativeClock | None:
     """Return the clock that ``attributes`` state, or None; InputError naming ``where``.
 
     A rate as text is exact ("48000/7"); as a float64 it is the simplest fraction that rounds
@@ -87,4 +87,4 @@ def _of_text(text: str) -> Fraction | None:
         return None
 
 
-__all__ = ["RATES", "STARTS", "STEPS", "number", "stated_clock"]
+__all__ = ["RATES", "STARTS", "STEPS", "number", "read_stated_clock"]

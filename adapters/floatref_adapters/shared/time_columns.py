@@ -1,4 +1,4 @@
-"""Columns that tell when the rows of a table were taken, found by their names and units."""
+"""Columns of times of the rows of a table, found by their names and units."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -36,7 +36,7 @@ class TimeColumn:
     unit_s: Fraction
     others: tuple[str, ...] = ()
 
-    def told(self, columns: Sequence[Column]) -> tuple[str, ...]:
+    def list_others(self, columns: Sequence[Column]) -> tuple[str, ...]:
         """Return a line about the columns that were passed over."""
         if not self.others:
             return ()
@@ -54,7 +54,7 @@ def time_column(columns: Sequence[Column], option: str | None) -> TimeColumn | N
         return None
     if option is not None:
         return _named(columns, option)
-    found = [(i, unit) for i, c in enumerate(columns) if (unit := unit_of(c)) is not None]
+    found = [(i, unit) for i, c in enumerate(columns) if (unit := find_unit(c)) is not None]
     if not found:
         return None
     others = tuple(columns[i].name for i, _ in found[1:])
@@ -65,7 +65,7 @@ def _named(columns: Sequence[Column], option: str) -> TimeColumn:
     for index, column in enumerate(columns):
         if column.name != option:
             continue
-        unit = unit_of(column) or SECONDS.get(column.unit.strip().lower() or "s")
+        unit = find_unit(column) or SECONDS.get(column.unit.strip().lower() or "s")
         if unit is None:
             raise InputError(f"column {option}: unit {column.unit!r} is none of time; use s or ms")
         return TimeColumn(index, unit)
@@ -73,7 +73,7 @@ def _named(columns: Sequence[Column], option: str) -> TimeColumn:
     raise InputError(f"time = {option!r}: no such column; there are {here}")
 
 
-def unit_of(column: Column) -> Fraction | None:
+def find_unit(column: Column) -> Fraction | None:
     """Return the unit in s of a column that is named like time, else None."""
     words = [word for word in re.split(r"[^\w%µμ]+|_", column.name.lower()) if word]
     unit = column.unit.strip().lower()
@@ -96,4 +96,4 @@ def of_epoch(clock: NativeClock, options: Mapping[str, str]) -> NativeClock:
     return replace(clock, epoch=Epoch(stated))
 
 
-__all__ = ["NONE", "UNKNOWN", "TimeColumn", "of_epoch", "time_column", "unit_of"]
+__all__ = ["NONE", "UNKNOWN", "TimeColumn", "find_unit", "of_epoch", "time_column"]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording
-from floatref_adapters.testing.grouping import ClockGroup, by_clock, counts_of
+from floatref_adapters.testing.grouping import ClockGroup, by_clock, count_quanta
 
 VALUE, MASTER, VIRTUAL_MASTER = 0, 2, 3
 LINEAR = 1
@@ -197,7 +197,7 @@ def _group(group: ClockGroup, quanta: Mapping[str, float] | None) -> StoredGroup
 
 
 def _stored(channel: Channel, quanta: Mapping[str, float] | None) -> Stored:
-    counted = counts_of(channel, quanta)
+    counted = count_quanta(channel, quanta)
     if counted is None:
         return Stored(str(channel.id), channel.values, channel.unit)
     quantum, counts = counted

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording
-from floatref_adapters.testing.grouping import ClockGroup, by_clock, counts_of
+from floatref_adapters.testing.grouping import ClockGroup, by_clock, count_quanta
 
 ROWS = 1 << 16
 """Rows of a segment."""
@@ -49,7 +49,7 @@ def _stored(
     channel: Channel, quanta: Mapping[str, float] | None
 ) -> tuple[np.ndarray[Any, Any], dict[str, Any]]:
     properties: dict[str, Any] = {"unit_string": channel.unit}
-    counted = counts_of(channel, quanta)
+    counted = count_quanta(channel, quanta)
     if counted is None:
         return channel.values, properties
     if np.isnan(channel.values).any():
@@ -73,7 +73,7 @@ UNIX_S = 2_082_844_800
 """From 1904, where LabVIEW begins, to 1970, in s."""
 
 Properties = dict[str, float | int | str | tuple[int, int]]
-"""What is said of a channel; a pair is a time stamp in s since 1904 and 2**-64 s."""
+"""Properties of a channel; a pair is a time stamp in s since 1904 and 2**-64 s."""
 
 
 def metadata_text(value: str) -> bytes:
@@ -112,7 +112,7 @@ def segment(flags: int, metadata: bytes, raw: bytes) -> bytes:
 
 
 def laid(columns: Sequence[NDArray[Any]], chunk: int, interleaved: bool) -> bytes:
-    """Return the bytes of ``columns`` of float64 in chunks of so many values."""
+    """Return the bytes of ``columns`` of float64 in chunks of ``chunk`` values."""
     out = b""
     for first in range(0, len(columns[0]), chunk):
         part = np.array([column[first : first + chunk] for column in columns])
@@ -128,7 +128,7 @@ def doubles(count: int, chunk: int, wave: Properties | None = None) -> bytes:
 
 
 def waves(parts: Sequence[tuple[int, Properties]]) -> bytes:
-    """Return a segment of one channel for each of ``parts``: so many values, its properties."""
+    """Return a segment of one channel for each of ``parts``, its count of values and properties."""
     return b"".join(
         segment(META | NEW | RAW, doubles(1, count, wave), bytes(8 * count))
         for count, wave in parts

@@ -57,7 +57,7 @@ def opened(opener: Opener, source: Path, content: bytes | str, **options: str) -
     return opener.streams(source, options)
 
 
-def columns_of(native: NativeFile) -> dict[str, list[float]]:
+def make_columns(native: NativeFile) -> dict[str, list[float]]:
     """Return the samples of every column of numbers of the only stream, by its name.
 
     AssertionError if a column has another count of rows than the stream says.
@@ -111,7 +111,7 @@ __all__ = [
     "Opener",
     "Table",
     "Whole",
-    "columns_of",
+    "make_columns",
     "opened",
     "read_or_refused",
     "read_whole",

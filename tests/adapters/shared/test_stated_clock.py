@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floatref import InputError
-from floatref_adapters.shared.stated_clock import stated_clock
+from floatref_adapters.shared.stated_clock import read_stated_clock
 
 
 @given(
@@ -29,16 +29,16 @@ def test_a_rate_and_its_step_state_the_same_clock(
         {step_word: f"{step.numerator}/{step.denominator}"},
         {step_word: float(step)},
     ):
-        clock = stated_clock(attributes, "here")
+        clock = read_stated_clock(attributes, "here")
         assert clock is not None
         assert clock.rate == rate
 
 
 def test_the_start_is_in_ticks_that_hold_it_exactly() -> None:
-    clock = stated_clock({"rate_hz": 100, "T0": "-12.345"}, "here")
+    clock = read_stated_clock({"rate_hz": 100, "T0": "-12.345"}, "here")
     assert clock is not None
     assert clock.first_tick * clock.tick_s == Fraction(-12345, 1000)
-    assert stated_clock({"t0": 1.0, "units": "m"}, "here") is None
+    assert read_stated_clock({"t0": 1.0, "units": "m"}, "here") is None
 
 
 @pytest.mark.parametrize(
@@ -57,4 +57,4 @@ def test_the_start_is_in_ticks_that_hold_it_exactly() -> None:
 )
 def test_what_no_clock_can_be_made_of_is_refused(attributes: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=said):
-        stated_clock(attributes, "here")
+        read_stated_clock(attributes, "here")

@@ -1,6 +1,6 @@
 """Parquet files, and Arrow IPC files and streams (Feather version 2 is such a file).
 
-What the columns and their clocks are is told by the schema, see `arrow_schema`. The clock of a
+The schema states the columns and their clocks, see `arrow_schema`. The clock of a
 column that states none is the column that is named like time, that the option `time` names, or
 the first of a temporal type: its integers are ticks. A time zone makes them UTC; without one
 they are the logger's own unless the option `epoch` says what they count from.
@@ -17,8 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, NativeFile, Rows, Stream
-from floatref_adapters.formats.arrow.arrow_schema import Table, is_temporal, tables_of, text_of
-from floatref_adapters.shared.refusals import library, naming
+from floatref_adapters.formats.arrow.arrow_schema import (
+    Table,
+    decode_text,
+    find_tables,
+    is_temporal,
+)
+from floatref_adapters.shared.refusals import library, prefix_errors
 from floatref_adapters.shared.row_pieces import keep_freed_memory
 
 CONTINUED = b"\xff\xff\xff\xff"
@@ -32,7 +37,7 @@ class Source(Protocol):
 
     schema: Any
     rows: int
-    told: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     def arrays(self, places: Sequence[int]) -> Iterator[list[Any]]:
         """Yield the columns at ``places``, as many rows at once as `rows_for` says."""
@@ -101,10 +106,10 @@ def _streams(
 ) -> NativeFile:
     if not source.is_file():
         raise InputError(f"{source}: not a file; give a file of {kind}")
-    with naming(source), _reading(kind):
+    with prefix_errors(source), _reading(kind):
         opened = open_source(source)
-        tables, told = tables_of(opened.schema, opened.rows, options)
-        stated = text_of(opened.schema.metadata)
+        tables, warnings = find_tables(opened.schema, opened.rows, options)
+        stated = decode_text(opened.schema.metadata)
     if not tables:
         raise InputError(f"{source}: holds no columns beside that of time; give another file")
     return NativeFile(
@@ -118,7 +123,7 @@ def _streams(
             )
             for table in tables
         ),
-        (*opened.told, *told),
+        (*opened.warnings, *warnings),
         stated.get("vendor", ""),
         stated.get("model", ""),
     )

@@ -1,4 +1,4 @@
-"""What the schema of an Arrow table tells: its columns, and the clocks that they are on.
+"""The columns of an Arrow table and their clocks, as its schema states them.
 
 Metadata of the schema or of a field may hold `rate_hz` and `start_s`; that of a field `unit`,
 `time_column` (the column that holds the times of this one) and `count` (where a column is shorter
@@ -11,9 +11,9 @@ from fractions import Fraction
 from typing import Any
 
 from floatref import Column, Epoch, InputError, NativeClock
-from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.shared.numbered_names import number_repeats
 from floatref_adapters.shared.refusals import library
-from floatref_adapters.shared.stated_clock import number, stated_clock
+from floatref_adapters.shared.stated_clock import number, read_stated_clock
 from floatref_adapters.shared.time_columns import NONE, UNKNOWN, of_epoch, time_column
 
 TICKS: Mapping[str, Fraction] = {
@@ -46,18 +46,20 @@ class Table:
     count: int
 
 
-def tables_of(
+def find_tables(
     schema: Any, rows: int, options: Mapping[str, str]
 ) -> tuple[tuple[Table, ...], tuple[str, ...]]:
-    """Return the tables in ``schema``, of at most ``rows`` rows each, and what is to be told.
+    """Return the tables in ``schema``, of at most ``rows`` rows each, and warnings.
 
     InputError for metadata that no clock can be made of, or an option that names no column.
     """
     fields = _fields(schema)
-    default, told = _default_time(fields, options)
-    stated = stated_clock(text_of(schema.metadata), "schema") if "time" not in options else None
+    default, warnings = _default_time(fields, options)
+    stated = (
+        read_stated_clock(decode_text(schema.metadata), "schema") if "time" not in options else None
+    )
     if stated is not None:
-        default, told = None, ()
+        default, warnings = None, ()
     times = {f.index for f in fields if f.column.name in _named_times(fields)}
     groups: dict[tuple[NativeClock | None, int | None, int], list[Field]] = {}
     for field in fields:
@@ -66,20 +68,20 @@ def tables_of(
         clock, time = _clock(field, fields, stated, default)
         groups.setdefault((clock, time, _count(field, rows)), []).append(field)
     if any(clock is None and time is None for clock, time, _ in groups):
-        told += (UNKNOWN,)
+        warnings += (UNKNOWN,)
     names = _stream_names([(*key, fields) for key in groups])
     return tuple(
         Table(name, tuple(group), _made(key[0], key[1], fields, options), key[1], key[2])
         for name, (key, group) in zip(names, groups.items(), strict=True)
-    ), (*_told_types(fields, default), *told)
+    ), (*_warn_of_other_types(fields, default), *warnings)
 
 
 def _fields(schema: Any) -> list[Field]:
     if len(schema.names) > MOST_COLUMNS:
         raise InputError(f"{len(schema.names)} columns; write at most {MOST_COLUMNS} into a file")
     found = []
-    for index, (name, field) in enumerate(zip(numbered(schema.names), schema, strict=True)):
-        stated = text_of(field.metadata)
+    for index, (name, field) in enumerate(zip(number_repeats(schema.names), schema, strict=True)):
+        stated = decode_text(field.metadata)
         unit = stated.get("unit", stated.get("units", ""))
         notes = [f"another column {field.name}"] if name != field.name else []
         numeric = is_numeric(field.type)
@@ -90,7 +92,7 @@ def _fields(schema: Any) -> list[Field]:
     return found
 
 
-def text_of(metadata: Mapping[bytes, bytes] | None) -> dict[str, str]:
+def decode_text(metadata: Mapping[bytes, bytes] | None) -> dict[str, str]:
     """Return ``metadata`` as text, but what other programs keep there at length."""
     return {
         key.decode("utf-8", "replace"): value.decode("utf-8", "replace")
@@ -121,13 +123,13 @@ def is_temporal(kind: Any) -> bool:
 def _default_time(
     fields: Sequence[Field], options: Mapping[str, str]
 ) -> tuple[int | None, tuple[str, ...]]:
-    """Return the place of the column of time, and what is to be told about it."""
+    """Return the place of the column of time, and warnings about it."""
     option = options.get("time")
     usable = [f for f in fields if is_numeric(f.type) or is_temporal(f.type)]
     columns = [field.column for field in usable]
     found = time_column(columns, option)
     if found is not None:
-        return usable[found.index].index, found.told(columns)
+        return usable[found.index].index, found.list_others(columns)
     if option == NONE:
         return None, ()
     stamps = [field.index for field in usable if is_temporal(field.type)]
@@ -148,7 +150,7 @@ def _clock(
             if other.column.name == name and (is_numeric(other.type) or is_temporal(other.type)):
                 return None, other.index
         raise InputError(f"column {field.column.name}: time_column is {name[:40]!r}, no column")
-    own = stated_clock(field.stated, f"column {field.column.name}")
+    own = read_stated_clock(field.stated, f"column {field.column.name}")
     if own is not None or stated is not None:
         return own or stated, None
     return None, default
@@ -201,12 +203,12 @@ def _stream_names(
             names.append(fields[time].column.name)
         else:
             names.append(f"{clock.rate} Hz" if clock else "table")
-    return numbered(names)
+    return number_repeats(names)
 
 
-def _told_types(fields: Sequence[Field], default: int | None) -> tuple[str, ...]:
+def _warn_of_other_types(fields: Sequence[Field], default: int | None) -> tuple[str, ...]:
     others = sum(not field.column.numeric and field.index != default for field in fields)
     return (f"{others} columns hold no numbers: not read",) if others else ()
 
 
-__all__ = ["Field", "Table", "is_numeric", "is_temporal", "tables_of", "text_of"]
+__all__ = ["Field", "Table", "decode_text", "find_tables", "is_numeric", "is_temporal"]

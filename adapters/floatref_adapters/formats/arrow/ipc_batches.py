@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from floatref import InputError
 from floatref_adapters.shared.refusals import library
-from floatref_adapters.shared.row_pieces import MOST_ROWS, rows_for
+from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows
 
 MAGIC = b"ARROW1"
 MOST_COMPRESSED, MOST_TOGETHER = 1 << 25, 1 << 26
@@ -40,7 +40,7 @@ class IpcSource:
     def __init__(self, path: Path) -> None:
         """Count the batches of the file at ``path``; none of their columns is touched."""
         self._path, self._arrow = path, library("pyarrow", "reading Arrow")
-        self.told: tuple[str, ...] = ()
+        self.warnings: tuple[str, ...] = ()
         self.rows = self._batches = self._packed = self._kept = 0
         with self._mapped() as (buffer, _):
             with self._arrow.ipc.open_stream(self._arrow.BufferReader(buffer)) as opened:
@@ -56,7 +56,7 @@ class IpcSource:
         except (self._arrow.ArrowInvalid, OSError) as error:
             if not self._batches:
                 raise
-            self.told = (f"behind row {self.rows}: {str(error)[:80]}; the file was cut short",)
+            self.warnings = (f"behind row {self.rows}: {str(error)[:80]}; the file was cut short",)
 
     def _add(self, message: Any) -> None:
         """Take the next batch or dictionary into account."""
@@ -79,7 +79,7 @@ class IpcSource:
                 f"write batches of at most {MOST_ROWS} rows"
             )
         options = self._arrow.ipc.IpcReadOptions(included_fields=list(places), use_threads=False)
-        rows = rows_for(len(places))
+        rows = count_piece_rows(len(places))
         with self._mapped() as (buffer, mapped):
             reader = self._arrow.ipc.open_stream(self._arrow.BufferReader(buffer), options=options)
             for _ in range(self._batches):

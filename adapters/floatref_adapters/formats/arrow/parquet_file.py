@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref_adapters.shared.refusals import library
-from floatref_adapters.shared.row_pieces import rows_for
+from floatref_adapters.shared.row_pieces import count_piece_rows
 
 BUFFER = 1 << 20
 """Bytes of a column chunk that are read at once, however long it is."""
@@ -14,7 +14,7 @@ BUFFER = 1 << 20
 class ParquetSource:
     """An opened Parquet file; it is opened again for every pass."""
 
-    told: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
 
     def __init__(self, path: Path) -> None:
         """Read the footer of the file at ``path``."""
@@ -29,7 +29,7 @@ class ParquetSource:
         wanted = [names[place] for place in places]
         # A name can be that of several columns: all of them are read, in the order of the file.
         turns = [names[:place].count(names[place]) for place in places]
-        rows = rows_for(len(places))
+        rows = count_piece_rows(len(places))
         with self._opened() as opened:
             for batch in opened.iter_batches(rows, columns=wanted, use_threads=False):
                 found = batch.schema.get_all_field_indices

@@ -14,7 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Profile, ProfileTrack
-from floatref_adapters.shared.profile_columns import DISTANCE, columns_of, described, metadata_of
+from floatref_adapters.shared.profile_columns import (
+    DISTANCE,
+    make_columns,
+    make_metadata,
+    read_description,
+)
 from floatref_adapters.shared.refusals import library
 
 MARK = b"PAR1"
@@ -64,7 +69,7 @@ class ParquetProfile:
             schema = _schema(profile, arrow)
             with parquet.ParquetWriter(path, schema, compression="zstd") as writer:
                 for first in range(0, profile.tracks[0].elevation.size, ROWS):
-                    columns = columns_of(profile, first, first + ROWS)
+                    columns = make_columns(profile, first, first + ROWS)
                     arrays = [arrow.array(c, from_pandas=True) for c in columns.values()]
                     writer.write_table(arrow.Table.from_arrays(arrays, schema=schema), ROWS)
 
@@ -88,10 +93,10 @@ def _explained(path: Path, arrow: Any) -> Iterator[None]:
 def _schema(profile: Profile, arrow: Any) -> Any:
     types = {
         name: arrow.bool_() if values.dtype == np.bool_ else arrow.float64()
-        for name, values in columns_of(profile, 0, 1).items()
+        for name, values in make_columns(profile, 0, 1).items()
     }
     fields = [arrow.field(name, kind) for name, kind in types.items()]
-    return arrow.schema(fields, metadata={"format": FORMAT, **metadata_of(profile)})
+    return arrow.schema(fields, metadata={"format": FORMAT, **make_metadata(profile)})
 
 
 def _profile(file: Any) -> Profile:
@@ -102,21 +107,21 @@ def _profile(file: Any) -> Profile:
     if metadata.get("format") != FORMAT:
         held = metadata.get("format", "none")[:40]
         raise InputError(f"metadata has format {held}; it must be {FORMAT}, as floatref writes it")
-    told = described(metadata)
+    description = read_description(metadata)
     there = file.schema_arrow.names
-    names = [*told.columns, *(name for name in told.sigma_columns if name in there)]
+    names = [*description.columns, *(name for name in description.sigma_columns if name in there)]
     _check_columns(there, names)
     parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
     done = 0
     for batch in file.iter_batches(ROWS, columns=list(parts)):
-        _check_distance(_floats(batch, DISTANCE), told.start_m, told.interval_m, done)
+        _check_distance(_floats(batch, DISTANCE), description.start_m, description.interval_m, done)
         for name, values in parts.items():
             values.append(_flags(batch, name) if name.endswith("_valid") else _floats(batch, name))
         done += batch.num_rows
     if done == 0:
         raise InputError("no points; copy the complete file")
     found = {name: np.concatenate(values) for name, values in parts.items()}
-    return told.profile([_track(name, found) for name in told.tracks])
+    return description.profile([_track(name, found) for name in description.tracks])
 
 
 def _check_columns(there: list[str], names: list[str]) -> None:

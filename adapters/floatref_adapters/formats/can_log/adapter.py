@@ -15,9 +15,9 @@ from pathlib import Path
 from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream
 from floatref_adapters.formats.can_log.can_database import Database, Message
 from floatref_adapters.formats.can_log.can_frames import Frame, Frames
-from floatref_adapters.formats.can_log.log_formats import looks_like
+from floatref_adapters.formats.can_log.log_formats import find_format
 from floatref_adapters.shared.record_spool import Spool
-from floatref_adapters.shared.row_pieces import piled
+from floatref_adapters.shared.row_pieces import pile_rows
 
 MOST_IDS = 20_000
 SHOWN = 8
@@ -25,7 +25,7 @@ NS = Fraction(1, 10**9)
 YEAR_2001_NS = 10**18
 """Times since 1970 below this are times since some start."""
 DATA = Column("data", note="the bytes; give a database of the bus in option dbc", numeric=False)
-TOLD = {
+WARNINGS = {
     "error": "error frames: not read",
     "remote": "remote frames: not read",
     "overload": "overload frames: not read",
@@ -48,7 +48,7 @@ class CanLog:
 
     def recognises(self, source: Path) -> bool:
         """Tell whether ``source`` begins as such a log does."""
-        return looks_like(source) is not None
+        return find_format(source) is not None
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return what ``source`` holds; ``options`` may have `dbc`, the path of a database.
@@ -61,7 +61,7 @@ class CanLog:
         if not survey.seen:
             survey.close()
             raise InputError(f"{source}: no CAN data frame that is sound; copy the log again")
-        return NativeFile(survey.streams(), told=survey.told(), close=survey.close)
+        return NativeFile(survey.streams(), told=survey.list_warnings(), close=survey.close)
 
 
 Key = tuple[str, int, bool]
@@ -69,7 +69,7 @@ Key = tuple[str, int, bool]
 
 
 class Survey:
-    """What one pass over a log tells: its ids, how many frames each has, the faults."""
+    """What one pass over a log finds: its ids, the count of frames of each, the faults."""
 
     def __init__(self, source: Path, database: Database | None) -> None:
         self._source = source
@@ -134,7 +134,7 @@ class Survey:
         message = self._message(key)
 
         def read(names: Sequence[str]) -> Iterator[Rows]:
-            return piled(self._rows(key, message, names), names)
+            return pile_rows(self._rows(key, message, names), names)
 
         columns = (DATA,) if message is None else message.columns
         return Stream(name, columns, self._counts[key], self._clock(), read)
@@ -149,9 +149,11 @@ class Survey:
         for tick, data in self._spool.records(key):
             yield tick, () if message is None else message.values(data, names)
 
-    def told(self) -> tuple[str, ...]:
+    def list_warnings(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""
-        lines = [f"{self._faults[what]} {TOLD[what]}" for what in TOLD if self._faults[what]]
+        lines = [
+            f"{self._faults[what]} {WARNINGS[what]}" for what in WARNINGS if self._faults[what]
+        ]
         lines += [
             f"{name}: {n} frames that are too short or have an unknown multiplexer: dropped"
             for name, n in sorted(self._short.items())

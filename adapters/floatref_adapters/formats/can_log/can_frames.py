@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from floatref_adapters.formats.can_log.blf import SoundBlf
-from floatref_adapters.formats.can_log.log_formats import LATEST_NS, Format, format_of
+from floatref_adapters.formats.can_log.log_formats import LATEST_NS, Format, require_format
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.text_lines import text_lines
 
@@ -52,7 +52,7 @@ class Frames:
 
     def __init__(self, source: Path) -> None:
         self._source = source
-        self._format = format_of(source)
+        self._format = require_format(source)
         self._make = getattr(_readers(source), self._format.reader)
         self.dated = self._format.dated
 

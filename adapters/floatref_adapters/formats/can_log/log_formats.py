@@ -99,7 +99,7 @@ FORMATS = (
 )
 
 
-def looks_like(source: Path) -> Format | None:
+def find_format(source: Path) -> Format | None:
     """Return the format that the first bytes of ``source`` show, None if it is none."""
     head = first_bytes(source, HEAD).removeprefix(MARK)
     # Line ends may be bare carriage returns, which ^ does not know.
@@ -110,11 +110,11 @@ def looks_like(source: Path) -> Format | None:
     return None
 
 
-def format_of(source: Path) -> Format:
+def require_format(source: Path) -> Format:
     """Return the format of ``source``; InputError if it is none that is read."""
     if not source.is_file():
         raise InputError(f"{source}: not a file; give a CAN log")
-    form = looks_like(source)
+    form = find_format(source)
     if form is None:
         raise InputError(
             f"{source}: no CAN log of Vector (ASC, BLF), candump, PEAK (TRC) or python-can (CSV); "
@@ -123,4 +123,4 @@ def format_of(source: Path) -> Format:
     return form
 
 
-__all__ = ["LATEST_NS", "Format", "format_of", "looks_like"]
+__all__ = ["LATEST_NS", "Format", "find_format", "require_format"]

@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 
 from floatref import InputError, NativeClock, NativeFile, Rows, Stream
-from floatref_adapters.formats.csv_table.table_layout import Layout, layout_of
+from floatref_adapters.formats.csv_table.table_layout import Layout, find_layout
 from floatref_adapters.formats.csv_table.table_rows import Piece, is_cut_short, pieces
-from floatref_adapters.formats.csv_table.text_pieces import encoding_of
+from floatref_adapters.formats.csv_table.text_pieces import find_encoding
 from floatref_adapters.formats.csv_table.written_times import Times, Writing, find_writing
-from floatref_adapters.shared.refusals import naming
+from floatref_adapters.shared.refusals import prefix_errors
 from floatref_adapters.shared.time_columns import UNKNOWN, of_epoch, time_column
 from floatref_adapters.shared.time_texts import has_zone
 
@@ -47,10 +47,10 @@ class CsvTable:
         try:
             with source.open("rb") as stream:
                 start = stream.read(LISTED)
-            text = start.decode(encoding_of(start), "replace")
+            text = start.decode(find_encoding(start), "replace")
             if _OTHERS.match(text.removeprefix("\ufeff")):
                 return False
-            return len(layout_of(source, {}).columns) > 1
+            return len(find_layout(source, {}).columns) > 1
         except InputError:
             # A .csv that is none gets its error from reading it.
             return source.suffix.lower() != ".txt" and b"\0" not in start
@@ -65,9 +65,9 @@ class CsvTable:
         """
         if not source.is_file():
             raise InputError(f"{source}: not a file; give a table as text")
-        with naming(source), _readable():
-            layout = layout_of(source, options)
-            times, told = _times(layout, options.get("time"))
+        with prefix_errors(source), _readable():
+            layout = find_layout(source, options)
+            times, warnings = _times(layout, options.get("time"))
             extent, times = _measured(source, layout, times)
             unknown = NativeClock(Fraction(1), name="unknown")
             clock = of_epoch(times.clock(), options) if times else unknown
@@ -78,7 +78,7 @@ class CsvTable:
             clock,
             _Reader(source, layout, times, extent),
         )
-        return NativeFile((stream,), (*_told(layout, times, extent), *told))
+        return NativeFile((stream,), (*_list_warnings(layout, times, extent), *warnings))
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def _measured(source: Path, layout: Layout, times: Times | None) -> tuple[_Exten
 
 
 def _times(layout: Layout, option: str | None) -> tuple[Times | None, tuple[str, ...]]:
-    """Return the column of time, and what is to be told about it."""
+    """Return the column of time, and warnings about it."""
     found = time_column(layout.columns, option)
     if found is None:
         return None, (UNKNOWN,)
@@ -155,22 +155,22 @@ def _times(layout: Layout, option: str | None) -> tuple[Times | None, tuple[str,
         if option is not None:
             raise InputError(f"time = {option!r}: holds {texts[0]!r}, no time; name another column")
         return None, (f"{column.name}: {texts[0][:40]!r} is no time that is read", UNKNOWN)
-    told = found.told(layout.columns)
+    warnings = found.list_others(layout.columns)
     if writing is Writing.ISO and not has_zone(texts[0]):
-        told += (f"{column.name}: states no time zone; taken as UTC",)
-    return Times(found.index, column.name, writing, found.unit_s, layout.decimal), told
+        warnings += (f"{column.name}: states no time zone; taken as UTC",)
+    return Times(found.index, column.name, writing, found.unit_s, layout.decimal), warnings
 
 
-def _told(layout: Layout, times: Times | None, extent: _Extent) -> tuple[str, ...]:
-    told = []
+def _list_warnings(layout: Layout, times: Times | None, extent: _Extent) -> tuple[str, ...]:
+    warnings = []
     if layout.skipped:
-        told.append(f"{layout.skipped} lines above the table: skipped")
+        warnings.append(f"{layout.skipped} lines above the table: skipped")
     if extent.cut:
-        told.append("1 row at the end, cut short: dropped")
+        warnings.append("1 row at the end, cut short: dropped")
     texts = sum(not c.numeric for k, c in enumerate(layout.columns) if not _is(times, k))
     if texts:
-        told.append(f"{texts} columns of text: not read")
-    return tuple(told)
+        warnings.append(f"{texts} columns of text: not read")
+    return tuple(warnings)
 
 
 def _is(times: Times | None, column: int) -> bool:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 
 from floatref import Column
-from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.shared.numbered_names import number_repeats
 
 _UNITS = (
     "s sec ms us µs μs ns min h m mm cm km um µm μm in inch ft mi mil g mg kg gal mgal m/s m/s2 "
@@ -45,7 +45,7 @@ def name_and_unit(text: str) -> tuple[str, str]:
     return text.strip(), ""
 
 
-def columns_of(
+def make_columns(
     names: Sequence[str], units: Sequence[str], numeric: Sequence[bool]
 ) -> tuple[Column, ...]:
     """Return the columns under a row of ``names`` and one of ``units``, "" for none."""
@@ -54,7 +54,7 @@ def columns_of(
     plain = [name or f"column {k}" for k, (name, _) in enumerate(pairs, 1)]
     found = []
     for name, unique, (_, unit), row, is_numeric in zip(
-        plain, numbered(plain), pairs, units, numeric, strict=True
+        plain, number_repeats(plain), pairs, units, numeric, strict=True
     ):
         note = f"another column {name}" if unique != name else ""
         if not is_numeric:
@@ -72,4 +72,4 @@ def _bare(text: str) -> str:
     return plain
 
 
-__all__ = ["columns_of", "is_unit", "is_unit_row", "name_and_unit"]
+__all__ = ["is_unit", "is_unit_row", "make_columns", "name_and_unit"]

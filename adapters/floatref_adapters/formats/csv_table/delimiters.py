@@ -30,7 +30,7 @@ SPELLINGS: Mapping[str, str] = {
 DECIMALS: Mapping[str, str] = {".": ".", "point": ".", ",": ",", "comma": ","}
 
 
-def delimiter_of(lines: Sequence[str], stated: str | None) -> str:
+def find_delimiter(lines: Sequence[str], stated: str | None) -> str:
     """Return the delimiter of ``lines``; the comma if none parts them."""
     if stated is not None:
         found = SPELLINGS.get(stated, stated)
@@ -72,7 +72,7 @@ def has_number(row: Sequence[str]) -> bool:
     return any(is_numeral(text) for text in row)
 
 
-def decimal_of(rows: Sequence[Sequence[str]], delimiter: str, stated: str | None) -> str:
+def find_decimal(rows: Sequence[Sequence[str]], delimiter: str, stated: str | None) -> str:
     """Return the decimal mark of the fields in ``rows``, "." or ",".
 
     InputError if fields have different ones, or if the mark stated is the delimiter.
@@ -94,4 +94,4 @@ def decimal_of(rows: Sequence[Sequence[str]], delimiter: str, stated: str | None
     return "," if commas else "."
 
 
-__all__ = ["FEW", "decimal_of", "delimiter_of", "has_number", "tolerant"]
+__all__ = ["FEW", "find_decimal", "find_delimiter", "has_number", "tolerant"]

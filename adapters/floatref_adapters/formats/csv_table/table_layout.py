@@ -7,11 +7,11 @@ from itertools import islice
 from pathlib import Path
 
 from floatref import Column, InputError
-from floatref_adapters.formats.csv_table.column_names import columns_of, is_unit_row
+from floatref_adapters.formats.csv_table.column_names import is_unit_row, make_columns
 from floatref_adapters.formats.csv_table.delimiters import (
     FEW,
-    decimal_of,
-    delimiter_of,
+    find_decimal,
+    find_delimiter,
     has_number,
     tolerant,
 )
@@ -31,7 +31,7 @@ LONGEST_QUOTE = 4
 
 @dataclass(frozen=True)
 class Layout:
-    """What the first lines of a table tell.
+    """What the first lines of a table show.
 
     ``above`` lines come before the rows, ``skipped`` of them hold neither names nor units;
     ``trailing`` is a delimiter behind the last field of every row; ``body`` are fields of rows.
@@ -62,7 +62,7 @@ class _Lines:
         ]
 
 
-def layout_of(path: Path, options: Mapping[str, str]) -> Layout:
+def find_layout(path: Path, options: Mapping[str, str]) -> Layout:
     """Return the layout of the table at ``path``.
 
     ``options`` may state `delimiter` and `decimal`. InputError if the first lines are not those
@@ -73,13 +73,13 @@ def layout_of(path: Path, options: Mapping[str, str]) -> Layout:
     if not filled:
         raise InputError("holds no rows; copy the complete file")
     texts = [line for _, line in filled]
-    delimiter = delimiter_of(texts, options.get("delimiter"))
+    delimiter = find_delimiter(texts, options.get("delimiter"))
     fields = [tolerant(text, delimiter) for text in texts]
     trailing = delimiter != SPACES and _trailing(fields)
     if trailing:
         fields = [row[:-1] if row and not row[-1] else row for row in fields]
     lines = _Lines([number for number, _ in filled], fields, _width(fields))
-    decimal = decimal_of(lines.rows(), delimiter, options.get("decimal"))
+    decimal = find_decimal(lines.rows(), delimiter, options.get("decimal"))
     numeric = _numeric(lines.rows())
     first = _first_row(lines, numeric, decimal)
     names, units, used = _header(lines, first, numeric, decimal)
@@ -88,7 +88,7 @@ def layout_of(path: Path, options: Mapping[str, str]) -> Layout:
         encoding,
         delimiter,
         decimal,
-        columns_of(names, units, numeric),
+        make_columns(names, units, numeric),
         lines.numbers[first] - 1,
         first - used,
         trailing,
@@ -125,7 +125,7 @@ def _width(fields: Sequence[Sequence[str]]) -> int:
 
 
 def _numeric(rows: Sequence[Sequence[str]]) -> list[bool]:
-    """Tell of every column whether half of its samples are numbers, or all are missing."""
+    """Return for every column whether half of its samples are numbers, or all are missing."""
     found = []
     for texts in zip(*rows, strict=True):
         there = [text for text in texts if not is_missing(text)]
@@ -205,4 +205,4 @@ def _halves(row: Sequence[str]) -> bool:
     return whole and all(text.isdigit() for text in row[1::2])
 
 
-__all__ = ["Layout", "layout_of"]
+__all__ = ["Layout", "find_layout"]

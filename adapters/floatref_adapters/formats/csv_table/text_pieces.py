@@ -18,7 +18,7 @@ Block = tuple[int, bytes]
 """Number of the first line, and lines."""
 
 
-def encoding_of(start: bytes) -> str:
+def find_encoding(start: bytes) -> str:
     """Return the encoding of a text that begins with ``start``; InputError if it is none.
 
     Without a byte-order mark it is UTF-8, and Latin-1 where it cannot be that.
@@ -46,7 +46,7 @@ def read_sample(path: Path) -> tuple[str, list[str]]:
                 break
             start += more
         whole = not stream.read(1)
-    encoding = encoding_of(start)
+    encoding = find_encoding(start)
     text = codecs.getincrementaldecoder(encoding)("replace").decode(start)
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if not whole and len(lines) > 1:
@@ -105,4 +105,4 @@ def _unix(read: Callable[[int], bytes], encoding: str) -> Iterator[bytes]:
         yield b"\n"
 
 
-__all__ = ["Block", "blocks", "encoding_of", "read_sample"]
+__all__ = ["Block", "blocks", "find_encoding", "read_sample"]

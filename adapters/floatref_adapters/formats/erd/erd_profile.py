@@ -17,7 +17,7 @@ from floatref_adapters.formats.erd.erd_header import (
 )
 from floatref_adapters.formats.erd.erd_numbers import read_numbers
 from floatref_adapters.formats.erd.erd_writing import ELEVATION, FORMAT, PIPELINE, VALID, write_erd
-from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.shared.numbered_names import number_repeats
 
 Ratio = tuple[int, int]
 """Numerator and denominator: a number times one, over the other, is rounded but once."""
@@ -69,9 +69,9 @@ class Erd:
                 numbers = read_numbers(header, path, stream, wanted)
             columns = dict(zip(wanted, numbers.T, strict=True))
             return Profile(
-                interval_m=in_metres(header.step, unit),
+                interval_m=to_metres(header.step, unit),
                 tracks=tuple(_track(elevation, columns) for elevation in found),
-                start_m=in_metres(header.start, unit),
+                start_m=to_metres(header.start, unit),
                 pipeline=_pipeline(header),
                 provenance=_provenance(header, left_out),
             )
@@ -89,7 +89,7 @@ class Erd:
 
 
 def _step_unit(header: ErdHeader) -> Ratio:
-    unit = length_unit(header.x_unit)
+    unit = find_length_unit(header.x_unit)
     if unit is None:
         what = f"XUNITS is {header.x_unit[:20]!r}" if header.x_unit else "no line XUNITS"
         raise InputError(f"{what}; a profile needs the unit of its step: m, mm, in, ft, km or mi")
@@ -102,12 +102,12 @@ def _elevations(header: ErdHeader) -> tuple[list[Elevation], list[str]]:
         return _our_elevations(header), []
     named = [i for i, c in enumerate(header.channels) if "elev" in f"{c.short} {c.long}".lower()]
     chosen = named or [
-        i for i, c in enumerate(header.channels) if length_unit(c.unit) and not _is_place(c)
+        i for i, c in enumerate(header.channels) if find_length_unit(c.unit) and not _is_place(c)
     ]
     if not chosen:
         there = ", ".join(f"{c.title} ({c.unit or 'no unit'})" for c in header.channels[:8])
         raise InputError(f"no channel is an elevation in a unit of length: {there}")
-    tracks = numbered([_wheel_path(header.channels[i], i) for i in chosen])
+    tracks = number_repeats([_wheel_path(header.channels[i], i) for i in chosen])
     units = [_unit(header.channels[i]) for i in chosen]
     found = [Elevation(*parts) for parts in zip(tracks, chosen, units, strict=True)]
     return found, [c.title for i, c in enumerate(header.channels) if i not in chosen]
@@ -137,7 +137,7 @@ def _is_place(channel: ErdChannel) -> bool:
 
 
 def _unit(channel: ErdChannel) -> Ratio:
-    unit = length_unit(channel.unit)
+    unit = find_length_unit(channel.unit)
     if unit is None:
         what = f"unit {channel.unit}" if channel.unit else "no unit"
         raise InputError(
@@ -152,7 +152,7 @@ def _wheel_path(channel: ErdChannel, index: int) -> str:
 
 
 def _track(elevation: Elevation, columns: dict[int, NDArray[np.float64]]) -> ProfileTrack:
-    values = in_metres(columns[elevation.channel], elevation.unit)
+    values = to_metres(columns[elevation.channel], elevation.unit)
     valid = None if elevation.valid is None else columns[elevation.valid]
     if valid is not None and not np.isin(valid, (0.0, 1.0)).all():
         bad = valid[~np.isin(valid, (0.0, 1.0))][0]
@@ -188,16 +188,16 @@ _SPELLINGS: dict[Ratio, str] = {
 LENGTHS = {word: ratio for ratio, words in _SPELLINGS.items() for word in words.split()}
 
 
-def length_unit(text: str) -> Ratio | None:
+def find_length_unit(text: str) -> Ratio | None:
     """Return what one ``text`` is in m, whatever its case; None if it is no unit of length."""
     return LENGTHS.get(text.strip().rstrip(".").lower())
 
 
 @overload
-def in_metres(value: float, unit: Ratio) -> float: ...
+def to_metres(value: float, unit: Ratio) -> float: ...
 @overload
-def in_metres(value: NDArray[np.float64], unit: Ratio) -> NDArray[np.float64]: ...
-def in_metres(value: float | NDArray[np.float64], unit: Ratio) -> float | NDArray[np.float64]:
+def to_metres(value: NDArray[np.float64], unit: Ratio) -> NDArray[np.float64]: ...
+def to_metres(value: float | NDArray[np.float64], unit: Ratio) -> float | NDArray[np.float64]:
     """Return ``value`` in m; one in m comes back as it is, with every digit."""
     numerator, denominator = unit
     return value if numerator == denominator else value * numerator / denominator

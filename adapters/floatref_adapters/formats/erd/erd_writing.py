@@ -53,7 +53,7 @@ class Column(NamedTuple):
         """Return points ``first`` to ``last`` as they are written."""
         if self.is_validity:
             return ["1" if valid else "0" for valid in self.track.valid[first:last].tolist()]
-        values = bridged(self.track.elevation, self.gaps, first, last)
+        values = bridge_gaps(self.track.elevation, self.gaps, first, last)
         return [f"{value:.{DECIMALS}f}" for value in values.tolist()]
 
 
@@ -92,7 +92,7 @@ def _columns(profile: Profile) -> list[Column]:
     for track in profile.tracks:
         label = _unique(_ascii(track.name), LONG_FIELD - len(ELEVATION), long)
         names = SHORT_NAMES.get(track.name, (label, f"{label[:3].rstrip()}Valid"))
-        gaps = gaps_of(track.elevation)
+        gaps = find_gaps(track.elevation)
         name = _unique(names[0], SHORT_FIELD, short)
         columns.append(Column(name, f"{label}{ELEVATION}", "m", track, gaps))
         if not track.valid.all():
@@ -158,14 +158,14 @@ def _unique(text: str, width: int, taken: set[str]) -> str:
 Gaps = NDArray[np.int64]
 
 
-def gaps_of(values: Floats) -> Gaps:
+def find_gaps(values: Floats) -> Gaps:
     """Return first and end index of every run of NaN in ``values``, shape (gaps, 2)."""
     missing = np.isnan(values)
     edges = np.flatnonzero(np.diff(missing, prepend=False, append=False))
     return edges.reshape(-1, 2)
 
 
-def bridged(values: Floats, gaps: Gaps, first: int, last: int) -> Floats:
+def bridge_gaps(values: Floats, gaps: Gaps, first: int, last: int) -> Floats:
     """Return ``values[first:last]`` with its gaps filled; at either end the nearest value stays.
 
     ``gaps`` are those of ``values``, shape (n,), of which one at least is not NaN.

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from floatref import InputError, NativeFile
-from floatref_adapters.formats.hdf5.child_process import native_file_apart
-from floatref_adapters.shared.refusals import naming
+from floatref_adapters.formats.hdf5.child_process import read_in_child
+from floatref_adapters.shared.refusals import prefix_errors
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 OFFSETS = (0, 512, 1024, 2048, 4096, 8192)
@@ -43,8 +43,8 @@ class Hdf5:
         """
         if not source.is_file():
             raise InputError(f"{source}: not a file; give an HDF5 file")
-        with naming(source):
-            return native_file_apart(source, options)
+        with prefix_errors(source):
+            return read_in_child(source, options)
 
 
 __all__ = ["Hdf5"]

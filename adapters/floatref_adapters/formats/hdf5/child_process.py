@@ -43,7 +43,7 @@ class _Refused:
 _END = "end"
 
 
-def native_file_apart(source: Path, options: Mapping[str, str]) -> NativeFile:
+def read_in_child(source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return what the HDF5 file ``source`` holds; InputError if it cannot be used."""
     request = _Request(source.resolve(), dict(options))
     listed: NativeFile
@@ -159,4 +159,4 @@ def _limit_memory() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, hard))
 
 
-__all__ = ["native_file_apart", "serve"]
+__all__ = ["read_in_child", "serve"]

@@ -6,16 +6,16 @@ from fractions import Fraction
 
 from floatref import Column, Epoch, InputError, NativeClock
 from floatref_adapters.formats.hdf5.object_tree import Group, Tree
-from floatref_adapters.formats.hdf5.series import Series, series_of
-from floatref_adapters.shared.numbered_names import numbered
-from floatref_adapters.shared.stated_clock import stated_clock
+from floatref_adapters.formats.hdf5.series import Series, find_series
+from floatref_adapters.shared.numbered_names import number_repeats
+from floatref_adapters.shared.stated_clock import read_stated_clock
 from floatref_adapters.shared.time_columns import (
     NONE,
     UNKNOWN,
     TimeColumn,
+    find_unit,
     of_epoch,
     time_column,
-    unit_of,
 )
 from floatref_adapters.shared.time_texts import read_iso_ns
 
@@ -35,24 +35,26 @@ class Table:
     count: int
 
 
-def tables_of(tree: Tree, options: Mapping[str, str]) -> tuple[tuple[Table, ...], tuple[str, ...]]:
-    """Return the tables in ``tree``, and what is to be told.
+def find_tables(
+    tree: Tree, options: Mapping[str, str]
+) -> tuple[tuple[Table, ...], tuple[str, ...]]:
+    """Return the tables in ``tree``, and warnings.
 
     InputError for attributes that no clock can be made of, or an option that names no dataset.
     """
     everything = [(group, _series(group)) for group in tree.groups]
     scales = {s.dataset.path: s for _, several in everything for s in several}
     tables: list[Table] = []
-    told: list[str] = []
+    warnings: list[str] = []
     for group, series in everything:
-        tables += _tables(group, series, scales, options, told)
+        tables += _tables(group, series, scales, options, warnings)
     option = options.get("time")
     if option not in (None, NONE) and not any(_is(t.time, option) for t in tables):
         raise InputError(f"time = {option!r}: no dataset of that name and of the others' length")
     if any(table.clock.name == "unknown" for table in tables):
-        told.append(UNKNOWN)
-    names = numbered([table.name for table in tables])
-    return tuple(replace(t, name=n) for t, n in zip(tables, names, strict=True)), tuple(told)
+        warnings.append(UNKNOWN)
+    names = number_repeats([table.name for table in tables])
+    return tuple(replace(t, name=n) for t, n in zip(tables, names, strict=True)), tuple(warnings)
 
 
 def _is(series: Series | None, name: str | None) -> bool:
@@ -61,8 +63,8 @@ def _is(series: Series | None, name: str | None) -> bool:
 
 def _series(group: Group) -> list[Series]:
     """Return the columns of ``group`` with a name of their own each."""
-    found = [series for dataset in group.datasets for series in series_of(dataset)]
-    names = numbered([series.column.name for series in found])
+    found = [series for dataset in group.datasets for series in find_series(dataset)]
+    names = number_repeats([series.column.name for series in found])
     return [
         s if s.column.name == name else replace(s, column=_renamed(s.column, name))
         for s, name in zip(found, names, strict=True)
@@ -79,11 +81,11 @@ def _tables(
     series: Sequence[Series],
     scales: Mapping[str, Series],
     options: Mapping[str, str],
-    told: list[str],
+    warnings: list[str],
 ) -> list[Table]:
     """Return the tables of one group, the columns of time left out."""
-    times = _times(series, options.get("time"), told)
-    stated = stated_clock(group.attributes, group.path or ROOT)
+    times = _times(series, options.get("time"), warnings)
+    stated = read_stated_clock(group.attributes, group.path or ROOT)
     parts: dict[tuple[int, NativeClock | None, str], list[Series]] = {}
     clocks: dict[tuple[int, NativeClock | None, str], Series | None] = {}
     for one in series:
@@ -113,7 +115,7 @@ def _name(group: str, clock: NativeClock | None, time: Series | None, count: int
 
 
 def _times(
-    series: Sequence[Series], option: str | None, told: list[str]
+    series: Sequence[Series], option: str | None, warnings: list[str]
 ) -> dict[tuple[str, int], Series]:
     """Return the column of time of every length, by the dataset that compound ones are in."""
     found: dict[tuple[str, int], Series] = {}
@@ -131,7 +133,7 @@ def _times(
         chosen = time_column(columns, NONE if option == NONE else None)
         if isinstance(chosen, TimeColumn):
             found[place, count] = usable[chosen.index]
-            told += chosen.told(columns)
+            warnings += chosen.list_others(columns)
     return found
 
 
@@ -148,14 +150,14 @@ def _clock(
     chosen: bool,
 ) -> _Clock:
     """Return the clock that is stated for a series, or the series of its times, or neither."""
-    own = stated_clock(series.dataset.attributes, series.dataset.path)
+    own = read_stated_clock(series.dataset.attributes, series.dataset.path)
     time = times.get((_place(series), series.count))
     if own is not None and not (chosen and time):
         return own, None
     if time is not None:
         return None, time
     scale = scales.get(series.dataset.scale)
-    if scale is not None and scale.count == series.count and unit_of(scale.column) is not None:
+    if scale is not None and scale.count == series.count and find_unit(scale.column) is not None:
         return None, scale
     return stated, None
 
@@ -180,4 +182,4 @@ def _made(
     return of_epoch(NativeClock(tick_s=tick), options)
 
 
-__all__ = ["Table", "tables_of"]
+__all__ = ["Table", "find_tables"]

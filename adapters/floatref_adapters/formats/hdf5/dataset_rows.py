@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, NativeFile, Rows, Stream
-from floatref_adapters.formats.hdf5.clock_tables import Table, tables_of
-from floatref_adapters.formats.hdf5.object_tree import opened, text_of, tree_of
+from floatref_adapters.formats.hdf5.clock_tables import Table, find_tables
+from floatref_adapters.formats.hdf5.object_tree import decode_text, opened, read_tree
 from floatref_adapters.formats.hdf5.series import MOST_HELD, Held, Series, chosen
-from floatref_adapters.shared.row_pieces import MOST_ROWS, keep_freed_memory, rows_for
+from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows, keep_freed_memory
 
 
 def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return the datasets of each group and clock; InputError if the file cannot be used."""
     with opened(source) as file:
-        tree = tree_of(file)
-        tables, told = tables_of(tree, options)
+        tree = read_tree(file)
+        tables, warnings = find_tables(tree, options)
     if not tables:
         raise InputError("holds no datasets of two samples or more")
     streams = [
@@ -34,9 +34,9 @@ def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
     ]
     return NativeFile(
         tuple(streams),
-        (*(f"{count} {kind}: left alone" for kind, count in tree.left.items()), *told),
-        text_of(tree.attributes.get("vendor", "")),
-        text_of(tree.attributes.get("model", "")),
+        (*(f"{count} {kind}: left alone" for kind, count in tree.left.items()), *warnings),
+        decode_text(tree.attributes.get("vendor", "")),
+        decode_text(tree.attributes.get("model", "")),
     )
 
 
@@ -76,7 +76,7 @@ def _held(file: Any, wanted: Sequence[Series]) -> dict[str, Held]:
     by_dataset: dict[str, list[Series]] = {}
     for series in wanted:
         by_dataset.setdefault(series.dataset.path, []).append(series)
-    rows = rows_for(len(wanted))
+    rows = count_piece_rows(len(wanted))
     held = {path: Held(file[path], several, rows) for path, several in by_dataset.items()}
     together = sum(each.bytes for each in held.values())
     if together > MOST_HELD:

@@ -74,9 +74,9 @@ def opened(path: Path) -> Iterator[Any]:
         raise InputError(f"no sound HDF5 ({reason[:120]}); copy the complete file again") from error
 
 
-def tree_of(file: Any) -> Tree:
+def read_tree(file: Any) -> Tree:
     """Return what ``file``, an opened HDF5 file, holds; InputError for too many objects."""
-    tree, waiting, seen = Tree(attributes_of(file)), [("", file["/"])], {_address(file["/"])}
+    tree, waiting, seen = Tree(read_attributes(file)), [("", file["/"])], {_address(file["/"])}
     while waiting:
         path, group = waiting.pop(0)
         datasets, single = [], {}
@@ -94,14 +94,14 @@ def tree_of(file: Any) -> Tree:
                 datasets.append(_dataset(below, name, item, tree.left))
                 single.update(_single(name, item))
         if datasets:
-            tree.groups.append(Group(path, {**single, **attributes_of(group)}, tuple(datasets)))
+            tree.groups.append(Group(path, {**single, **read_attributes(group)}, tuple(datasets)))
     return tree
 
 
 def _single(name: str, item: Any) -> dict[str, Any]:
     """Return the number in a dataset of one number that is named like a rate; MATLAB has no other.
 
-    The attributes of a group tell the same.
+    The attributes of a group mean the same.
     """
     if name.lower() not in RATES | STEPS | STARTS or item.size != 1 or item.is_virtual:
         return {}
@@ -142,10 +142,10 @@ def _dataset(path: str, name: str, item: Any, left: Counter[str]) -> Dataset:
     if not stored and item.size:
         left["datasets without data"] += 1
     shape = tuple(item.shape or ())
-    return Dataset(path, name, shape, dtype, attributes_of(item), _scale(item), elsewhere, stored)
+    return Dataset(path, name, shape, dtype, read_attributes(item), _scale(item), elsewhere, stored)
 
 
-def attributes_of(item: Any) -> dict[str, Any]:
+def read_attributes(item: Any) -> dict[str, Any]:
     """Return the attributes of ``item`` that mean something here, are short and can be read."""
     found = {}
     for name in item.attrs:
@@ -160,7 +160,7 @@ def attributes_of(item: Any) -> dict[str, Any]:
     return found
 
 
-def text_of(value: Any) -> str:
+def decode_text(value: Any) -> str:
     """Return an attribute as text, "" if it is none."""
     value = getattr(value, "tolist", lambda: value)()
     while isinstance(value, list) and len(value) == 1:
@@ -179,4 +179,13 @@ def _scale(item: Any) -> str:
         return ""
 
 
-__all__ = ["TROUBLE", "Dataset", "Group", "Tree", "attributes_of", "opened", "text_of", "tree_of"]
+__all__ = [
+    "TROUBLE",
+    "Dataset",
+    "Group",
+    "Tree",
+    "decode_text",
+    "opened",
+    "read_attributes",
+    "read_tree",
+]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Column, InputError
-from floatref_adapters.formats.hdf5.object_tree import Dataset, text_of
+from floatref_adapters.formats.hdf5.object_tree import Dataset, decode_text
 from floatref_adapters.shared.stated_clock import number
 
 MOST_WIDE = 64
@@ -62,12 +62,12 @@ class Series:
         return values
 
 
-def series_of(dataset: Dataset) -> tuple[Series, ...]:
+def find_series(dataset: Dataset) -> tuple[Series, ...]:
     """Return the columns of ``dataset``; one that cannot be mapped for what holds no numbers."""
     if dataset.dtype is None or prod(dataset.shape) < 2:
         return ()
     rows, across, wide = _layout(dataset)
-    unit = text_of(dataset.attributes.get("unit", dataset.attributes.get("units", "")))
+    unit = decode_text(dataset.attributes.get("unit", dataset.attributes.get("units", "")))
     note = _hindrance(dataset, wide)
     if note:
         return (Series(dataset, Column(dataset.name, unit, note, numeric=False), rows),)
@@ -116,7 +116,7 @@ def _hindrance(dataset: Dataset, wide: int) -> str:
         return f"{' by '.join(map(str, dataset.shape))} numbers"
     if dataset.dtype.names:
         return "" if wide == 1 else "a table of tables"
-    text = text_of(dataset.attributes.get("MATLAB_class", "")) in ("char", "cell")
+    text = decode_text(dataset.attributes.get("MATLAB_class", "")) in ("char", "cell")
     return str(dataset.dtype)[:40] if text or dataset.dtype.kind not in "iufb" else ""
 
 
@@ -171,7 +171,7 @@ class Held:
         return self._block
 
     def absent(self, first: int, stop: int) -> NDArray[np.bool_] | None:
-        """Tell of rows ``first`` to ``stop`` which were never written; None if all were."""
+        """Return which of rows ``first`` to ``stop`` were never written; None if all were."""
         if self._written is None:
             return None
         high, written = self._written
@@ -199,4 +199,4 @@ def chosen(series: Series, rows: NDArray[Any]) -> NDArray[Any]:
     return rows.reshape(len(rows), -1)[:, series.place or 0]
 
 
-__all__ = ["Held", "Series", "chosen", "series_of"]
+__all__ = ["Held", "Series", "chosen", "find_series"]

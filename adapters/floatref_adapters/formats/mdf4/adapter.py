@@ -11,10 +11,10 @@ from typing import Any
 
 from floatref import Column, InputError, NativeClock, NativeFile, Rows, Stream
 from floatref_adapters.formats.mdf4.channel_group import Group, Piece
-from floatref_adapters.formats.mdf4.master_clock import Timing, is_clock, start_of, timing_of
+from floatref_adapters.formats.mdf4.master_clock import Timing, find_timing, is_clock, start_of
 from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, first_line, opened, quiet
-from floatref_adapters.formats.mdf4.record_fields import Field, unit_of
-from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.formats.mdf4.record_fields import Field, find_unit
+from floatref_adapters.shared.numbered_names import number_repeats
 
 WIDEST_RECORD = 1 << 24
 LENGTHS, BUS_EVENTS, REMOTE_MASTER = 1, 2, 8
@@ -57,17 +57,17 @@ class Mdf4:
 
 def _native(source: Path, mdf: Any) -> NativeFile:
     start, about_start = start_of(mdf.header)
-    told = [about_start] if about_start else []
-    names = numbered([_name(origin, k) for k, origin in enumerate(mdf.groups)])
+    warnings = [about_start] if about_start else []
+    names = number_repeats([_name(origin, k) for k, origin in enumerate(mdf.groups)])
     streams = []
     for number, (origin, name) in enumerate(zip(mdf.groups, names, strict=True)):
         group = Group(source, mdf, number, origin, name)
         left_out = _left_out(group)
         if left_out:
-            told.append(f"{name}: {left_out}")
+            warnings.append(f"{name}: {left_out}")
         elif not origin.channel_group.flags & LENGTHS:
-            streams.append(_stream(group, start, told))
-    return NativeFile(tuple(streams), tuple(told), close=mdf.close)
+            streams.append(_stream(group, start, warnings))
+    return NativeFile(tuple(streams), tuple(warnings), close=mdf.close)
 
 
 def _name(origin: Any, number: int) -> str:
@@ -90,18 +90,20 @@ def _left_out(group: Group) -> str:
     return ""
 
 
-def _stream(group: Group, start: NativeClock, told: list[str]) -> Stream:
+def _stream(group: Group, start: NativeClock, warnings: list[str]) -> Stream:
     fields = [group.field(index) for index in range(len(group.origin.channels))]
     clocks = [field for field in fields if is_clock(field.origin) and not field.unreadable()]
-    timing = timing_of(start, clocks[0] if clocks else None)
+    timing = find_timing(start, clocks[0] if clocks else None)
     if not clocks:
-        told.append(f"{group.name}: no time; its clock is called unknown, give its rate in the map")
+        warnings.append(
+            f"{group.name}: no time; its clock is called unknown, give its rate in the map"
+        )
     fields = [field for field in fields if field not in clocks[:1]]
-    names = numbered([field.origin.name for field in fields])
+    names = number_repeats([field.origin.name for field in fields])
     faults = [field.unreadable() for field in fields]
     columns = tuple(map(_column, fields, names, faults))
-    told.extend(_undecoded(group, faults))
-    count = _count(group, told)
+    warnings.extend(_undecoded(group, faults))
+    count = _count(group, warnings)
     usable = {n: f for n, f, fault in zip(names, fields, faults, strict=True) if not fault}
     return Stream(group.name, columns, count, timing.clock, Reader(group, timing, usable, count))
 
@@ -110,7 +112,7 @@ def _column(field: Field, name: str, fault: str) -> Column:
     notes = list(filter(None, [fault or field.note()]))
     if name != field.origin.name:
         notes.append("a name given more than once")
-    return Column(name, unit_of(field.origin), "; ".join(notes), numeric=not fault)
+    return Column(name, find_unit(field.origin), "; ".join(notes), numeric=not fault)
 
 
 def _undecoded(group: Group, faults: list[str]) -> Iterator[str]:
@@ -122,11 +124,13 @@ def _undecoded(group: Group, faults: list[str]) -> Iterator[str]:
         yield f"{group.name}: {frames} frames of a bus, not decoded"
 
 
-def _count(group: Group, told: list[str]) -> int:
+def _count(group: Group, warnings: list[str]) -> int:
     """Return how many records are delivered: what the file says, if it holds as many."""
     said, held = int(group.origin.channel_group.cycles_nr), group.count_stored()
     if said > held:
-        told.append(f"{group.name}: {said - held} of {said} rows are missing; the file is cut off")
+        warnings.append(
+            f"{group.name}: {said - held} of {said} rows are missing; the file is cut off"
+        )
     return min(said, held)
 
 

@@ -181,7 +181,7 @@ def _read_zstd_size(stored: bytes) -> int | None:
 
 
 def _choose_inflater() -> Callable[[bytes, int], bytes]:
-    """Return what inflates bytes to at most so many; ISA-L, as asammdf itself, if it is there."""
+    """Return what inflates bytes up to a count; ISA-L, as in asammdf, if it is installed."""
     try:
         from isal import isal_zlib
     except ImportError:

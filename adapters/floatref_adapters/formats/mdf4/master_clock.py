@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from floatref import Epoch, InputError, NativeClock
 from floatref_adapters.formats.mdf4.conversions import convert
 from floatref_adapters.formats.mdf4.record_fields import FLOATS, Field, Numbers
-from floatref_adapters.shared.simplest_ratio import simplest
+from floatref_adapters.shared.simplest_ratio import find_simplest
 
 Ticks = NDArray[np.int64] | NDArray[np.float64]
 UNKNOWN = NativeClock(rate=Fraction(1), name="unknown")
@@ -43,7 +43,7 @@ class Timing:
 
 
 def start_of(header: Any) -> tuple[NativeClock, str]:
-    """Return a clock that begins at the start time in ``header``, and what is to be told."""
+    """Return a clock that begins at the start time in ``header``, and a warning or ""."""
     if not header.abs_time:
         return NativeClock(), ""
     if header.time_flags & LOCAL_TIME:
@@ -56,7 +56,7 @@ def is_clock(channel: Any) -> bool:
     return channel.channel_type in MASTERS and channel.sync_type == TIME
 
 
-def timing_of(start: NativeClock, field: Field | None) -> Timing:
+def find_timing(start: NativeClock, field: Field | None) -> Timing:
     """Return when the records were taken by the master ``field``, from ``start`` on.
 
     A record's number and integers keep to whole ticks, as a float64 cannot.
@@ -87,4 +87,4 @@ def _line(conversion: Any) -> tuple[Fraction, Fraction] | None:
     step, offset = float(conversion.a), float(conversion.b)
     if not (0 < step < np.inf and np.isfinite(offset)):
         return None
-    return simplest(step), simplest(offset)
+    return find_simplest(step), find_simplest(offset)

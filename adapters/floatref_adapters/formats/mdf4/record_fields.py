@@ -113,7 +113,7 @@ class Field:
         return numbers
 
 
-def unit_of(channel: Any) -> str:
+def find_unit(channel: Any) -> str:
     """Return the unit of ``channel`` or of its conversion as the file has it; "" if none."""
     unit = channel.unit or getattr(channel.conversion, "unit", "") or ""
     if not unit and channel.conversion:

@@ -14,11 +14,11 @@ from fractions import Fraction
 from pathlib import Path
 
 from floatref import Epoch, InputError, NativeClock, NativeFile, Rows, Stream
-from floatref_adapters.formats.nmea.day_count import DAY_NS, DayCount, ordinal_of, time_of_day_ns
+from floatref_adapters.formats.nmea.day_count import DAY_NS, DayCount, read_day, read_time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, MOST, NotANumber, Quantity
 from floatref_adapters.formats.nmea.sentences import MOST_KINDS, Sentence, Sentences
 from floatref_adapters.shared.record_spool import Spool
-from floatref_adapters.shared.row_pieces import piled
+from floatref_adapters.shared.row_pieces import pile_rows
 from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 13
@@ -28,7 +28,7 @@ NAN = float("nan")
 PADDING = ("",) * MOST
 COARSEST = 10**6
 """ns of a tick, unless the times have more decimals."""
-TOLD = {
+WARNINGS = {
     "sum": "sentences with a wrong checksum: dropped",
     "unsummed": "sentences without a checksum, which others have: dropped",
     "bare": "sentences without a checksum: taken as they are",
@@ -62,11 +62,11 @@ class Nmea:
             survey.close()
             raise InputError(f"{source}: no NMEA 0183 sentence that is sound; copy the log again")
         streams = (survey.stream(kind) for kind in sorted(survey.counts))
-        return NativeFile(tuple(streams), told=survey.told(), close=survey.close)
+        return NativeFile(tuple(streams), told=survey.list_warnings(), close=survey.close)
 
 
 class Survey:
-    """What one pass over a log tells: how many rows of each kind, the clock, the faults."""
+    """What one pass over a log finds: the count of rows of each kind, the clock, the faults."""
 
     def __init__(self, sentences: Sentences) -> None:
         self.counts: Counter[str] = Counter()
@@ -110,7 +110,7 @@ class Survey:
         places = {column.name: place for place, column in enumerate(columns)}
 
         def read(names: Sequence[str]) -> Iterator[Rows]:
-            return piled(self._rows(kind, [places[name] for name in names]), names)
+            return pile_rows(self._rows(kind, [places[name] for name in names]), names)
 
         return Stream(kind, columns, self.counts[kind], self._clock(), read)
 
@@ -126,9 +126,11 @@ class Survey:
             values = array("d", packed)
             yield moment // self._unit, [values[place] for place in places]
 
-    def told(self) -> tuple[str, ...]:
+    def list_warnings(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""
-        lines = [f"{n} {TOLD[what]}" for what, n in self._faults.items() if n and what in TOLD]
+        lines = [
+            f"{n} {WARNINGS[what]}" for what, n in self._faults.items() if n and what in WARNINGS
+        ]
         for what, n in self._faults.items():
             about, _, kind = what.partition(" ")
             if n and about == "untimed":
@@ -146,16 +148,16 @@ def _moment(sentence: Sentence, days: DayCount) -> int | None:
     if layout is None or layout.time is None:
         return days.now_ns
     fields = sentence.fields
-    time = time_of_day_ns(fields[layout.time]) if layout.time < len(fields) else None
+    time = read_time_of_day_ns(fields[layout.time]) if layout.time < len(fields) else None
     return None if time is None else days.moment(sentence.kind, time, _day(sentence))
 
 
 def _day(sentence: Sentence) -> int | None:
     fields = sentence.fields
     if sentence.kind == "ZDA" and len(fields) >= 4:
-        return ordinal_of(*fields[1:4])
+        return read_day(*fields[1:4])
     if sentence.kind == "RMC" and len(fields) >= 9 and fields[1] == "A" and len(fields[8]) == 6:
-        return ordinal_of(fields[8][:2], fields[8][2:4], fields[8][4:])
+        return read_day(fields[8][:2], fields[8][2:4], fields[8][4:])
     return None
 
 

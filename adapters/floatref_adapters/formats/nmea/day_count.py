@@ -13,7 +13,7 @@ YEARS = range(1980, 2200)
 """Of GNSS; ns since 1970 fit in 64 bits for longer."""
 
 
-def time_of_day_ns(text: str) -> int | None:
+def read_time_of_day_ns(text: str) -> int | None:
     """Return the ns since midnight of a time `hhmmss.ss`; None if ``text`` is none."""
     found = TIME.match(text)
     if found is None:
@@ -23,7 +23,7 @@ def time_of_day_ns(text: str) -> int | None:
     return whole * 10**9 + int(decimals.ljust(9, "0"))
 
 
-def ordinal_of(day: str, month: str, year: str) -> int | None:
+def read_day(day: str, month: str, year: str) -> int | None:
     """Return the days since 1970-01-01; None if the three are no date. 80 is 1980, 79 is 2079."""
     if not all(text.isascii() and text.isdigit() for text in (day, month, year)):
         return None
@@ -78,4 +78,4 @@ class DayCount:
             self._day = day - self.first_day
 
 
-__all__ = ["DAY_NS", "DayCount", "ordinal_of", "time_of_day_ns"]
+__all__ = ["DAY_NS", "DayCount", "read_day", "read_time_of_day_ns"]

@@ -13,7 +13,7 @@ NAN = float("nan")
 LARGEST = 1e15
 ANGLE = re.compile(r"(\d{1,3})([0-5]\d(?:\.\d*)?)$", re.ASCII)
 MODES = {"R": 4.0, "F": 5.0, "P": 3.0, "D": 2.0, "A": 1.0, "E": 6.0, "M": 7.0, "S": 8.0, "N": 0.0}
-"""Of GNS, the one that is told first, as the quality of GGA."""
+"""Modes of GNS as the quality of GGA; the first of several that a sentence has counts."""
 
 
 class NotANumber(ValueError):

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from floatref_adapters.formats.nmea.day_count import time_of_day_ns
+from floatref_adapters.formats.nmea.day_count import read_time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, Fields
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.text_lines import first_bytes, text_lines
@@ -81,7 +81,9 @@ def _kind(found: re.Match[str]) -> str:
     name = found[1].upper()
     if name == "PASHR":
         first = found[2][1:].partition(",")[0]
-        return name if not first or time_of_day_ns(first) is not None else f"{name},{first[:8]}"
+        return (
+            name if not first or read_time_of_day_ns(first) is not None else f"{name},{first[:8]}"
+        )
     return name[2:] if len(name) == 5 and name[0] != "P" else name
 
 

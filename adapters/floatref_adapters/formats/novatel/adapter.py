@@ -20,7 +20,7 @@ from floatref_adapters.formats.novatel.decoder import Decoder
 from floatref_adapters.formats.novatel.log_frames import WEEK_MS, Frames, Log, is_sound
 from floatref_adapters.formats.novatel.log_layouts import LogLayout
 from floatref_adapters.shared.record_spool import Spool
-from floatref_adapters.shared.row_pieces import piled
+from floatref_adapters.shared.row_pieces import pile_rows
 from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 16
@@ -35,7 +35,7 @@ COARSE = 140
 ROLLED_MS = 1024 * WEEK_MS
 LATENCY = "latency"
 CLOCK = NativeClock(tick_s=Fraction(1, 1000), epoch=Epoch.GPS, name="GPS")
-TOLD = {
+WARNINGS = {
     "damaged": "beginnings of a log that is cut off or has a wrong checksum: dropped",
     "bytes": "bytes between logs (prompts, answers, damaged logs): not read",
     "nmea": "of these are NMEA 0183 sentences; read them with the adapter nmea",
@@ -74,7 +74,7 @@ class NovAtel:
         if not survey.counts:
             survey.close()
             raise InputError(f"{source}: no NovAtel log that is sound; copy the file again")
-        return NativeFile(survey.streams(), survey.told(), "NovAtel", close=survey.close)
+        return NativeFile(survey.streams(), survey.list_warnings(), "NovAtel", close=survey.close)
 
 
 Key = tuple[str, int]
@@ -121,7 +121,7 @@ class Survey:
 
     def _keep(self, log: Log, key: Key) -> None:
         """Keep a log behind the number of its layout."""
-        layout = self._decoder.layout_of(log)
+        layout = self._decoder.find_layout(log)
         columns = self._columns.setdefault(key, {})
         if layout not in self._layouts:
             self._layouts[layout] = PLACE.pack(len(self._layouts))
@@ -141,7 +141,7 @@ class Survey:
 
     def _stream(self, key: Key) -> Stream:
         def read(names: Sequence[str]) -> Iterator[Rows]:
-            return piled(self._rows(key, names), names)
+            return pile_rows(self._rows(key, names), names)
 
         alone = sum(name == key[0] for name, _ in self.counts) == 1
         name = key[0] if alone or not key[1] else f"{key[0]}_{key[1]}"
@@ -154,9 +154,11 @@ class Survey:
             message = self._decoder.decoded(kept[PLACE.size :]) if names else None
             yield gps_ms, [value(message) for value in getters[PLACE.unpack_from(kept)[0]]]
 
-    def told(self) -> tuple[str, ...]:
+    def list_warnings(self) -> tuple[str, ...]:
         """Return one line for each kind of fault."""
-        lines = [f"{self._frames[what]} {TOLD[what]}" for what in TOLD if self._frames[what]]
+        lines = [
+            f"{self._frames[what]} {WARNINGS[what]}" for what in WARNINGS if self._frames[what]
+        ]
         for (name, fault), n in sorted(self._faults.items()):
             if n and fault == "back":
                 lines.append(f"{name}: time goes back {n} times")

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref_adapters.formats.novatel.log_frames import WEEK_MS, Log
-from floatref_adapters.formats.novatel.log_layouts import LogLayout, layout_of
+from floatref_adapters.formats.novatel.log_layouts import LogLayout, find_layout
 from floatref_adapters.shared.refusals import library
 
 TIMELESS = 80
@@ -35,11 +35,11 @@ class Decoder:
         definition = self._definition(log.key)
         return str(log.key) if definition is None else str(definition.name)
 
-    def layout_of(self, log: Log) -> LogLayout:
+    def find_layout(self, log: Log) -> LogLayout:
         """Return the columns of ``log``."""
         key = (log.key, log.definition)
         if key not in self._layouts:
-            self._layouts[key] = layout_of(self._definition(log.key), log.definition)
+            self._layouts[key] = find_layout(self._definition(log.key), log.definition)
         return self._layouts[key]
 
     def fault_of(self, log: Log) -> str | None:
@@ -48,7 +48,7 @@ class Decoder:
             return "unknown"
         if _timeless(log):
             return "timeless"
-        layout = self.layout_of(log)
+        layout = self.find_layout(log)
         if not layout.columns:
             return "lists"
         if log.room < (layout.size if log.binary else layout.fields):

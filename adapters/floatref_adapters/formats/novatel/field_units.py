@@ -79,7 +79,7 @@ NOTES = {
     "undulation": "geoid above the ellipsoid",
     "pitch": "nose up positive",
     "roll": "left side up positive",
-    "latency": "so much older than its time stamp a velocity is",
+    "latency": "by how much a velocity is older than its time stamp",
 }
 
 
@@ -91,7 +91,7 @@ class Unit:
     note: str
 
 
-def unit_of(log: str, field: str) -> Unit:
+def find_unit(log: str, field: str) -> Unit:
     """Return the unit of the field of a log."""
     if log in VELOCITIES and field == "z":
         return Unit("m/s", "up")
@@ -141,4 +141,4 @@ QUALITIES = {
 }
 """Of GGA, by the kind of solution; a kind that is not here has none."""
 
-__all__ = ["QUALITIES", "SOLVED", "Unit", "unit_of"]
+__all__ = ["QUALITIES", "SOLVED", "Unit", "find_unit"]

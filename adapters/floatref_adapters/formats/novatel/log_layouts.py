@@ -7,7 +7,7 @@ from operator import attrgetter
 from typing import Any
 
 from floatref import Column
-from floatref_adapters.formats.novatel.field_units import QUALITIES, SOLVED, unit_of
+from floatref_adapters.formats.novatel.field_units import QUALITIES, SOLVED, find_unit
 
 NAN = float("nan")
 WIDTHS = {
@@ -43,7 +43,7 @@ class LogLayout:
     fields: int
 
 
-def layout_of(definition: Any, crc: int | None) -> LogLayout:
+def find_layout(definition: Any, crc: int | None) -> LogLayout:
     """Return the layout of the log ``definition`` with the fields that ``crc`` stands for."""
     versions = definition.fields
     fields = versions.get(crc, versions.get(definition.latest_message_crc, ()))
@@ -84,7 +84,7 @@ def _columns(log: str, field: Any) -> list[Pair]:
     name = field.name
     if _is_text(field) or name in TAKEN:
         return []
-    unit = unit_of(log, name)
+    unit = find_unit(log, name)
     note = f"number of {field.enum_def.name}" if field.type.name == "ENUM" else unit.note
     if field.type.name != "FIXED_LENGTH_ARRAY":
         value = attrgetter(name) if _is_plain(field) else partial(_number, name)
@@ -138,4 +138,4 @@ def _ellipsoidal(height: str, message: Any) -> float:
     return _number(height, message) + _number("undulation", message)
 
 
-__all__ = ["LogLayout", "layout_of"]
+__all__ = ["LogLayout", "find_layout"]

@@ -14,7 +14,7 @@ from floatref_adapters.formats.tdms.group_rows import Reader, Source
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
 from floatref_adapters.formats.tdms.tdms_opening import MAGIC, first_line, quiet, read_metadata
 from floatref_adapters.formats.tdms.waveform_clock import NS, UNKNOWN, Waveforms
-from floatref_adapters.shared.numbered_names import numbered
+from floatref_adapters.shared.numbered_names import number_repeats
 from floatref_adapters.shared.time_columns import time_column
 
 
@@ -49,7 +49,7 @@ class Tdms:
 
 
 def _native(source: Source) -> NativeFile:
-    told = list(_cut_off(source))
+    warnings = list(_cut_off(source))
     found: list[tuple[str, Timed]] = []
     for number, (stated, (properties, objects)) in enumerate(source.contents.groups().items()):
         name = stated.strip() or f"group {number}"
@@ -57,14 +57,15 @@ def _native(source: Source) -> NativeFile:
         channels = [TdmsChannel(item, inherited) for item in objects]
         empty = sum(not channel.origin.count for channel in channels)
         if empty:
-            told.append(f"{name}: {empty} channels hold no values")
+            warnings.append(f"{name}: {empty} channels hold no values")
         held = [channel for channel in channels if channel.origin.count]
         found += [(name, timed) for timed in _timed(source, held)]
-    names = numbered([name for name, _ in found])
+    names = number_repeats([name for name, _ in found])
     streams = [
-        _stream(source, name, timed, told) for name, (_, timed) in zip(names, found, strict=True)
+        _stream(source, name, timed, warnings)
+        for name, (_, timed) in zip(names, found, strict=True)
     ]
-    return NativeFile(tuple(streams), tuple(told))
+    return NativeFile(tuple(streams), tuple(warnings))
 
 
 def _cut_off(source: Source) -> Iterator[str]:
@@ -78,7 +79,7 @@ def _cut_off(source: Source) -> Iterator[str]:
 class Timed:
     """Channels on one clock, and the channel that holds their ticks or their waveforms, if any.
 
-    ``others`` is what is to be told of channels that could have been the time as well.
+    ``others`` are warnings about channels that could have been the time as well.
     """
 
     channels: list[TdmsChannel]
@@ -119,24 +120,24 @@ def _by_channel(channels: list[TdmsChannel]) -> Timed:
         return Timed(channels, UNKNOWN)
     time = usable[found.index]
     rest = [channel for channel in channels if channel is not time]
-    return Timed(rest, NativeClock(tick_s=found.unit_s), time, others=found.told(columns))
+    return Timed(rest, NativeClock(tick_s=found.unit_s), time, others=found.list_others(columns))
 
 
-def _stream(source: Source, name: str, timed: Timed, told: list[str]) -> Stream:
+def _stream(source: Source, name: str, timed: Timed, warnings: list[str]) -> Stream:
     channels = timed.channels
     if timed.clock is UNKNOWN:
-        told.append(f"{name}: no time; its clock is called unknown, give its rate in the map")
+        warnings.append(f"{name}: no time; its clock is called unknown, give its rate in the map")
     if timed.waves and len(timed.waves.parts) > 1:
-        told.append(f"{name}: {len(timed.waves.parts)} waveforms one after the other")
-    told.extend(f"{name}: {line}" for line in timed.others)
+        warnings.append(f"{name}: {len(timed.waves.parts)} waveforms one after the other")
+    warnings.extend(f"{name}: {line}" for line in timed.others)
     faults = [channel.unreadable() for channel in channels]
     bad = [fault for fault in faults if fault]
-    told.extend(f"{name}: {bad.count(f)} channels are {f}" for f in dict.fromkeys(bad))
+    warnings.extend(f"{name}: {bad.count(f)} channels are {f}" for f in dict.fromkeys(bad))
     every = [*channels, timed.time] if timed.time else channels
     count = min(channel.origin.count for channel in every)
     spare = sum(channel.origin.count - count for channel in every)
     if spare:
-        told.append(f"{name}: {spare} values after the last complete row")
+        warnings.append(f"{name}: {spare} values after the last complete row")
     columns = [
         Column(channel.origin.name, channel.unit, fault, numeric=not fault)
         for channel, fault in zip(channels, faults, strict=True)

@@ -18,7 +18,7 @@ from floatref import InputError
 from floatref_adapters.formats.tdms.extents import Extent
 
 SMALL_CHUNK = 1 << 20
-"""Chunks up to so many bytes are read whole, once for all channels."""
+"""Bytes of a chunk up to which it is read whole, once for all channels."""
 
 
 @dataclass

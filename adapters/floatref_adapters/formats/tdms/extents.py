@@ -91,7 +91,7 @@ class Run:
             offset += item.data_type.size
 
 
-def extents_of(segments: Iterable[Any], paths: Iterable[str]) -> dict[str, list[Extent]]:
+def find_extents(segments: Iterable[Any], paths: Iterable[str]) -> dict[str, list[Extent]]:
     """Return where the values of the channels ``paths`` are, in the order of npTDMS's segments."""
     found: dict[str, list[Extent]] = {path: [] for path in paths}
     for run in _runs(segments):

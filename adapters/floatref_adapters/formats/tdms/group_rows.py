@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from floatref import InputError, Rows
 from floatref_adapters.formats.tdms.channel_values import Values, Window
-from floatref_adapters.formats.tdms.extents import extents_of
+from floatref_adapters.formats.tdms.extents import find_extents
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
 from floatref_adapters.formats.tdms.tdms_objects import Contents
 from floatref_adapters.formats.tdms.tdms_opening import first_line, open_guarded, quiet
-from floatref_adapters.formats.tdms.waveform_clock import Waveforms, ns_of
-from floatref_adapters.shared.row_pieces import MOST_ROWS, keep_freed_memory, rows_for
+from floatref_adapters.formats.tdms.waveform_clock import Waveforms, to_unix_ns
+from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows, keep_freed_memory
 
 PIECE_BYTES = 1 << 24
 Numbers = NDArray[Any]
@@ -95,11 +95,11 @@ class Reader:
     def _direct(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
         """Yield the values of ``channels``, which lie in the file one by one or row by row."""
         paths = [channel.origin.path for channel in channels]
-        extents = extents_of(self.source.contents.segments, paths)
+        extents = find_extents(self.source.contents.segments, paths)
         lying = [Values(extents[path]) for path in paths]
         makers = [self._maker(channel) for channel in channels]
         widest = max(values.row_bytes for values in lying)
-        rows = min(max(PIECE_BYTES // widest, 1), rows_for(len(channels)))
+        rows = min(max(PIECE_BYTES // widest, 1), count_piece_rows(len(channels)))
         with self.source.path.open("rb") as file:
             window = Window(file)
             for first in range(0, self.count, rows):
@@ -110,7 +110,7 @@ class Reader:
     def _maker(self, channel: TdmsChannel) -> Callable[[Numbers], Numbers]:
         """Return what makes values, or ticks, of raw numbers of ``channel``."""
         if channel.stamps:
-            return ns_of
+            return to_unix_ns
         scaling = channel.scaling()
         if (
             channel is self.time
@@ -145,5 +145,5 @@ def _joined(held: Numbers, chunk: Any, channel: TdmsChannel) -> Numbers:
     more = chunk[channel.origin.group][channel.origin.name][:]
     if not len(more):
         return held
-    more = ns_of(more) if channel.stamps else np.asarray(more, np.float64)
+    more = to_unix_ns(more) if channel.stamps else np.asarray(more, np.float64)
     return np.concatenate([held, more]) if len(held) else more

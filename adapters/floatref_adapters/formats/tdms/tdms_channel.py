@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref_adapters.formats.tdms.tdms_objects import SCALING, StoredObject
-from floatref_adapters.formats.tdms.waveform_clock import Waveforms, waveforms_of
+from floatref_adapters.formats.tdms.waveform_clock import Waveforms, find_waveforms
 
 SCALES = (
     "Polynomial",
@@ -63,7 +63,7 @@ class TdmsChannel:
     @cached_property
     def waveforms(self) -> Waveforms | None:
         """Its time properties, if it has them."""
-        return waveforms_of(self.origin.properties, self.origin.histories)
+        return find_waveforms(self.origin.properties, self.origin.histories)
 
     def unreadable(self) -> str:
         """Return why it gives no numbers; "" if it does."""

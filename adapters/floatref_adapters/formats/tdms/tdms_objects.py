@@ -67,7 +67,7 @@ class StoredObject:
 
 @dataclass(eq=False)
 class Contents:
-    """The segments of a file as npTDMS has them, and what was said of its objects, by path."""
+    """The segments of a file as npTDMS has them, and its objects by path."""
 
     segments: list[Any] = field(default_factory=list)
     objects: dict[str, StoredObject] = field(default_factory=dict)

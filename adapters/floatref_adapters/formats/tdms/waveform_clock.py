@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from floatref import Epoch, InputError, NativeClock
 from floatref_adapters.formats.tdms.tdms_objects import TIMING, History
-from floatref_adapters.shared.simplest_ratio import simplest
+from floatref_adapters.shared.simplest_ratio import find_simplest
 
 UNKNOWN = NativeClock(rate=Fraction(1), name="unknown")
 """Of values that the file gives no time for: value k has the tick k."""
@@ -36,10 +36,10 @@ class Waveform:
 
     def clock(self) -> NativeClock:
         """Return the clock with the rate that the step was rounded from."""
-        offset = simplest(self.offset_s)
+        offset = find_simplest(self.offset_s)
         epoch = Epoch.LOCAL if self.start_ns is None else Epoch.UTC
         return NativeClock(
-            1 / simplest(self.step_s),
+            1 / find_simplest(self.step_s),
             Fraction(1, offset.denominator),
             offset.numerator,
             epoch,
@@ -47,7 +47,7 @@ class Waveform:
         )
 
 
-def waveform_of(properties: Mapping[str, Any]) -> Waveform | None:
+def find_waveform(properties: Mapping[str, Any]) -> Waveform | None:
     """Return the time properties among ``properties``; None if its steps are not of time."""
     step = _number(properties.get("wf_increment"))
     offset = _number(properties.get("wf_start_offset", 0.0))
@@ -72,7 +72,7 @@ def _unix_ns(stamp: Any) -> int:
     return (int(stamp.seconds) - UNIX_S) * 10**9 + fraction_ns
 
 
-def ns_of(stamps: NDArray[Any]) -> NDArray[np.int64]:
+def to_unix_ns(stamps: NDArray[Any]) -> NDArray[np.int64]:
     """Return time stamps, `seconds` and `second_fractions` as in the file, in ns since 1970."""
     seconds = stamps["seconds"].astype(np.int64) - UNIX_S
     if seconds.size and np.abs(seconds).max() > LAST_S:
@@ -112,7 +112,9 @@ class Waveforms:
         return ticks
 
 
-def waveforms_of(properties: Mapping[str, Any], changes: Mapping[str, History]) -> Waveforms | None:
+def find_waveforms(
+    properties: Mapping[str, Any], changes: Mapping[str, History]
+) -> Waveforms | None:
     """Return the waveforms of a channel; None if its values have no time, or some have not.
 
     ``properties`` are the last ones, ``changes`` what those that changed were before.
@@ -147,4 +149,4 @@ def _stated(
     current = dict(properties)
     for row, name, value in sorted([(0, "", None), *events], key=lambda event: event[0]):
         current[name] = value
-        yield row, waveform_of(current)
+        yield row, find_waveform(current)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref import NativeFile
 from floatref_adapters.formats.csv_table.adapter import CsvTable
-from floatref_adapters.testing.whole_reading import columns_of as columns
+from floatref_adapters.testing.whole_reading import make_columns as columns
 from floatref_adapters.testing.whole_reading import opened
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 

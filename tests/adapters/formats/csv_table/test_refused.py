@@ -13,7 +13,7 @@ import floatref
 from floatref import InputError, NativeFile
 from floatref.architectures.plugins import plugins
 from floatref_adapters.formats.csv_table.adapter import CsvTable
-from floatref_adapters.testing.whole_reading import columns_of as columns
+from floatref_adapters.testing.whole_reading import make_columns as columns
 from floatref_adapters.testing.whole_reading import opened
 
 few = settings(deadline=None, max_examples=80)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref import InputError, Profile, ProfileTrack
 from floatref_adapters.formats.erd.erd_profile import Erd
-from floatref_adapters.formats.erd.erd_writing import bridged, gaps_of
+from floatref_adapters.formats.erd.erd_writing import bridge_gaps, find_gaps
 
 KEYWORDS = {
     "TITLE",
@@ -147,8 +147,8 @@ def test_bridging_in_stretches_is_the_line_between_neighbours(values, cut):
     known = np.flatnonzero(np.isfinite(z))
     if known.size == 0:
         return
-    gaps = gaps_of(z)
-    parts = [bridged(z, gaps, k, min(k + cut, z.size)) for k in range(0, z.size, cut)]
+    gaps = find_gaps(z)
+    parts = [bridge_gaps(z, gaps, k, min(k + cut, z.size)) for k in range(0, z.size, cut)]
     expected = np.interp(np.arange(z.size), known, z[known])
     np.testing.assert_allclose(np.concatenate(parts), expected, rtol=0, atol=1e-13)
 
