@@ -3,16 +3,16 @@
 from collections.abc import Callable
 
 from floatref import Adapter, ProfileFormat, hookimpl
-from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
-from floatref_adapters.can_log.adapter import CanLog
-from floatref_adapters.csv_table.adapter import CsvTable
-from floatref_adapters.erd.profile_format import Erd
-from floatref_adapters.hdf5.adapter import Hdf5
-from floatref_adapters.mdf4.adapter import Mdf4
-from floatref_adapters.nmea.adapter import Nmea
-from floatref_adapters.novatel.adapter import NovAtel
-from floatref_adapters.parquet_profile import ParquetProfile
-from floatref_adapters.tdms.adapter import Tdms
+from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
+from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
+from floatref_adapters.formats.can_log.adapter import CanLog
+from floatref_adapters.formats.csv_table.adapter import CsvTable
+from floatref_adapters.formats.erd.erd_profile import Erd
+from floatref_adapters.formats.hdf5.adapter import Hdf5
+from floatref_adapters.formats.mdf4.adapter import Mdf4
+from floatref_adapters.formats.nmea.adapter import Nmea
+from floatref_adapters.formats.novatel.adapter import NovAtel
+from floatref_adapters.formats.tdms.adapter import Tdms
 
 
 @hookimpl

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref import Channel, Profile, Recording, UniformClock
-from floatref_adapters.libraries import library
-from floatref_adapters.profile_columns import DISTANCE, as_json, columns_of
+from floatref_adapters.shared.profile_columns import DISTANCE, as_json, make_columns
+from floatref_adapters.shared.refusals import library
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -25,7 +25,7 @@ def to_pandas(profile: Profile) -> "DataFrame":
     pandas is missing.
     """
     pandas = library("pandas", "to_pandas")
-    columns = columns_of(profile, 0, profile.tracks[0].elevation.size)
+    columns = make_columns(profile, 0, profile.tracks[0].elevation.size)
     index = pandas.Index(columns.pop(DISTANCE), name=DISTANCE, copy=False)
     frame = pandas.DataFrame(columns, index=index, copy=False)
     frame.attrs = {

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import strategies as st
 
 from floatref import Channel, Recording, StampedClock, UniformClock
-from floatref_adapters.testing.reading import read_whole
+from floatref_adapters.testing.whole_reading import read_whole
 
 SAMPLES = st.none() | st.floats(-1e6, 1e6)
 NAMES = st.sampled_from(["height", "vertical_specific_force", "distance"])

@@ -70,7 +70,7 @@ def frames(recording: Recording) -> Iterator[can.Message]:
     """Yield what the bus carries, in the order of time."""
     found = []
     for k, channels in enumerate(messages(recording).values()):
-        counts = [np.rint(c.values / unit_of(c) / quantum(c)).astype("<i4") for c in channels]
+        counts = [np.rint(c.values / find_unit(c) / quantum(c)).astype("<i4") for c in channels]
         data = np.stack([*counts, np.zeros_like(counts[0])][:2], axis=1)
         times = channels[0].clock.times(len(data))
         found += [(t, FIRST_ID + k, row.tobytes()) for t, row in zip(times, data, strict=True)]
@@ -80,7 +80,7 @@ def frames(recording: Recording) -> Iterator[can.Message]:
         )
 
 
-def unit_of(channel: Channel) -> float:
+def find_unit(channel: Channel) -> float:
     """Return what the unit of the database is in SI."""
     return STEPS[channel.id.name][1]
 

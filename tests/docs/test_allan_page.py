@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from floatref.cli.allan.command.allan_report import SETTINGS
+from floatref.cli.allan.allan_report import SETTINGS
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "allan.md").read_text(encoding="utf-8")

@@ -7,8 +7,8 @@ import numpy as np
 
 from floatref import Profile, ProfileTrack
 from floatref.engine.plugins import plugins
-from floatref_adapters.erd.header import parse_header
-from floatref_adapters.erd.profile_format import Erd
+from floatref_adapters.formats.erd.erd_header import parse_header
+from floatref_adapters.formats.erd.erd_profile import Erd
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "profile-formats.md").read_text(encoding="utf-8")

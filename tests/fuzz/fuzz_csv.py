@@ -21,7 +21,7 @@ with atheris.instrument_imports():
     import numpy as np
 
     from floatref import InputError, Stream
-    from floatref_adapters.csv_table.adapter import CsvTable
+    from floatref_adapters.formats.csv_table.adapter import CsvTable
 
 TABLE = Path(tempfile.mkdtemp(prefix="fuzz-csv-")) / "a.csv"
 OPTIONS: tuple[Mapping[str, str], ...] = (

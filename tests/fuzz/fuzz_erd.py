@@ -18,7 +18,7 @@ import atheris
 
 with atheris.instrument_imports():
     from floatref import InputError, Profile
-    from floatref_adapters.erd.profile_format import Erd
+    from floatref_adapters.formats.erd.erd_profile import Erd
 
 FOLDER = Path(tempfile.mkdtemp(prefix="fuzz-erd-"))
 HEADER, NUMBERS, AGAIN = (FOLDER / name for name in ("a.erd", "a.bin", "b.erd"))

@@ -29,7 +29,7 @@ BREACHES = {
     "sdk/floatref/plots/figure.py": "floatref_adapters",
     "sdk/floatref/plots/sensitivity.py": "floatref.tuning.levels",
     "sdk/floatref/tuning/levels.py": "floatref.cli.printing",
-    "adapters/floatref_adapters/stamps.py": "floatref.values.clock",
+    "adapters/floatref_adapters/shared/stated_clock.py": "floatref.values.clock",
     "reference_impl/floatref_reference/signals.py": "scipy",
     "reference_impl/floatref_reference/appendix_a/filters.py": "floatref.values.arrays",
     "conformance/floatref_conformance/judge/judging.py": "floatref_reference",

@@ -26,8 +26,8 @@ WRITERS: Mapping[str, Writer] = MappingProxyType(
     {
         ".mf4": _lazy("mdf4", "write_mdf4"),
         ".tdms": _lazy("tdms", "write_tdms"),
-        ".parquet": _lazy("parquet", "write_parquet"),
-        ".arrow": _lazy("arrow", "write_arrow"),
+        ".parquet": _lazy("arrow_files", "write_parquet"),
+        ".arrow": _lazy("arrow_files", "write_arrow"),
         ".h5": _lazy("hdf5", "write_hdf5"),
         ".csv": _lazy("csv_table", "write_csv"),
     }

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, InputError, Recording, UniformClock
-from floatref_adapters.testing.writing import (
+from floatref_adapters.testing.file_writing import (
     check_quanta,
     exact_start,
     quantum_of,

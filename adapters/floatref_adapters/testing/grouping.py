@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording, UniformClock
-from floatref_adapters.ratios import simplest
+from floatref_adapters.shared.simplest_ratio import find_simplest
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,12 +49,12 @@ def _group(name: str, channels: Sequence[Channel]) -> ClockGroup:
     clock = channels[0].clock
     if isinstance(clock, UniformClock):
         step_s = float(1 / clock.rate)
-        if 1 / simplest(step_s) == Fraction(clock.rate):
+        if 1 / find_simplest(step_s) == Fraction(clock.rate):
             return ClockGroup(name, tuple(channels), step_s, clock.start_s)
     return ClockGroup(name, tuple(channels), times_s=channels[0].times_s)
 
 
-def counts_of(
+def count_quanta(
     channel: Channel, quanta: Mapping[str, float] | None
 ) -> tuple[float, NDArray[np.int64]] | None:
     """Return the quantum of ``channel`` and its values in quanta, 0 where missing.

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, InputError, Recording, UniformClock
-from floatref_adapters.libraries import library
-from floatref_adapters.testing.writing import (
+from floatref_adapters.shared.refusals import library
+from floatref_adapters.testing.file_writing import (
     Floats,
     by_clock,
     check_quanta,

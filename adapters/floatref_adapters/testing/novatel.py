@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Iterator
 
-from floatref_adapters.novatel.frames import LONG_HEADER, SHORT_HEADER, WEEK_MS, crc32
+from floatref_adapters.formats.novatel.log_frames import LONG_HEADER, SHORT_HEADER, WEEK_MS, crc32
 from floatref_adapters.testing.fixes import Fixes
 
 SYNC, SHORT_SYNC = b"\xaaD\x12", b"\xaaD\x13"

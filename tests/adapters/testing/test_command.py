@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from floatref import Channel, Recording, UniformClock, write_recording
-from floatref_adapters.arrow.adapter import Parquet
+from floatref_adapters.formats.arrow.adapter import Parquet
 from floatref_adapters.testing.__main__ import main
 
 

@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Channel, InputError, NativeFile, Recording, StampedClock, UniformClock
-from floatref_adapters.arrow.adapter import ArrowIpc, Parquet
-from floatref_adapters.csv_table.adapter import CsvTable
-from floatref_adapters.hdf5.adapter import Hdf5
-from floatref_adapters.hdf5.here import native_file
+from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
+from floatref_adapters.formats.csv_table.adapter import CsvTable
+from floatref_adapters.formats.hdf5.adapter import Hdf5
+from floatref_adapters.formats.hdf5.dataset_rows import native_file
 from floatref_adapters.testing import WRITERS
 from floatref_adapters.testing.csv_table import write_csv
 

@@ -21,7 +21,7 @@ from floatref.files import (
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
-from floatref_adapters.erd.profile_format import Erd
+from floatref_adapters.formats.erd.erd_profile import Erd
 from floatref_conformance.certify.plan import commands as commands_module
 from floatref_conformance.certify.plan.commands import Answer, Commands, Stopped
 from floatref_conformance.certify.plan.converting import Converted, converted

@@ -1,0 +1,47 @@
+"""Columns of a Parquet file, a piece of a row group at a time."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from floatref_adapters.shared.refusals import library
+from floatref_adapters.shared.row_pieces import count_piece_rows
+
+BUFFER = 1 << 20
+"""Bytes of a column chunk that are read at once, however long it is."""
+
+
+class ParquetSource:
+    """An opened Parquet file; it is opened again for every pass."""
+
+    warnings: tuple[str, ...] = ()
+
+    def __init__(self, path: Path) -> None:
+        """Read the footer of the file at ``path``."""
+        self._path = path
+        with self._opened() as opened:
+            self.schema = opened.schema_arrow
+            self.rows = opened.metadata.num_rows
+
+    def arrays(self, places: Sequence[int]) -> Iterator[list[Any]]:
+        """Yield the columns at ``places``, ascending, a piece of their rows at a time."""
+        names = self.schema.names
+        wanted = [names[place] for place in places]
+        # A name can be that of several columns: all of them are read, in the order of the file.
+        turns = [names[:place].count(names[place]) for place in places]
+        rows = count_piece_rows(len(places))
+        with self._opened() as opened:
+            for batch in opened.iter_batches(rows, columns=wanted, use_threads=False):
+                found = batch.schema.get_all_field_indices
+                yield [
+                    batch.column(found(name)[turn])
+                    for name, turn in zip(wanted, turns, strict=True)
+                ]
+
+    def _opened(self) -> Any:
+        return library("pyarrow.parquet", "reading Parquet").ParquetFile(
+            self._path, buffer_size=BUFFER, pre_buffer=False, page_checksum_verification=True
+        )
+
+
+__all__ = ["ParquetSource"]

@@ -1,0 +1,116 @@
+"""NovAtel logs: every fix comes back, wherever in a file its logs lie."""
+
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from floatref import NativeFile
+from floatref_adapters.formats.novatel.adapter import NovAtel
+from floatref_adapters.shared.text_lines import BLOCK
+from floatref_adapters.testing.fixes import Fixes
+from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log
+from floatref_adapters.testing.whole_reading import opened as opened_by
+from floatref_adapters.testing.whole_reading import stream_of, table_of
+
+WEEK_MS = 604_800_000
+NOW_MS = 2300 * WEEK_MS
+ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [-0.25])
+
+
+def opened(folder: Path, content: bytes) -> NativeFile:
+    """Return what the adapter finds in a file that holds ``content``."""
+    return opened_by(NovAtel(), folder / "run.gps", content)
+
+
+@st.composite
+def fixes(draw: st.DrawFn) -> Fixes:
+    """Draw fixes anywhere on earth, many of them across the end of a GPS week."""
+    rows = draw(st.integers(1, 10))
+    step = draw(st.sampled_from([5, 50, 1000]))
+    start = draw(st.sampled_from([1024, 2048, 2300])) * WEEK_MS + draw(st.integers(-3000, 3000))
+
+    def column(low: float, high: float) -> list[float]:
+        return draw(st.lists(st.floats(low, high), min_size=rows, max_size=rows))
+
+    return Fixes(
+        [start + step * k for k in range(rows)],
+        column(-90, 90),
+        column(-180, 180),
+        column(-400, 9000),
+        [round(x, 4) for x in column(-107, 86)],
+        draw(st.lists(st.sampled_from([0, 1, 2, 4, 5]), min_size=rows, max_size=rows)),
+        column(0, 90),
+        column(0, 359.9),
+        column(-5, 5),
+    )
+
+
+@settings(deadline=None, max_examples=60)
+@given(
+    drawn=fixes(),
+    form=st.sampled_from([b"\n", b"\r", b"\r\n", b""]),
+    junk=st.sampled_from([b"", b"\r\n<OK\r\n[ICOM1]", b"\xaaD\x12", b"#BESTPOSA,", b"\n\n"]),
+)
+def test_every_fix_comes_back(
+    tmp_path_factory: pytest.TempPathFactory, drawn: Fixes, form: bytes, junk: bytes
+) -> None:
+    log = ascii_log(drawn, form) if form else binary_log(drawn)
+    file = opened(tmp_path_factory.mktemp("novatel"), junk + b"\n" + log + junk)
+    position, ticks = table_of(stream_of(file, "BESTPOS"))
+    velocity, _ = table_of(stream_of(file, "BESTVEL"))
+    np.testing.assert_array_equal(ticks, drawn.ms)
+    text = bool(form)
+    single = np.spacing(np.float32(107))
+    height = np.array(drawn.altitude_m) + drawn.separation_m
+    for found, expected, quantum in (
+        (position["latitude"], drawn.latitude_deg, text * 0.51e-11),
+        (position["longitude"], drawn.longitude_deg, text * 0.51e-11 + 3e-14),
+        (position["height"], drawn.altitude_m, text * 0.51e-4),
+        (position["ellipsoidal_height"], height, text * 0.51e-4 + single),
+        (position["quality"], drawn.quality, 0),
+        (velocity["quality"], drawn.quality, 0),
+        (velocity["horizontal_speed"], drawn.speed_m_s, text * 0.51e-4),
+        (velocity["ground_track"], drawn.course_deg, text * 0.51e-6),
+        (velocity["z"], drawn.up_m_s, text * 0.51e-4),
+    ):
+        np.testing.assert_allclose(found, expected, rtol=0, atol=quantum)
+
+
+def test_logs_across_the_blocks_of_a_large_file_are_all_found(tmp_path: Path) -> None:
+    log = binary_log(ONE) + ascii_log(ONE) + b"[ICOM1]"
+    times = 3_500_000 // len(log)
+    file = opened(tmp_path, log * times)
+    assert {s.name: s.count for s in file.streams} == {"BESTPOS": 2 * times, "BESTVEL": 2 * times}
+    assert f"{7 * times} bytes between logs (prompts, answers, damaged logs): not read" in file.told
+
+
+def test_the_clock_counts_on_over_the_end_of_a_week(tmp_path: Path) -> None:
+    body = binary_log(ONE)[28:100]
+    log = b"".join(long_log(42, NOW_MS + ms, body) for ms in (-100, -50, 0, 50))
+    _, ticks = table_of(stream_of(opened(tmp_path, log), "BESTPOS"))
+    assert [b - a for a, b in pairwise(ticks.tolist())] == [50] * 3
+
+
+@pytest.mark.parametrize("ahead", [1, 2, 3, 9, 15, 27, 60, 103])
+@pytest.mark.parametrize("log", [binary_log(ONE), ascii_log(ONE), ascii_log(ONE, b"\n")])
+def test_a_log_that_begins_in_one_block_and_ends_in_the_next_is_found(
+    tmp_path: Path, log: bytes, ahead: int
+) -> None:
+    file = opened(tmp_path, b"." * (BLOCK - ahead) + log)
+    assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTVEL": 1}
+    assert f"{BLOCK - ahead} bytes between logs" in file.told[0]
+
+
+def test_a_binary_log_of_any_week_and_status_is_recognised(tmp_path: Path) -> None:
+    path = tmp_path / "run.gps"
+    for week in range(2300, 2300 + 256):
+        path.write_bytes(binary_log(replace(ONE, ms=[week * WEEK_MS])))
+        assert NovAtel().recognises(path), week
+    for status in (20, 60, 180, 240):
+        path.write_bytes(long_log(42, NOW_MS, bytes(72), status))
+        assert NovAtel().recognises(path), status

@@ -1,0 +1,78 @@
+"""TDMS that is damaged or something else: read as far as it goes, or refused in one line."""
+
+import contextlib
+import random
+import struct
+import sys
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floatref import InputError
+from floatref_adapters.formats.tdms.adapter import Tdms
+from floatref_adapters.testing.tdms import (
+    INTERLEAVED,
+    META,
+    NEW,
+    RAW,
+    doubles,
+    laid,
+    scaled,
+    segment,
+)
+from floatref_adapters.testing.whole_reading import read_whole, refusal
+
+read = partial(read_whole, Tdms())
+refused = partial(refusal, Tdms())
+
+
+@pytest.mark.parametrize("interleaved", [False, True])
+def test_a_damaged_file_is_refused_or_read_and_nothing_else(
+    tmp_path: Path, interleaved: bool
+) -> None:
+    path, draw = tmp_path / "a.tdms", random.Random(interleaved)
+    raw = laid(np.arange(18.0).reshape(3, 6), 3, interleaved)
+    wave = scaled("Linear")
+    sound = segment(META | NEW | RAW | INTERLEAVED * interleaved, doubles(3, 3, wave), raw)
+    sound += segment(RAW | INTERLEAVED * interleaved, b"", raw)
+    for _ in range(250):
+        damaged = bytearray(sound)
+        if draw.random() < 0.15:
+            del damaged[draw.randrange(4, len(damaged)) :]
+        for _ in range(draw.choice([1, 1, 2, 6]) if len(damaged) == len(sound) else 0):
+            place, size = draw.randrange(4, len(sound) - 8), draw.choice([1, 1, 4, 8])
+            number = draw.choice([0, 1, 64, 2**63, 2**64 - 1, draw.randrange(2**64)])
+            damaged[place : place + size] = (number % 2 ** (8 * size)).to_bytes(size, "little")
+        path.write_bytes(damaged)
+        with contextlib.suppress(InputError):
+            _, numbers = read(path)
+            held = sum(len(v) for values, _ in numbers for v in values.values())
+            assert held <= len(sound)
+
+
+def test_a_text_longer_than_any_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.tdms"
+    metadata = struct.pack("<II", 1, 2**31) + bytes(100)
+    path.write_bytes(segment(META | NEW, metadata, b""))
+    assert "a text of 2147483648 bytes" in refused(path)
+
+
+def test_what_is_no_tdms_is_refused_in_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "a.tdms"
+    for start in (b"", b"TDSm", b"MDF     4.10" + bytes(80), b"TDSm" + bytes(24) + b"x" * 40):
+        path.write_bytes(start)
+        assert Tdms().recognises(path) == (start[:4] == b"TDSm")
+        refused(path)
+    assert not Tdms().recognises(tmp_path / "none.tdms")
+    assert "make it readable" in refused(tmp_path / "none.tdms")
+
+
+def test_without_nptdms_one_line_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a.tdms"
+    path.write_bytes(segment(META | NEW | RAW, doubles(1, 2), bytes(16)))
+    monkeypatch.setitem(sys.modules, "nptdms", None)
+    assert "needs nptdms; install floatref[adapters]" in refused(path)
