@@ -191,12 +191,8 @@ def _advance(
         surge = ax - level
         rise = ct * across - st * ax + lean * surge + bias - gravity
         a34, a43, a44 = -step * along, along * step * inverse * inverse, 1.0 + turn_3 * tangent
-        e3, e4, e6, e7 = (
-            by_3 * a3 + by_4 * b3,
-            by_3 * a4 + by_4 * b4,
-            by_3 * a6 + by_4 * b6,
-            by_3 * a7 + by_4 * b7,
-        )
+        e3, e4 = by_3 * a3 + by_4 * b3, by_3 * a4 + by_4 * b4
+        e6, e7 = by_3 * a6 + by_4 * b6, by_3 * a7 + by_4 * b7
         r3, r4 = r3 + step * v3 + half * e3, r4 + step * v4 + half * e4
         r6, r7 = r6 + step * v6 + half * e6, r7 + step * v7 + half * e7
         v3, v4, v6, v7 = v3 + step * e3, v4 + step * e4, v6 + step * e6, v7 + step * e7
@@ -232,11 +228,8 @@ def _advance(
 @compiled
 def _keep_inputs(u: Inputs, i: int, memory: np.record) -> None:
     memory.x, memory.y, memory.z = u.x[i], u.y[i], u.z[i]
-    memory.roll_rate, memory.pitch_rate, memory.yaw_rate = (
-        u.roll_rate[i],
-        u.pitch_rate[i],
-        u.yaw_rate[i],
-    )
+    memory.roll_rate, memory.pitch_rate = u.roll_rate[i], u.pitch_rate[i]
+    memory.yaw_rate = u.yaw_rate[i]
 
 
 @compiled
@@ -297,32 +290,16 @@ def _predict(model: Model, state: Filter, carried: FloatArray) -> None:
 @compiled
 def _carried(t: np.record, span: float, c: FloatArray) -> tuple[float, float, float, float]:
     """Return height, velocity, pitch and roll of A c; the other states stay as they are."""
-    theta, phi, roll, pitch, lean = c[PITCH], c[ROLL], c[ROLL_BIAS], c[PITCH_BIAS], c[LEAN]
-    rise = (
-        t.height_pitch * theta
-        + t.height_roll * phi
-        + t.height_roll_bias * roll
-        + t.height_pitch_bias * pitch
-        + t.height_lean * lean
-    )
-    climb = (
-        t.velocity_pitch * theta
-        + t.velocity_roll * phi
-        + t.velocity_roll_bias * roll
-        + t.velocity_pitch_bias * pitch
-        + t.velocity_lean * lean
-    )
+    c3, c4, c6, c7, c8 = c[PITCH], c[ROLL], c[ROLL_BIAS], c[PITCH_BIAS], c[LEAN]
+    rise = t.height_pitch * c3 + t.height_roll * c4 + t.height_roll_bias * c6
+    rise = rise + t.height_pitch_bias * c7 + t.height_lean * c8
+    climb = t.velocity_pitch * c3 + t.velocity_roll * c4 + t.velocity_roll_bias * c6
+    climb = climb + t.velocity_pitch_bias * c7 + t.velocity_lean * c8
     return (
         c[HEIGHT] + span * (c[VELOCITY] + 0.5 * span * c[BIAS]) + rise,
         c[VELOCITY] + span * c[BIAS] + climb,
-        t.pitch_pitch * theta
-        + t.pitch_roll * phi
-        + t.pitch_roll_bias * roll
-        + t.pitch_pitch_bias * pitch,
-        t.roll_pitch * theta
-        + t.roll_roll * phi
-        + t.roll_roll_bias * roll
-        + t.roll_pitch_bias * pitch,
+        t.pitch_pitch * c3 + t.pitch_roll * c4 + t.pitch_roll_bias * c6 + t.pitch_pitch_bias * c7,
+        t.roll_pitch * c3 + t.roll_roll * c4 + t.roll_roll_bias * c6 + t.roll_pitch_bias * c7,
     )
 
 
