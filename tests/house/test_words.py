@@ -1,0 +1,75 @@
+"""Plain English: words of a dialect that readers of a second language stumble over have no place."""
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+ROOMS = ("sdk", "adapters", "conformance", "reference_impl")
+PATTERNS = {
+    "told": r"\btold\b",
+    "vouched for": r"\bvouch\w* for\b",
+    "so many times what speaks against": r"\bso many times\b",
+    "a word": r"\ba word\b",
+    "said": r"\bsaid\b",
+    "none": r"\bnone\b",
+    "injury": r"\binjur\w+",
+    "spoiling": r"\bspoil\w*",
+    "mistake": r"\bmistak\w+",
+}
+ALLOWED: dict[str, dict[str, str]] = {}
+"""By file, a part of the line and why it may stand there."""
+Line = tuple[str, int, str]
+
+
+def lines_of_code() -> Iterator[Line]:
+    """Yield every line of the docstrings and texts of our packages."""
+    for path in (p for room in ROOMS for p in sorted((ROOT / room).rglob("*.py"))):
+        name = path.relative_to(ROOT).as_posix()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                for k, line in enumerate(node.value.splitlines()):
+                    yield name, node.lineno + k, line
+
+
+def lines_of_pages() -> Iterator[Line]:
+    """Yield every line of the pages, and of the templates and data that users read."""
+    pages = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+    texts = (*(ROOT / "conformance").rglob("*.j2"), *(ROOT / "conformance").rglob("*.toml"))
+    # Decisions are not edited once they are superseded.
+    for path in sorted(p for p in (*pages, *texts) if p.parent.name != "decisions"):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            yield path.relative_to(ROOT).as_posix(), number, line
+
+
+def hits(lines: Iterator[Line], pattern: str) -> list[str]:
+    """Return the lines with ``pattern`` that are not allowed."""
+    return [
+        f"{name}:{number}: {line.strip()}"
+        for name, number, line in lines
+        if re.search(pattern, line) and not any(part in line for part in ALLOWED.get(name, ()))
+    ]
+
+
+@pytest.mark.parametrize("word", PATTERNS)
+def test_no_text_has_the_word(word: str) -> None:
+    found = [*hits(lines_of_code(), PATTERNS[word]), *hits(lines_of_pages(), PATTERNS[word])]
+    assert not found, "\n".join(found)
+
+
+def test_what_is_allowed_is_still_there() -> None:
+    there = {name: "" for name in ALLOWED}
+    for name, _, line in (*lines_of_code(), *lines_of_pages()):
+        if name in there:
+            there[name] += f"{line}\n"
+    lost = [(n, part) for n, parts in ALLOWED.items() for part in parts if part not in there[n]]
+    assert not lost
+
+
+@pytest.mark.parametrize("word", PATTERNS)
+def test_a_planted_word_is_found(word: str) -> None:
+    planted = iter([("a.md", 1, f"Here is {word} to be found.")])
+    assert hits(planted, PATTERNS[word])
