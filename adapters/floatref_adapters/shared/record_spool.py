@@ -68,6 +68,3 @@ class Spool:
             raise InputError(f"temporary file: {reason}; free its disk, or set TMPDIR") from error
         self._held.clear()
         self._size = 0
-
-
-__all__ = ["Spool"]

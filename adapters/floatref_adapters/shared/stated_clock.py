@@ -85,6 +85,3 @@ def _of_text(text: str) -> Fraction | None:
         return Fraction(text)
     except ZeroDivisionError:
         return None
-
-
-__all__ = ["RATES", "STARTS", "STEPS", "number", "read_stated_clock"]

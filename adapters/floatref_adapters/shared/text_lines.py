@@ -55,6 +55,3 @@ def blocks(source: Path) -> Iterator[bytes]:
                 yield block
     except OSError as error:
         raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
-
-
-__all__ = ["blocks", "first_bytes", "text_lines"]

@@ -94,6 +94,3 @@ def of_epoch(clock: NativeClock, options: Mapping[str, str]) -> NativeClock:
     if stated not in {epoch.value for epoch in Epoch}:
         raise InputError(f"epoch = {stated!r}; give {', '.join(epoch.value for epoch in Epoch)}")
     return replace(clock, epoch=Epoch(stated))
-
-
-__all__ = ["NONE", "UNKNOWN", "TimeColumn", "find_unit", "of_epoch", "time_column"]

@@ -48,6 +48,3 @@ def has_zone(text: str) -> bool:
     """Tell whether the ISO 8601 time ``text`` states its zone."""
     match = ISO.fullmatch(text)
     return bool(match and match["zone"])
-
-
-__all__ = ["CLOCK", "ISO", "has_zone", "read_day_ns", "read_iso_ns"]

@@ -152,6 +152,3 @@ def _place(message: bytes, table: int, field: int) -> int:
     if field >= struct.unpack_from("<H", message, fields)[0]:
         return 0
     return int(struct.unpack_from("<H", message, fields + field)[0])
-
-
-__all__ = ["IpcSource"]

@@ -42,6 +42,3 @@ class ParquetSource:
         return library("pyarrow.parquet", "reading Parquet").ParquetFile(
             self._path, buffer_size=BUFFER, pre_buffer=False, page_checksum_verification=True
         )
-
-
-__all__ = ["ParquetSource"]

@@ -149,6 +149,3 @@ def _header(source: Path, stream: BinaryIO) -> bytes:
         raise InputError(f"{source}: a BLF log without a sound header; copy the log again")
     stream.seek(size)
     return head[:4] + struct.pack("<L", HEADER) + head[8:]
-
-
-__all__ = ["SoundBlf"]

@@ -96,6 +96,3 @@ def _column(signal: Any) -> Column:
         notes.append(f"while {signal.multiplexer_signal} is {signal.multiplexer_ids}")
     note = " ".join("; ".join(notes).split())
     return Column(str(signal.name), str(signal.unit or ""), note[:NOTE])
-
-
-__all__ = ["Database", "Message"]

@@ -175,6 +175,3 @@ def _fault(tick: int, message: Any) -> str | None:
     last = EXTENDED if message.is_extended_id else STANDARD
     sound = 0 <= message.arbitration_id <= last and abs(tick) < LATEST_NS
     return None if sound else "range"
-
-
-__all__ = ["Frame", "Frames"]

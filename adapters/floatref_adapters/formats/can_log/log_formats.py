@@ -121,6 +121,3 @@ def require_format(source: Path) -> Format:
             "export it as one of them"
         )
     return form
-
-
-__all__ = ["LATEST_NS", "Format", "find_format", "require_format"]

@@ -70,6 +70,3 @@ def _bare(text: str) -> str:
         if plain.startswith(left) and plain.endswith(right):
             return plain[1:-1].strip()
     return plain
-
-
-__all__ = ["is_unit", "is_unit_row", "make_columns", "name_and_unit"]

@@ -92,6 +92,3 @@ def find_decimal(rows: Sequence[Sequence[str]], delimiter: str, stated: str | No
             "or state decimal in the map"
         )
     return "," if commas else "."
-
-
-__all__ = ["FEW", "find_decimal", "find_delimiter", "has_number", "tolerant"]

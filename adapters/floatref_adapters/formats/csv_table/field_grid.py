@@ -140,6 +140,3 @@ def _parsed(text: bytes, count: int) -> NDArray[np.float64] | None:
         except (ValueError, DeprecationWarning):
             return None
     return found if found.size == count else None
-
-
-__all__ = ["Grid"]

@@ -90,16 +90,3 @@ def advice(text: str, decimal: str) -> str:
     if any(is_number(text, d) or is_number(text.replace(d, ""), d) for d in ".,"):
         return f"write a decimal {mark}, not a decimal {other}, and no sign between thousands"
     return f"write a number with a decimal {mark}, or leave a missing sample empty"
-
-
-__all__ = [
-    "MISSING",
-    "SPACES",
-    "advice",
-    "is_missing",
-    "is_number",
-    "is_numeral",
-    "numbers",
-    "parse",
-    "split",
-]

@@ -203,6 +203,3 @@ def _halves(row: Sequence[str]) -> bool:
     """Tell whether the fields may be whole numbers, each with the decimals behind it."""
     whole = all(text.lstrip("+-").isdigit() for text in row[::2])
     return whole and all(text.isdigit() for text in row[1::2])
-
-
-__all__ = ["Layout", "find_layout"]

@@ -122,6 +122,3 @@ def is_cut_short(piece: Piece, before: bytes) -> bool:
         return False
     decimals = [line[-1].partition(piece.layout.decimal.encode())[2] for line in (fields, expected)]
     return len(decimals[0].strip()) < len(decimals[1].strip())
-
-
-__all__ = ["Piece", "is_cut_short", "pieces"]

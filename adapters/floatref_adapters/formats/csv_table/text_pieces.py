@@ -103,6 +103,3 @@ def _unix(read: Callable[[int], bytes], encoding: str) -> Iterator[bytes]:
         yield text
     if held:
         yield b"\n"
-
-
-__all__ = ["Block", "blocks", "find_encoding", "read_sample"]

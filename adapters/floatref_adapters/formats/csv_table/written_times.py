@@ -163,6 +163,3 @@ class Times:
         return InputError(
             f"row {piece.first + row}: {self.name} is {text[:40]!r}; every row needs its time"
         )
-
-
-__all__ = ["Times", "Writing", "find_writing"]

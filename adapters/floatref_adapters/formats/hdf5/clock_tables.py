@@ -180,6 +180,3 @@ def _made(
     if began is not None:
         return NativeClock(tick_s=tick, epoch=Epoch.UTC, origin_ns=began, name="utc")
     return of_epoch(NativeClock(tick_s=tick), options)
-
-
-__all__ = ["Table", "find_tables"]

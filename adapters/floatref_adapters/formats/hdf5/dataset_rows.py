@@ -113,6 +113,3 @@ def _ticks(
         raise InputError(f"{time.dataset.path}: time {int(raw.max())}; it is beyond 64 bits")
     ticks: NDArray[np.int64] = raw.astype(np.int64)
     return ticks
-
-
-__all__ = ["native_file"]

@@ -177,15 +177,3 @@ def _scale(item: Any) -> str:
         return str(scales[0].name or "").lstrip("/") if scales else ""
     except TROUBLE:
         return ""
-
-
-__all__ = [
-    "TROUBLE",
-    "Dataset",
-    "Group",
-    "Tree",
-    "decode_text",
-    "opened",
-    "read_attributes",
-    "read_tree",
-]

@@ -197,6 +197,3 @@ def chosen(series: Series, rows: NDArray[Any]) -> NDArray[Any]:
     if series.part is not None:
         rows = rows[series.part]
     return rows.reshape(len(rows), -1)[:, series.place or 0]
-
-
-__all__ = ["Held", "Series", "chosen", "find_series"]

@@ -115,6 +115,3 @@ def _entries(conversion: Any, raw: Numbers, low: str, high: str, count: int) -> 
     closed = low == high or raw.dtype.kind != "f"
     inside = (raw <= upper[entry]) if closed else (raw < upper[entry])
     return np.where(inside & (place >= 0), entry, -1)
-
-
-__all__ = ["convert", "find_conversion_fault", "scales_of"]

@@ -76,6 +76,3 @@ class DayCount:
         if day != self.first_day + self._day:
             self._faults["leap"] += 1
             self._day = day - self.first_day
-
-
-__all__ = ["DAY_NS", "DayCount", "read_day", "read_time_of_day_ns"]

@@ -197,5 +197,3 @@ LAYOUTS = {
     ),
 }
 """By the name of the sentence without its talker; fields are counted after that name."""
-
-__all__ = ["LAYOUTS", "MOST", "Fields", "Layout", "NotANumber", "Quantity", "number"]

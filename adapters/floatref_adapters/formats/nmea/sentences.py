@@ -89,6 +89,3 @@ def _kind(found: re.Match[str]) -> str:
 
 def _complete(kind: str, fields: Fields) -> bool:
     return kind not in LAYOUTS or len(fields) >= LAYOUTS[kind].fewest
-
-
-__all__ = ["MOST_KINDS", "Sentence", "Sentences"]

@@ -75,6 +75,3 @@ class Decoder:
 def _timeless(log: Log) -> bool:
     """Tell whether the receiver did not know the time; short headers have no status of it."""
     return log.gps_ms < WEEK_MS if log.time_status is None else log.time_status < TIMELESS
-
-
-__all__ = ["Decoder"]

@@ -140,5 +140,3 @@ QUALITIES = {
     **dict.fromkeys(("FIXEDPOS", "FIXEDHEIGHT"), 7.0),
 }
 """Of GGA, by the kind of solution; a kind that is not here has none."""
-
-__all__ = ["QUALITIES", "SOLVED", "Unit", "find_unit"]

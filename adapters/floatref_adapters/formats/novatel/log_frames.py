@@ -210,6 +210,3 @@ def _fields(body: bytes) -> int:
     if b'"' not in body:
         return body.count(b",") + 1
     return sum(part.count(b",") for part in body.split(b'"')[::2]) + 1
-
-
-__all__ = ["Frames", "Log", "crc32"]

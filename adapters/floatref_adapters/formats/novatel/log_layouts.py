@@ -136,6 +136,3 @@ def _quality(kind: str, status: str | None, message: Any) -> float:
 
 def _ellipsoidal(height: str, message: Any) -> float:
     return _number(height, message) + _number("undulation", message)
-
-
-__all__ = ["LogLayout", "find_layout"]
