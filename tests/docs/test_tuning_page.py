@@ -3,8 +3,7 @@
 import re
 from pathlib import Path
 
-from floatref.cli.tune.command.tune_report import FEELS
-
+from floatref.cli.tune.tune_report import FEELS
 from floatref.tuning.levels import DENSITY_DOWN, PER_OCTAVE, REACH, TUNED
 from floatref.tuning.preliminary_runs import (
     HEAVY_G,

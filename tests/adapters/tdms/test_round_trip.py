@@ -18,6 +18,7 @@ Check = Callable[..., None]
 tracks = st.text("aß中 .'/#2", min_size=1, max_size=4)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(data=st.data())
 def test_a_recording_comes_back_to_the_last_bit(

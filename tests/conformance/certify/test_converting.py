@@ -77,6 +77,7 @@ def recording() -> Recording:
     return Recording((shared, *channels), Setup(profile_interval_m=0.05))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOURCES["profiles"])
 def test_a_profile_of_any_format_is_the_profile(
     found: Mapping[str, Converted], folder: Path, reference: Profile, name: str

@@ -31,6 +31,12 @@ KNOWN = {
     *("in-mm", "in-feet", "height-in-mm", "height-in-feet", "distance-in-feet", "force-in-g"),
     *("out-of-order", "hang", "crash", "flood", "garbage"),
 }
+LONG = {
+    *("steps-after-an-outage", "rates-swapped", "reflection-sign", "wrong-with-speed"),
+    *("vouches-always", "gravity-kept", "time-rounded", "pitch-sign", "tilt-ignored"),
+    *("missing-force-zero", "wheel-place-forgotten", "slow-drive-low", "rates-in-degrees"),
+    *("tyre-forgotten", "road-lost-at-a-stop", "accelerometer-sign"),
+}
 CHEAPEST_FIRST = ("quiescent", "bounce", "low-speed", "dead-start", "coasting", "waveband")
 
 
@@ -56,11 +62,16 @@ def test_each_check_is_the_only_one_that_some_mutant_names():
     assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.name)
+@pytest.mark.parametrize(
+    "mistake",
+    [pytest.param(m, marks=pytest.mark.slow if m.name in LONG else ()) for m in MISTAKES],
+    ids=lambda mistake: mistake.name,
+)
 def test_each_mistake_is_failed_by_a_check_that_it_names(mistake):
     assert attempt(Try(f"mutant:{mistake.name}", cheapest(mistake.fails), 0)).fails
 
 
+@pytest.mark.slow
 def test_what_a_mutant_repairs_is_no_news(tmp_path):
     """A warning would be an error here."""
     scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)

@@ -21,6 +21,7 @@ def motion() -> PendulumMotion:
     return simulate_pendulum(Pendulum(), SinSquaredPulse(start_s=10.0), 22.0, 1000.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
 def test_the_pulse_leaves_a_bump_on_a_flat_road(motion: PendulumMotion, pipeline: str) -> None:
     profile = floatref.process(pendulum_recording(motion), pipeline)

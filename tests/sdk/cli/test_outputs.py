@@ -30,6 +30,7 @@ def test_a_closed_stream_is_no_fault_and_no_other_file(
     assert target.read_bytes() == b"our own"
 
 
+@pytest.mark.slow
 def test_a_command_says_what_it_says_to_nobody(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "floatref", "pipelines"]
     with (tmp_path / "errors").open("w") as errors:
