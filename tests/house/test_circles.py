@@ -83,7 +83,7 @@ def test_imports_inside_functions_are_among_those_that_count() -> None:
         f"import {PROCESSING}",
         f"def f():\n    from {PROCESSING} import run",
         "def f():\n    from floatref import process",
-        "from floatref.engine import processing",
+        "from floatref.engine import run",
     ],
 )
 def test_a_planted_circle_is_found(planted: str) -> None:
