@@ -78,7 +78,7 @@ def run(out: Path, case: str, workers: int = 2, deaths: int = 1) -> list[list[An
     """Return name, error and whether it was skipped of every record of ``case``."""
     (out / "script.py").write_text(SCRIPT, encoding="utf-8")
     command = [sys.executable, str(out / "script.py"), str(out), case, str(workers), str(deaths)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=900)
     assert (done.returncode, done.stderr) == (0, "")
     found: list[list[Any]] = json.loads(done.stdout)
     return found
