@@ -35,6 +35,7 @@ def scored() -> Callable[[str, str], list[tuple[float, float]]]:
     return score
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "run", ["sg_2.1s_0.33g", "sg_10.7s_0.20g", "ns_72-11_0.20g", "brk_49-34_0.84g", "const_16"]
 )

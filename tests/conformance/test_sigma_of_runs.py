@@ -73,6 +73,7 @@ def along_encoder(run: str, pipeline: str) -> list[np.ndarray]:
     return found
 
 
+@pytest.mark.slow
 @every_run
 def test_the_truth_along_the_encoders_distance(run: str) -> None:
     assert_right(along_encoder(run, REFLECTION))
@@ -85,6 +86,7 @@ def test_the_truth_along_the_true_distance(run: str) -> None:
     assert_right([ratios(s, REFLECTION, s.motion.distance) for s in simulations])
 
 
+@pytest.mark.slow
 @every_run
 @pytest.mark.parametrize("pipeline", OTHERS)
 def test_constants_in_place_of_readings_are_told_to_be_no_better_than_they_are(

@@ -11,6 +11,8 @@ from jsonschema import Draft202012Validator
 from floatref_conformance.cli.main import main
 from floatref_conformance.schemas import read_schema
 
+pytestmark = pytest.mark.slow
+
 BOTH = ["--check", "quiescent", "--check", "bounce"]
 
 

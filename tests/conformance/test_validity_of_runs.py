@@ -55,6 +55,7 @@ def flagged_m(driven: Simulation, profile: floatref.Profile, track: int) -> floa
     return float(np.count_nonzero(inner & ~profile.tracks[track].valid) * profile.interval_m)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", NOMINAL)
 def test_the_iri_of_valid_points_is_that_of_the_road(driven: Simulation, pipeline: str) -> None:
     profile = floatref.process(driven.recording, pipeline)

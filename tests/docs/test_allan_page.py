@@ -5,12 +5,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from floatref.cli.allan.allan_report import SETTINGS
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "allan.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_every_command_prints_what_the_page_shows() -> None:
     found = subprocess.run(
         [sys.executable, ".ci/consoles.py", "docs/allan.md"],

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from floatref.batch.jobs.manifest import COLUMNS as MANIFEST_COLUMNS
 from floatref.batch.results.positions import LONGEST_GAP_S
 from floatref.batch.results.summary import COLUMNS
@@ -13,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "batch.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_every_command_prints_what_the_page_shows() -> None:
     found = subprocess.run(
         [sys.executable, ".ci/consoles.py", "docs/batch.md"],

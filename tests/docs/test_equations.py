@@ -40,6 +40,7 @@ def generator(monkeypatch):
     return importlib.import_module("equations_page")
 
 
+@pytest.mark.slow
 def test_the_page_is_what_the_script_writes(generator, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", ["equations_page.py", "--check"])
     assert generator.main() == 0, capsys.readouterr().err

@@ -132,6 +132,7 @@ def level(simulation):
     return floatref.Recording(tuple(channels), simulation.recording.setup)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::floatref.FloatrefWarning")
 @pytest.mark.parametrize("row", SHOWN)
 def test_the_page_says_what_tilt_does(row):

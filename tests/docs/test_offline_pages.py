@@ -47,7 +47,7 @@ def opened(page: Path, scratch: Path, width: int) -> str:
         "--dump-dom",
     ]
     return subprocess.run(
-        [BROWSER, *options, copy.as_uri()], capture_output=True, text=True, check=True, timeout=120
+        [BROWSER, *options, copy.as_uri()], capture_output=True, text=True, check=True, timeout=600
     ).stdout
 
 

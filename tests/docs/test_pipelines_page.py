@@ -35,6 +35,7 @@ def test_every_setting_of_every_pipeline_is_on_the_page_with_its_default() -> No
     assert told == {name: dict(pipeline.settings) for name, pipeline in pipelines.items()}
 
 
+@pytest.mark.slow
 def test_how_far_off_valid_elevation_is_in_the_picture_of_a_stop() -> None:
     simulation = simulate(scenario_of_run("sg_10.7s_0.20g", imu=False, gnss=False))
     found = {}

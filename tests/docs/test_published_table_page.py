@@ -70,6 +70,7 @@ def test_the_score_of_the_rule_follows_from_print() -> None:
     assert f"reaches {found.rule:.2f} over the {found.cells} cells" in TEXT
 
 
+@pytest.mark.slow
 def test_the_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
     (example,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.M | re.S)
     exec(example, {})

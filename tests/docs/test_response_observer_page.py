@@ -48,6 +48,7 @@ def test_the_numbers_of_the_cases_are_the_codes(cases):
     assert field.acceleration_bias == field.acceleration_sigma
 
 
+@pytest.mark.slow
 def test_the_figures_of_the_chirp_are_found_again(cases):
     case = cases.observed(cases.drive(cases.chirps))
     largest = 1e6 * np.nanmax(np.abs(case.error), axis=0)

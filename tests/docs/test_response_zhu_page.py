@@ -37,6 +37,7 @@ def test_the_drive_is_the_one_that_is_told(bench):
         assert said in text, said
 
 
+@pytest.mark.slow
 def test_the_errors_of_the_first_road_are_found_again(bench):
     front, rear, both = bench.random_road(0, 0.05, Hold.ZERO_ORDER)
     linear, rough = (bench.random_road(0, each, Hold.FIRST_ORDER)[2] for each in (0.05, 0.005))

@@ -67,6 +67,7 @@ def test_the_table_is_that_of_the_default_command() -> None:
         assert cell["published_peak_m_per_km"] == (printed and printed.scores.peak_m_per_km)
 
 
+@pytest.mark.slow
 def test_a_cell_comes_out_again() -> None:
     """One that is quick to make; runs and pipelines left out change no figure."""
     run, pipeline = "brk_49-34_0.84g", "temporal-basic"

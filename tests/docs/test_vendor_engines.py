@@ -138,6 +138,7 @@ def test_the_stop_ruins_the_spatial_engine_as_it_is(engine, stop):
     assert peak(over_distance(engine("spatial_engine"), stop)) > 100.0
 
 
+@pytest.mark.slow
 def test_the_time_step_saves_the_spatial_engine_and_the_reflection_more(engine, stop):
     limited = engine("spatial_engine", "Our time step in its integrals")
     reflecting = engine("spatial_engine", "Our reflection in its second integral")

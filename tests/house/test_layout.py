@@ -5,8 +5,6 @@ import subprocess
 import tomllib
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 TOP = {"pyproject.toml", "sdk", "adapters", "reference_impl", "conformance", "tests", "docs"}
@@ -69,13 +67,3 @@ def test_core_and_extras_are_those_that_users_script_against() -> None:
         "dev",
     }
     assert set(PROJECT["scripts"]) == {"floatref", "conformance"}
-
-
-LONG = {"sdk/floatref/estimators/kalman/forward.py": 555}
-
-
-@pytest.mark.parametrize("name", [n for n in tracked() if n.endswith(".py")])
-def test_modules_stay_short(name: str) -> None:
-    # Compiled loops that call each other share a file, or their caches go stale.
-    longest = LONG.get(name, 260)
-    assert len((ROOT / name).read_text(encoding="utf-8").splitlines()) <= longest

@@ -62,9 +62,14 @@ def said(tmp_path_factory: pytest.TempPathFactory) -> str:
         shutil.copytree(ROOT / room, tree / room, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", tree)
     for file, target in BREACHES.items():
+        assert (tree / file).is_file(), file
         with (tree / file).open("a", encoding="utf-8") as stream:
             stream.write(f"\nimport {target}\n")
     return lint_imports(tree)
+
+
+def test_every_breach_is_planted_in_a_file_that_is_there() -> None:
+    assert [file for file in BREACHES if not (ROOT / file).is_file()] == []
 
 
 @pytest.mark.parametrize("file", BREACHES)

@@ -54,6 +54,7 @@ def elevation(profile: Profile) -> np.ndarray:
     return profile.track("left").elevation
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", WRITERS)
 def test_as_float64_the_profile_is_the_same_bit_by_bit(
     suffix: str, stop: Recording, straight: Profile, tmp_path: Path
@@ -81,6 +82,7 @@ def propagated(stop: Recording, straight: Profile) -> float:
     return float(max(moved))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", WRITERS)
 def test_in_the_quanta_of_a_logger_it_is_off_by_no_more_than_they_are(
     suffix: str, stop: Recording, straight: Profile, propagated: float, tmp_path: Path

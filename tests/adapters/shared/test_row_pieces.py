@@ -43,6 +43,7 @@ def write_tdms(path: Path) -> None:
         writer.write_segment([ChannelObject("g", name, VALUES) for name in NAMES])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("write", "adapter"),
     [
@@ -69,6 +70,7 @@ def test_a_piece_of_many_columns_has_fewer_rows(
     assert first == stream.count == ROWS
 
 
+@pytest.mark.slow
 def test_large_chunks_of_many_datasets_are_not_unpacked_at_once(tmp_path: Path) -> None:
     path = tmp_path / "run.h5"
     with h5py.File(path, "w") as file:

@@ -41,7 +41,13 @@ def taken() -> list[Taken]:
     return [*good, _drive(1, encoder_error_percent=1.0)]
 
 
-@pytest.fixture(scope="module", params=DEVICES, ids=str)
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param(c, marks=() if c is DeviceClass.NOMINAL else pytest.mark.slow) for c in DEVICES
+    ],
+    ids=str,
+)
 def written(
     request: pytest.FixtureRequest, taken: list[Taken], tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[DeviceClass, Path]:

@@ -34,6 +34,7 @@ def test_a_check_is_fitted_to_what_the_device_declares(
     assert result.checks[0].cases == cases
 
 
+@pytest.mark.slow
 def test_a_kept_case_of_a_receiver_is_skipped_without_one(
     plan, result_of, fake_device, monkeypatch
 ):

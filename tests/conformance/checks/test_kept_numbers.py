@@ -89,6 +89,7 @@ def test_features_that_do_not_fit_into_a_drive_are_refused(right_bench):
         judged(right_bench, CHECKS["distance"].simplest, manoeuvre="constant", length_m=150.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id_", ["constant-speed", "invariance"])
 def test_a_flat_road_has_no_iri_that_could_be_wrong(id_):
     class Flat:

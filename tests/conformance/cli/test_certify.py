@@ -153,6 +153,7 @@ def test_a_fault_of_the_suite_is_exit_3(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("option", OPTIONS)
 def test_every_limit_is_an_option(folder: Path, option: str) -> None:
     name, given, expected = OPTIONS[option]

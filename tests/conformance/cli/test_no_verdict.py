@@ -51,8 +51,14 @@ def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
     assert (answer.exit_code, answer.stderr) == (130, "Interrupted: no verdict\n")
 
 
-@pytest.mark.parametrize("both", [False, True])
-@pytest.mark.parametrize("words", [["list"], ["--help"], ["explain", "stop"]])
+@pytest.mark.parametrize("both", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["list"],
+        *(pytest.param(w, marks=pytest.mark.slow) for w in (["--help"], ["explain", "stop"])),
+    ],
+)
 def test_output_that_nobody_reads_is_exit_3_and_never_a_verdict(words, both):
     reading, writing = os.pipe()
     os.close(reading)

@@ -16,6 +16,7 @@ def report_in(folder):
     return json.loads((folder / "report.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("device", "asked", "decisive", "code"),
     [

@@ -210,6 +210,7 @@ def test_a_command_that_is_not_found_is_wrong_usage():
     assert os.linesep not in done.output.strip()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path, name):
     body = (

@@ -165,6 +165,7 @@ def test_a_missing_elevation_where_nothing_counts_is_no_error(plan, result_of, f
     assert result_of(plan(fake_device(spoil))).verdict is Verdict.PASS
 
 
+@pytest.mark.slow
 def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(
     plan, result_of, fake_device
 ):

@@ -84,6 +84,7 @@ def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
     assert peak(stop, pipeline, track) > 200.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 def test_they_fail_with_the_errors_of_other_seeds_too(other_stop, pipeline):
     for track in ("left", "right"):

@@ -15,6 +15,7 @@ from floatref_conformance.plugins import load_registry
 CHECKS = load_registry().checks
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id_", CHECKS)
 @settings(deadline=None, max_examples=15, suppress_health_check=list(HealthCheck))
 @given(data=st.data())

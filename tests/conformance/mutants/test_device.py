@@ -30,6 +30,12 @@ KNOWN = {
     *("in-mm", "in-feet", "height-in-mm", "height-in-feet", "distance-in-feet", "force-in-g"),
     *("out-of-order", "hang", "crash", "flood", "garbage"),
 }
+LONG = {
+    *("steps-after-an-outage", "rates-swapped", "reflection-sign", "wrong-with-speed"),
+    *("vouches-always", "gravity-kept", "time-rounded", "pitch-sign", "tilt-ignored"),
+    *("missing-force-zero", "wheel-place-forgotten", "slow-drive-low", "rates-in-degrees"),
+    *("tyre-forgotten", "road-lost-at-a-stop", "accelerometer-sign"),
+}
 CHEAPEST_FIRST = ("quiescent", "bounce", "low-speed", "dead-start", "coasting", "waveband")
 
 
@@ -55,11 +61,16 @@ def test_each_check_is_the_only_one_that_some_mutant_names():
     assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
 
 
-@pytest.mark.parametrize("mutation", MUTATIONS, ids=lambda mutation: mutation.name)
-def test_each_mistake_is_failed_by_a_check_that_it_names(mutation):
+@pytest.mark.parametrize(
+    "mutation",
+    [pytest.param(m, marks=pytest.mark.slow if m.name in LONG else ()) for m in MUTATIONS],
+    ids=lambda mutation: mutation.name,
+)
+def test_each_mutation_is_failed_by_a_check_that_it_names(mutation):
     assert attempt(Try(f"mutant:{mutation.name}", cheapest(mutation.fails), 0)).fails
 
 
+@pytest.mark.slow
 def test_what_a_mutant_repairs_is_no_news(tmp_path):
     """A warning would be an error here."""
     scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)

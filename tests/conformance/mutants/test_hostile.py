@@ -19,13 +19,19 @@ FOUND = {
     "delivered-elsewhere": "delivered a symbolic link in place of a profile directory",
 }
 
+SHORT = {"crash", "exit-at-start", "flood"}
+
 
 def test_every_hostile_program_is_named_once_and_says_what_is_wrong():
     assert [hostile.name for hostile in HOSTILE] == list(FOUND)
     assert all(hostile.wrong for hostile in HOSTILE)
 
 
-@pytest.mark.parametrize("hostile", HOSTILE, ids=lambda hostile: hostile.name)
+@pytest.mark.parametrize(
+    "hostile",
+    [pytest.param(h, marks=() if h.name in SHORT else pytest.mark.slow) for h in HOSTILE],
+    ids=lambda hostile: hostile.name,
+)
 def test_each_is_found_out(hostile, recording):
     device = hostile_device(hostile.name)
     try:

@@ -59,6 +59,7 @@ def damaged(entry: Path) -> None:
     (entry / "recording" / "height.f64").write_bytes(b"damaged.")
 
 
+@pytest.mark.slow
 def test_processes_share_a_folder(tmp_path: Path) -> None:
     """All start on an empty folder at once, then find it damaged, then evict each other."""
     running = []

@@ -197,6 +197,7 @@ def test_the_artificial_encoder_counts_72_km_h_without_a_scale_error(kind: str) 
     assert np.abs(distance.values - 20.0 * distance.times_s).max() < 0.3e-3 + 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["quiescent", "bounce"])
 def test_ideal_sensors_see_the_parked_body_move(kind: str) -> None:
     """Twice integrated force follows the range, which shrinks by the plate where it lies."""

@@ -16,6 +16,7 @@ def run(*options):
     return CliRunner().invoke(main, [*SMALL, *options])
 
 
+@pytest.mark.slow
 def test_limits_and_false_alarms_of_one_check():
     answer = run("--seeds", "0", "--false-alarms", "1", "--json")
     assert answer.exit_code == 0, answer.output
@@ -45,6 +46,7 @@ def test_mutants_that_are_killed(two_mutants):
     assert "quiescent" in answer.stdout
 
 
+@pytest.mark.slow
 def test_a_mutant_that_survives(two_mutants):
     two_mutants(("quiescent",), ("quiescent",))
     answer = run("--seeds", "1", "--false-alarms", "0", "--no-limits")

@@ -55,6 +55,7 @@ def test_one_process_tries_in_order(registered, fake_device):
     assert [done.tried for done in try_all(tries, 1)] == list(tries)
 
 
+@pytest.mark.slow
 def test_several_processes_try_the_same():
     tries = tuple(Try(f"mutant:{name}", "quiescent", 0) for name in ("all-zeros", "tilt-ignored"))
     done = {one.tried.spec: bool(one.fails) for one in try_all(tries, 2)}

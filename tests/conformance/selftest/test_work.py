@@ -6,9 +6,12 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.selftest.work import graded, without_grader
 
 CHECKS = load_registry().checks
+SHORT = {"bounce", "quiescent", "constant-speed"}
 
 
-@pytest.mark.parametrize("id_", CHECKS)
+@pytest.mark.parametrize(
+    "id_", [pytest.param(i, marks=() if i in SHORT else pytest.mark.slow) for i in CHECKS]
+)
 def test_every_limit_of_the_check_holds_on_both_sides(id_):
     check = CHECKS[id_]
     limits = tuple(graded([check]))

@@ -14,7 +14,7 @@ from floatref_conformance.table import (
     rank_correlations,
 )
 
-pytestmark = pytest.mark.cites("Tables 5.3 to 5.12")
+pytestmark = [pytest.mark.slow, pytest.mark.cites("Tables 5.3 to 5.12")]
 STOPS = [name for name, run in RUNS.items() if run.kind == "stop"]
 LONG_STOPS = [name for name in STOPS if (RUNS[name].dwell_s or 0.0) >= 5.0]
 CHAPTER_5 = tuple(

@@ -28,6 +28,7 @@ def watched():
     return make_table(settings, seen.append), seen
 
 
+@pytest.mark.slow
 def test_every_pass_is_announced_and_every_wheel_path_counts(watched):
     table, seen = watched
     assert seen == [

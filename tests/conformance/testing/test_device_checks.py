@@ -92,6 +92,7 @@ def test_what_is_not_selected_is_skipped_not_passed(judged):
         judged(DeviceChecks.device, checks=("bounce",))
 
 
+@pytest.mark.slow
 def test_a_check_that_there_is_none_of_is_told_in_one_line(tmp_path):
     text = SUITE.replace('("bounce",)', '("quiesent", "bounce", "bounc")')
     (tmp_path / "test_ours.py").write_text(text)
@@ -159,6 +160,7 @@ def test_a_factory_that_fails_is_the_devices_fault(judged):
         judged(make)
 
 
+@pytest.mark.slow
 def test_the_command_for_an_object_shows_the_failure_again(tmp_path):
     (tmp_path / "tests").mkdir()
     (tmp_path / "tests" / "test_ours.py").write_text(SUITE)

@@ -199,6 +199,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", BROKEN, ids=lambda stage: stage.__name__)
 def test_each_law_fails_a_stage_that_breaks_it(stage):
     class Laws(StageLaws):

@@ -63,7 +63,7 @@ class Firmware:
     def end(self):
         """Return the exit code, and what the device said on its stderr."""
         try:
-            _, said = self.process.communicate(b'{"seq": 0, "cmd": "stop"}\n', timeout=30)
+            _, said = self.process.communicate(b'{"seq": 0, "cmd": "stop"}\n', timeout=600)
         finally:
             self.process.kill()
         return self.process.returncode, said.decode()

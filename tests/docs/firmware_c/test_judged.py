@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 README = Path(__file__).parents[3] / "docs" / "examples" / "firmware_c" / "README.md"
 CONFORMANCE = Path(sysconfig.get_path("scripts")) / "conformance"
 

@@ -6,11 +6,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[3]
 SOURCE = ROOT / "docs" / "examples" / "firmware_c"
 PAGE = ROOT / "docs" / "firmware.md"
 
 
+@pytest.mark.slow
 def test_every_command_of_the_page_prints_what_the_page_shows(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(ROOT / ".ci"))
     consoles = importlib.import_module("consoles")

@@ -121,6 +121,7 @@ def test_single_precision_is_within_a_fifth_of_a_millimetre(
     assert_same(found, expected(drives["stop"]), within_m=2e-4)
 
 
+@pytest.mark.slow
 def test_each_fault_shows_where_it_must_and_only_there(start, drives, expected, tmp_path):
     made = {
         (fault, drive): start(f"BROKEN={fault}").profile_of(

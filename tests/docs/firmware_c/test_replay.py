@@ -12,6 +12,7 @@ def replayed(program, folder):
     return found.returncode, found.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("real", ["double", "float"])
 def test_the_firmware_passes_the_golden_vectors_of_its_stages(build, real, tmp_path):
     golden.copy_to(tmp_path)
@@ -21,6 +22,7 @@ def test_the_firmware_passes_the_golden_vectors_of_its_stages(build, real, tmp_p
     assert "FAIL" not in said
 
 
+@pytest.mark.slow
 def test_a_wrong_stage_fails_its_golden_vectors_and_no_others(build, tmp_path):
     golden.copy_to(tmp_path)
     code, said = replayed(build("golden", "CPPFLAGS=-Dtan=sin"), tmp_path)

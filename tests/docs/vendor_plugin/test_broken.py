@@ -6,6 +6,8 @@ import pytest
 
 from floatref import write_recording
 
+pytestmark = pytest.mark.slow
+
 PROJECT = """[build-system]
 requires = ["hatchling"]
 build-backend = "hatchling.build"

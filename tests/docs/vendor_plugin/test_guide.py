@@ -7,10 +7,13 @@ After a change that moves it: `pip install ./docs/examples/vendor_plugin`, then
 import re
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "your-format.md"
 
 
+@pytest.mark.slow
 def test_every_command_of_the_guide_prints_what_the_page_shows(installed):
     installed.run("python", ROOT / ".ci" / "consoles.py", PAGE)
 

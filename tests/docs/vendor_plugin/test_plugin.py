@@ -10,6 +10,8 @@ import pytest
 
 from floatref import read_profile, write_recording
 
+pytestmark = pytest.mark.slow
+
 MAP = """format = "floatref-map/1"
 
 [[channels]]

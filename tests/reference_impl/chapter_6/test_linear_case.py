@@ -94,6 +94,7 @@ def drawn(seed: int) -> tuple[np.random.Generator, Matrix, Matrix]:
     return rng, sigma, np.array([0.012, 0.03, 0.002, 0.003]) * rng.uniform(0.5, 2, (N, 4))
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.9)", "(6.13)", "(6.16)", "(6.17)", "(6.22)", "(6.47)", "(6.48)")
 @settings(deadline=None, max_examples=8, phases=[Phase.generate])
 @given(seed=st.integers(0, 9999), share=st.floats(0.1, 1.0), l_z=st.floats(-3, 3))
@@ -111,6 +112,7 @@ def test_height_observed_at_level(seed: int, share: float, l_z: float) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.10)", "(6.13)", "(6.22)", "(C.3)", "(C.6)", "(C.8)")
 @settings(deadline=None, max_examples=8, phases=[Phase.generate])
 @given(seed=st.integers(0, 9999), share=st.floats(0.1, 1.0))

@@ -89,6 +89,7 @@ def smoothed(draws: Drawn) -> list[Smoothed]:
     return [smooth(run, C) for run in draws.runs]
 
 
+@pytest.mark.slow
 def test_every_state_errs_as_its_covariance_says(draws: Drawn, smoothed: list[Smoothed]) -> None:
     sigma = np.sqrt(np.diagonal(smoothed[0].P, axis1=1, axis2=2))
     error = np.array([run.x for run in smoothed])

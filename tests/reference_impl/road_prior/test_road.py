@@ -20,6 +20,7 @@ ROAD = st.builds(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(y=st.one_of(st.floats(1e-9, 1), st.floats(0.9, 1.1), st.floats(1, 30)))
 def test_moments_are_those_of_the_series_in_fractions(y: float) -> None:

@@ -34,6 +34,7 @@ def same(a: Smoothed, b: Smoothed, keep: np.ndarray | slice = slice(None)) -> No
     assert a.sigma_r == pytest.approx(b.sigma_r[:, keep], rel=1e-6, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.5)", "(6.17)", "(6.22)")
 @settings(deadline=None, max_examples=15, phases=[Phase.generate])
 @given(

@@ -99,6 +99,7 @@ def test_the_motion_is_the_acceleration_integrated_twice():
     assert largest(found - drive.acceleration[1:-1]) < 1e-4 * largest(found)
 
 
+@pytest.mark.slow
 @few
 @drives
 def test_the_observer_cancels_motion_where_the_cascade_does_not(**drawn):
@@ -121,6 +122,7 @@ def test_what_the_observer_leaves_is_the_error_of_the_trapezoidal_rule():
     assert left[1000.0] / left[4000.0] == pytest.approx(16.0, rel=0.05)
 
 
+@pytest.mark.slow
 @few
 @drives
 def test_motion_that_the_trapezoidal_rule_makes_cancels_exactly(**drawn):
@@ -131,6 +133,7 @@ def test_motion_that_the_trapezoidal_rule_makes_cancels_exactly(**drawn):
     assert largest(cascade) >= 1e-3
 
 
+@pytest.mark.slow
 @few
 @drives
 def test_a_bump_away_from_the_stop_survives_in_all(**drawn):
@@ -143,6 +146,7 @@ def test_a_bump_away_from_the_stop_survives_in_all(**drawn):
         assert elevation[near].max() == pytest.approx(expected, rel=tolerance)
 
 
+@pytest.mark.slow
 @few
 @given(speed=st.floats(4.0, 33.0), seed=st.integers(0, 2**32 - 1))
 def test_at_one_speed_the_cascade_is_the_observer(speed, seed):

@@ -59,6 +59,7 @@ def drift_range(recording, track):
     return np.ptp(height)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(5.4)", "Tables 5.3 to 5.12")
 @pytest.mark.parametrize("pipeline", REFERENCES)
 @settings(

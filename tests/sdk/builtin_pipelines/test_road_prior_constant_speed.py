@@ -10,6 +10,7 @@ from floatref.measures import iri
 from floatref_conformance.proving_ground import Scenario, simulate
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("speed_kmh", "road", "iri_m_per_km"),
     [(97.0, "measured", 1.2), (50.0, "sayers-asphalt-long-waves", 1.5), (20.0, "iso-B", 1.8)],

@@ -69,6 +69,7 @@ def test_acceleration_is_the_vertical_one_while_the_body_pitches(manoeuvre: str)
     assert np.abs(untouched).max() > 5.0 * np.abs(error).max()
 
 
+@pytest.mark.slow
 def test_elevations_at_stops_are_nearer_to_the_truth_than_without() -> None:
     """The accelerometers lean, too: that is learned, as without an inertial unit."""
     squares = {PIPELINE: 0.0, NOMINAL: 0.0}
@@ -85,6 +86,7 @@ def test_elevations_at_stops_are_nearer_to_the_truth_than_without() -> None:
     assert squares[PIPELINE] < min(1e-3**2, 0.6**2 * squares[NOMINAL])
 
 
+@pytest.mark.slow
 def test_gnss_makes_no_difference() -> None:
     """It is not read."""
     simulation = driven()

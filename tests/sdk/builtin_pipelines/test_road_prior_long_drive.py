@@ -49,6 +49,7 @@ def driven() -> tuple[Simulation, Profile, int]:
         return made, floatref.process(made.recording, "road-prior-smoother"), max(kept)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop_m", STOPS_M)
 def test_every_stop_is_adequate(stop_m: float) -> None:
     made, profile, _ = driven()

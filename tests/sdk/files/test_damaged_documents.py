@@ -59,6 +59,7 @@ def test_a_damaged_recording_document(folder: Path, flips: list[tuple[int, int]]
     fails_in_one_line(lambda: examine(read_recording(folder)))
 
 
+@pytest.mark.slow
 @given(st.binary(min_size=8, max_size=80), st.sampled_from(["left.height", "distance"]))
 @PATIENT
 def test_junk_in_a_sample_file(folder: Path, content: bytes, name: str) -> None:
@@ -66,6 +67,7 @@ def test_junk_in_a_sample_file(folder: Path, content: bytes, name: str) -> None:
     fails_in_one_line(lambda: examine(read_recording(folder)))
 
 
+@pytest.mark.slow
 @given(flips=FLIPS, cut=st.sampled_from([0, 0, 0, 1, 5, 100]))
 @PATIENT
 def test_a_damaged_profile(scratch: Path, flips: list[tuple[int, int]], cut: int) -> None:

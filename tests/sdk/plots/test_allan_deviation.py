@@ -30,6 +30,7 @@ def colour_share(path: Path, colour: str) -> float:
     return float(same.any(axis=0).mean())
 
 
+@pytest.mark.slow
 def test_every_unit_has_a_panel_and_every_channel_its_name(tmp_path: Path) -> None:
     found = [noise("roll_rate"), noise("height", "left"), noise("height", "right")]
     draw_allan(found, tmp_path / "a.svg")
@@ -40,6 +41,7 @@ def test_every_unit_has_a_panel_and_every_channel_its_name(tmp_path: Path) -> No
     assert "Distance" not in text
 
 
+@pytest.mark.slow
 def test_each_channel_has_its_colour_over_all_cluster_times(tmp_path: Path) -> None:
     draw_allan([noise("roll_rate"), noise("pitch_rate", walk=1.0)], tmp_path / "a.png")
     for colour in COLOURS[:2]:
@@ -47,6 +49,7 @@ def test_each_channel_has_its_colour_over_all_cluster_times(tmp_path: Path) -> N
     assert colour_share(tmp_path / "a.png", COLOURS[2]) == 0.0
 
 
+@pytest.mark.slow
 def test_letters_stand_for_the_terms_that_are_there(tmp_path: Path) -> None:
     draw_allan([noise("roll_rate")], tmp_path / "white.svg")
     draw_allan([noise("roll_rate", walk=0.1)], tmp_path / "walk.svg")
@@ -57,6 +60,7 @@ def test_letters_stand_for_the_terms_that_are_there(tmp_path: Path) -> None:
     assert "<!-- K -->" in walk
 
 
+@pytest.mark.slow
 def test_more_channels_than_colours_are_drawn(tmp_path: Path) -> None:
     names = ("roll_rate", "pitch_rate", "yaw_rate")
     each = [(name, track) for name in names for track in ("left", "middle", "right")]

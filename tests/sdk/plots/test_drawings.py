@@ -70,6 +70,7 @@ def test_some_missing_speeds_leave_the_panel(tmp_path: Path) -> None:
     assert (tmp_path / "s.svg").read_text(encoding="utf-8").count('<g id="axes_') == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a$x^$", "$", "_left", "__", "左", "\\frac"])
 def test_every_name_is_drawn_as_it_is_written(tmp_path: Path, name: str) -> None:
     run = profile(name, "right")

@@ -183,6 +183,7 @@ def test_segments_without_a_position_or_an_iri_are_counted(tmp_path: Path) -> No
     assert "60 segments (10 without IRI)" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [{}, {"lat": 1.0, "lon": 2.0}])
 def test_nothing_but_failures_or_unknown_is_drawn_all_the_same(
     tmp_path: Path, place: dict[str, float]

@@ -40,6 +40,7 @@ def test_a_value_that_is_best_has_no_rise_below_zero() -> None:
     assert Sensitivity("acceleration_walk", 1.0, scores).worst == (0.0, "a")
 
 
+@pytest.mark.slow
 def test_one_setting_is_changed_at_a_time_by_half_an_octave(
     driven: Callable[..., Simulation], given: dict[str, float]
 ) -> None:

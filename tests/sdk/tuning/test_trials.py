@@ -23,6 +23,7 @@ def trials(driven: Callable[..., Simulation], given: dict[str, float]) -> Callab
     return lambda: Trials(PIPELINE, given, levels, prepared.runs)
 
 
+@pytest.mark.slow
 def test_every_profile_is_made_once_and_told(trials: Callable[[], Trials]) -> None:
     told: list[int] = []
     made = trials()
@@ -42,6 +43,7 @@ def test_workers_change_nothing(trials: Callable[[], Trials]) -> None:
     assert found == trials().losses(point, ["stop", "fast"])
 
 
+@pytest.mark.slow
 def test_a_smaller_walk_is_better_than_one_far_too_large(trials: Callable[[], Trials]) -> None:
     made = trials()
     before, after = (made.losses(p, ["stop"])["stop"] for p in (START, (0, -20, 0, 0)))

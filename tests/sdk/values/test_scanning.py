@@ -51,6 +51,7 @@ def test_every_so_many_samples_are_those_of_the_whole(values: np.ndarray, stride
 STEPS = st.one_of(st.sampled_from([0.25, 1e-3]), st.floats(1e-300, 1e6))
 
 
+@pytest.mark.slow
 @given(st.lists(STEPS, min_size=1, max_size=40))
 @PIECES
 def test_median_and_longest_step_are_those_of_the_whole(steps: list[float]) -> None:

@@ -110,6 +110,7 @@ def test_the_flags_of_a_missing_deflection_come_out(drive):
     assert not np.any((np.abs(invalid - 150.0) > 1.0) & (np.abs(invalid - 150.0) < 60.0))
 
 
+@pytest.mark.slow
 @PIPELINES
 def test_denoising_keeps_what_its_components_hold(drive, pipeline):
     short = drive(length_m=150.0, interval_m=0.25)

@@ -25,6 +25,7 @@ def bench():
         yield importlib.import_module("bench_zhu")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_every_random_road_is_within_the_largest_of_table_2(bench, seed):
     spacing = bench.SPEED / bench.RATE

@@ -98,6 +98,7 @@ print(stream.count, max(sizes), peak.split()[1])
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="tells no peak of memory")
 def test_a_parquet_file_of_a_billion_rows_takes_little_memory(tmp_path: Path) -> None:
     """A billion missing samples take two megabytes; 400 pieces go over a row group's end."""

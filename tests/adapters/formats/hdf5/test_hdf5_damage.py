@@ -110,6 +110,7 @@ def test_a_row_without_its_time_is_refused(path: Path) -> None:
         rows(Hdf5().streams(path, {}))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(

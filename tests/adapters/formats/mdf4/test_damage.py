@@ -40,6 +40,7 @@ def small(path: Path, compressed: bool = False) -> bytes:
     return path.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compressed", [False, True])
 def test_a_damaged_file_is_refused_or_read_and_nothing_else(
     tmp_path: Path, compressed: bool

@@ -16,6 +16,7 @@ NS = (1e-9, 0.0)
 read = partial(read_whole, Mdf4())
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(
     numbers=st.lists(st.integers(0, 2**64 - 1), min_size=1, max_size=9),

@@ -28,6 +28,7 @@ read = partial(read_whole, Tdms())
 refused = partial(refusal, Tdms())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("interleaved", [False, True])
 def test_a_damaged_file_is_refused_or_read_and_nothing_else(
     tmp_path: Path, interleaved: bool

@@ -57,6 +57,7 @@ def starting(ns: int, step_s: float) -> Properties:
     return {"wf_increment": step_s, "wf_start_time": start}
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     parts=st.lists(

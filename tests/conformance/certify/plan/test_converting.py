@@ -77,6 +77,7 @@ def recording() -> Recording:
     return Recording((shared, *channels), Setup(profile_interval_m=0.05))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOURCES["profiles"])
 def test_a_profile_of_any_format_is_the_profile(
     found: Mapping[str, Converted], folder: Path, reference: Profile, name: str
@@ -195,7 +196,7 @@ def test_on_leaving_what_runs_is_ended_and_nothing_starts(
         waiting.start()
         while not commands._running:
             time.sleep(0.01)
-    waiting.join(timeout=60)
+    waiting.join(timeout=600)
     assert errors == ["floatref was ended by signal 9 (out of memory?)"]
     with pytest.raises(Stopped):
         commands.run("iri")

@@ -73,11 +73,13 @@ def spoilt(change, valid=None):
     return device
 
 
+@pytest.mark.slow
 @each
 def test_a_device_that_knows_the_truth_is_of_the_strictest_class(check, taken):
     assert failing(check, taken(check), perfect, REFERENCE) == set()
 
 
+@pytest.mark.slow
 @each
 @pytest.mark.parametrize("pipeline", RECOMMENDED)
 def test_the_recommended_pipelines_pass_the_simplest_case_as_nominal(check, pipeline, taken):

@@ -233,6 +233,7 @@ def test_whatever_is_drawn_is_a_drive_and_a_fault(case):
     assert drive_of(case.scenario).length_m == pytest.approx(560.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", RECOMMENDED)
 @pytest.mark.parametrize(
     "scenario",

@@ -138,6 +138,7 @@ def test_the_passes_of_a_case_meet_one_road_with_other_errors(case):
     assert Case.of("repeatability", case.parameters, case.name) == case
 
 
+@pytest.mark.slow
 def test_the_recommended_pipeline_repeats_itself():
     case = REPEATABILITY.cases(0, Effort.QUICK)[0]
     name = "temporal-adaptive-hpf-spatial-backward"

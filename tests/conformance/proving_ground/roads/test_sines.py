@@ -24,6 +24,7 @@ def amplitudes(x, z):
     return found[:count] - 1j * found[count : 2 * count]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(seed=st.integers(0, 2**63 - 1))
 def test_all_waves_have_one_slope_and_the_wheel_paths_share_the_long_ones(seed: int) -> None:

@@ -38,6 +38,7 @@ def flat(_device, recording, target):
     write_profile(Profile(read.setup.profile_interval_m, tracks), target)
 
 
+@pytest.mark.slow
 def test_every_drive_is_announced_and_every_wheel_path_counts():
     seen = []
     settings = StopSettings(seed=3, stops=1, vehicles=("minivan",), pipelines=PIPELINES)
@@ -52,6 +53,7 @@ def test_every_drive_is_announced_and_every_wheel_path_counts():
     assert narrow.paths == table.of(PIPELINES[1])
 
 
+@pytest.mark.slow
 def test_sigma_gets_from_the_device_to_the_table(monkeypatch):
     monkeypatch.setattr(builtin.BuiltinDevice, "run", flat)
     settings = StopSettings(stops=1, vehicles=("pickup",), pipelines=PIPELINES[:1])

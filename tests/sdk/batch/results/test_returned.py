@@ -19,6 +19,7 @@ def record(index: int, warning: str) -> Record:
     return Record(f"a/run{index}", f"/in/run{index}", rows=(row,) * index, warnings=(warning,))
 
 
+@pytest.mark.slow
 @given(st.permutations(range(5)), st.permutations(range(5)), st.text())
 def test_records_come_back_in_the_order_of_the_jobs(
     tmp_path_factory: pytest.TempPathFactory, done: list[int], given: list[int], warning: str

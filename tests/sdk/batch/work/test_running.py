@@ -78,7 +78,7 @@ def run(out: Path, case: str, workers: int = 2, deaths: int = 1) -> list[list[An
     """Return name, error and whether it was skipped of every record of ``case``."""
     (out / "script.py").write_text(SCRIPT, encoding="utf-8")
     command = [sys.executable, str(out / "script.py"), str(out), case, str(workers), str(deaths)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=900)
     assert (done.returncode, done.stderr) == (0, "")
     found: list[list[Any]] = json.loads(done.stdout)
     return found
@@ -90,6 +90,7 @@ def kinds(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[list[Any
     return out, run(out, "all_kinds")
 
 
+@pytest.mark.slow
 def test_every_job_has_one_record(kinds: tuple[Path, list[list[Any]]]) -> None:
     names = [f"r{index:02d}" for index in range(16)]
     assert sorted(name for name, *_ in kinds[1]) == sorted([*names, "deadly", "raises"])
@@ -108,6 +109,7 @@ def test_a_deadly_file_leaves_its_record(kinds: tuple[Path, list[list[Any]]]) ->
     assert "worker ended" in read_record(kinds[0] / "records" / "deadly.json").error
 
 
+@pytest.mark.slow
 def test_what_waits_beside_a_deadly_file_is_not_blamed(tmp_path: Path) -> None:
     # Both are given to the worker at once, and its first death is held against both.
     found = {n: (error, skipped) for n, error, skipped in run(tmp_path, "few", 1, deaths=0)}
@@ -119,6 +121,7 @@ def test_what_waits_beside_a_deadly_file_is_not_blamed(tmp_path: Path) -> None:
     assert sorted(begun[1:]) == ["deadly", "small"]
 
 
+@pytest.mark.slow
 def test_what_the_cluster_drops_or_nobody_does_is_a_record_as_well(tmp_path: Path) -> None:
     found = run(tmp_path, "cancelled_and_deserted")
     names = [*(f"d{index}" for index in range(4)), *(f"r{index}" for index in range(40))]

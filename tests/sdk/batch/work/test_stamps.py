@@ -31,6 +31,7 @@ def changing(monkeypatch: pytest.MonkeyPatch, path: Path) -> None:
     monkeypatch.setattr(task, "profiled", then_changed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "name"), ALL)
 def test_what_changes_while_it_is_read_is_said(
     jobs: dict[str, Job], folder: Path, monkeypatch: pytest.MonkeyPatch, kind: str, name: str

@@ -16,7 +16,7 @@ import pytest
 from floatref.files import write_recording
 from floatref_conformance.proving_ground import Scenario, simulate
 
-PATIENCE_S = 180.0
+PATIENCE_S = 900.0
 FLOATREF = (sys.executable, "-m", "floatref")
 PROGRESS = re.compile(r"\d+ of \d+ files, ")
 Started = subprocess.Popen[str]

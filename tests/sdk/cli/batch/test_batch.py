@@ -119,7 +119,7 @@ def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def workers() -> int:
         # Asked once more, it does not answer before the end.
-        return next(answers, 0) or int(over.wait(10.0))
+        return next(answers, 0) or int(over.wait(600.0))
 
     def drawn(start: str) -> bool:
         return any(start in f and "7 workers" in f for f in stream.getvalue().split("━"))
@@ -133,7 +133,7 @@ def test_a_terminal_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def wait_until(is_so: Callable[[], bool]) -> None:
-    end = monotonic() + 10.0
+    end = monotonic() + 600.0
     while not is_so():
         assert monotonic() < end, "it never came to that"
         sleep(0.01)

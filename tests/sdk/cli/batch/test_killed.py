@@ -13,7 +13,10 @@ from typing import Any
 import pytest
 from matplotlib.image import imread
 
-pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes"),
+]
 COMMAND = which("floatref", path=os.pathsep.join([str(Path(sys.executable).parent), os.defpath]))
 READY = {f"r{index}": ("ready", 900 - index) for index in range(6)}
 WAITING = {"w": ("wait", 400)}

@@ -139,6 +139,7 @@ def test_the_plot_is_a_picture(made: Path) -> None:
     assert imread(made / "p.png").shape[0] > 500
 
 
+@pytest.mark.slow
 def test_json_holds_runs_values_and_sensitivity(made: Path, tmp_path: Path) -> None:
     target = tmp_path / "a.json"
     pipeline = "kalman-smoother-constant-height-attitude"

@@ -99,6 +99,7 @@ def least_squares(drive, plan):
 PLANS = st.sampled_from([Plan(), Plan(reflects=False)])
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.5)", "(6.7)", "(6.17)")
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([100, 200, 300]), stop=STOP, plan=PLANS)
@@ -108,6 +109,7 @@ def test_smoothed_heights_are_those_of_least_squares(drive, height_of, seed, rat
     np.testing.assert_allclose(ours, least_squares(drawn, plan).height, rtol=0, atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.22)")
 @laws
 @given(seed=SEEDS, stop=STOP, plan=PLANS)

@@ -55,6 +55,7 @@ def assert_same(drive, height_of, plan, expected, within):
     np.testing.assert_allclose(ours, smoothed, rtol=0, atol=within)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.9)", "(6.13)", "(6.16)", "(6.17)", "(6.47)", "(6.48)", "(C.3)", "(C.8)")
 @laws
 @given(seed=SEEDS, rate=RATES, seconds=st.floats(0.5, 2.5), stop=STOPS)
@@ -65,6 +66,7 @@ def test_with_gnss_they_agree(drive, height_of, seed, rate, seconds, stop):
     assert_same(drawn, height_of, GNSS, by_gnss(drawn), within=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.16)", "(6.48)")
 @laws
 @given(seed=SEEDS, rate=RATES, lost=st.integers(1, 8), share=st.floats(0.0, 0.6))
@@ -121,6 +123,7 @@ def per_sub_block(samples, length):
     return filtering, weights
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.65)", "(6.66)")
 @laws
 @given(seed=SEEDS, rate=RATES, seconds=st.floats(0.3, 3.0), stop=STOPS)
@@ -133,6 +136,7 @@ def test_constants_are_observed_once_per_sub_block(drive, height_of, seed, rate,
     assert_same(drawn, height_of, CONSTANT, expected, within=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.65)", "(6.66)")
 @settings(laws, max_examples=12)
 @given(seed=st.integers(0, 9), seconds=st.sampled_from([0.1, 0.5, 2.0]), more=st.integers(0, 3))

@@ -90,6 +90,7 @@ def resting(drive, seed, speed):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [6.0, 15.0])
 def test_errors_of_the_delivered_elevation_are_as_large_as_it_says(drive, through, speed):
     """In the middle of runs; drawn again and again, the squares of error over sigma are one."""

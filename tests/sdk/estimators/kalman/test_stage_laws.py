@@ -47,6 +47,7 @@ def lacking(drive, seed):
     return drawn
 
 
+@pytest.mark.slow
 @every_stage
 @laws
 @given(seed=SEEDS, plan=PLANS, cuts=CUTS, every=st.sampled_from([1, 7, SEGMENT, 1300, LENGTH]))

@@ -57,6 +57,7 @@ def literal(values, rate):
     return level(Unit(np.array(force), np.array(rates), values[DISTANCE], 1 / rate), how)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.20)", "(6.27)", "(6.28)")
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([10, 20, 50, 90]), seconds=st.sampled_from([0.5, 3, 9]))

@@ -94,6 +94,7 @@ def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
     np.testing.assert_allclose(np.sqrt(found), sure, rtol=1e-5)
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=SEEDS,
@@ -115,6 +116,7 @@ def test_short_drives_agree_with_least_squares_to_the_rounding_of_both(
     np.testing.assert_allclose(ours, expected, rtol=0, atol=atol)
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([1000, 1500, 2000]), stop=STOPS)
 def test_between_nodes_they_agree_as_well(drive, through, seed, rate, stop):
@@ -137,6 +139,7 @@ def test_between_nodes_they_agree_as_well(drive, through, seed, rate, stop):
     assert_literal(ours - drawn.h[0], expected)
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, begin=st.floats(9.5, 10.4))
 def test_lean_and_tilt_of_a_brake_are_others_after_a_constant_speed(drive, through, seed, begin):

@@ -1,6 +1,7 @@
 """What comes out in parts: no step between them, and what the whole run tells but for its level."""
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -11,6 +12,7 @@ RATE = 100
 HEIGHT = ChannelId("floating_reference_height", "left")
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_parts_follow_one_another_without_a_step(drive, through, seed):

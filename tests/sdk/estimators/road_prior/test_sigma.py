@@ -42,6 +42,7 @@ def least(drive, c):
     return deviation(least_squares(run, constants), weights)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.10)")
 @pytest.mark.parametrize("height_m", [4e-5, 2e-3])
 @pytest.mark.parametrize(

@@ -105,6 +105,7 @@ def test_terms_that_take_turns_are_told_apart_in_a_day() -> None:
     assert reach["ramp"] == pytest.approx((600.0, 28_800.0), rel=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("term", "values", "count"),
     [

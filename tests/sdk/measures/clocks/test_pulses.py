@@ -55,6 +55,7 @@ def test_digital_pulses_lie_between_two_samples(seed: int, low: bool, start: flo
     assert np.abs(found - edges).max() <= 0.51 / RATE
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds)
 def test_ringing_makes_no_further_edge(seed: int) -> None:

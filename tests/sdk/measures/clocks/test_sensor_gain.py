@@ -65,6 +65,7 @@ def test_a_stop_tells_scale_and_sign(vehicle: str, seed: int, scale: float) -> N
         assert ("sign" in line) is (scale < 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vehicle", VEHICLES)
 @pytest.mark.parametrize("manoeuvre", ["near-stop", "creeping"])
 def test_a_vehicle_that_goes_on_tells_nothing(manoeuvre: str, vehicle: str) -> None:

@@ -50,6 +50,7 @@ def normalised_errors(model, hold):
     return np.array(scaled)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hold", Hold)
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 def test_errors_have_the_mean_zero_and_the_spread_that_is_told(model, hold):

@@ -74,6 +74,7 @@ def test_the_inputs_act_as_in_the_reference(seed):
     assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(10) of Imine", "(11) of Imine")
 @settings(deadline=None, max_examples=4)
 @given(seed=SEEDS)

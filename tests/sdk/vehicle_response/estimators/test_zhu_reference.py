@@ -120,6 +120,7 @@ def test_denoising_keeps_the_same_components(seed, size, window, keep):
     assert np.abs(found - expected).max() <= LITERAL * np.abs(expected).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hold", Hold)
 def test_most_drawn_models_can_be_estimated(hold):
     """What the law above leaves out is the exception."""

@@ -13,6 +13,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 STOP = (1.2, 2.1)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.65)", "(6.66)")
 @laws
 @given(seed=SEEDS, plan=st.sampled_from([Plan(gnss=False), Plan(), Plan(reflects=False)]))
@@ -23,6 +24,7 @@ def test_without_any_gnss_constants_are_observed(drive, assert_same, seed, plan)
     assert_same(drawn, Noise(), plan)
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=SEEDS,
