@@ -12,14 +12,14 @@ from floatref.errors import InputError
 from floatref.files.sources import opened
 
 LARGEST_BYTES = 4 << 20
-"""Largest JSON file that is read; samples belong into files of their own."""
+"""Largest JSON file that is read; samples belong in separate files."""
 
 
 def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
-    """Return what the JSON file ``path`` holds.
+    """Return the content of the JSON file ``path``.
 
     Raises InputError for a file that is missing, empty, above ``most_bytes``, not UTF-8, not JSON
-    or cut short, and for numbers that float64 does not hold. Of repeated keys the last one counts.
+    or truncated, and for numbers beyond float64. The last of repeated keys counts.
     """
     with opened(path) as stream:
         text = stream.read(most_bytes + 1)

@@ -1,4 +1,4 @@
-"""The profile directory, `floatref-profile/1`, and which kind of profile a path holds."""
+"""The profile directory, `floatref-profile/1`, and reading a profile of either kind."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,10 +26,10 @@ SCHEMA = "floatref-profile-1"
 
 
 def read_profile(path: Path) -> Profile:
-    """Return the profile at ``path``: a directory, its profile.json, or a CSV of ours.
+    """Return the profile at ``path``: a directory, its profile.json, or a CSV of floatref.
 
-    Elevation stays in its files, mapped read-only. Raises InputError with one line naming the
-    file, the track and the value for anything that breaks the format.
+    Elevation is mapped read-only from its files. Raises InputError with one line naming the file,
+    the track and the value for anything that breaks the format.
     """
     source = document_path(path, DOCUMENT)
     if source.suffix.lower() != ".json":

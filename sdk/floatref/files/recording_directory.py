@@ -24,8 +24,8 @@ SCHEMA = "floatref-recording-1"
 def read_recording(path: Path) -> Recording:
     """Return the recording at ``path``, a directory or its recording.json.
 
-    Samples stay in their files, mapped read-only. Raises InputError with one line naming the
-    file, the channel and the value for anything that breaks the format.
+    Samples are mapped read-only from their files. Raises InputError with one line naming the file,
+    the channel and the value for anything that breaks the format.
     """
     source = document_path(path, DOCUMENT)
     document = _enforced(source)
@@ -68,7 +68,7 @@ def _enforced(source: Path) -> dict[str, Any]:
 
 
 def _check_files(entries: Sequence[Mapping[str, Any]]) -> None:
-    """Refuse one file for two quantities; two wheel paths may share a sensor, and its file."""
+    """Refuse one file for two quantities; two wheel paths may share a sensor and its file."""
     names: dict[str, str] = {}
     for entry in entries:
         other = names.setdefault(entry["file"], entry["name"])
@@ -103,7 +103,7 @@ def _clock(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedCloc
 
 
 def setup_of(entry: Mapping[str, Any]) -> Setup:
-    """Return the setup that a document's ``entry``, which obeys its schema, describes."""
+    """Return the setup from a document's ``entry``, which obeys its schema."""
     tracks = {
         name: TrackSetup(**_known(track, "reference_point_m", "laser_offset_m"))
         for name, track in entry.get("tracks", {}).items()
@@ -119,7 +119,7 @@ def _vehicle(entry: Mapping[str, Any] | None) -> VehicleSetup | None:
 
 
 def _known(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
-    """Return those of ``keys`` that ``entry`` has, vectors as tuples of floats."""
+    """Return the values of ``keys`` that ``entry`` has, vectors as tuples of floats."""
     found = {key: entry[key] for key in keys if key in entry}
     return {
         key: tuple(map(float, value)) if isinstance(value, list) else float(value)
@@ -154,7 +154,7 @@ def _described_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:
 
 
 def _entries(recording: Recording, samples: dict[str, FloatArray]) -> list[dict[str, Any]]:
-    """Return what the document says of each channel; channels on one clock share its file."""
+    """Return the document's entry of each channel; channels on one clock share its time file."""
     taken: set[str] = set()
     time_files: dict[int, str] = {}
     entries = []
