@@ -1,4 +1,4 @@
-"""The engine: blocks through stages, forward in one go, backward over the tape."""
+"""The engine: passes blocks through stages, forward in one go, backward over the tape."""
 
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ from floatref.values.block import Block, Event, Header
 from floatref.values.channels import ChannelId
 
 IN_MEMORY = 64 * 2**20
-"""Bytes of samples up to which a tape stays in memory; beyond, it is on disk."""
+"""Bytes of samples up to which a tape is in memory; a longer one is on disk."""
 
 M = TypeVar("M", np.bool_, np.uint8)
 Packed = Mapping[ChannelId, bytes]
@@ -36,7 +36,7 @@ class Tape:
         self._length = 0
 
     def __enter__(self) -> "Tape":
-        """Use the tape; its files are gone afterwards."""
+        """Use the tape; its files are removed at the end."""
         return self
 
     def __exit__(
@@ -102,7 +102,7 @@ def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> N
 
 @contextmanager
 def _room() -> Iterator[None]:
-    """Name the folder that is full."""
+    """Name the full folder in an error."""
     try:
         yield
     except OSError as error:
@@ -113,7 +113,7 @@ def _room() -> Iterator[None]:
 
 
 def _spool() -> SpooledTemporaryFile[bytes]:
-    # Without a size of its own: the tape decides for all channels together.
+    # Without its own size limit: the tape decides for all channels together.
     return SpooledTemporaryFile()
 
 
@@ -131,9 +131,9 @@ T = TypeVar("T")
 def run(
     stages: Sequence[Stage], header: Header, blocks: Iterable[Block]
 ) -> tuple[Header, Iterator[Block]]:
-    """Start all ``stages`` and return the last header and the blocks that come out.
+    """Start all ``stages`` and return the last header and the resulting blocks.
 
-    Nothing flows until the blocks are taken. Backward stages next to each other share one pass.
+    Nothing is processed until the blocks are read. Adjacent backward stages share one pass.
     """
     for stage in stages:
         header = _guarded(stage, partial(stage.start, header))
@@ -151,13 +151,13 @@ def run(
 
 
 def told(stages: Sequence[Stage]) -> tuple[str, ...]:
-    """Return what ``stages`` have to tell of a run, in their order, each line once."""
+    """Return the warnings of ``stages`` on a run, in their order, each line once."""
     lines = (line for stage in stages for line in _guarded(stage, stage.told))
     return tuple(dict.fromkeys(lines))
 
 
 def learned(stages: Sequence[Stage]) -> dict[str, float]:
-    """Return the settings that a run through ``stages`` has told."""
+    """Return the settings that ``stages`` have estimated from a run."""
     return {k: v for stage in stages for k, v in _guarded(stage, stage.learned).items()}
 
 
@@ -204,7 +204,7 @@ def _through(stages: Sequence[Stage], block: Block) -> Block:
 
 
 def _guarded(stage: Stage, call: Callable[[], T]) -> T:
-    """Name the stage in whatever goes wrong inside it, be it ours or a vendor's."""
+    """Name the stage in every error that it raises, ours or a vendor's."""
     try:
         return call()
     except FloatrefError:

@@ -1,4 +1,4 @@
-"""Which adapter reads a source, and what it reads; an adapter's own faults in one line."""
+"""Choosing adapters and profile formats and calling them; their own failures as one line."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -29,7 +29,7 @@ T = TypeVar("T")
 def reader_of(source: Path, name: str | None) -> Adapter:
     """Return the adapter called ``name``, else the one that recognises ``source``.
 
-    Raises InputError if there is no such adapter, none recognises it, or several do.
+    Raises InputError if there is no such adapter, or not exactly one recognises it.
     """
     if name is not None:
         return named_reader(name)
@@ -51,7 +51,7 @@ def recognising(source: Path) -> list[Adapter]:
 
 
 def named_reader(name: str) -> Adapter:
-    """Return the adapter called ``name``; InputError if there is none."""
+    """Return the adapter called ``name``; InputError if it is unknown."""
     known = plugins().adapters()
     if name not in known:
         raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
@@ -59,19 +59,19 @@ def named_reader(name: str) -> Adapter:
 
 
 def is_native(reader: Adapter) -> bool:
-    """Return whether ``reader`` lists what a file holds, for a channel map."""
+    """Return whether ``reader`` lists a file's content, for a channel map."""
     return callable(getattr(reader, "streams", None))
 
 
 def read_source(reader: Adapter, source: Path) -> Recording:
-    """Return the recording; PluginError if the adapter fails in a way it should not."""
+    """Return the recording; PluginError for any error of the adapter other than InputError."""
     with guarding(reader.name, source):
         found = cast(RecordingAdapter, reader).read(source)
     return _checked(found, reader, source, Recording, "recording")
 
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
-    """Return what ``source`` holds; InputError if ``reader`` does not list files."""
+    """Return the content of ``source``; InputError if ``reader`` does not list files."""
     if not exists(source):
         raise InputError(f"{source}: not found")
     if not is_native(reader) or RecordingDirectory().recognises(source):
@@ -94,7 +94,7 @@ def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> Nati
 
 @contextmanager
 def guarding(name: str, source: Path) -> Iterator[None]:
-    """Turn what an adapter called ``name`` should not raise into a PluginError in one line."""
+    """Turn an unexpected exception of adapter ``name`` into a PluginError in one line."""
     try:
         yield
     except (FloatrefError, MemoryError):
@@ -103,7 +103,7 @@ def guarding(name: str, source: Path) -> Iterator[None]:
         place = error.filename or source
         raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
     except (Exception, SystemExit) as error:
-        # contextlib takes a RuntimeError that a StopIteration has caused for that itself.
+        # contextlib treats a RuntimeError caused by a StopIteration as the StopIteration itself.
         cause = None if isinstance(error, StopIteration) else error
         raise PluginError(_failure(name, source, error)) from cause
 
@@ -130,8 +130,8 @@ def profile_of(path: Path) -> Profile:
     """Return the profile at ``path``: our directory, its profile.json, or a file of any format.
 
     A file that no format recognises is read as our CSV, whose errors say what is expected. Raises
-    InputError if ``path`` cannot be used or two formats recognise it, and PluginError if a format
-    fails in a way it should not.
+    InputError if ``path`` cannot be used or two formats recognise it, and PluginError for any other
+    error of a format.
     """
     path = Path(path)
     found = [
@@ -146,7 +146,7 @@ def profile_of(path: Path) -> Profile:
 
 
 def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
-    """Return in one line what went wrong inside ``form``."""
+    """Return one line on an ``error`` that ``form`` raised."""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
     return f"format {form.name}: {path}: {reason}"
 
@@ -155,7 +155,7 @@ def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
     try:
         return bool(form.recognises(path))
     except (OSError, ValueError):
-        # A name that cannot be opened: reading it says so.
+        # A name that cannot be opened: reading it raises the error.
         return False
     except Exception as error:
         plugins().reports.append(failure(form, path, error))
@@ -175,9 +175,9 @@ def _read(form: ProfileFormat, path: Path) -> Profile:
 
 
 def format_of(out: Path, name: str | None = None) -> ProfileFormat:
-    """Return the format called ``name``, else the one that the suffix of ``out`` asks for.
+    """Return the format called ``name``, else the one of the suffix of ``out``.
 
-    Raises InputError, with the formats there are, if it is none or that of two, or if it needs a
+    Raises InputError, which lists the formats, if no format or more than one fits, or if it needs a
     library that is missing.
     """
     form = _chosen(out, name)
@@ -213,7 +213,7 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
     """Write ``profile`` to ``out`` in the format ``form``, complete or not at all.
 
     Raises InputError if ``out`` exists and ``overwrite`` is false, cannot be written, or if the
-    format cannot hold the profile; PluginError if a format fails in a way it should not.
+    format cannot hold the profile; PluginError for any other error of the format.
     """
     if isinstance(form, ProfileDirectory):
         write_profile(profile, out, overwrite)

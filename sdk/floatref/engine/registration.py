@@ -1,4 +1,4 @@
-"""What a plug-in may register: checked when it does, so that nothing breaks later."""
+"""Checks of what a plug-in registers, made at registration, so that nothing fails later."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,9 +18,9 @@ from floatref.values.profile import Profile
 
 
 def check_pipeline(pipeline: Any) -> str:
-    """Return the name of ``pipeline``; TypeError if it is none or of no known architecture."""
+    """Return the name of ``pipeline``; TypeError unless its architecture is known."""
     if not isinstance(pipeline, Pipeline):
-        raise TypeError(f"{type(pipeline).__name__} is no Pipeline")
+        raise TypeError(f"{type(pipeline).__name__} is not a Pipeline")
     if pipeline.architecture not in SIGNAL_FLOWS:
         raise TypeError(f"pipeline {pipeline.name}: no architecture {pipeline.architecture!r}")
     for point, answer in pipeline.answers.items():
@@ -32,7 +32,7 @@ def check_pipeline(pipeline: Any) -> str:
 
 
 def complete_pipeline(pipeline: Pipeline) -> Pipeline:
-    """Return ``pipeline`` with its architecture's answer at every point that it has none for."""
+    """Return ``pipeline`` with its architecture's answer at every point it does not answer."""
     return replace(pipeline, answers={**DEFAULTS[pipeline.architecture], **pipeline.answers})
 
 
@@ -66,12 +66,12 @@ def check_profile_format(form: Any) -> str:
 def check_stage(name: Any, stage: Any) -> str:
     """Return ``name``; TypeError unless it is text and ``stage`` makes one."""
     if not isinstance(name, str) or not callable(stage):
-        raise TypeError(f"{name!r} is no name of a stage's class")
+        raise TypeError(f"{name!r} is not the name of a stage class")
     return name
 
 
 class Register:
-    """What plug-ins registered through one hook, by name.
+    """The items that plug-ins registered through one hook, by name.
 
     Raises PluginError, with both names, when two register the same.
     """
@@ -82,7 +82,7 @@ class Register:
         self._check, self._owners = check, dict[str, str]()
 
     def of(self, plugin: str) -> Callable[..., None]:
-        """Return what the hook of ``plugin`` is called with."""
+        """Return the function with which the hook of ``plugin`` is called."""
 
         def register(*item: Any) -> None:
             name = self._check(*item)
@@ -102,11 +102,11 @@ def _described(item: Any) -> str:
 
 
 REGISTERS = "floatref_register_"
-"""Begin of the name of every hook that registers, and answers no point."""
+"""Start of the name of every hook that registers and answers no point."""
 
 
 def scope_of(implementation: pluggy.HookImpl) -> tuple[str, ...]:
-    """Return the pipelines that an implementation of a point names; none of a built-in one."""
+    """Return the pipelines that an implementation of a point names; () for a built-in one."""
     return tuple(getattr(implementation.function, SCOPE, ()))
 
 
@@ -141,10 +141,10 @@ Classes = Mapping[str, Callable[..., Stage]]
 
 
 def check_profile(answer: Any, who: str) -> Profile:
-    """Return ``answer``; PluginError, naming ``who`` gave it, if it is no profile."""
+    """Return ``answer``; PluginError, naming ``who`` gave it, if it is not a profile."""
     if isinstance(answer, Profile):
         return answer
-    raise PluginError(f"{who}: answered temporal_fall_back with {_kind(answer)}, no profile")
+    raise PluginError(f"{who}: answered temporal_fall_back with {_kind(answer)}, not a profile")
 
 
 def check_stages(
@@ -152,10 +152,10 @@ def check_stages(
 ) -> Sequence[Stage]:
     """Return the stages of ``answer``, its calls made; ``known`` returns the classes by name.
 
-    Raises PluginError, naming ``who`` gave it, for anything else and for a call that fails.
+    Raises PluginError, naming ``who`` gave it, for any other answer and for a call that fails.
     """
     if not isinstance(answer, Sequence):
-        raise PluginError(f"{who}: answered {context.point} with {_kind(answer)}, no stages")
+        raise PluginError(f"{who}: answered {context.point} with {_kind(answer)}, not stages")
     calls = any(isinstance(item, StageCall) for item in answer)
     classes = known() if calls else {}
     return [_stage(item, who, context, classes) for item in answer]
@@ -165,7 +165,7 @@ def _stage(item: Any, who: str, context: Context, classes: Classes) -> Stage:
     if isinstance(item, Stage):
         return item
     if not isinstance(item, StageCall):
-        raise PluginError(f"{who}: answered {context.point} with {_kind(item)}, no stages")
+        raise PluginError(f"{who}: answered {context.point} with {_kind(item)}, not stages")
     try:
         return item.make(classes, context.setting)
     except FloatrefError as error:

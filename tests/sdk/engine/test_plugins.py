@@ -128,7 +128,7 @@ def format_with(suffix, name="mine"):
 @pytest.mark.parametrize(
     ("hook", "item", "message"),
     [
-        ("floatref_register_pipelines", ["temporal"], "str is no Pipeline"),
+        ("floatref_register_pipelines", ["temporal"], "str is not a Pipeline"),
         (
             "floatref_register_pipelines",
             [Pipeline("x", "hybrid", "of a plug-in")],

@@ -49,7 +49,7 @@ DOCUMENTS: list[tuple[str, Change, str]] = [
     ("rate a string", lambda d: d["channels"][1].update(rate_hz="16000"), 'is "16000"; expected'),
     ("rate true", lambda d: d["channels"][1].update(rate_hz=True), "is true; expected"),
     ("start absurd", lambda d: d["channels"][1].update(start_s=1.7e18), "time of the first sample"),
-    ("no clock", lambda d: d["channels"][3].pop("time_file"), "has no key of rate_hz, start_s, time"),
+    ("no clock", lambda d: d["channels"][3].pop("time_file"), "has no key of rate_hz, start_s"),
     ("no start", lambda d: d["channels"][1].pop("start_s"), "has rate_hz of rate_hz, start_s"),
     ("two clocks", lambda d: d["channels"][1].update(time_file="t.f64"),
      "has rate_hz and start_s and time_file of"),
