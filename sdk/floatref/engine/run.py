@@ -1,8 +1,8 @@
 """The main job: a recording through a pipeline to a profile.
 
 `run` takes a recording through the steps in order: settle pipeline and settings, screen, prepare
-    blocks, ask the plug-ins for stages, run the stages, collect the profile. Then it fills the gaps
-    of the heights.
+blocks, ask the plug-ins for stages, run the stages, collect the profile. Then it fills the gaps
+of the heights.
 """
 
 import warnings

@@ -18,7 +18,7 @@ class Reach:
     """The distance in m around a flagged point within which its error matters.
 
     Every flagged point is invalid: it was bridged, or the vehicle crawled, stood still or braked
-        hard for its speed there. The high-pass filter spreads the error of such a point:
+    hard for its speed there. The high-pass filter spreads the error of such a point:
 
     Attributes:
         drift_m: to either side of a long gap of the accelerometer: a cut-off wavelength.

@@ -1,11 +1,11 @@
 """From a recording to blocks: all channels of a run on the accelerometer's clock.
 
-A channel on that clock is passed through. Another is linear between its samples, which is
-what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
-missing sample is bridged by the line between its neighbours and flagged; a longer gap of the
-accelerometer disturbs the floating reference height, and one of the encoder may hide a stop; both
-are flagged as that too. Samples that are there and yet measure nothing (`damage`,
-`encoder_damage`) count as missing. GNSS samples keep their own times, as events.
+A channel on that clock is passed through. Another is linear between its samples, which is the
+definition of `distance`; its `fresh` mask marks new measurements. A missing sample is bridged by
+the line between its neighbours and flagged; a longer gap of the accelerometer disturbs the floating
+reference height, and one of the encoder may hide a stop; both have flags of their own. Samples that
+are present but measure nothing (`damage`, `encoder_damage`) count as missing. GNSS samples keep
+their own times, as events.
 """
 
 import math
@@ -33,13 +33,13 @@ from floatref.values.needs import VERTICAL_FORCES, Needs
 from floatref.values.recording import Channel, Recording
 
 SHORT = 2
-"""So many steps before its first or behind its last sample, a channel keeps that one."""
+"""Number of steps before its first and behind its last sample for which a channel is constant."""
 LEAST = 0.5
-"""Part of the run that a channel has to cover."""
+"""Smallest part of the run that a channel must cover."""
 
 
 def covering(channel: Channel, begin_s: float, end_s: float) -> Channel:
-    """Return ``channel`` with samples from ``begin_s`` to ``end_s`` at least.
+    """Return ``channel``, extended to at least ``begin_s`` to ``end_s``.
 
     Raises InputError if it covers less than half of that time.
     """
@@ -79,25 +79,23 @@ def _check(channel: Channel, covered_s: float, run: tuple[float, float]) -> None
 BLOCK = 65_536
 """Samples per block: 4 s at 16 kHz, small enough for the cache."""
 RANGES = HEIGHT, "suspension_deflection", "rear_suspension_deflection"
-"""Sensors that get stuck while the accelerometer beside them goes on."""
+"""Sensors that are stuck if they are constant while the accelerometer beside them is not."""
 
 
 class Source:
     """The channels of a recording that a pipeline needs, as a stream of blocks.
 
-    `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
-    is travelled from there to the last; `ends_m` the first and the last distance that the encoder
-    tells, less than a sample away; `fastest_mps` the fastest speed over a second of the recording;
-    `length` the number of samples that all channels cover; `gone` the damaged stretches of every
-    channel, first index and the one behind, shape (k, 2); `warnings` one line for each channel and
-    kind of damage.
+    `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` the
+    distance travelled from there to the last; `ends_m` the encoder's first and last distance, less
+    than a sample away; `fastest_mps` the fastest speed over a second of the recording; `length` the
+    number of samples that all channels cover; `gone` the damaged stretches of every channel, first
+    index and the one behind, shape (k, 2); `warnings` one line for each channel and kind of damage.
     """
 
     def __init__(self, screening: Screening, more: Sequence[str] = ()) -> None:
         """Find the channels that are needed, and the time that all of them cover.
 
-        Channels called one of ``more`` are taken beside them. Raises InputError if a channel is
-        missing.
+        Channels named in ``more`` are added. Raises InputError if a channel is missing.
         """
         recording, needs = screening.recording, screening.needs
         self._tracks = needs.tracks
@@ -132,7 +130,7 @@ class Source:
         self.fastest_mps = screening.travel.fastest_mps
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
-        """Yield the run in blocks of ``size`` samples, each let go of before the next."""
+        """Yield the run in blocks of ``size`` samples, each released before the next."""
         for begin in range(0, self.length, size):
             yield self._block(begin, min(begin + size, self.length))
             for channel in self._aligned.values():
@@ -167,7 +165,7 @@ class Source:
 
 
 def _known(channel: Channel, index: int) -> float:
-    """Return a sample, or what the known ones beside it tell."""
+    """Return a sample; a missing one is interpolated between the known ones beside it."""
 
     def read(low: int, high: int) -> FloatArray:
         return channel.values[low:high]
@@ -177,7 +175,7 @@ def _known(channel: Channel, index: int) -> float:
 
 
 def _needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
-    """Yield the channels of ``needs``; one that is shared is one of every wheel path."""
+    """Yield the channels of ``needs``; a shared one is yielded for every wheel path."""
     yield ChannelId(DISTANCE), recording.channel(DISTANCE, needs.tracks[0])
     for track in needs.tracks:
         yield ChannelId(needs.force, track), recording.channel(needs.force, track)

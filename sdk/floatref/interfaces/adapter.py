@@ -14,7 +14,7 @@ class Adapter(Protocol):
     """Reads one native format; `name` is what `--adapter` takes.
 
     It also has one of two methods: `read` of a `RecordingAdapter`, or `streams` of a
-        `NativeAdapter`.
+    `NativeAdapter`.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Whether GNSS is on the recording's time base: its span, and when it sees the body swing."""
+"""Whether GNSS is on the recording's time base: its span, and the time of the body's swing."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,26 +21,26 @@ from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 
 SLOW_S = 2.0
-"""Swings of the body are faster than means over this time, taken twice."""
+"""Span in s of the means, taken twice, that are removed; swings of the body are faster."""
 FARTHEST_S = 30.0
-"""Time stamps are looked for up to so far off: leap seconds are 18 s."""
+"""Largest delay in s that is searched: leap seconds are 18 s."""
 CLEAR, ALONE = 5.0, 8.0
-"""The right delay stands out by so many standard deviations of all others; more, if no other
-channel tells it."""
+"""Peak of the right delay in standard deviations of all others; the second if only one channel
+shows it."""
 FEWEST, APART_S = 200, 0.25
-"""Readings of a channel that tells it, and how far apart they are at most: swings last 0.5 s."""
+"""Fewest readings of a channel for that, and their largest distance in s: swings last 0.5 s."""
 TOGETHER_S = 0.05
-"""Two channels agree up to this."""
+"""Largest difference in s of two channels that agree."""
 MOST = 0.75
-"""They are looked for up to such a share of the run off."""
+"""Largest delay that is searched, as a part of the run."""
 LATE_S, WRONG_S = 0.06, 0.5
-"""From the first on a warning is given, from the second on the recording is refused."""
+"""Delays in s from which a warning is given, and from which the recording is refused."""
 
 
 def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
     """Yield a warning if GNSS covers less than half of the run from ``begin_s`` to ``end_s``.
 
-    Raises InputError if it covers none of it: its time stamps have another epoch.
+    Raises InputError if it does not overlap the run: its time stamps have another epoch.
     """
     channel = recording.channel("gnss_height")
     first, last = channel.span_s
@@ -77,7 +77,7 @@ def delay_told(delay_s: float) -> Iterator[str]:
 
 
 def on_time(recording: Recording, delay_s: float) -> Recording:
-    """Return the recording with the GNSS channels ``delay_s`` earlier, if that is worth a word."""
+    """Return the recording, with the GNSS channels ``delay_s`` earlier if that gives a warning."""
     if abs(delay_s) < LATE_S:
         return recording
     channels = (
@@ -115,9 +115,9 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
 
 
 def delay(recording: Recording, motion: Motion) -> float:
-    """Return by how many s GNSS sees the body swing later than the IMU does; 0 if none tells it.
+    """Return the delay in s of the body's swing in GNSS against the IMU; 0 if not measurable.
 
-    Two channels have to agree on it, or one to be sure by itself.
+    Two channels must agree on it, or one must be clear by itself.
     """
     own = {
         "gnss_vertical_velocity": integrated(motion.lift),
@@ -138,13 +138,13 @@ def delay(recording: Recording, motion: Motion) -> float:
 
 
 def _is_dense(told: FloatArray) -> bool:
-    """Return whether the readings follow a swing of the body, and are enough to tell its time."""
+    """Return whether the readings are dense and many enough to measure the time of a swing."""
     known = np.flatnonzero(~np.isnan(told))
     return known.size >= FEWEST and float(np.median(np.diff(known))) * STEP_S <= APART_S
 
 
 def _peak(correlation: FloatArray) -> tuple[float, float]:
-    """Return the delay of the peak in s, and by how many standard deviations it stands out."""
+    """Return the delay of the peak in s, and its height in standard deviations of the others."""
     peak = int(np.argmax(correlation))
     beside = np.abs(np.arange(correlation.size) - peak) > SLOW_S / STEP_S
     spread = float(np.std(correlation[beside])) if beside.any() else 0.0

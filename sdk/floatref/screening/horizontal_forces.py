@@ -1,4 +1,4 @@
-"""Horizontal accelerometers against the travel that encoder, yaw rate and GNSS tell."""
+"""Horizontal accelerometers against the travel that encoder, yaw rate and GNSS measure."""
 
 from collections.abc import Iterator
 
@@ -13,13 +13,13 @@ SMOOTH_S = 0.5
 TRAVEL = Look(span_s=20.0, floor=0.05)
 """Braking and setting off; the slope of the road and a bias are free."""
 CURVES = Look(span_s=10.0, floor=1.5, degree=-1)
-"""A road banked by 15 % takes 1.5 m/s² off, and nothing is free: a long curve is constant."""
+"""A road banked by 15 % removes 1.5 m/s². No polynomial is free: a long curve is constant."""
 COURSE = Look(span_s=8.0, floor=0.01, degree=0)
-"""Turns of the course; where it starts is free."""
+"""Turns of the course; its initial direction is free."""
 
 
 def check_travel_force(recording: Recording, track: str, motion: Motion) -> Iterator[str]:
-    """Yield a warning if the longitudinal force does not seem to be what speeds the vehicle up.
+    """Yield a warning if the longitudinal force does not seem to be the vehicle's acceleration.
 
     Raises InputError where that is certain: the sign, the axis or the unit is wrong.
     """
@@ -81,9 +81,9 @@ def check_curves(recording: Recording, track: str, motion: Motion) -> Iterator[s
         {
             "sign": f"channels {force} and {yaw}: contradict each other in curves; multiply the "
             "one that is negative in a left turn by -1",
-            "unit": f"channel {yaw}: 57.3 times what {force} says in curves, looks like deg/s; "
+            "unit": f"channel {yaw}: 57.3 times what {force} shows in curves, looks like deg/s; "
             "multiply by 0.0174533",
-            "-unit": f"channel {yaw}: -57.3 times what {force} says in curves, looks like deg/s "
+            "-unit": f"channel {yaw}: -57.3 times what {force} shows in curves, looks like deg/s "
             "with a sign inverted; multiply by 0.0174533 and check both signs",
         },
     )

@@ -1,7 +1,7 @@
-"""Whether IMU and GNSS are installed as a Kalman pipeline takes them to be.
+"""Whether IMU and GNSS are installed as a Kalman pipeline assumes.
 
-A wrong sign, a wrong unit or an exchanged axis leaves a profile that looks like one. What a run
-contradicts beyond doubt is refused; what it makes likely, and what is bridged, is a warning.
+A wrong sign, a wrong unit or an exchanged axis leaves a profile that looks like one. A certain
+fault is refused; a likely fault, and a bridged gap, is a warning.
 """
 
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ from floatref.values.recording import Channel, Recording
 
 @dataclass(frozen=True)
 class ImuUse:
-    """What a pipeline reads of IMU and GNSS.
+    """The channels of IMU and GNSS that a pipeline reads.
 
     Attributes:
         tracks: wheel paths, in order; channels without one are shared.
@@ -48,16 +48,16 @@ class ImuUse:
 def check_kinematics(recording: Recording, use: ImuUse, faults: IndexArray) -> tuple[str, ...]:
     """Return warnings about the IMU and GNSS channels that are used, one line each.
 
-    What wheel paths share is checked with the first one. What each path's accelerometers measure
-    of the antenna, its place and its delay, differs by their noise, so the first path tells it.
+    Shared channels are checked with the first wheel path. The antenna's position and delay,
+    measured with each path's accelerometers, differ only by noise, so the first path is used.
 
     Args:
-        recording: one that `examine` has found plausible.
-        use: what is read.
+        recording: a recording that `examine` has found plausible.
+        use: the channels that are read.
         faults: stuck readings of gnss_height, as `gnss_faults` returns them.
 
     Raises InputError with one line naming the channel, the value and what to do, for channels that
-    are missing, silent for most of the run or beyond what a vehicle does, GNSS of another time
+    are missing, silent for most of the run or beyond the limits of a vehicle, GNSS on another time
     base, and a sign, unit or axis that is certainly wrong.
     """
     for track in use.tracks:
@@ -86,7 +86,7 @@ class _Path:
     own: tuple[Channel, ...]
 
     def has_own(self, *names: str) -> bool:
-        """Return whether one of the channels called ``names`` is its own."""
+        """Return whether one of the channels called ``names`` is not shared."""
         return any(channel.id.name in names for channel in self.own)
 
     def span_s(self, recording: Recording) -> tuple[float, float]:
@@ -103,7 +103,7 @@ def _paths(recording: Recording, tracks: tuple[str, ...]) -> Iterator[_Path]:
 
 
 def _of_another(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
-    """Yield what a wheel path behind the first one adds."""
+    """Yield further warnings for a wheel path after the first one."""
     yield from imu_silences(path.own)
     motion = Motion.of(recording, path.track)
     yield from _of_imu(recording, path, motion, use)
@@ -114,7 +114,7 @@ def _of_another(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]
 def _of_imu(
     recording: Recording, path: _Path, motion: Motion | None, use: ImuUse, late_s: float = 0.0
 ) -> Iterator[str]:
-    """Yield warnings about the channels that are the path's own, and about a GNSS that is late."""
+    """Yield warnings about the path's own channels, and about a delay of GNSS."""
     if motion is None or not path.own:
         return
     check_alive(recording, path.track, motion)

@@ -1,4 +1,4 @@
-"""IMU channels that a pipeline needs: whether they are there, where they are silent or wild."""
+"""IMU channels that a pipeline needs: missing channels, silences and impossible samples."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
@@ -26,15 +26,15 @@ LARGEST_READINGS = {
     "gnss_vertical_velocity": 100.0,
     **dict.fromkeys(("gnss_pitch", "gnss_roll", "gnss_latitude", "gnss_longitude"), 360.0),
 }
-"""No antenna on a road has a reading beyond this, in m and m/s, nor an angle, even in degrees."""
+"""Limits of an antenna's readings on a road, in m, m/s, and of angles, even in degrees."""
 SILENT_S = 0.1
-"""A silence of the IMU up to so long is bridged without a word."""
+"""Longest silence of the IMU in s that is bridged without a warning."""
 STEPS = 2.5
-"""So many usual steps between two samples are no silence."""
+"""Longest step between two samples, in usual steps, that is not a silence."""
 
 
 def check_present(recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool) -> None:
-    """Raise InputError naming all channels that the pipeline needs and ``recording`` lacks."""
+    """Raise InputError naming all channels that the pipeline needs and that are missing."""
     needed = [*IMU]
     needed += HEIGHT_CHANNELS if uses_gnss else ()
     needed += ATTITUDE_CHANNELS if uses_attitude else ()
@@ -76,7 +76,7 @@ def check_readings(recording: Recording) -> None:
 
 
 def told_spans(spans: FloatArray) -> str:
-    """Return how long ``spans``, shape (k, 2), k > 0, in s, are, how many, and which is longest."""
+    """Return total length, number and longest of ``spans``, shape (k, 2), k > 0, in s, as text."""
     lengths = spans[:, 1] - spans[:, 0]
     longest = int(np.argmax(lengths))
     places = "1 place" if len(spans) == 1 else f"{len(spans)} places"
@@ -87,9 +87,9 @@ def told_spans(spans: FloatArray) -> str:
 
 
 def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
-    """Return where ``channel`` has no sample for longer, shape (k, 2), in s.
+    """Return where ``channel`` has no sample for more than ``longest_s``, shape (k, 2), in s.
 
-    A silence starts a usual step behind the last sample; one at an end of the channel counts.
+    A silence starts a usual step after the last sample; one at an end of the channel counts.
     """
     step = _usual_step(channel)
     longest = max(longest_s, (STEPS - 1) * step)
@@ -104,7 +104,7 @@ def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
 
 
 def _known_times(channel: Channel, chunk: FloatArray, first: int) -> FloatArray:
-    """Return the times in s of the samples that are there, of every one or so that none is far."""
+    """Return the times in s of valid samples, or of every few samples if none is missing."""
     if isinstance(channel.clock, UniformClock) and not np.isnan(chunk.sum()):
         every = max(1, int(SILENT_S / 2 * float(channel.clock.rate)))
         few = channel.clock.times(-(-chunk.size // every), first, every)
@@ -143,14 +143,14 @@ def _check_share(channel: Channel, silent_s: float) -> None:
 
 SMOOTH_S = 0.5
 SPEEDS_UP, TURNS, SWINGS = 0.5, 2.0, 0.004
-"""What a sensor that works does not miss: acceleration and that of a curve, beyond any bank of a
-road, in m/s², and an angle in rad."""
+"""Motions that a working sensor shows: acceleration, and acceleration in a curve beyond any bank of
+a road, in m/s², and an angle in rad."""
 CONSTANT = 1e-12
 """Means of identical samples differ by rounding alone."""
 
 
 class Moved(NamedTuple):
-    """A sensor's row, what another one shows of its motion, how much is enough, and what it is."""
+    """A sensor's row, the motion that another one shows, the smallest motion, and its name."""
 
     row: FloatArray
     shown: FloatArray
@@ -159,9 +159,9 @@ class Moved(NamedTuple):
 
 
 def check_alive(recording: Recording, track: str, motion: Motion) -> None:
-    """Raise InputError for a constant channel of the IMU, where others show what it should see.
+    """Raise InputError for a constant channel of the IMU, if others show that it should change.
 
-    A perfect sensor on a straight, level road is constant, too, and is not blamed.
+    A perfect sensor on a straight, level road is constant, too, and is accepted.
     """
     for name, moved in _moved(recording, motion).items():
         known = moved.row[~np.isnan(moved.row)]
@@ -199,7 +199,7 @@ def _moved(recording: Recording, motion: Motion) -> dict[str, Moved]:
 
 
 def _swing(motion: Motion, told: Mapping[str, Readings], axis: Axis) -> FloatArray:
-    """Return by how much GNSS, else gravity, leaves its own means over some seconds, in rad."""
+    """Return the angle in rad of GNSS, else of gravity, minus its mean over some seconds."""
     if axis.angle in told:
         angle = told[axis.angle].on_grid()
     else:

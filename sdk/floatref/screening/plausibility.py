@@ -1,4 +1,4 @@
-"""Whether a recording can be what it says: units, signs, gaps and spans of its channels."""
+"""Whether a recording is plausible: units, signs, gaps and spans of its channels."""
 
 from collections.abc import Callable, Iterator
 
@@ -20,11 +20,11 @@ LIMITS = {
     "rate": (10.0, "if it is in deg/s, multiply by 0.0174533"),
     "acceleration": (500.0, "if it is in deg/s^2, multiply by 0.0174533"),
 }
-"""By the last word of a channel's name: no vehicle on a road goes beyond, and the likely cause."""
+"""By the end of a channel's name: the limit of a vehicle on a road, and the likely cause."""
 
 
 def check_motion(channel: Channel, summary: Summary) -> None:
-    """Refuse a channel of the response that never changes, or goes beyond what a vehicle does.
+    """Refuse a channel of the response that never changes, or exceeds the limit of a vehicle.
 
     Raises InputError with one line naming the channel, the value and what to do.
     """
@@ -52,11 +52,11 @@ def check_motion(channel: Channel, summary: Summary) -> None:
 GRAVITY_TOLERANCE = 2.0
 """How far the mean of a vertical accelerometer may be from g, in m/s²: bias and tilt."""
 HIGHEST_FORCE = 1e4
-"""No sample of an accelerometer in a vehicle is beyond this, in m/s²."""
+"""Limit of an accelerometer's samples in a vehicle, in m/s²."""
 LONGEST_RANGE_M = 10.0
-"""No height sensor of a profiler looks farther than this, in m."""
+"""Longest range of a profiler's height sensor, in m."""
 LARGEST_HEIGHT_M = 100.0
-"""No sample of a height sensor that works is beyond this, in m."""
+"""Limit of the samples of a working height sensor, in m."""
 TRUNCATION_S = 0.5
 """How much earlier than the others a channel may end, in s."""
 LOWEST_ACCELEROMETER_HZ = 20.0
@@ -70,10 +70,10 @@ MISREADINGS = (
     (980.665, 100.0, "looks like cm/s^2 or mg, multiply by 0.01 or 0.00980665"),
     (9806.65, 1000.0, "looks like mm/s^2, multiply by 0.001"),
 )
-"""Mean of a vertical accelerometer, how near it has to be, and what that means."""
+"""Mean of a vertical accelerometer, its tolerance, and the meaning."""
 
 Examine = Callable[[Channel, float], tuple[str, ...]]
-"""What examines a channel of a recording with a profile interval in m, as `examine_channel`."""
+"""A function that examines a channel at a profile interval in m, as `examine_channel` does."""
 
 
 def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
@@ -88,13 +88,13 @@ def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
 def examine(
     recording: Recording, needs: Needs | None = None, look: Examine = examine_channel
 ) -> tuple[str, ...]:
-    """Return warnings about ``recording``, one line each, for what can be processed all the same.
+    """Return warnings about ``recording``, one line each; it can be processed despite them.
 
     Without ``needs``, every wheel path that has a height needs an accelerometer and the distance.
     ``look`` examines each channel. Raises InputError with one line naming the channel, the value
     and what to do for missing channels, channels without samples or with more than half of them
-    missing, implausible units and signs, samples that no sensor gives, an accelerometer that never
-    moves, a distance that goes backwards, jumps or stands still, and truncated channels.
+    missing, implausible units and signs, impossible samples, an accelerometer that is constant, a
+    distance that goes backwards, jumps or is constant, and truncated channels.
     """
     needed = (nominal_needs(recording) if needs is None else needs).channels(recording)
     interval_m = recording.setup.profile_interval_m
@@ -160,9 +160,9 @@ def _check_accelerometer(channel: Channel, summary: Summary) -> None:
 
 
 def _meaning(level: float) -> str | None:
-    """Return what mean or median ``level`` of an accelerometer means, None if it is as it should.
+    """Return the meaning of an accelerometer's mean or median ``level``, None if it is right.
 
-    A level beyond all sensors is left to the samples that are beyond them, too.
+    A level beyond all sensors is reported by the check of samples.
     """
     if abs(level - STANDARD_GRAVITY) <= GRAVITY_TOLERANCE:
         return None

@@ -22,15 +22,14 @@ from floatref.values.arrays import FloatArray
 from floatref.values.recording import Recording
 
 SUSTAINED = 1.0
-"""No vehicle on a road turns so fast over some seconds, in rad/s, root mean square."""
+"""Limit of a vehicle's turns over some seconds, in rad/s, root mean square."""
 SWAYS = 0.08
-"""Nor does it roll or pitch so far from a straight line over that time, for half of the run, in
-rad."""
+"""Limit of its roll and pitch about a straight line over that time, for half of the run, in rad."""
 FRAME = "right-handed about X forward, Y left, Z up"
 
 
 def check_plausible_rates(recording: Recording, track: str, motion: Motion) -> None:
-    """Raise InputError for a rate that no vehicle keeps up: one in deg/s."""
+    """Raise InputError for a rate above the limit of a vehicle, as one in deg/s is."""
     parts = list(windows(motion.times, ATTITUDE.span_s))
     for name, row in zip(RATES, motion.rates, strict=True):
         rate = bridged(row)
@@ -72,7 +71,7 @@ def check_rates(
 def _told_by_attitude(
     axis: Axis, names: list[str], own: Witnesses, other: Witnesses, uses_attitude: bool
 ) -> Iterator[str]:
-    """Yield or raise what GNSS and a rate say of each other; the tilt blames one of them."""
+    """Yield or raise a contradiction of GNSS and a rate; the tilt shows which one is wrong."""
     rate, evidence = names[axis.row], own.attitude
     if "first" in evidence.name and other.attitude.confirmed:
         return
@@ -90,7 +89,7 @@ def _told_by_attitude(
 def _told_by_tilt(
     axis: Axis, names: list[str], own: Witnesses, other: Witnesses, uses_attitude: bool
 ) -> Iterator[str]:
-    """Yield or raise what the tilt is certain of."""
+    """Yield or raise the faults that the tilt proves."""
     if own.rate.certain and _is_exchange(axis, own.rate, other.rate):
         lines = _of_rate(axis, names, axis.tilt)
         if own.attitude.confirmed:
@@ -101,7 +100,7 @@ def _told_by_tilt(
 
 
 def _is_exchange(axis: Axis, own: Evidence, other: Evidence) -> bool:
-    """Return whether the tilt's word counts: roll and pitch tilt alike where a curve is braked."""
+    """Return whether the tilt is conclusive: braking in a curve tilts roll and pitch alike."""
     if "first" not in own.name:
         return True
     alike = other.name == own.name and other.likely
@@ -156,7 +155,7 @@ def _of_either(axis: Axis, names: list[str]) -> dict[str, str]:
 
 
 def _of_both(axis: Axis, names: list[str]) -> dict[str, str]:
-    """Return what is said where GNSS bears the rate out and the tilt contradicts both."""
+    """Return the lines for GNSS and a rate that agree while the tilt contradicts both."""
     return {
         "sign": f"channels {names[axis.row]} and {axis.angle}: agree, but turn against "
         f"{axis.tilt}; multiply the pair whose signs are inverted by -1"

@@ -1,4 +1,4 @@
-"""What IMU and encoder of a run tell, as slow series on one grid of times.
+"""IMU and encoder of a run as slow series on one grid of times.
 
 Hours at kilohertz become means over 50 ms: gravity, turns, braking and the body's swing remain,
 wheels and engine do not.
@@ -21,9 +21,9 @@ STEP_S = 0.05
 FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_specific_force")
 RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 FEWEST = 60
-"""Means; a run of less than three seconds tells nothing."""
+"""Fewest means; a run of less than three seconds is not examined."""
 SWING_S = 10.0
-"""Means over so long, taken twice, are the slope of the road and the drift of a gyro."""
+"""Means over this time in s, taken twice, give the slope of the road and the drift of a gyro."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ class Motion:
     def tilts(self) -> FloatArray:
         """Roll and pitch that the horizontal forces show, shape (2, n), in rad.
 
-        What is left of them besides travel is gravity: roll (f_y - v r)/g and pitch (a - f_x)/g,
-        (2.17) for small angles.
+        The horizontal forces minus those of travel are gravity: roll (f_y - v r)/g and pitch (a -
+        f_x)/g, (2.17) for small angles.
         """
         roll = self.forces[1] - self.speed * self.rates[2]
         pitch = self.acceleration - self.forces[0]
@@ -101,8 +101,8 @@ class Motion:
     def turned(self, tilts: FloatArray) -> FloatArray:
         """Return the angles that the rates integrate to, shape (3, n), in rad: roll, pitch, yaw.
 
-        ``tilts``, shape (2, n), tell how much of a turn of the course is roll and pitch, (6.27)
-        and (6.28) for small angles.
+        ``tilts``, shape (2, n), give the part of a turn of the course that is roll and pitch,
+        (6.27) and (6.28) for small angles.
         """
         roll, pitch = tilts
         p, q, r = self.rates
@@ -116,7 +116,7 @@ class Motion:
 
     @cached_property
     def lift(self) -> FloatArray:
-        """Vertical acceleration as far as the swing tells what is vertical, in m/s², (6.37)."""
+        """Vertical acceleration in m/s², with the vertical direction from the swing, (6.37)."""
         roll, pitch = self.swing
         along, across, normal = self.forces
         upright = normal * np.cos(pitch) * np.cos(roll)
@@ -125,7 +125,7 @@ class Motion:
 
 
 def means(channel: Channel, grid: Grid) -> FloatArray:
-    """Return the mean of ``channel`` over every stretch of ``grid``, NaN where it has none."""
+    """Return the mean of ``channel`` over every stretch of ``grid``, NaN where it has no sample."""
     first = _first_samples(channel, grid.edges)
     found = np.full(grid.count, np.nan)
     for low, high in _groups(first):

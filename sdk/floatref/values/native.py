@@ -1,7 +1,7 @@
 """A native file before it is mapped: streams of columns, each stream on a clock of its own.
 
 An adapter delivers the content of the file unchanged: its names, its units, its ticks. A channel
-    map assigns columns of the file to channels of a recording.
+map assigns columns of the file to channels of a recording.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -111,7 +111,7 @@ def median_step(values: FloatArray) -> float:
     """Return the median step of ``values``, shape (N,), which increase throughout; NaN for N < 2.
 
     The steps of a long channel are never in memory together: they are counted by their leading
-        bits, then those around the median by the next bits.
+    bits, then those around the median by the next bits.
     """
     count = values.size - 1
     if count <= CHUNK:

@@ -145,7 +145,7 @@ def format_with(suffix, name="mine"):
             "no point 'temporal_finnish'",
         ),
         ("floatref_register_adapters", [object()], "object has no method recognises"),
-        ("floatref_register_stages", [7, object], "7 is no name"),
+        ("floatref_register_stages", [7, object], "7 is not the name"),
         ("floatref_register_profile_formats", [object()], "object has no method recognises"),
         (
             "floatref_register_profile_formats",

@@ -60,7 +60,7 @@ def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
     recording, motion = driven("soft-van")
     (line,) = told(with_arm(recording, 0.0, 0.0, 0.0), motion)
     assert line.startswith("setup.gnss_antenna_offset_m: 0, 0, 0, so the antenna is taken to sit")
-    assert "(its swing says X = -" in line
+    assert "(its swing shows X = -" in line
 
 
 def test_rates_in_degrees_are_not_blamed_on_the_antenna() -> None:
