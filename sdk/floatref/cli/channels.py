@@ -1,4 +1,4 @@
-"""`floatref channels`: what a native file holds, a draft of its channel map, and a map tried."""
+"""`floatref channels`: a native file's content, a draft of its channel map, a trial of a map."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,7 +15,7 @@ from floatref.values.recording import Recording
 
 
 def print_streams(report: Mapping[str, Any]) -> None:
-    """Print one line for every column of every stream, then what was not decoded."""
+    """Print one line for every column of every stream, then the content that was not decoded."""
     rows = [row for stream in report["streams"] for row in _rows(stream)]
     title = one_line(f"{report['file']} ({report['adapter']})")
     headers = ("stream", "channel", "unit", "samples", "clock", "note")
@@ -26,7 +26,7 @@ def print_streams(report: Mapping[str, Any]) -> None:
 
 
 def print_mapped(report: Mapping[str, Any]) -> None:
-    """Print what became of every channel, and how clocks were aligned."""
+    """Print the result for every channel, and the alignment of the clocks."""
     rows = [
         [
             c["channel"],
@@ -76,7 +76,7 @@ def _skew_line(skew: Mapping[str, Any]) -> str:
     if skew["reason"]:
         return f"{line}open, {skew['reason']}"
     late, sigma = (1e3 * skew[key] for key in ("skew_s", "sigma_s"))
-    return f"{line}{late:+.2f} ± {sigma:.2f} ms, told by {skew['seconds']:.3g} s"
+    return f"{line}{late:+.2f} ± {sigma:.2f} ms, measured by {skew['seconds']:.3g} s"
 
 
 def _warn(report: Mapping[str, Any]) -> None:
@@ -93,7 +93,7 @@ def _warn(report: Mapping[str, Any]) -> None:
     "channel_map",
     type=click.Path(path_type=Path),
     metavar="FILE.toml",
-    help="Try this channel map: what becomes of the channels.",
+    help="Try this channel map and show the resulting channels.",
 )
 @click.option(
     "--dbc", type=click.Path(path_type=Path), metavar="FILE", help="Signals of a CAN log."
@@ -107,13 +107,13 @@ def channels(
     dbc: Path | None,
     as_json: bool,
 ) -> None:
-    """List what FILE holds: its channels, units and clocks, and what could not be decoded.
+    """List what FILE holds: its channels, units and clocks, and content that could not be decoded.
 
-    With --map every channel is read, put into SI units and onto one time base, and looked at.
+    With --map every channel is read, converted to SI units and one time base, and checked.
     """
     if channel_map is not None:
         if draft_map or dbc is not None:
-            raise InputError("--map stands alone; it says itself which dbc there is")
+            raise InputError("--map takes no --draft-map or --dbc; name the dbc file in the map")
         _try(file, adapter, channel_map, as_json)
         return
     reader = reader_of(file, adapter)
@@ -170,7 +170,7 @@ def _list_recording(
 
 
 def _listed(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
-    """Return what `floatref channels --json` prints."""
+    """Return the JSON document of `floatref channels --json`."""
     return {
         "file": str(file),
         "adapter": adapter,

@@ -1,4 +1,4 @@
-"""A profile with its roughness and the speed it was measured at, as one drawing."""
+"""A profile with its roughness and travel speed, as one drawing."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def draw_profile(
     """Write a drawing of ``profile`` to ``path`` (.png, .pdf or .svg).
 
     Elevation, short-interval roughness in m/km, and ``speed`` if given, as distances in m and
-    speeds in m/s, unless none of them is finite. Points that are not valid for a wheel path are
-    shaded. Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or
-    ``path`` cannot be written.
+    speeds in m/s, if any of them is finite. Points that are not valid for a wheel path are shaded.
+    Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or ``path`` cannot
+    be written.
     """
     path = Path(path)
     check_suffix(path)

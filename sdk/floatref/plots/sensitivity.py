@@ -1,4 +1,4 @@
-"""How much the loss of every run moves with each setting, a group of short lines for a setting."""
+"""The change of every run's loss with each setting: a group of short lines for a setting."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Curves = Mapping[str, tuple[Sequence[float], Sequence[float]]]
 """Factors on a value and the losses there, by run."""
 WIDTH = 0.8
-"""Of a group, of which one stands for every setting."""
+"""Width of the group of a setting, where 1 is the distance of groups."""
 PANEL_INCHES = 4.2
 
 

@@ -1,4 +1,4 @@
-"""`floatref vehicle`: what runs have told of their vehicle goes to the next one."""
+"""`floatref vehicle`: the estimates of a vehicle from its runs go to the next one."""
 
 import json
 from collections.abc import Callable
@@ -150,7 +150,7 @@ def short(profile: Path, at: Path) -> Path:
 @pytest.mark.parametrize(
     ("make", "told"),
     [
-        (bare, "tells nothing of a vehicle"),
+        (bare, "holds no estimate of a vehicle"),
         (of_another_pipeline, "pipeline is road-prior-smoother-imu"),
         (spoilt, "learned tilt_sigma is 0.0"),
         (short, "has to hold"),

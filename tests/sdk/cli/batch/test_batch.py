@@ -50,7 +50,7 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["runs", "--out", "out", "--jobs", "0"], "0 is not in the range"),
         (
             ["runs", "--out", "out", "--jobs", "2", "--cluster", "tcp://a:1"],
-            "leave it or --cluster",
+            "omit it or --cluster",
         ),
         (["runs", "--out", "out", "--pipeline", "temporal"], "pipeline temporal: unknown"),
         (["runs", "--out", "out", "--settings", "given.json"], "setting cutoff"),
