@@ -43,7 +43,7 @@ class Defaults:
         """Answer each point with the pipeline's own stages, else the architecture's."""
         for points in DEFAULTS.values():
             for point, answer in points.items():
-                setattr(self, point, _answering(point, answer))
+                setattr(self, point, _wrap_answer(point, answer))
 
     @hookimpl
     def temporal_fall_back(self, context: DropOut) -> Profile | None:
@@ -77,7 +77,7 @@ class Defaults:
             register(pipeline)
 
 
-def _answering(point: str, default: Answer) -> Answer:
+def _wrap_answer(point: str, default: Answer) -> Answer:
     def answer(context: Context) -> Sequence[Stage | StageCall]:
         try:
             return stages_of(context.pipeline.answers.get(point, default), context)

@@ -160,7 +160,7 @@ def _second(motion: Motion) -> Iterator[Stage]:
 
 def _estimate(context: Context, groups: Sequence[Group]) -> Sequence[Stage]:
     stages: list[Stage] = [ToRate(calculation_rate_of(context), context.ends_m[1])]
-    stages += _watching(context)
+    stages += _watch(context)
     components = context.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)
@@ -169,7 +169,7 @@ def _estimate(context: Context, groups: Sequence[Group]) -> Sequence[Stage]:
     return (*stages, EstimateRoad(groups, context.setting("parameter_sigma")), Drop(CUTOFF))
 
 
-def _watching(context: Context) -> list[Stage]:
+def _watch(context: Context) -> list[Stage]:
     """Compare the deflection with the heights of body and wheel, where all are known."""
     placed = {m.quantity: m.displacement_name for m in _motions(context) if m.placed}
     if not (_uses_deflection(context) and {"sprung", "unsprung"} <= set(placed)):

@@ -33,7 +33,7 @@ def joint_filter(
     a = off * context.setting("body_disturbance")
     disturbance = np.concatenate((a**2 * step_s**4 / 4.0, a**2 * LASTING_S * step_s))
     initial = np.repeat([INITIAL_M**2, INITIAL_MPS**2], len(model.freedoms))
-    known = [_disturbed(reading, a[model.index(reading.freedom)]) for reading in readings]
+    known = [_disturb(reading, a[model.index(reading.freedom)]) for reading in readings]
     return JointInputState.of(model, known, step_s, disturbance, initial, Hold.FIRST_ORDER)
 
 
@@ -58,7 +58,7 @@ def observer(
     return WithPlaces(found, tuple(places), tuple(wheels))
 
 
-def _disturbed(reading: Reading, acceleration: float) -> Reading:
+def _disturb(reading: Reading, acceleration: float) -> Reading:
     """Return ``reading`` with the ``acceleration`` that its freedom's equation omits."""
     if reading.kind is not Kind.ACCELERATION:
         return reading

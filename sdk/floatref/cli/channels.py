@@ -56,8 +56,8 @@ def _rows(stream: Mapping[str, Any]) -> list[list[str]]:
     if not stream["columns"]:
         return [[one_line(stream["name"]), "", "", *shared, ""]]
     name = one_line(stream["name"])
-    told = ([one_line(c[key]) for key in ("name", "unit", "note")] for c in stream["columns"])
-    return [[name, column, unit, *shared, note] for column, unit, note in told]
+    columns = ([one_line(c[key]) for key in ("name", "unit", "note")] for c in stream["columns"])
+    return [[name, column, unit, *shared, note] for column, unit, note in columns]
 
 
 def _clock_line(clock: Mapping[str, Any]) -> str:
@@ -125,7 +125,7 @@ def channels(
         if draft_map:
             _draft(native, file, reader.name, dbc)
             return
-        report = _listed(native, file, reader.name)
+        report = _list_streams(native, file, reader.name)
     print_json(report) if as_json else print_streams(report)
 
 
@@ -158,7 +158,7 @@ def _list_recording(
             "name": "",
             "count": channel.values.size,
             "rate_hz": channel.mean_rate_hz,
-            "clock": _rate_said(channel.clock.rate)
+            "clock": _describe_rate(channel.clock.rate)
             if isinstance(channel.clock, UniformClock)
             else "time stamps",
             "columns": [{"name": str(channel.id), "unit": channel.unit, "note": ""}],
@@ -169,7 +169,7 @@ def _list_recording(
     print_json(report) if as_json else print_streams(report)
 
 
-def _listed(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
+def _list_streams(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
     """Return the JSON document of `floatref channels --json`."""
     return {
         "file": str(file),
@@ -186,7 +186,7 @@ def _stream(stream: Stream) -> dict[str, Any]:
         "name": stream.name,
         "count": stream.count,
         "rate_hz": None if clock.rate is None else float(clock.rate),
-        "clock": _clock_said(clock),
+        "clock": _describe_clock(clock),
         "columns": [
             {"name": c.name, "unit": c.unit, "numeric": c.numeric, "note": c.note}
             for c in stream.columns
@@ -194,15 +194,15 @@ def _stream(stream: Stream) -> dict[str, Any]:
     }
 
 
-def _clock_said(clock: NativeClock) -> str:
+def _describe_clock(clock: NativeClock) -> str:
     from floatref.mapping.clocks.columns import UNKNOWN
 
     if clock.name == UNKNOWN:
         return "none"
-    said = "time stamps" if clock.rate is None else _rate_said(clock.rate)
+    said = "time stamps" if clock.rate is None else _describe_rate(clock.rate)
     named = f", clock {clock.name}" if clock.name else ""
     return f"{said}, {clock.epoch.value}{named}"
 
 
-def _rate_said(rate: Any) -> str:
+def _describe_rate(rate: Any) -> str:
     return f"{float(rate):.10g} Hz"

@@ -25,11 +25,11 @@ def print_json(report: Mapping[str, Any]) -> None:
 
 def print_settings(settings: Mapping[str, Any]) -> None:
     """Print one line for each setting, a dash for None."""
-    lines = [[name, _shown(value)] for name, value in settings.items()]
+    lines = [[name, _format_value(value)] for name, value in settings.items()]
     print_table("Settings", ("setting", "value"), lines, numbers=False)
 
 
-def _shown(value: object) -> str:
+def _format_value(value: object) -> str:
     if value is None:
         return "–"
     return str(float(f"{value:.10g}") if isinstance(value, float) else value)

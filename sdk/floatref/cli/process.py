@@ -65,7 +65,7 @@ def process(
         result = profiled(read, pipeline, chosen, shown)
     profile = result.profile
     report = _report(profile, out, result.warnings)
-    with _drawn(result, plot):
+    with _draw(result, plot):
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
@@ -86,7 +86,7 @@ def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) 
 
 
 @contextmanager
-def _drawn(result: "Result", plot: Path | None) -> Iterator[None]:
+def _draw(result: "Result", plot: Path | None) -> Iterator[None]:
     """Draw beside ``plot``; the drawing gets its name after everything else is written."""
     if plot is None:
         yield

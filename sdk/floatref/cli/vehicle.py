@@ -40,15 +40,15 @@ def vehicle(profiles: tuple[Path, ...], out: Path, overwrite: bool, as_json: boo
     check_target(out, overwrite)
     if len({place.resolve() for place in profiles}) < len(profiles):
         raise InputError("a profile is given twice; give every run once")
-    pipeline, learned = _learned(profiles)
-    settings = kept(learned)
+    pipeline, learned = _read_estimates(profiles)
+    settings = combine_estimates(learned)
     with replacing_file(out, overwrite) as beside:
         write_document(settings, beside)
     report = {"file": str(out), "pipeline": pipeline, "runs": len(learned), "settings": settings}
     print_json(report) if as_json else _print_table(out, profiles, learned, settings)
 
 
-def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
+def combine_estimates(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
     """Return the settings of a vehicle from the estimates ``learned`` in its runs.
 
     Means are weighted by 1/σ²; their 1-σ is that of one more run: 1/√Σ(1/σ²) and the spread of the
@@ -65,7 +65,7 @@ def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
     return found
 
 
-def _learned(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
+def _read_estimates(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
     """Return the pipeline of all ``profiles`` and the estimates of each run."""
     read = {place: profile_of(place) for place in profiles}
     pipeline = next(iter(read.values())).pipeline
@@ -73,10 +73,12 @@ def _learned(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
         if profile.pipeline != pipeline:
             other = profile.pipeline or "missing"
             raise InputError(f"{place}: pipeline is {other}, that of the first is {pipeline}")
-    return pipeline, [_told(place, profile.provenance) for place, profile in read.items()]
+    return pipeline, [
+        _check_estimates(place, profile.provenance) for place, profile in read.items()
+    ]
 
 
-def _told(place: Path, provenance: Mapping[str, Any]) -> Mapping[str, float]:
+def _check_estimates(place: Path, provenance: Mapping[str, Any]) -> Mapping[str, float]:
     learned = provenance.get("learned")
     if learned is None:
         raise InputError(

@@ -67,7 +67,7 @@ class Gathered:
     sigma: FloatArray | None = None
 
 
-def collected(
+def collect_tracks(
     blocks: Iterable[Block], tracks: tuple[str, ...], room: int = 0, with_sigma: bool = False
 ) -> dict[str, Gathered]:
     """Return elevation and flags of all ``tracks``, and 1-σ if it is known.
@@ -104,7 +104,7 @@ def collect_profile(
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
     known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
-    found = collected(blocks, header.tracks, room, known)
+    found = collect_tracks(blocks, header.tracks, room, known)
     reach = Reach.of(resolved)
     tracks = tuple(
         _track(name, found.pop(name), header.step, reach, resolved) for name in header.tracks

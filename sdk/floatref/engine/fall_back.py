@@ -35,7 +35,7 @@ def gaps_of(
     return {track: gaps for track, gaps in found.items() if len(gaps)}
 
 
-def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:
+def fill_gaps(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:
     """Return the profile with its gaps filled from ``estimate``, and a line for each wheel path.
 
     A gap stays as it is if too few points beside it are known to join both. Filled points are
@@ -50,12 +50,12 @@ def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]
             inside = _inside(profile, asked.gaps[track.name])
             gap = _Gap(profile, track, inside, *_on_points(profile, estimate, known[track.name]))
             track, length_m = gap.bridged()
-            lines += _told(track.name, estimate.pipeline, length_m)
+            lines += _describe(track.name, estimate.pipeline, length_m)
         tracks.append(track)
     return replace(profile, tracks=tuple(tracks)), tuple(lines)
 
 
-def _told(track: str, pipeline: str, length_m: float) -> list[str]:
+def _describe(track: str, pipeline: str, length_m: float) -> list[str]:
     if length_m == 0:
         return []
     return [

@@ -136,7 +136,7 @@ def run(
     Nothing is processed until the blocks are read. Adjacent backward stages share one pass.
     """
     for stage in stages:
-        header = _guarded(stage, partial(stage.start, header))
+        header = _guard(stage, partial(stage.start, header))
     stream = iter(blocks)
     for kind, group in groupby(stages, key=_kind):
         if kind == "forward":
@@ -144,21 +144,21 @@ def run(
                 stream = _forward(stage, stream)
         elif kind == "survey":
             for stage in group:
-                stream = _surveyed(stage, stream)
+                stream = _survey(stage, stream)
         else:
             stream = _backward(tuple(group), stream)
     return header, stream
 
 
-def told(stages: Sequence[Stage]) -> tuple[str, ...]:
+def collect_warnings(stages: Sequence[Stage]) -> tuple[str, ...]:
     """Return the warnings of ``stages`` on a run, in their order, each line once."""
-    lines = (line for stage in stages for line in _guarded(stage, stage.told))
+    lines = (line for stage in stages for line in _guard(stage, stage.told))
     return tuple(dict.fromkeys(lines))
 
 
-def learned(stages: Sequence[Stage]) -> dict[str, float]:
+def collect_estimates(stages: Sequence[Stage]) -> dict[str, float]:
     """Return the settings that ``stages`` have estimated from a run."""
-    return {k: v for stage in stages for k, v in _guarded(stage, stage.learned).items()}
+    return {k: v for stage in stages for k, v in _guard(stage, stage.learned).items()}
 
 
 def _kind(stage: Stage) -> str:
@@ -169,16 +169,16 @@ def _kind(stage: Stage) -> str:
 
 def _forward(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     for block in blocks:
-        out = _guarded(stage, partial(stage.push, block))
+        out = _guard(stage, partial(stage.push, block))
         if len(out):
             yield out
-    yield from (block for block in _guarded(stage, stage.finish) if len(block))
+    yield from (block for block in _guard(stage, stage.finish) if len(block))
 
 
-def _surveyed(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
+def _survey(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     with Tape() as tape:
         for block in blocks:
-            _guarded(stage, partial(stage.survey, block))
+            _guard(stage, partial(stage.survey, block))
             tape.append(block)
         yield from _forward(stage, tape.forward())
 
@@ -190,20 +190,20 @@ def _backward(stages: Sequence[Stage], blocks: Iterator[Block]) -> Iterator[Bloc
         for number in reversed(range(len(tape))):
             tape.rewrite(number, _through(stages, tape.read(number)))
         for stage in stages:
-            _guarded(stage, stage.finish)
+            _guard(stage, stage.finish)
         yield from tape.forward()
 
 
 def _through(stages: Sequence[Stage], block: Block) -> Block:
     length = len(block)
     for stage in stages:
-        block = _guarded(stage, partial(stage.push, block))
+        block = _guard(stage, partial(stage.push, block))
         if len(block) != length:
             raise StageError(f"stage {stage.name}: a backward stage must keep its block's length")
     return block
 
 
-def _guarded(stage: Stage, call: Callable[[], T]) -> T:
+def _guard(stage: Stage, call: Callable[[], T]) -> T:
     """Name the stage in every error that it raises, ours or a vendor's."""
     try:
         return call()

@@ -32,10 +32,10 @@ def reader_of(source: Path, name: str | None) -> Adapter:
     Raises InputError if there is no such adapter, or not exactly one recognises it.
     """
     if name is not None:
-        return named_reader(name)
+        return get_reader(name)
     if not exists(source):
         raise InputError(f"{source}: not found")
-    found = recognising(source)
+    found = find_readers(source)
     if not found:
         names = ", ".join(plugins().adapters())
         raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
@@ -45,12 +45,12 @@ def reader_of(source: Path, name: str | None) -> Adapter:
     return found[0]
 
 
-def recognising(source: Path) -> list[Adapter]:
+def find_readers(source: Path) -> list[Adapter]:
     """Return the adapters that recognise ``source``; one that fails at it is reported."""
-    return [adapter for adapter in plugins().adapters().values() if _recognised(adapter, source)]
+    return [adapter for adapter in plugins().adapters().values() if _recognise(adapter, source)]
 
 
-def named_reader(name: str) -> Adapter:
+def get_reader(name: str) -> Adapter:
     """Return the adapter called ``name``; InputError if it is unknown."""
     known = plugins().adapters()
     if name not in known:
@@ -65,9 +65,9 @@ def is_native(reader: Adapter) -> bool:
 
 def read_source(reader: Adapter, source: Path) -> Recording:
     """Return the recording; PluginError for any error of the adapter other than InputError."""
-    with guarding(reader.name, source):
+    with guard(reader.name, source):
         found = cast(RecordingAdapter, reader).read(source)
-    return _checked(found, reader, source, Recording, "recording")
+    return _check(found, reader, source, Recording, "recording")
 
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
@@ -77,23 +77,23 @@ def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> Nati
     if not is_native(reader) or RecordingDirectory().recognises(source):
         name = RecordingDirectory.name if is_native(reader) else reader.name
         raise InputError(f"{source}: adapter {name} has our channels; it needs no map")
-    with guarding(reader.name, source):
+    with guard(reader.name, source):
         found = cast(NativeAdapter, reader).streams(source, options)
-    native = _checked(found, reader, source, NativeFile, "native file")
+    native = _check(found, reader, source, NativeFile, "native file")
     names = [stream.name for stream in native.streams]
     if len(set(names)) < len(names):
         twice = next(name for at, name in enumerate(names) if name in names[:at])
         raise PluginError(f"adapter {reader.name}: {source}: gave two streams called {twice!r}")
 
     def close() -> None:
-        with guarding(reader.name, source):
+        with guard(reader.name, source):
             native.close()
 
     return replace(native, close=close)
 
 
 @contextmanager
-def guarding(name: str, source: Path) -> Iterator[None]:
+def guard(name: str, source: Path) -> Iterator[None]:
     """Turn an unexpected exception of adapter ``name`` into a PluginError in one line."""
     try:
         yield
@@ -108,13 +108,13 @@ def guarding(name: str, source: Path) -> Iterator[None]:
         raise PluginError(_failure(name, source, error)) from cause
 
 
-def _checked(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
+def _check(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
     if not isinstance(found, kind):
         raise PluginError(f"adapter {reader.name}: {source}: gave no {said}")
     return found
 
 
-def _recognised(adapter: Adapter, source: Path) -> bool:
+def _recognise(adapter: Adapter, source: Path) -> bool:
     try:
         return bool(adapter.recognises(source))
     except Exception as error:
@@ -180,7 +180,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
     Raises InputError, which lists the formats, if no format or more than one fits, or if it needs a
     library that is missing.
     """
-    form = _chosen(out, name)
+    form = _choose(out, name)
     check = getattr(form, "check_installed", None)
     if callable(check):
         with naming(out):
@@ -188,7 +188,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
     return form
 
 
-def _chosen(out: Path, name: str | None) -> ProfileFormat:
+def _choose(out: Path, name: str | None) -> ProfileFormat:
     known = plugins().profile_formats()
     if name is not None and name not in known:
         raise InputError(f"format {name}: unknown; there are {', '.join(known)}")

@@ -46,7 +46,7 @@ def trace_hook(plugin: str, hook: str, outcome: str) -> None:
         print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
 
 
-def listed(names: Iterable[str]) -> str:
+def list_names(names: Iterable[str]) -> str:
     """Return ``names`` as one text for a trace."""
     return ", ".join(names) or "nothing"
 
@@ -175,12 +175,12 @@ class Plugins:
                 break
             where = f"{hook} of {pipeline}"
             if caller.scope and pipeline not in caller.scope:
-                trace_hook(caller.plugin, where, f"not asked, it names {listed(caller.scope)}")
+                trace_hook(caller.plugin, where, f"not asked, it names {list_names(caller.scope)}")
                 continue
             found = self._guarded(caller.plugin, partial(caller.call, context=context))
             if found:
                 answers[caller.plugin] = checked(found[0], _who(caller.plugin, pipeline))
-            trace_hook(caller.plugin, where, _shown(answers.get(caller.plugin)))
+            trace_hook(caller.plugin, where, _describe(answers.get(caller.plugin)))
         if len(answers) > 1:
             both = " and ".join(answers)
             raise PluginError(f"plug-ins {both} both answer {hook} of {pipeline}; remove one")
@@ -213,7 +213,7 @@ class Plugins:
         except InputError as error:
             self._skip(caller.plugin, error)
         new = [name for name in register.found if name not in before]
-        trace_hook(caller.plugin, hook, f"registered {listed(new)}")
+        trace_hook(caller.plugin, hook, f"registered {list_names(new)}")
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:
@@ -237,10 +237,12 @@ def _who(plugin: str, pipeline: str) -> str:
     return f"pipeline {pipeline}" if plugin == BUILT_IN else f"plug-in {plugin}"
 
 
-def _shown(answer: object) -> str:
+def _describe(answer: object) -> str:
     if answer is None:
         return "no answer"
-    return listed(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
+    return (
+        list_names(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
+    )
 
 
 _LOCK = RLock()

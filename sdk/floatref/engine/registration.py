@@ -28,7 +28,7 @@ def check_pipeline(pipeline: Any) -> str:
             raise TypeError(f"pipeline {pipeline.name}: no point {point!r} to answer")
         if not callable(answer) and not _are_calls(answer):
             raise TypeError(f"pipeline {pipeline.name}: {point}: give StageCalls, or a function")
-    return _described(pipeline)
+    return _describe(pipeline)
 
 
 def complete_pipeline(pipeline: Pipeline) -> Pipeline:
@@ -47,7 +47,7 @@ def check_adapter(adapter: Any) -> str:
         raise TypeError(f"{kind} has no method recognises")
     if not any(callable(getattr(adapter, method, None)) for method in ("read", "streams")):
         raise TypeError(f"{kind} has neither a method read nor one called streams")
-    return _described(adapter)
+    return _describe(adapter)
 
 
 def check_profile_format(form: Any) -> str:
@@ -60,7 +60,7 @@ def check_profile_format(form: Any) -> str:
     named = isinstance(suffix, str) and re.fullmatch(r"\.[a-z]+", suffix)
     if not (named or isinstance(form, ProfileDirectory)):
         raise TypeError(f"{kind}: suffix {suffix!r} is not a point and small letters, as in .erd")
-    return _described(form)
+    return _describe(form)
 
 
 def check_stage(name: Any, stage: Any) -> str:
@@ -94,7 +94,7 @@ class Register:
         return register
 
 
-def _described(item: Any) -> str:
+def _describe(item: Any) -> str:
     name, summary = getattr(item, "name", None), getattr(item, "summary", None)
     if not (isinstance(name, str) and name and isinstance(summary, str)):
         raise TypeError(f"{type(item).__name__} needs a name and a summary")
@@ -112,7 +112,7 @@ def scope_of(implementation: pluggy.HookImpl) -> tuple[str, ...]:
 
 def check_scopes(manager: pluggy.PluginManager, plugin: str) -> None:
     """Raise PluginError if ``plugin`` answers a point and names no pipeline for it."""
-    for point, implementation in _answering(manager):
+    for point, implementation in _find_answers(manager):
         if implementation.plugin_name == plugin and not scope_of(implementation):
             raise PluginError(
                 f"{point} names no pipeline that it answers; write "
@@ -122,7 +122,7 @@ def check_scopes(manager: pluggy.PluginManager, plugin: str) -> None:
 
 def unknown_scopes(manager: pluggy.PluginManager, known: Mapping[str, Pipeline]) -> Iterator[str]:
     """Yield a line for each pipeline that a plug-in names and that has no such point."""
-    for point, implementation in _answering(manager):
+    for point, implementation in _find_answers(manager):
         for name in scope_of(implementation):
             who = f"plug-in {implementation.plugin_name}: {point} names pipeline {name}"
             if name not in known:
@@ -131,7 +131,7 @@ def unknown_scopes(manager: pluggy.PluginManager, known: Mapping[str, Pipeline])
                 yield f"{who}, which is {known[name].architecture} and has no such point"
 
 
-def _answering(manager: pluggy.PluginManager) -> Iterator[tuple[str, pluggy.HookImpl]]:
+def _find_answers(manager: pluggy.PluginManager) -> Iterator[tuple[str, pluggy.HookImpl]]:
     for point, caller in vars(manager.hook).items():
         if not point.startswith(("_", REGISTERS)):
             yield from ((point, found) for found in caller.get_hookimpls())

@@ -14,7 +14,7 @@ from typing import Any
 from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
-from floatref.engine.fall_back import bridged, gaps_of
+from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.plugins import Plugins, plugins
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
@@ -118,7 +118,7 @@ def _make_profile(
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
     profile = _run_and_collect(order, source, stages, progress)
-    lines = (*cautions, *source.warnings, *flow.told(stages))
+    lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
     return Result(profile, lines, screening), source
 
 
@@ -169,7 +169,7 @@ def _run_and_collect(
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
-    if learned := flow.learned(stages):
+    if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
     return profile
 
@@ -205,4 +205,4 @@ def _ask_fall_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str,
         return asked.profile, (
             f"the gaps of the height are bridged by straight lines only: {error}",
         )
-    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)
+    return (asked.profile, ()) if estimate is None else fill_gaps(asked, estimate)

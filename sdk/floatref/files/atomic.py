@@ -23,7 +23,7 @@ def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
     """
     target = _target(path, overwrite)
     beside = _beside(target)
-    with _explained(path, target):
+    with _explain_errors(path, target):
         if target.exists() and not target.is_file():
             raise InputError(f"{path}: is not a file; give the name of a file to write")
         try:
@@ -37,7 +37,7 @@ def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
 
 
 @contextmanager
-def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[Path]:
+def replace_directory(path: Path, overwrite: bool, document: str) -> Iterator[Path]:
     """Yield a new, empty folder beside ``path``; rename it to ``path`` at the end.
 
     With ``overwrite`` an old folder is replaced if it is empty or holds the JSON file ``document``;
@@ -47,7 +47,7 @@ def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[
     """
     target = _target(path, overwrite)
     beside = _beside(target)
-    with _explained(path, target):
+    with _explain_errors(path, target):
         _check_replaceable(target, path, document)
         try:
             beside.mkdir()
@@ -95,7 +95,7 @@ def _check_replaceable(target: Path, path: Path, document: str) -> None:
 
 
 @contextmanager
-def _explained(path: Path, target: Path) -> Iterator[None]:
+def _explain_errors(path: Path, target: Path) -> Iterator[None]:
     """Turn an OSError while writing into an InputError of one line that names ``path``."""
     try:
         yield

@@ -29,7 +29,7 @@ def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
             "keep samples in files of their own beside it"
         )
     try:
-        return _parsed(text.decode("utf-8-sig"))
+        return _parse(text.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: byte {error.start} is not UTF-8 text; give the JSON file of the directory"
@@ -76,11 +76,16 @@ def _number(value: float, where: str) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def _parsed(text: str) -> Any:
+def _parse(text: str) -> Any:
     if not text.strip():
         raise InputError("empty; copy the complete file")
     try:
-        return json.loads(text, parse_constant=_refused, parse_float=_finite, parse_int=_integer)
+        return json.loads(
+            text,
+            parse_constant=_refuse_constant,
+            parse_float=_parse_float,
+            parse_int=_parse_integer,
+        )
     except json.JSONDecodeError as error:
         cut = error.pos >= len(text.rstrip()) or error.msg.startswith("Unterminated")
         advice = "the file is cut short, copy it again" if cut else "correct it there"
@@ -90,16 +95,16 @@ def _parsed(text: str) -> Any:
         raise InputError("lists or objects nested too deeply; flatten them") from error
 
 
-def _refused(literal: str) -> NoReturn:
+def _refuse_constant(literal: str) -> NoReturn:
     raise InputError(f"holds {literal}, which is not JSON; write null for a missing value")
 
 
-def _finite(literal: str) -> float:
+def _parse_float(literal: str) -> float:
     value = float(literal)
     if math.isinf(value):
         raise InputError(f"holds the number {shown(literal)[1:-1]}; float64 ends at 1.8e308")
     return value
 
 
-def _integer(literal: str) -> int | float:
-    return int(literal) if len(literal) <= 18 else _finite(literal)
+def _parse_integer(literal: str) -> int | float:
+    return int(literal) if len(literal) <= 18 else _parse_float(literal)

@@ -152,8 +152,8 @@ def _lines(profile: Profile, first: int) -> Iterator[str]:
 def _profile(reader: Iterator[list[str]]) -> Profile:
     header = [name.strip() for name in next(reader, [])]
     names = _tracks(header)
-    wanted = _wanted(header, names)
-    columns, decimals = _columns(reader, header, wanted)
+    wanted = _find_columns(header, names)
+    columns, decimals = _read_columns(reader, header, wanted)
     distance = columns[DISTANCE]
     start, interval = constant_interval(distance, decimals)
     tracks = tuple(
@@ -177,7 +177,7 @@ def _tracks(header: list[str]) -> list[str]:
     )
 
 
-def _wanted(header: list[str], names: list[str]) -> dict[str, int]:
+def _find_columns(header: list[str], names: list[str]) -> dict[str, int]:
     """Return the columns to read and their positions."""
     ours = [DISTANCE, *(f"{n}{suffix}" for n in names for suffix in (ELEVATION, VALID))]
     for name in ours:
@@ -186,7 +186,7 @@ def _wanted(header: list[str], names: list[str]) -> dict[str, int]:
     return {name: header.index(name) for name in ours if name in header}
 
 
-def _columns(
+def _read_columns(
     reader: Iterator[list[str]], header: list[str], wanted: dict[str, int]
 ) -> tuple[dict[str, FloatArray], int]:
     """Return the requested columns, and the most decimals of a distance near the start."""

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_directory
+from floatref.files.atomic import replace_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.profile_csv import read_profile_csv
 from floatref.files.samples import (
@@ -54,9 +54,9 @@ def write_profile(profile: Profile, directory: Path, overwrite: bool = False) ->
     NaN in settings and provenance is written as null. Raises InputError if ``directory`` exists
     and ``overwrite`` is false, cannot be written, or if the profile breaks the format.
     """
-    document = _described(profile)
+    document = _describe(profile)
     enforce(document, SCHEMA, directory)
-    with replacing_directory(directory, overwrite, DOCUMENT) as folder:
+    with replace_directory(directory, overwrite, DOCUMENT) as folder:
         for track, entry in zip(profile.tracks, document["tracks"], strict=True):
             write_samples(track.elevation, folder / entry["elevation_file"])
             write_flags(track.valid, folder / entry["valid_file"])
@@ -87,7 +87,7 @@ def _check_length(source: Path, name: str, found: int, expected: int) -> None:
         )
 
 
-def _described(profile: Profile) -> dict[str, Any]:
+def _describe(profile: Profile) -> dict[str, Any]:
     taken: set[str] = set()
     tracks = []
     for track in profile.tracks:

@@ -19,12 +19,12 @@ def read_samples(path: Path) -> FloatArray:
 
     Raises InputError for a file that cannot be read, is empty or ends within a sample.
     """
-    return frozen(_mapped(path, SAMPLE.itemsize).view(SAMPLE))
+    return frozen(_map_file(path, SAMPLE.itemsize).view(SAMPLE))
 
 
 def read_flags(path: Path) -> BoolArray:
     """Return the bytes of ``path`` as truth values, shape (N,); InputError unless 0 or 1."""
-    flags = _mapped(path, 1)
+    flags = _map_file(path, 1)
     bad = np.flatnonzero(flags > 1)
     if bad.size:
         raise InputError(
@@ -57,7 +57,7 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
     return name
 
 
-def _mapped(path: Path, item_bytes: int) -> NDArray[np.uint8]:
+def _map_file(path: Path, item_bytes: int) -> NDArray[np.uint8]:
     with opened(path) as stream:
         size = stream.seek(0, 2)
         if size == 0:

@@ -32,19 +32,19 @@ def read_toml(path: Path, kind: str) -> dict[str, Any]:
     with naming(path):
         if len(content) > LARGEST_BYTES:
             raise InputError(f"larger than 1 MiB; give a {kind} in TOML")
-        document = _parsed(_decoded(content, kind), kind)
+        document = _parse(_decode(content, kind), kind)
         _check_plain(document, "")
     return document
 
 
-def _decoded(content: bytes, kind: str) -> str:
+def _decode(content: bytes, kind: str) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"byte {error.start} is not UTF-8; save the {kind} as UTF-8") from error
 
 
-def _parsed(text: str, kind: str) -> dict[str, Any]:
+def _parse(text: str, kind: str) -> dict[str, Any]:
     if DOTTED.search(text):
         raise InputError(
             f"has a name of {MOST_PARTS} parts or more, as in a.b.c; shorten it, or write \\u002E "

@@ -100,7 +100,7 @@ class AlignedChannel:
         self, low: int, high: int, longest: int
     ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
         """Return samples ``low`` to ``high - 1``, which of them are missing, and which are lost."""
-        values, missing, lost = bridged(self._sound, self.channel.values.size, low, high, longest)
+        values, missing, lost = bridge(self._sound, self.channel.values.size, low, high, longest)
         void = within(self._damage.void, low, high)
         if void is not None:
             values = np.where(void, np.nan, values)
@@ -157,7 +157,7 @@ class AlignedChannel:
         return wide if found is None else np.logical_or(found, wide)
 
 
-def bridged(
+def bridge(
     read: Read, size: int, low: int, high: int, longest: int = 0
 ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
     """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which were bridged.

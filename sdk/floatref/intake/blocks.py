@@ -15,13 +15,17 @@ from math import ceil
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.intake.aligned import AlignedChannel, Stretch, bridged
+from floatref.intake.aligned import AlignedChannel, Stretch, bridge
 from floatref.intake.gnss_events import GnssEvents
-from floatref.intake.steady_rate import holes_told, steady_clock
+from floatref.intake.steady_rate import report_holes, steady_clock
 from floatref.screening.damage.damaged_samples import Damage
 from floatref.screening.damage.encoder_damage import encoder_damage
-from floatref.screening.damage.saturation import damaged_force
-from floatref.screening.damage.stuck_sensors import damaged_height, stuck_force, together
+from floatref.screening.damage.saturation import find_saturation
+from floatref.screening.damage.stuck_sensors import (
+    combine_damage,
+    find_stuck_force,
+    find_stuck_height,
+)
 from floatref.screening.findings import Screening
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -38,7 +42,7 @@ LEAST = 0.5
 """Smallest part of the run that a channel must cover."""
 
 
-def covering(channel: Channel, begin_s: float, end_s: float) -> Channel:
+def extend_to_cover(channel: Channel, begin_s: float, end_s: float) -> Channel:
     """Return ``channel``, extended to at least ``begin_s`` to ``end_s``.
 
     Raises InputError if it covers less than half of that time.
@@ -99,15 +103,15 @@ class Source:
         """
         recording, needs = screening.recording, screening.needs
         self._tracks = needs.tracks
-        found = dict(_needed(recording, needs))
+        found = dict(_select_needed(recording, needs))
         clock = steady_clock(found[ChannelId(needs.force, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
         begin_s, end_s = clock.times(2, first, self.length - 1).tolist()
         for channel in (recording.channel(name, t) for name in more for t in self._tracks):
             if channel.id not in found:
-                found[channel.id] = covering(channel, begin_s, end_s)
+                found[channel.id] = extend_to_cover(channel, begin_s, end_s)
         damage = {name: _damage(name, found, needs.force) for name in found}
-        holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
+        holes = [line for name, c in found.items() if _is_force(name) for line in report_holes(c)]
         self.gone = {name: each.gone for name, each in damage.items()}
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
         self._aligned = {
@@ -170,11 +174,11 @@ def _known(channel: Channel, index: int) -> float:
     def read(low: int, high: int) -> FloatArray:
         return channel.values[low:high]
 
-    values, *_ = bridged(read, channel.values.size, index, index + 1)
+    values, *_ = bridge(read, channel.values.size, index, index + 1)
     return float(values[0])
 
 
-def _needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
+def _select_needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
     """Yield the channels of ``needs``; a shared one is yielded for every wheel path."""
     yield ChannelId(DISTANCE), recording.channel(DISTANCE, needs.tracks[0])
     for track in needs.tracks:
@@ -189,14 +193,14 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel], force: str) -> 
     if name.name == DISTANCE:
         return encoder_damage(found[name])
     if _is_force(name):
-        damage = damaged_force(found[name])
+        damage = find_saturation(found[name])
         if name.name == SPECIFIC_FORCE:
             return damage
-        return together(damage, stuck_force(found[name], found[ChannelId(DISTANCE)]))
+        return combine_damage(damage, find_stuck_force(found[name], found[ChannelId(DISTANCE)]))
     if name.name not in RANGES:
         return Damage()
     beside = found[ChannelId(force, name.track)]
-    return damaged_height(found[name], beside, found[ChannelId(DISTANCE)])
+    return find_stuck_height(found[name], beside, found[ChannelId(DISTANCE)])
 
 
 def _is_force(name: ChannelId) -> bool:

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from floatref.intake.aligned import BRIDGE_S, GAP, bridged
-from floatref.screening.damage.damaged_samples import merged
+from floatref.intake.aligned import BRIDGE_S, GAP, bridge
+from floatref.screening.damage.damaged_samples import merge
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import StampedClock
@@ -23,7 +23,7 @@ def height_gaps(recording: Recording, track: str, gone: IndexArray) -> FloatArra
     """
     height = recording.channel(HEIGHT, track)
     distance = recording.channel(DISTANCE, track)
-    spans = merged(np.concatenate([*_missing(height.values), gone]))
+    spans = merge(np.concatenate([*_missing(height.values), gone]))
     times = np.array([_around(height, *span) for span in spans] + _holes(height))
     times = times.reshape(-1, 2)
     long = times[times[:, 1] - times[:, 0] > BRIDGE_S + 2.0 / height.mean_rate_hz]
@@ -70,5 +70,5 @@ def _place(distance: Channel, time_s: float) -> float:
     else:
         before = int(np.floor((time_s - clock.start_s) * float(clock.rate)))
     low = min(max(before, 0), max(size - 2, 0))
-    part, *_ = bridged(lambda begin, end: distance.values[begin:end], size, low, low + 2)
+    part, *_ = bridge(lambda begin, end: distance.values[begin:end], size, low, low + 2)
     return float(np.interp(time_s, clock.times(part.size, low), part))

@@ -44,7 +44,7 @@ def steady_clock(channel: Channel) -> UniformClock:
     return UniformClock.of(_roundest(1.0 / step, longest, allowed), float(times[0]))
 
 
-def holes_told(channel: Channel) -> tuple[str, ...]:
+def report_holes(channel: Channel) -> tuple[str, ...]:
     """Return one line on the holes in an accelerometer's time stamps; empty if it has no holes."""
     if isinstance(channel.clock, UniformClock):
         return ()

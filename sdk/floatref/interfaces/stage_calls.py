@@ -46,14 +46,14 @@ class StageCall:
             raise InputError(f"stage {self.name}: unknown; there are {', '.join(close)} and others")
         arguments = [_resolve(value, setting) for value in self.arguments]
         keywords = {name: _resolve(value, setting) for name, value in self.keywords.items()}
-        return _made(self.name, known[self.name], arguments, keywords)
+        return _make(self.name, known[self.name], arguments, keywords)
 
 
 def _resolve(value: Any, setting: Callable[[str], float]) -> Any:
     return setting(value.name) if isinstance(value, Setting) else value
 
 
-def _made(
+def _make(
     name: str, kind: Callable[..., Stage], arguments: list[Any], keywords: dict[str, Any]
 ) -> Stage:
     try:

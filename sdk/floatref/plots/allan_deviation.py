@@ -11,7 +11,7 @@ import numpy as np
 
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
-from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, shown_name, title
+from floatref.plots.figure import COLOURS, check_suffix, label_of, legend, new_figure, save, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,7 +55,7 @@ def draw_allan(found: Sequence[ChannelNoise], path: Path) -> None:
 
 def _draw_measured(ax: Axes, noise: ChannelNoise, colour: str) -> None:
     time, deviation = noise.allan.cluster_s, noise.allan.deviation
-    name = shown_name(str(noise.id))
+    name = label_of(str(noise.id))
     ax.plot(time, deviation, ".", color=colour, markersize=4.0, label=name)
     fitted, scatter = noise.fit.allan, noise.fit.scatter
     # The error of a deviation is a factor, equally likely up and down, so never below zero.

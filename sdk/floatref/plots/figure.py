@@ -76,7 +76,7 @@ def legend(ax: Axes) -> None:
         text.set_parse_math(False)
 
 
-def shown_name(name: str) -> str:
+def label_of(name: str) -> str:
     """Return ``name`` as a label that legends show; they omit names with a leading underscore."""
     return f" {name}" if name.startswith("_") else name
 
@@ -106,7 +106,7 @@ REFERENCE_COLOUR = "0.25"
 SHADE = "#F0C9C0"
 
 
-def thinned(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray, FloatArray]:
+def thin(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray, FloatArray]:
     """Return points that draw the same line: of each stretch the lowest and the highest value.
 
     A stretch gives NaN only if all its values are NaN. Short lines are returned as they are.
@@ -121,14 +121,14 @@ def thinned(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray,
 
 def line(ax: Axes, x: FloatArray, y: FloatArray, **style: Any) -> None:
     """Draw ``y`` over ``x`` on ``ax``, thinned."""
-    ax.plot(*thinned(x, y), **{"linewidth": 0.9, **style})
+    ax.plot(*thin(x, y), **{"linewidth": 0.9, **style})
 
 
 def shade(ax: Axes, x: FloatArray, invalid: BoolArray, label: str | None = None) -> None:
     """Shade the stretches of ``x`` where ``invalid`` is true, if any."""
     if not invalid.any():
         return
-    places, share = thinned(x, invalid.astype(np.float64))
+    places, share = thin(x, invalid.astype(np.float64))
     # A stretch with one invalid point has the highest value 1; its outline is wide enough to see.
     ax.fill_between(
         places,

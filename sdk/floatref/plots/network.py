@@ -81,7 +81,7 @@ def _draw_lengths(ax: Axes, found: Segments, top: float) -> None:
     ax.set_xlim(0.0, top)
     ax.set_ylim(bottom=0.0)
     beyond = int((found.roughness > top).sum())
-    more = f"; at the end: {_counted(beyond, 'segment')} above" if beyond else ""
+    more = f"; at the end: {_count(beyond, 'segment')} above" if beyond else ""
     ax.set_xlabel(f"{_quantity(found)} (m/km){more}")
     ax.set_ylabel("Length (km)")
     legend(ax)
@@ -113,7 +113,7 @@ def _draw_map(figure: Figure, ax: Axes, found: Segments, located: BoolArray, top
     ax.set_xlabel("Longitude (°)")
     ax.set_ylabel("Latitude (°)")
     if unplaced := int((~located).sum()):
-        title(ax, f"{unplaced} of {_counted(located.size, 'segment')} without a position")
+        title(ax, f"{unplaced} of {_count(located.size, 'segment')} without a position")
 
 
 def _beyond(found: Segments, top: float) -> bool:
@@ -159,12 +159,12 @@ def _title(found: Segments) -> str:
     failed, unknown = int(found.failed.sum()), int(np.isnan(found.roughness).sum())
     length_km = float(np.nansum(found.length_m)) / 1000.0
     parts = [
-        _counted(len(found.names), "file") + (f" ({failed:,} failed)" if failed else ""),
+        _count(len(found.names), "file") + (f" ({failed:,} failed)" if failed else ""),
         f"{length_km:,.1f} km",
-        _counted(found.file.size, "segment") + (f" ({unknown:,} without IRI)" if unknown else ""),
+        _count(found.file.size, "segment") + (f" ({unknown:,} without IRI)" if unknown else ""),
     ]
     return ", ".join(parts)
 
 
-def _counted(number: int, what: str) -> str:
+def _count(number: int, what: str) -> str:
     return f"{number:,} {what}{'' if number == 1 else 's'}"

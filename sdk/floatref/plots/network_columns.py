@@ -74,7 +74,7 @@ def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
         length_m=mean["length_m"],
         flagged_m=mean["flagged_m"],
         latitude=mean["latitude_deg"],
-        longitude=_without_leap(values["longitude_deg"][first]),
+        longitude=_remove_jump(values["longitude_deg"][first]),
         paired=~np.isnan(index),
         names=tuple(places),
         failed=failed,
@@ -102,7 +102,7 @@ def _means(values: FloatArray, which: NDArray[np.intp], count: int) -> FloatArra
     return found
 
 
-def _without_leap(longitude: FloatArray) -> FloatArray:
+def _remove_jump(longitude: FloatArray) -> FloatArray:
     """Return ``longitude`` in degrees within 180 of the middle of the network."""
     turn = np.exp(1j * np.radians(longitude[np.isfinite(longitude)]))
     middle = float(np.degrees(np.angle(turn.sum()))) if turn.size else 0.0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, shown_name, title
+from floatref.plots.figure import COLOURS, check_suffix, label_of, legend, new_figure, save, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,7 +48,7 @@ def _draw_group(ax: Axes, place: int, curves: Curves, labelled: bool) -> None:
     for (name, (factors, losses)), colour in zip(curves.items(), cycle(COLOURS), strict=False):
         octaves = np.log2(np.asarray(factors))
         x = place + WIDTH / 2.0 * octaves / np.abs(octaves).max()
-        label = shown_name(name) if labelled else None
+        label = label_of(name) if labelled else None
         ax.plot(x, losses, "-", color=colour, linewidth=1.2, label=label)
         ax.plot(x[octaves == 0], np.asarray(losses)[octaves == 0], ".", color=colour)
 

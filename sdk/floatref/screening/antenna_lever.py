@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.explanations import detrended, windows
+from floatref.screening.explanations import detrend, windows
 from floatref.screening.gnss_readings import fixed_readings
-from floatref.screening.slow_series import Motion, integrated
+from floatref.screening.slow_series import Motion, integrate
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.recording import ORIGIN, Recording, TrackSetup, Vector
 
@@ -44,7 +44,7 @@ def check_antenna(
 ) -> Iterator[str]:
     """Yield a warning if the antenna's offset is missing, or contradicts its swing."""
     given = recording.setup.gnss_antenna_offset_m
-    found = located(recording, track, motion, faults)
+    found = locate_antenna(recording, track, motion, faults)
     if given == ORIGIN:
         hint = ""
         if found is not None:
@@ -80,7 +80,9 @@ def _place(antenna: Antenna, axis: int) -> str:
     return f"{'XY'[axis]} = {antenna.place_m[axis]:.1f} m ± {2 * antenna.sigma_m[axis]:.1f} m"
 
 
-def located(recording: Recording, track: str, motion: Motion, faults: IndexArray) -> Antenna | None:
+def locate_antenna(
+    recording: Recording, track: str, motion: Motion, faults: IndexArray
+) -> Antenna | None:
     """Return the antenna's position, None if the body swings too little to measure it.
 
     (6.39) minus the integrated accelerometers, window by window, is -θ·l_x + φ·l_y.
@@ -114,7 +116,7 @@ def _normal_equations(
         rows = np.column_stack([table[part], free[part]])
         if rows.shape[0] < FEWEST_READINGS or np.isnan(rows).any():
             continue
-        left = detrended(times[part], rows, DEGREE)
+        left = detrend(times[part], rows, DEGREE)
         basis, _ = np.linalg.qr(left[:, 3:] / np.maximum(np.abs(left[:, 3:]).max(axis=0), 1e-12))
         left = left[:, :3] - basis @ (basis.T @ left[:, :3])
         angles, height = left[:, 1:], left[:, 0]
@@ -138,8 +140,7 @@ def _columns(
         return np.interp(times, motion.times, row)
 
     lifted, along, across = (
-        read(integrated(integrated(row)))
-        for row in (motion.lift, motion.forces[0], motion.forces[1])
+        read(integrate(integrate(row))) for row in (motion.lift, motion.forces[0], motion.forces[1])
     )
     roll, pitch = (read(row) for row in motion.swing)
     table = np.stack([channel.values[sound] - lifted, -pitch, roll], axis=1)

@@ -87,15 +87,15 @@ def weigh(
     for part in windows(times, look.span_s):
         rows = table[part][known[part]]
         if rows.shape[0] >= max(FEWEST, 0.9 * (part.stop - part.start)):
-            left = detrended(times[part][known[part]], rows, look.degree)
-            heard += _heard(left, look.floor)
+            left = detrend(times[part][known[part]], rows, look.degree)
+            heard += _score_window(left, look.floor)
     found = dict(zip(explanations, heard.tolist(), strict=True))
     right = found.pop(RIGHT)
     name = max(found, key=found.__getitem__)
     return Evidence(right, found[name], name)
 
 
-def _heard(rows: FloatArray, floor: float) -> FloatArray:
+def _score_window(rows: FloatArray, floor: float) -> FloatArray:
     """Return the lead of the best explanation over all others and over no explanation, else 0."""
     left = rows[:, :1] - np.column_stack([np.zeros(rows.shape[0]), rows[:, 1:]])
     squares = np.sum(left**2, axis=0) + rows.shape[0] * floor**2
@@ -106,7 +106,7 @@ def _heard(rows: FloatArray, floor: float) -> FloatArray:
     return heard[1:]
 
 
-def detrended(times: FloatArray, rows: FloatArray, degree: int) -> FloatArray:
+def detrend(times: FloatArray, rows: FloatArray, degree: int) -> FloatArray:
     """Return ``rows``, shape (n, k), less their polynomials of ``degree`` in ``times``."""
     place = 2.0 * (times - times[0]) / (times[-1] - times[0]) - 1.0
     basis: list[FloatArray] = []
@@ -134,7 +134,7 @@ def windows(times: FloatArray, span_s: float) -> Iterator[slice]:
         yield slice(first, behind)
 
 
-def said(evidence: Evidence, lines: Mapping[str, str], fatal: bool = True) -> Iterator[str]:
+def report_fault(evidence: Evidence, lines: Mapping[str, str], fatal: bool = True) -> Iterator[str]:
     """Raise InputError with the line of a fault that is certain, or yield it as a suspicion.
 
     A name with "-" that has no line of its own uses the line of the name without it; a name without

@@ -6,7 +6,7 @@ import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE
 from floatref.screening.gnss_readings import RTK_FIXED, fixed_readings, usual_step
-from floatref.screening.imu_channels import STEPS, told_spans
+from floatref.screening.imu_channels import STEPS, describe_spans
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
@@ -27,7 +27,7 @@ JUMP_M, UNEXPLAINED = 0.2, 8.0
 """Smallest residual of a jump against the vertical velocity, in m and in usual residuals."""
 
 
-def fixed_told(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
+def report_unfixed(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
     """Yield a line if readings between ``begin_s`` and ``end_s`` are not RTK fixed."""
     quality = recording.find("gnss_quality")
     if quality is None:
@@ -47,8 +47,8 @@ def fixed_told(recording: Recording, begin_s: float, end_s: float) -> Iterator[s
     if wide.size:
         spans = np.stack([edges[wide], edges[wide + 1]], axis=1)
         yield (
-            f"channel gnss_height: no RTK-fixed reading for {told_spans(spans)}; constants take "
-            "its place"
+            f"channel gnss_height: no RTK-fixed reading for {describe_spans(spans)}; constants "
+            "take its place"
         )
 
 
@@ -119,7 +119,7 @@ def _spread(channel: Channel | None, begin_s: float, end_s: float) -> float:
     return float(np.ptp(known)) if known.size else 0.0
 
 
-def faults_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
+def report_faults(recording: Recording, faults: IndexArray) -> Iterator[str]:
     """Yield a line on the stuck readings of gnss_height, if any."""
     if not faults.size:
         return
@@ -133,10 +133,10 @@ def faults_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
         )
         return
     spans = np.stack([times[faults[:, 0]], times[faults[:, 1] - 1]], axis=1)
-    yield f"channel gnss_height: stuck for {told_spans(spans)}; not used there"
+    yield f"channel gnss_height: stuck for {describe_spans(spans)}; not used there"
 
 
-def jumps_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
+def report_jumps(recording: Recording, faults: IndexArray) -> Iterator[str]:
     """Yield a line if gnss_height jumps from one fixed reading to the next.
 
     A jump is a step that gnss_vertical_velocity does not explain, over a second at most.

@@ -46,7 +46,7 @@ class Readings:
         stamps = stamps[during]
         begin = stamps[0] if stamps.size else 0.0
         _, group = np.unique(np.floor((stamps - begin) / TOGETHER_S + 1e-6), return_inverse=True)
-        parts = _averaged(group, stamps), _averaged(group, values[during])
+        parts = _average(group, stamps), _average(group, values[during])
         return cls(motion, stamps, group, *parts)
 
     def beside(self, row: FloatArray, late_s: float = 0.0) -> FloatArray:
@@ -54,7 +54,7 @@ class Readings:
 
         The readings are assumed to be ``late_s`` late.
         """
-        return _averaged(self.group, np.interp(self.stamps - late_s, self.motion.times, row))
+        return _average(self.group, np.interp(self.stamps - late_s, self.motion.times, row))
 
     def delayed(self, row: FloatArray) -> dict[str, FloatArray]:
         """Return the same for readings late or early by up to half a swing of the body."""
@@ -65,7 +65,7 @@ class Readings:
         return np.interp(self.motion.times, self.times, self.values)
 
 
-def _averaged(group: IndexArray, values: FloatArray) -> FloatArray:
+def _average(group: IndexArray, values: FloatArray) -> FloatArray:
     if not group.size:
         return np.empty(0)
     return np.asarray(np.bincount(group, values) / np.bincount(group))

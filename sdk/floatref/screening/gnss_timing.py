@@ -7,14 +7,14 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.screening.explanations import RIGHT, Look, said, weigh
+from floatref.screening.explanations import RIGHT, Look, report_fault, weigh
 from floatref.screening.gnss_readings import Readings
 from floatref.screening.slow_series import (
     STEP_S,
     Motion,
-    integrated,
+    integrate,
     means,
-    smoothed,
+    smooth,
 )
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock, UniformClock
@@ -59,7 +59,7 @@ def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[
         )
 
 
-def delay_told(delay_s: float) -> Iterator[str]:
+def report_delay(delay_s: float) -> Iterator[str]:
     """Yield a warning if GNSS is late (or early, below 0) for the IMU by ``delay_s``.
 
     Raises InputError from `WRONG_S` on: the time stamps are of another time base.
@@ -76,17 +76,17 @@ def delay_told(delay_s: float) -> Iterator[str]:
     yield line
 
 
-def on_time(recording: Recording, delay_s: float) -> Recording:
+def correct_delay(recording: Recording, delay_s: float) -> Recording:
     """Return the recording, with the GNSS channels ``delay_s`` earlier if that gives a warning."""
     if abs(delay_s) < LATE_S:
         return recording
     channels = (
-        _earlier(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
+        _shift_clock(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
     )
     return replace(recording, channels=tuple(channels))
 
 
-def _earlier(channel: Channel, by_s: float) -> Channel:
+def _shift_clock(channel: Channel, by_s: float) -> Channel:
     clock = channel.clock
     if isinstance(clock, StampedClock):
         return replace(channel, clock=StampedClock.of(clock.times_s - by_s))
@@ -102,10 +102,10 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
     Raises InputError where that is certain.
     """
     readings = Readings.of(recording.channel("gnss_vertical_velocity"), motion)
-    rising = readings.beside(integrated(motion.lift))
-    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrated(motion.lift))}
+    rising = readings.beside(integrate(motion.lift))
+    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrate(motion.lift))}
     evidence = weigh(readings.times, readings.values, explained, HEAVE)
-    yield from said(
+    yield from report_fault(
         evidence,
         {
             "sign": "channel gnss_vertical_velocity: the sign is inverted against "
@@ -120,16 +120,16 @@ def delay(recording: Recording, motion: Motion) -> float:
     Two channels must agree on it, or one must be clear by itself.
     """
     own = {
-        "gnss_vertical_velocity": integrated(motion.lift),
+        "gnss_vertical_velocity": integrate(motion.lift),
         "gnss_roll": motion.swing[0],
         "gnss_pitch": motion.swing[1],
     }
     found = []
     for name, row in own.items():
         channel = recording.find(name)
-        told = np.empty(0) if channel is None else means(channel, motion.grid)
-        if _is_dense(told):
-            found.append(_peak(_correlation(row, told)))
+        measured = np.empty(0) if channel is None else means(channel, motion.grid)
+        if _is_dense(measured):
+            found.append(_peak(_correlation(row, measured)))
     clear = sorted((d, c) for d, c in found if c >= CLEAR)
     close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
     if close:
@@ -137,9 +137,9 @@ def delay(recording: Recording, motion: Motion) -> float:
     return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else 0.0
 
 
-def _is_dense(told: FloatArray) -> bool:
+def _is_dense(measured: FloatArray) -> bool:
     """Return whether the readings are dense and many enough to measure the time of a swing."""
-    known = np.flatnonzero(~np.isnan(told))
+    known = np.flatnonzero(~np.isnan(measured))
     return known.size >= FEWEST and float(np.median(np.diff(known))) * STEP_S <= APART_S
 
 
@@ -155,9 +155,9 @@ def _peak(correlation: FloatArray) -> tuple[float, float]:
     return delay * STEP_S, at / spread
 
 
-def _correlation(own: FloatArray, told: FloatArray) -> FloatArray:
+def _correlation(own: FloatArray, measured: FloatArray) -> FloatArray:
     """Return the correlation of two rows by the delay of the second, up to `FARTHEST_S`."""
-    x, y = (np.nan_to_num(row - smoothed(row, SLOW_S)) for row in (own, told))
+    x, y = (np.nan_to_num(row - smooth(row, SLOW_S)) for row in (own, measured))
     reach = min(int(FARTHEST_S / STEP_S), int(MOST * x.size))
     size = 1 << (2 * x.size - 1).bit_length()
     product = np.fft.irfft(np.conj(np.fft.rfft(x, size)) * np.fft.rfft(y, size), size)

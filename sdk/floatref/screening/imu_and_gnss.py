@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from floatref.screening.antenna_lever import check_antenna
-from floatref.screening.gnss_height import faults_told, fixed_told, jumps_told
+from floatref.screening.gnss_height import report_faults, report_jumps, report_unfixed
 from floatref.screening.gnss_timing import (
     check_epoch,
     check_velocity,
+    correct_delay,
     delay,
-    delay_told,
-    on_time,
+    report_delay,
 )
 from floatref.screening.horizontal_forces import check_course, check_curves, check_travel_force
 from floatref.screening.imu_channels import (
@@ -69,12 +69,12 @@ def check_kinematics(recording: Recording, use: ImuUse, faults: IndexArray) -> t
         lines += check_epoch(recording, *first.span_s(recording))
     motion = Motion.of(recording, first.track)
     late_s = delay(recording, motion) if use.gnss and motion is not None else 0.0
-    aligned = on_time(recording, late_s)
-    lines += _of_imu(aligned, first, motion, use, late_s)
+    aligned = correct_delay(recording, late_s)
+    lines += _check_imu(aligned, first, motion, use, late_s)
     if use.gnss:
-        lines += _of_gnss(aligned, first, motion, faults)
+        lines += _check_gnss(aligned, first, motion, faults)
     for path in others:
-        lines += _of_another(aligned, path, use)
+        lines += _check_other_path(aligned, path, use)
     return tuple(dict.fromkeys(lines))
 
 
@@ -102,16 +102,16 @@ def _paths(recording: Recording, tracks: tuple[str, ...]) -> Iterator[_Path]:
         seen.update(channel.id for channel in channels)
 
 
-def _of_another(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
+def _check_other_path(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
     """Yield further warnings for a wheel path after the first one."""
     yield from imu_silences(path.own)
     motion = Motion.of(recording, path.track)
-    yield from _of_imu(recording, path, motion, use)
+    yield from _check_imu(recording, path, motion, use)
     if use.gnss and motion is not None:
         yield from check_velocity(recording, motion)
 
 
-def _of_imu(
+def _check_imu(
     recording: Recording, path: _Path, motion: Motion | None, use: ImuUse, late_s: float = 0.0
 ) -> Iterator[str]:
     """Yield warnings about the path's own channels, and about a delay of GNSS."""
@@ -120,7 +120,7 @@ def _of_imu(
     check_alive(recording, path.track, motion)
     if path.has_own(*RATES):
         check_plausible_rates(recording, path.track, motion)
-    yield from delay_told(late_s)
+    yield from report_delay(late_s)
     yield from check_travel_force(recording, path.track, motion)
     if path.has_own(*RATES):
         yield from check_course(recording, path.track, motion)
@@ -128,12 +128,12 @@ def _of_imu(
     yield from check_rates(recording, path.track, motion, use.attitude)
 
 
-def _of_gnss(
+def _check_gnss(
     recording: Recording, first: _Path, motion: Motion | None, faults: IndexArray
 ) -> Iterator[str]:
-    yield from fixed_told(recording, *first.span_s(recording))
-    yield from faults_told(recording, faults)
+    yield from report_unfixed(recording, *first.span_s(recording))
+    yield from report_faults(recording, faults)
     if motion is not None:
         yield from check_velocity(recording, motion)
         yield from check_antenna(recording, first.track, motion, faults)
-    yield from jumps_told(recording, faults)
+    yield from report_jumps(recording, faults)

@@ -8,8 +8,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.screening.gnss_readings import Readings
 from floatref.screening.plausibility import HIGHEST_FORCE
-from floatref.screening.roll_and_pitch import AXES, TILT_SMOOTH_S, Axis, attitudes
-from floatref.screening.slow_series import RATES, SWING_S, Motion, smoothed
+from floatref.screening.roll_and_pitch import AXES, TILT_SMOOTH_S, Axis, read_attitudes
+from floatref.screening.slow_series import RATES, SWING_S, Motion, smooth
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
@@ -58,11 +58,12 @@ def imu_silences(channels: Iterable[Channel]) -> Iterator[str]:
     """
     for channel in channels:
         _check_range(channel, HIGHEST_RATE if channel.id.name in RATES else HIGHEST_FORCE)
-        silences = silent(channel)
+        silences = find_silences(channel)
         if silences.size:
             lengths = silences[:, 1] - silences[:, 0]
             yield (
-                f"channel {channel.id}: no samples for {told_spans(silences)}; bridged and flagged"
+                f"channel {channel.id}: no samples for {describe_spans(silences)}; bridged "
+                "and flagged"
             )
             _check_share(channel, float(lengths.sum()))
 
@@ -75,7 +76,7 @@ def check_readings(recording: Recording) -> None:
             _check_range(channel, limit)
 
 
-def told_spans(spans: FloatArray) -> str:
+def describe_spans(spans: FloatArray) -> str:
     """Return total length, number and longest of ``spans``, shape (k, 2), k > 0, in s, as text."""
     lengths = spans[:, 1] - spans[:, 0]
     longest = int(np.argmax(lengths))
@@ -86,7 +87,7 @@ def told_spans(spans: FloatArray) -> str:
     )
 
 
-def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
+def find_silences(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
     """Return where ``channel`` has no sample for more than ``longest_s``, shape (k, 2), in s.
 
     A silence starts a usual step after the last sample; one at an end of the channel counts.
@@ -104,7 +105,7 @@ def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
 
 
 def _known_times(channel: Channel, chunk: FloatArray, first: int) -> FloatArray:
-    """Return the times in s of valid samples, or of every few samples if none is missing."""
+    """Return the times in s of valid samples, or of every few if all are valid."""
     if isinstance(channel.clock, UniformClock) and not np.isnan(chunk.sum()):
         every = max(1, int(SILENT_S / 2 * float(channel.clock.rate)))
         few = channel.clock.times(-(-chunk.size // every), first, every)
@@ -163,7 +164,7 @@ def check_alive(recording: Recording, track: str, motion: Motion) -> None:
 
     A perfect sensor on a straight, level road is constant, too, and is accepted.
     """
-    for name, moved in _moved(recording, motion).items():
+    for name, moved in _find_motion(recording, motion).items():
         known = moved.row[~np.isnan(moved.row)]
         if not known.size or np.ptp(known) > CONSTANT * max(1.0, abs(known[0])):
             continue
@@ -175,33 +176,33 @@ def check_alive(recording: Recording, track: str, motion: Motion) -> None:
             )
 
 
-def _moved(recording: Recording, motion: Motion) -> dict[str, Moved]:
+def _find_motion(recording: Recording, motion: Motion) -> dict[str, Moved]:
     turning = motion.speed * motion.rates[2]
-    told = attitudes(recording, motion)
+    attitude_readings = read_attitudes(recording, motion)
     found = {
         "longitudinal_specific_force": Moved(
             motion.forces[0],
-            smoothed(motion.acceleration, SMOOTH_S),
+            smooth(motion.acceleration, SMOOTH_S),
             SPEEDS_UP,
             "the vehicle speeds up or brakes",
         ),
         "lateral_specific_force": Moved(
-            motion.forces[1], smoothed(turning, SMOOTH_S), TURNS, "the vehicle turns"
+            motion.forces[1], smooth(turning, SMOOTH_S), TURNS, "the vehicle turns"
         ),
         "yaw_rate": Moved(
-            motion.rates[2], smoothed(motion.forces[1], SMOOTH_S), TURNS, "the vehicle turns"
+            motion.rates[2], smooth(motion.forces[1], SMOOTH_S), TURNS, "the vehicle turns"
         ),
     }
     for axis in AXES:
-        shown = _swing(motion, told, axis)
+        shown = _swing(motion, attitude_readings, axis)
         found[axis.rate] = Moved(motion.rates[axis.row], shown, SWINGS, "the body swings")
     return found
 
 
-def _swing(motion: Motion, told: Mapping[str, Readings], axis: Axis) -> FloatArray:
+def _swing(motion: Motion, attitude_readings: Mapping[str, Readings], axis: Axis) -> FloatArray:
     """Return the angle in rad of GNSS, else of gravity, minus its mean over some seconds."""
-    if axis.angle in told:
-        angle = told[axis.angle].on_grid()
+    if axis.angle in attitude_readings:
+        angle = attitude_readings[axis.angle].on_grid()
     else:
-        angle = smoothed(motion.tilts[axis.row], TILT_SMOOTH_S)
-    return np.asarray(angle - smoothed(angle, SWING_S))
+        angle = smooth(motion.tilts[axis.row], TILT_SMOOTH_S)
+    return np.asarray(angle - smooth(angle, SWING_S))

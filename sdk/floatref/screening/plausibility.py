@@ -82,7 +82,7 @@ def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
     Raises InputError as `examine`.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        return tuple(_examined(channel, interval_m))
+        return tuple(_examine(channel, interval_m))
 
 
 def examine(
@@ -103,9 +103,9 @@ def examine(
     return (*warnings, *_unused_setup(recording))
 
 
-def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
+def _examine(channel: Channel, interval_m: float) -> Iterator[str]:
     summary = Summary.of(channel.values)
-    yield from _missing(channel, summary)
+    yield from _check_missing(channel, summary)
     name = channel.id.name
     if name in VERTICAL_FORCES:
         _check_accelerometer(channel, summary)
@@ -117,7 +117,7 @@ def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
         check_motion(channel, summary)
 
 
-def _missing(channel: Channel, summary: Summary) -> Iterator[str]:
+def _check_missing(channel: Channel, summary: Summary) -> Iterator[str]:
     if not summary.missing:
         return
     share = 100 * summary.missing / summary.count
@@ -143,7 +143,7 @@ def _check_accelerometer(channel: Channel, summary: Summary) -> None:
             "accelerometer; give rate_hz in Hz, not kHz"
         )
     which, level = "mean", summary.mean
-    if _wild(summary, HIGHEST_FORCE):
+    if _is_wild(summary, HIGHEST_FORCE):
         # A few wild samples move the mean, not the median.
         which, level = "median", _median(channel.values)
     meaning = _meaning(level)
@@ -192,13 +192,13 @@ def _check_height(channel: Channel, summary: Summary) -> None:
     _check_samples(channel, summary, LARGEST_HEIGHT_M)
 
 
-def _wild(summary: Summary, limit: float) -> bool:
+def _is_wild(summary: Summary, limit: float) -> bool:
     return summary.least < -limit or summary.greatest > limit
 
 
 def _check_samples(channel: Channel, summary: Summary, limit: float) -> None:
     """Refuse the first sample beyond ``limit``, in the channel's unit."""
-    if not _wild(summary, limit):
+    if not _is_wild(summary, limit):
         return
     at = first_where(lambda values: np.abs(values) > limit, channel.values) or 0
     raise InputError(
@@ -215,13 +215,15 @@ def _check_spans(recording: Recording) -> None:
     earliest = min(spans, key=lambda channel: spans[channel][0])
     for channel, (begin, end) in spans.items():
         if end < spans[latest][1] - TRUNCATION_S:
-            raise _truncated(channel, f"ends at {end:.6g} s", latest, f"{spans[latest][1]:.6g} s")
+            raise _truncation_error(
+                channel, f"ends at {end:.6g} s", latest, f"{spans[latest][1]:.6g} s"
+            )
         if begin > spans[earliest][0] + TRUNCATION_S:
             first = f"{spans[earliest][0]:.6g} s"
-            raise _truncated(channel, f"starts at {begin:.6g} s", earliest, first)
+            raise _truncation_error(channel, f"starts at {begin:.6g} s", earliest, first)
 
 
-def _truncated(channel: ChannelId, what: str, other: ChannelId, when: str) -> InputError:
+def _truncation_error(channel: ChannelId, what: str, other: ChannelId, when: str) -> InputError:
     return InputError(
         f"channel {channel}: {what}, but {other} at {when}; the file is truncated or its rate_hz "
         "or start_s is wrong, so copy it again or correct them"

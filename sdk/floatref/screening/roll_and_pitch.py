@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.screening.explanations import RIGHT, Evidence, Look, weigh
 from floatref.screening.gnss_readings import Readings
-from floatref.screening.slow_series import Motion, smoothed
+from floatref.screening.slow_series import Motion, smooth
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Recording
 
@@ -67,24 +67,28 @@ class Witnesses:
     angle: Evidence
 
 
-def attitudes(recording: Recording, motion: Motion) -> dict[str, Readings]:
+def read_attitudes(recording: Recording, motion: Motion) -> dict[str, Readings]:
     """Return the readings of gnss_roll and gnss_pitch during the run, without empty channels."""
     found = [recording.find(axis.angle) for axis in AXES]
-    told = {c.id.name: Readings.of(c, motion) for c in found if c is not None}
-    return {name: readings for name, readings in told.items() if readings.times.size}
+    attitude_readings = {c.id.name: Readings.of(c, motion) for c in found if c is not None}
+    return {name: readings for name, readings in attitude_readings.items() if readings.times.size}
 
 
-def heard(motion: Motion, told: Mapping[str, Readings]) -> tuple[Witnesses, Witnesses]:
+def weigh_witnesses(
+    motion: Motion, attitude_readings: Mapping[str, Readings]
+) -> tuple[Witnesses, Witnesses]:
     """Return the evidence on roll and on pitch."""
-    tilts = np.stack([smoothed(row, TILT_SMOOTH_S) for row in motion.tilts])
-    both = len(told) == len(AXES)
-    level = [told[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
+    tilts = np.stack([smooth(row, TILT_SMOOTH_S) for row in motion.tilts])
+    both = len(attitude_readings) == len(AXES)
+    level = (
+        [attitude_readings[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
+    )
     angles = motion.turned(np.clip(level, -UPRIGHT, UPRIGHT))
-    slow = [smoothed(angle, TILT_SMOOTH_S) for angle in angles]
-    calm = [smoothed(row, TILT_SMOOTH_S) for row in level]
+    slow = [smooth(angle, TILT_SMOOTH_S) for angle in angles]
+    calm = [smooth(row, TILT_SMOOTH_S) for row in level]
     roll, pitch = (
         Witnesses(
-            _attitude(told.get(axis.angle), angles, axis.row),
+            _attitude(attitude_readings.get(axis.angle), angles, axis.row),
             _tilt(motion, tilts, slow, axis.row),
             _tilt(motion, tilts, calm, axis.row) if both else Evidence(),
         )

@@ -80,7 +80,7 @@ class Motion:
     @cached_property
     def speed(self) -> FloatArray:
         """Travel speed, shape (n,), in m/s."""
-        return np.gradient(bridged(self.distance), STEP_S)
+        return np.gradient(bridge(self.distance), STEP_S)
 
     @cached_property
     def acceleration(self) -> FloatArray:
@@ -106,13 +106,13 @@ class Motion:
         """
         roll, pitch = tilts
         p, q, r = self.rates
-        return np.stack([integrated(rate) for rate in (p + pitch * r, q - roll * r, r)])
+        return np.stack([integrate(rate) for rate in (p + pitch * r, q - roll * r, r)])
 
     @cached_property
     def swing(self) -> FloatArray:
         """Roll and pitch against their means over some seconds, shape (2, n), in rad."""
         angles = self.turned(np.zeros((2, self.grid.count)))[:2]
-        return np.stack([angle - smoothed(angle, SWING_S) for angle in angles])
+        return np.stack([angle - smooth(angle, SWING_S) for angle in angles])
 
     @cached_property
     def lift(self) -> FloatArray:
@@ -163,7 +163,7 @@ def _groups(first: IndexArray) -> Iterator[tuple[int, int]]:
         yield low, min(low + size, first.size - 1)
 
 
-def bridged(values: FloatArray) -> FloatArray:
+def bridge(values: FloatArray) -> FloatArray:
     """Return ``values``, shape (n,), with NaN replaced by the line between the neighbours."""
     known = np.flatnonzero(~np.isnan(values))
     if known.size in (0, values.size):
@@ -171,13 +171,13 @@ def bridged(values: FloatArray) -> FloatArray:
     return np.interp(np.arange(values.size), known, values[known])
 
 
-def smoothed(values: FloatArray, span_s: float) -> FloatArray:
+def smooth(values: FloatArray, span_s: float) -> FloatArray:
     """Return the mean of ``values``, shape (n,), over ``span_s``, taken twice; NaN stays NaN.
 
     That is 3 dB down at 0.32 / ``span_s``.
     """
     length = min(max(1, round(span_s / STEP_S)), values.size)
-    found = bridged(values)
+    found = bridge(values)
     for _ in range(2):
         found = _moving_mean(found, length)
     return np.where(np.isnan(values), np.nan, found)
@@ -191,7 +191,7 @@ def _moving_mean(values: FloatArray, length: int) -> FloatArray:
     return np.asarray((sums[high] - sums[low]) / (high - low) + values.mean())
 
 
-def integrated(rate: FloatArray) -> FloatArray:
+def integrate(rate: FloatArray) -> FloatArray:
     """Return the integral of ``rate``, shape (n,), at the same times; NaN stays NaN."""
-    steps = bridged(rate) * STEP_S
+    steps = bridge(rate) * STEP_S
     return np.where(np.isnan(rate), np.nan, np.cumsum(steps) - steps / 2)

@@ -54,7 +54,7 @@ DIGITS = 4
 """Digits of a setting, whose uncertainty is one per cent or more."""
 
 
-def chosen(recording: Recording, names: Sequence[str]) -> tuple[Channel, ...]:
+def choose_channels(recording: Recording, names: Sequence[str]) -> tuple[Channel, ...]:
     """Return the channels called ``names``, with or without a track, or all that are analysed.
 
     Raises InputError for a name of no such channel.
@@ -75,13 +75,13 @@ def chosen(recording: Recording, names: Sequence[str]) -> tuple[Channel, ...]:
 def allan_report(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> dict[str, Any]:
     """Return the JSON document of `floatref allan --json`."""
     return {
-        "settings": {name: _rounded(value) for name, (value, _) in recommended(found).items()},
+        "settings": {name: _round(value) for name, (value, _) in recommend_settings(found).items()},
         "channels": [_channel_report(noise) for noise in found],
         "warnings": list(warnings),
     }
 
 
-def recommended(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, ChannelNoise]]:
+def recommend_settings(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, ChannelNoise]]:
     """Return settings of the Kalman pipelines in SI units, and the channel of each.
 
     Of several wheel paths the noisiest counts. A coefficient that the data do not show, or a curve
@@ -97,7 +97,7 @@ def recommended(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, Channel
     return settings
 
 
-def doubts(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
+def check_noise(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
     """Yield warnings about the noise of ``channel``, one line each."""
     stretch, where = noise.stretch, f"channel {noise.id}"
     span = f"{noise.begin_s:.6g} s to {noise.end_s:.6g} s"
@@ -124,7 +124,7 @@ def doubts(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
         )
 
 
-def travelled(recording: Recording) -> Iterator[str]:
+def check_stationary(recording: Recording) -> Iterator[str]:
     """Yield warnings about a recording that was not, or not completely, made at rest."""
     for channel in recording.channels:
         if channel.id.name == "distance":
@@ -184,7 +184,7 @@ def _coefficient(noise: ChannelNoise, term: str) -> dict[str, Any]:
     }
 
 
-def _rounded(value: float) -> float:
+def _round(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 

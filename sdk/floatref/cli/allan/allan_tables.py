@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import click
 
-from floatref.cli.allan.allan_report import SETTINGS, recommended, unit_of
+from floatref.cli.allan.allan_report import SETTINGS, recommend_settings, unit_of
 from floatref.cli.printing import number, print_table
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
@@ -81,7 +81,7 @@ def _rows(noise: ChannelNoise, term: str) -> Iterator[list[str]]:
 
 
 def _setting_rows(found: Sequence[ChannelNoise]) -> Iterator[list[str]]:
-    values = recommended(found)
+    values = recommend_settings(found)
     for name, (channel, term) in SETTINGS.items():
         if name in values:
             value, noise = values[name]

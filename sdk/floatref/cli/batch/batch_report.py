@@ -34,10 +34,12 @@ def progress(
 
     console = Console(file=stream)
     if console.is_terminal:
-        with _bar(tally, console) as show, _regularly(lambda: show(workers()), REFRESH_S):
+        with _bar(tally, console) as show, _call_regularly(lambda: show(workers()), REFRESH_S):
             yield show
         return
-    with _regularly(lambda: print(said(tally, workers()), file=stream, flush=True), every_s):
+    with _call_regularly(
+        lambda: print(describe_progress(tally, workers()), file=stream, flush=True), every_s
+    ):
         yield lambda: None
 
 
@@ -48,17 +50,17 @@ def _bar(tally: Tally, console: "Console") -> Iterator[Callable[..., None]]:
 
     columns = (BarColumn(), TextColumn("{task.description}"))
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(said(tally), total=1.0)
+        task = bar.add_task(describe_progress(tally), total=1.0)
         known: list[int] = []
 
         def show(*workers: int) -> None:
             known[:] = workers or known
-            bar.update(task, completed=tally.part, description=said(tally, *known))
+            bar.update(task, completed=tally.part, description=describe_progress(tally, *known))
 
         yield show
 
 
-def said(tally: Tally, workers: int | None = None) -> str:
+def describe_progress(tally: Tally, workers: int | None = None) -> str:
     """Return one line on ``tally``, the least important last: a narrow terminal truncates it."""
     now_s = monotonic()
     parts = [f"{tally.seen} of {tally.files} files", f"{len(tally.failed)} failed"]
@@ -81,7 +83,7 @@ def duration(seconds: float) -> str:
 
 
 @contextmanager
-def _regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
+def _call_regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
     """Call ``act`` every ``every_s`` s, also while no file is completed."""
     over = Event()
 
@@ -118,17 +120,17 @@ def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
 def tell_remarks(passed_over: Sequence[Path], no_longer_given: Sequence[str]) -> None:
     """Print warnings on files that are not recordings, and on profiles of earlier inputs."""
     if passed_over:
-        names = counted([path.name for path in passed_over])
+        names = count_names([path.name for path in passed_over])
         click.echo(f"Warning: skipped, not recordings of a known format: {names}", err=True)
     if no_longer_given:
-        names = counted(no_longer_given)
+        names = count_names(no_longer_given)
         click.echo(
             f"Warning: no longer given; the profiles remain but are not in the summary: {names}",
             err=True,
         )
 
 
-def counted(names: Sequence[str]) -> str:
+def count_names(names: Sequence[str]) -> str:
     """Return the number of ``names``, and the first of them."""
     more = ", ..." if len(names) > NAMES else ""
     files = "1 file" if len(names) == 1 else f"{len(names)} files"

@@ -60,7 +60,7 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
     Raises InputError for a folder or a cluster that cannot be used.
     """
     with prepared(work.out, work.resume), returned_records(work.out) as returned:
-        workers = _processed(found.jobs, work, tally, returned)
+        workers = _process(found.jobs, work, tally, returned)
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
@@ -73,7 +73,7 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
     return document
 
 
-def _processed(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
+def _process(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
     """Fill ``tally`` and ``returned``; return the number of workers."""
     with (
         silence() as shown,

@@ -85,7 +85,7 @@ def batch(
     if jobs and cluster:
         raise InputError("--jobs is for workers of this machine; omit it or --cluster")
     tally = Tally()
-    with interruptible(lambda: _interrupted(tally)):
+    with interruptible(lambda: _describe_interruption(tally)):
         check_installed()
         _check_drawing(plot, out)
         defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
@@ -107,7 +107,7 @@ def _check_drawing(plot: Path | None, out: Path) -> None:
     check_drawing(plot)
 
 
-def _interrupted(tally: Tally) -> str:
+def _describe_interruption(tally: Tally) -> str:
     """Return one line on the number of files that are done."""
     if not tally.seen:
         return "Interrupted before any file was done"

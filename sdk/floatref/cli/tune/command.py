@@ -86,8 +86,8 @@ def tune(
     given = read_settings(settings)
     expected = profile_of(reference)
     runs = _read(recordings, adapter)
-    tuning = _tuned(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
-    with _drawn(tuning, plot), replacing_file(out, overwrite) as beside:
+    tuning = _tune(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
+    with _draw(tuning, plot), replacing_file(out, overwrite) as beside:
         write_document(tuning.settings, beside)
     print_json(tune_report(tuning, out)) if as_json else print_tables(tuning, out)
 
@@ -121,7 +121,7 @@ def _read(sources: tuple[Path, ...], adapter: str | None) -> dict[str, Recording
     }
 
 
-def _tuned(
+def _tune(
     runs: Mapping[str, Recording],
     reference: Profile,
     pipeline: str,
@@ -131,12 +131,12 @@ def _tuned(
 ) -> "Tuning":
     from floatref.tuning import tune as tuned
 
-    with _shown(quiet) as (tell, done):
+    with _show_progress(quiet) as (tell, done):
         return tuned(runs, reference, pipeline, given, max_offset_m, tell, done)
 
 
 @contextmanager
-def _shown(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int], None]]]:
+def _show_progress(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int], None]]]:
     """Yield functions to report steps and profiles, which a terminal shows at once."""
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
@@ -164,7 +164,7 @@ def _shown(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int],
 
 
 @contextmanager
-def _drawn(tuning: "Tuning", plot: Path | None) -> Iterator[None]:
+def _draw(tuning: "Tuning", plot: Path | None) -> Iterator[None]:
     """Draw beside ``plot``; the drawing gets its name after everything else is written."""
     if plot is None:
         yield

@@ -133,7 +133,7 @@ def extremes(values: FloatArray) -> tuple[float, float]:
     return float(least), float(greatest)
 
 
-def told(channel: Channel, spans: IndexArray, what: str) -> str:
+def describe_damage(channel: Channel, spans: IndexArray, what: str) -> str:
     """Return one line on the damage ``what`` in ``spans`` of ``channel``."""
     lengths = spans[:, 1] - spans[:, 0]
     begin = float(channel.clock.times(1, int(spans[np.argmax(lengths), 0]))[0])
@@ -158,7 +158,7 @@ def within(spans: IndexArray, low: int, high: int) -> BoolArray | None:
     return np.cumsum(edges[:-1]) > 0
 
 
-def merged(spans: IndexArray) -> IndexArray:
+def merge(spans: IndexArray) -> IndexArray:
     """Return ``spans``, shape (k, 2), in order; those that touch or overlap are joined."""
     found: list[list[int]] = []
     for begin, end in sorted(spans.tolist()):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.screening.damage.damaged_samples import NONE, Damage, told
+from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
 from floatref.screening.damage.encoder_path import (
     AFTER_GAP,
     BEFORE_STEP,
@@ -40,7 +40,7 @@ MADE_UP = 2.5
 
 
 @compiled
-def least(speed: float, time_s: float) -> float:
+def shortest_travel(speed: float, time_s: float) -> float:
     """Return the shortest distance in m that a vehicle at ``speed`` in m/s travels."""
     braked_s = min(time_s, max(speed, 0.0) / HARDEST)
     return (max(speed, 0.0) - 0.5 * HARDEST * braked_s) * braked_s
@@ -73,7 +73,7 @@ def judge(
         most = ((1.0 + UNEVEN) * speed + unsure + 0.5 * HARDEST * took) * took
         steep = step > max(FASTEST_MPS * table[k, 4] + LEAP * local, MADE_UP * speed * since_s)
         moving, at_gap = speed >= MOVING_MPS, slowest - HARDEST * (table[k, 7] - start)
-        stops = table[k, 9] + hidden + off_m < least(at_gap, table[k, 8])
+        stops = table[k, 9] + hidden + off_m < shortest_travel(at_gap, table[k, 8])
         held = table[k, 6] > 0.0 and since_s >= SHORTEST_S
         kind = SOUND
         if moving and stops and speed * table[k, 8] > LATE * local:
@@ -81,7 +81,7 @@ def judge(
         elif steep or way > min(most, FASTEST_MPS * took) + ROUGH * local:
             own = step - speed * table[k, 4]
             kind = LEAPT if own >= 0.5 * (way - speed * took) else FAST
-        elif moving and way + hidden + ROUGH * local < least(slowest, took):
+        elif moving and way + hidden + ROUGH * local < shortest_travel(slowest, took):
             kind = SLOW
         elif held and step > AT_ONCE * local and step * MADE_UP > speed * since_s:
             kind = SILENT
@@ -113,18 +113,18 @@ def encoder_damage(channel: Channel) -> Damage:
     leapt[:, 1] = path.knots[kinds == LEAPT, STEP] + 1
     fast = path.ways(kinds == FAST)
     stalled = path.between(kinds == STALLED, GAP, AFTER_GAP)
-    lost = merged(stalled, path.ways(kinds == SLOW))
-    deep = merged(path.behind[path.depths > ONE_COUNT * path.usual_m])
-    void = merged(leapt, fast, lost)
+    lost = merge_stretches(stalled, path.ways(kinds == SLOW))
+    deep = merge_stretches(path.behind[path.depths > ONE_COUNT * path.usual_m])
+    void = merge_stretches(leapt, fast, lost)
     said = (
         (deep, "goes back"),
         (silent, "silent and caught up"),
         (leapt, "leaps"),
-        (merged(fast), "counts too much"),
+        (merge_stretches(fast), "counts too much"),
         (lost, "loses counts"),
     )
-    lines = tuple(told(channel, spans, what) for spans, what in said if spans.size)
-    return Damage(merged(path.behind, silent), void, void, lines)
+    lines = tuple(describe_damage(channel, spans, what) for spans, what in said if spans.size)
+    return Damage(merge_stretches(path.behind, silent), void, void, lines)
 
 
 def _kinds(path: EncoderPath) -> IndexArray:
@@ -143,7 +143,7 @@ def _kinds(path: EncoderPath) -> IndexArray:
     return kinds
 
 
-def merged(*spans: IndexArray) -> IndexArray:
+def merge_stretches(*spans: IndexArray) -> IndexArray:
     """Return stretches, shape (k, 2), in order; those that overlap or touch are joined."""
     joined = np.concatenate([NONE, *spans])
     joined = joined[np.argsort(joined[:, 0], kind="stable")]

@@ -41,7 +41,7 @@ class EncoderPath:
     @classmethod
     def of(cls, channel: Channel) -> "EncoderPath":
         """Follow ``channel``; a channel of missing samples has no knots."""
-        knots, far, behind, depths = _followed(channel)
+        knots, far, behind, depths = _follow(channel)
         distance = channel.values[knots[:, KNOT]]
         steps = distance[1:-1] - channel.values[knots[1:-1, FROM]]
         distance[-1:] = far
@@ -94,7 +94,7 @@ def times_at(channel: Channel, index: IndexArray) -> FloatArray:
     return np.asarray(clock.start_s + index / float(clock.rate))
 
 
-def _followed(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArray]:
+def _follow(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArray]:
     """Return the knots, the distance at each, the stretches behind, and how far behind they are."""
     from floatref.screening.damage import encoder_progress
 

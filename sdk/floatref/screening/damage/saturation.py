@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, extremes, told
+from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, describe_damage, extremes
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel
@@ -29,7 +29,7 @@ BESIDE = 250
 """Number of holds on either side that give the usual swing."""
 
 
-def damaged_force(channel: Channel) -> Damage:
+def find_saturation(channel: Channel) -> Damage:
     """Return the stretches in which an accelerometer is at the end of its range."""
     least, greatest = extremes(channel.values)
     low = least if least <= STANDARD_GRAVITY - OUTERMOST else -np.inf
@@ -39,7 +39,9 @@ def damaged_force(channel: Channel) -> Damage:
     spans = _cut_off(channel.values, Runs.of(channel.values, SHORTEST, (low, high)).spans)
     if not spans.size:
         return Damage()
-    return Damage(spans, spans, warnings=(told(channel, spans, "at the end of its range"),))
+    return Damage(
+        spans, spans, warnings=(describe_damage(channel, spans, "at the end of its range"),)
+    )
 
 
 def _cut_off(values: FloatArray, spans: IndexArray) -> IndexArray:

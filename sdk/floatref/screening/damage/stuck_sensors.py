@@ -4,7 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, extremes, merged, told
+from floatref.screening.damage.damaged_samples import (
+    Damage,
+    Runs,
+    Usual,
+    describe_damage,
+    extremes,
+    merge,
+)
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel
@@ -41,7 +48,7 @@ AWAY = 1.5
 """A step above this number of smallest steps is a change of the reading."""
 
 
-def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damage:
+def find_stuck_height(channel: Channel, force: Channel, distance: Channel) -> Damage:
     """Return the stretches in which a height sensor is stuck or out of its range.
 
     It is stuck where it repeats itself while ``force`` beside it changes and ``distance`` grows, or
@@ -58,7 +65,7 @@ def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damag
     chosen = stuck | found.out_of_range()
     warnings = []
     if chosen.any():
-        warnings.append(told(channel, runs.spans[chosen], "stuck or out of range"))
+        warnings.append(describe_damage(channel, runs.spans[chosen], "stuck or out of range"))
     if 2 * runs.length[open_to_doubt & ~chosen].sum() > channel.values.size:
         warnings.append(
             f"channel {channel.id}: repeats itself for most of the run; if that was not over a "
@@ -168,7 +175,7 @@ STUCK_FORCE_S = 0.02
 coarse or slow and repeats samples all the time."""
 
 
-def stuck_force(channel: Channel, distance: Channel) -> Damage:
+def find_stuck_force(channel: Channel, distance: Channel) -> Damage:
     """Return the stretches in which an accelerometer repeats itself while ``distance`` grows.
 
     They last 20 ms, `STUCK` usual holds of its other samples, and 0.5 m. The samples after them are
@@ -184,15 +191,15 @@ def stuck_force(channel: Channel, distance: Channel) -> Damage:
     spans = spans[np.array([_goes_on(channel, distance, *s) for s in spans.tolist()], np.bool_)]
     if not spans.size:
         return Damage()
-    return Damage(spans, spans, warnings=(told(channel, spans, "stuck"),))
+    return Damage(spans, spans, warnings=(describe_damage(channel, spans, "stuck"),))
 
 
-def together(first: Damage, second: Damage) -> Damage:
+def combine_damage(first: Damage, second: Damage) -> Damage:
     """Return the damage of both."""
     return Damage(
-        merged(np.concatenate([first.gone, second.gone])),
-        merged(np.concatenate([first.lasting, second.lasting])),
-        merged(np.concatenate([first.void, second.void])),
+        merge(np.concatenate([first.gone, second.gone])),
+        merge(np.concatenate([first.lasting, second.lasting])),
+        merge(np.concatenate([first.void, second.void])),
         (*first.warnings, *second.warnings),
     )
 
