@@ -2,7 +2,7 @@
 
 
 def one_line(text: str) -> str:
-    """Return ``text`` with what is not printable, line ends above all, as Python writes it."""
+    """Return ``text`` with characters that are not printable, such as line ends, escaped."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
@@ -10,7 +10,7 @@ class FloatrefError(Exception):
     """Base of every error that floatref raises on purpose; its text is one clear line."""
 
     def __str__(self) -> str:
-        """Return the text on one line: names out of files may hold line ends and escapes."""
+        """Return the text on one line: names from files may hold line ends and escapes."""
         return one_line(super().__str__())
 
 
@@ -23,4 +23,4 @@ class StageError(FloatrefError, RuntimeError):
 
 
 class PluginError(FloatrefError, RuntimeError):
-    """Two plug-ins answered the same point, a name was registered twice, or an answer is unfit."""
+    """Two plug-ins answered one point, a name was registered twice, or an answer is unusable."""

@@ -15,7 +15,7 @@ from rich.table import Table
 from road_prior_adversities import Adversity, stop
 from road_prior_measuring import OURS, compared, quietly, simulated
 
-from floatref.cli.vehicle import kept
+from floatref.cli.vehicle import combine_estimates
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.proving_ground.simulate import Simulation
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
@@ -53,13 +53,13 @@ def main() -> None:
         learned = [profile.provenance["learned"] for profile in plain]
         found: list[list[float]] = [[], []]
         for number, (made, profile) in enumerate(zip(runs, plain, strict=True)):
-            others = kept([told for k, told in enumerate(learned) if k != number])
+            others = combine_estimates([told for k, told in enumerate(learned) if k != number])
             again = quietly(made[1].recording, OURS, others)
             for each, values in zip((profile, again), found, strict=True):
                 tracks = compared(made[1], each, made[0].where_m)
                 values += [track.cross_correlation for track in tracks]
         told = ", ".join(f"{per_g(one['tilt_expected']):.2f}" for one in learned)
-        sigma = f"{per_g(kept(learned)['tilt_sigma']):.2f}"
+        sigma = f"{per_g(combine_estimates(learned)['tilt_sigma']):.2f}"
         figures = [f"{f(values):.3f}" for values in found for f in (np.mean, np.min)]
         table.add_row(name, f"{per_g(abs(float(own))):.2f}", told, sigma, *figures)
     Console(width=150).print(table)

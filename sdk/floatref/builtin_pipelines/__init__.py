@@ -1,1 +1,1 @@
-"""The signal flows with named points, the built-in pipelines, and the plug-in that brings them."""
+"""Signal flows with named points, the built-in pipelines, and the plug-in that registers them."""

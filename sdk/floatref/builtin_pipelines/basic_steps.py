@@ -13,11 +13,11 @@ from floatref.stages.resampling import TimeStep, ToDistance
 from floatref.stages.signals import ACCELERATION, ELEVATION, HEIGHT, REFERENCE_HEIGHT, VELOCITY
 
 TIMER_ONSET = 1.2
-"""Timer distortion (5.8) begins to act at so many times its limit speed."""
+"""Speed at which timer distortion (5.8) begins to act, as a multiple of its limit speed."""
 TRANSITION_WIDTH = 4.0
-"""The cut-off (5.3) is that of travel at speed beyond v_0 by this over its steepness."""
+"""The cut-off (5.3) is that of high speed from v_0 plus this over its steepness."""
 LEAST_RATE_HZ = 4000.0
-"""Up to this sampling rate the sensors' own bandwidth has to be the anti-alias filter."""
+"""Up to this sampling rate in Hz the sensors' own bandwidth must act as anti-alias filter."""
 
 
 def condition(context: Context) -> Sequence[Stage]:
@@ -32,7 +32,7 @@ def condition(context: Context) -> Sequence[Stage]:
 
 
 def _slow_mps(context: Context) -> float:
-    """Return the speed in m/s below which the pipeline gives the profile up."""
+    """Return the speed in m/s below which the pipeline gives no valid profile."""
     given = {name: value for name, value in context.settings.items() if value}
     speeds = [
         given.get("slow_mps", SLOW_MPS),

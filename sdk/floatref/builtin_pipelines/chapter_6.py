@@ -36,7 +36,7 @@ NOISE = {
     "lean_sigma_rad": "lean_rad",
     "height_noise_m": "height_m",
 }
-"""From settings to what they are in `Noise`."""
+"""From settings to the names in `Noise`."""
 
 
 def condition(context: Context) -> Sequence[Stage]:
@@ -50,12 +50,12 @@ def condition(context: Context) -> Sequence[Stage]:
 
 
 def noise_of(context: Context) -> Noise:
-    """Return what the settings say of sensors and references."""
+    """Return the noise of sensors and references from the settings."""
     return Noise(**{field: context.setting(name) for name, field in NOISE.items()})
 
 
 def answers(plan: Plan, estimator: Estimator) -> dict[str, Answer]:
-    """Return the answers of the pipeline that observes what ``plan`` says."""
+    """Return the answers of the pipeline that observes the readings of ``plan``."""
 
     def estimate(context: Context) -> Sequence[Stage]:
         wavelength_m = context.setting("cutoff_wavelength_m")

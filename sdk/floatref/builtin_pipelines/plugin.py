@@ -1,4 +1,4 @@
-"""The built-in plug-in: our adapter, stages and pipelines, and the default answers."""
+"""The built-in plug-in: floatref's adapter, stages and pipelines, and the default answers."""
 
 from collections.abc import Callable, Sequence
 
@@ -27,7 +27,7 @@ PIPELINE = "response-joint-input-state"
 
 
 def road_from_response(asked: DropOut) -> Profile | None:
-    """Return what `PIPELINE` makes of the recording; None if it has no wheel accelerometer.
+    """Return the profile of the recording by `PIPELINE`; None without a wheel accelerometer.
 
     Raises InputError as the pipeline does, for a setup without a vehicle among others.
     """
@@ -37,27 +37,27 @@ def road_from_response(asked: DropOut) -> Profile | None:
 
 
 class Defaults:
-    """Registers what is built in, and answers every point of all architectures."""
+    """Registers everything built in, and answers every point of all architectures."""
 
     def __init__(self) -> None:
         """Answer each point with the pipeline's own stages, else the architecture's."""
         for points in DEFAULTS.values():
             for point, answer in points.items():
-                setattr(self, point, _answering(point, answer))
+                setattr(self, point, _wrap_answer(point, answer))
 
     @hookimpl
     def temporal_fall_back(self, context: DropOut) -> Profile | None:
-        """Estimate the road from the vehicle's response, where that was recorded."""
+        """Estimate the road from the vehicle's response, if it was recorded."""
         return road_from_response(context)
 
     @hookimpl
     def floatref_register_adapters(self, register: Callable[[Adapter], None]) -> None:
-        """Register our recording directory."""
+        """Register the adapter of the recording directory."""
         register(RecordingDirectory())
 
     @hookimpl
     def floatref_register_profile_formats(self, register: Callable[[ProfileFormat], None]) -> None:
-        """Register our profile directory and our table."""
+        """Register the profile directory and the CSV table."""
         register(ProfileDirectory())
         register(ProfileTable())
 
@@ -77,7 +77,7 @@ class Defaults:
             register(pipeline)
 
 
-def _answering(point: str, default: Answer) -> Answer:
+def _wrap_answer(point: str, default: Answer) -> Answer:
     def answer(context: Context) -> Sequence[Stage | StageCall]:
         try:
             return stages_of(context.pipeline.answers.get(point, default), context)

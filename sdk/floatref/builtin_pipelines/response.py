@@ -58,15 +58,15 @@ def condition(context: Context) -> Sequence[Stage]:
 
 
 def first_integration(context: Context) -> Sequence[Stage]:
-    """HPF_B3S1 of (5.7) on accelerations, and of those that give a displacement the integral."""
+    """HPF_B3S1 of (5.7) on accelerations, and the integral of those that give a displacement."""
     return [stage for motion in _motions(context) for stage in _first(motion)]
 
 
 def second_integration(context: Context) -> Sequence[Stage]:
-    """HPF_B3S2 of (5.7), and the integral; what is measured passes both stages as they do.
+    """HPF_B3S2 of (5.7), and the integral; measured displacements pass both filter stages, too.
 
-    Accelerations pass them, too: all signals of a linear model then come from the road high-passed
-    alike, and what bias and tilt leave below the cut-off is no force on a tyre.
+    Accelerations pass them, too: then all signals of a linear model come from the same high-passed
+    road, and the errors of bias and tilt below the cut-off are not taken for a force on a tyre.
     """
     stages = [stage for motion in _motions(context) for stage in _second(motion)]
     if _uses_deflection(context):
@@ -94,9 +94,9 @@ def project(context: Context) -> Sequence[Stage]:
 
 
 def finish(context: Context) -> Sequence[Stage]:
-    """The backward stages (5.7), the way from wheel to laser, and all tyres of a track as one.
+    """The backward stages (5.7), the shift from wheel to laser, and a track's tyres combined.
 
-    What the tyres level over their contact is given back as far as it can be.
+    What the tyres smooth over their contact is restored as far as possible.
     """
     tyres = _tyres(context)
     most = max(len(places) for places in tyres.values())
@@ -160,7 +160,7 @@ def _second(motion: Motion) -> Iterator[Stage]:
 
 def _estimate(context: Context, groups: Sequence[Group]) -> Sequence[Stage]:
     stages: list[Stage] = [ToRate(calculation_rate_of(context), context.ends_m[1])]
-    stages += _watching(context)
+    stages += _watch(context)
     components = context.settings.get("denoise_components")
     if components:
         names = dict.fromkeys(c.name for group in groups for c in group.channels)
@@ -169,8 +169,8 @@ def _estimate(context: Context, groups: Sequence[Group]) -> Sequence[Stage]:
     return (*stages, EstimateRoad(groups, context.setting("parameter_sigma")), Drop(CUTOFF))
 
 
-def _watching(context: Context) -> list[Stage]:
-    """Hold the deflection against the heights of body and wheel, where all are known."""
+def _watch(context: Context) -> list[Stage]:
+    """Compare the deflection with the heights of body and wheel, where all are known."""
     placed = {m.quantity: m.displacement_name for m in _motions(context) if m.placed}
     if not (_uses_deflection(context) and {"sprung", "unsprung"} <= set(placed)):
         return []
@@ -179,7 +179,7 @@ def _watching(context: Context) -> list[Stage]:
 
 
 def _tyres(context: Context) -> dict[str, list[float]]:
-    """Return of every wheel path where its tyres are, in m ahead of the model's own point."""
+    """Return the positions of every wheel path's tyres, in m ahead of the model's own point."""
     found: dict[str, list[float]] = {track: [] for track in context.header.tracks}
     for tyre in vehicle_model(context.header.setup).tyres:
         for track in (tyre.track,) if tyre.track else context.header.tracks:

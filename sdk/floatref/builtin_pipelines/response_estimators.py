@@ -12,9 +12,9 @@ from floatref.vehicle_response import Hold, Kind, Reading, VehicleModel
 from floatref.vehicle_response.stages.estimators import RoadEstimator, WithPlaces
 
 INITIAL_M, INITIAL_MPS = 0.01, 0.1
-"""1-σ of displacements and velocities, in rad and rad/s too, before the first sample."""
+"""Initial 1-σ of displacements in m or rad and of velocities in m/s or rad/s."""
 LASTING_S = 0.1
-"""A force of pitch and roll on the body lasts so long: a quarter of their period."""
+"""Duration in s of a force of pitch and roll on the body: a quarter of their period."""
 
 
 def joint_filter(
@@ -22,10 +22,9 @@ def joint_filter(
 ) -> RoadEstimator:
     """Return the joint input-state filter, steps (a) to (c) of Zhu, of these readings.
 
-    ``body_disturbance``, a in m/s² and rad/s², acts on every freedom without a tyre: what one
-    model of a vehicle leaves out, as a quarter car does pitch and roll. Velocities walk by a²·τ·dt
-    in a step, τ = `LASTING_S`, and their accelerations are off by a. InputError as
-    `JointInputState.of`.
+    ``body_disturbance``, a in m/s² and rad/s², acts on every freedom without a tyre: motion that
+    the model omits, as a quarter car omits pitch and roll. Velocities walk by a²·τ·dt in a step, τ
+    = `LASTING_S`, and their accelerations are off by a. InputError as `JointInputState.of`.
     """
     from floatref.vehicle_response.estimators.joint_filter import JointInputState
 
@@ -34,7 +33,7 @@ def joint_filter(
     a = off * context.setting("body_disturbance")
     disturbance = np.concatenate((a**2 * step_s**4 / 4.0, a**2 * LASTING_S * step_s))
     initial = np.repeat([INITIAL_M**2, INITIAL_MPS**2], len(model.freedoms))
-    known = [_disturbed(reading, a[model.index(reading.freedom)]) for reading in readings]
+    known = [_disturb(reading, a[model.index(reading.freedom)]) for reading in readings]
     return JointInputState.of(model, known, step_s, disturbance, initial, Hold.FIRST_ORDER)
 
 
@@ -59,8 +58,8 @@ def observer(
     return WithPlaces(found, tuple(places), tuple(wheels))
 
 
-def _disturbed(reading: Reading, acceleration: float) -> Reading:
-    """Return ``reading`` with the ``acceleration`` that its freedom's equation leaves out."""
+def _disturb(reading: Reading, acceleration: float) -> Reading:
+    """Return ``reading`` with the ``acceleration`` that its freedom's equation omits."""
     if reading.kind is not Kind.ACCELERATION:
         return reading
     return replace(reading, sigma=hypot(reading.sigma, acceleration))

@@ -41,7 +41,7 @@ CONSTANTS = {
     "height_noise_m": "height_m",
     "most_sigma_share": "most_sigma_share",
 }
-"""From settings to what they are in `RoadPrior`."""
+"""From settings to the names in `RoadPrior`."""
 EXPECTED = "lean_expected_rad", "tilt_expected"
 _USUAL = vars(RoadPrior())
 
@@ -56,7 +56,7 @@ ROAD_PRIOR = (
     Pipeline(
         "road-prior-smoother",
         "temporal",
-        "nominal sensors; the road is a process in distance, which stands still when we do",
+        "nominal sensors; the road is a process in distance, which does not change at a stop",
         {
             "interval_m": None,
             "anti_alias_hz": 1000.0,
@@ -74,18 +74,18 @@ ROAD_PRIOR = (
 
 
 FILTERED_HZ = 400.0
-"""Up to this sampling rate the accelerometer's own bandwidth has to be the slower filter."""
+"""Up to this sampling rate in Hz the accelerometer's own bandwidth must act as slower filter."""
 DELAY = 1.0 / pi
 """Delay of LPF_B3 times its cut-off: 2 over the angular frequency, at low frequencies."""
 
 SETTINGS = {name: value for name, value in ROAD_PRIOR[0].settings.items() if name != "edge_sigmas"}
-"""At a standstill there is no reading, so none that could tell of an edge."""
+"""At a standstill there are no readings, so an edge cannot be detected."""
 
 
 def _condition(context: Context) -> Sequence[Stage]:
-    """Remove 1 g; LPF_B3 on both sensors, which stands for what is analog before the trigger.
+    """Remove 1 g; LPF_B3 on both sensors, a model of the analog filters before the trigger.
 
-    The accelerometer's is slower: its converter waits until the filter has caught up.
+    The accelerometer's is slower: its converter waits for the delay of the filter.
     """
     stages: list[Stage] = [RemoveGravity()]
     height_s = force_s = 0.0
@@ -101,7 +101,7 @@ def _condition(context: Context) -> Sequence[Stage]:
 
 
 def _estimate_triggered(context: Context) -> Sequence[Stage]:
-    """Go back to time, estimate there, and take what the triggers get."""
+    """Change to the time axis, estimate there, and sample the result at the triggers."""
     known = {CONSTANTS[name]: context.setting(name) for name in SETTINGS if name in CONSTANTS}
     return (
         ToTime(context.setting("unknown_after_s")),
@@ -125,7 +125,7 @@ ROAD_PRIOR_SPATIAL = (
 
 
 NOTHING = 1e-9
-"""1-σ of what is known."""
+"""1-σ of known values."""
 
 
 def _condition_levelled(context: Context) -> Sequence[Stage]:

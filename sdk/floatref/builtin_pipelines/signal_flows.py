@@ -6,13 +6,13 @@ project → finish. Its defaults are those of section 5.3.
 
 `spatial` takes one sample per profile interval, which the encoder triggers: trigger → time step →
 first integration → second integration (or one estimator in place of these three) → combine →
-finish. Before the trigger the signals exist in analog form only, which `spatial_condition` stands
-for. Its defaults are those of section 5.8.
+finish. Before the trigger the signals are analog; `spatial_condition` models this part. Its
+defaults are those of section 5.8.
 
-`response` has no height sensor, but the vehicle's response: condition → first integration →
-second integration → estimate → project → finish. The integrations make displacements where no
-displacement is measured; an estimator of unknown inputs turns the readings into the road under
-every tyre. Its defaults are those of `response-joint-input-state`.
+`response` uses the vehicle's response in place of a height sensor: condition → first integration →
+second integration → estimate → project → finish. The integrations give the displacements that are
+not measured; an estimator of unknown inputs turns the readings into the road under every tyre. Its
+defaults are those of `response-joint-input-state`.
 """
 
 from floatref.builtin_pipelines import basic_steps, response
@@ -52,7 +52,7 @@ RESPONSE: Defaults = {
 
 
 def flow_in_time(ask: Ask) -> list[Stage]:
-    """Return all stages in order, from what ``ask`` answers at each point of `temporal`."""
+    """Return all stages in order, from the answers of ``ask`` at each point of `temporal`."""
     flow = list(ask("temporal_condition"))
     estimator = ask("temporal_estimate")
     if estimator:
@@ -66,7 +66,7 @@ def flow_in_time(ask: Ask) -> list[Stage]:
 
 
 def flow_over_distance(ask: Ask) -> list[Stage]:
-    """Return all stages in order, from what ``ask`` answers at each point of `spatial`."""
+    """Return all stages in order, from the answers of ``ask`` at each point of `spatial`."""
     flow = [*ask("spatial_condition"), *ask("spatial_trigger")]
     estimator = ask("spatial_estimate")
     if estimator:
@@ -78,7 +78,7 @@ def flow_over_distance(ask: Ask) -> list[Stage]:
 
 
 def flow_from_response(ask: Ask) -> list[Stage]:
-    """Return all stages in order, from what ``ask`` answers at each point of `response`."""
+    """Return all stages in order, from the answers of ``ask`` at each point of `response`."""
     return [stage for point in RESPONSE for stage in ask(point)]
 
 

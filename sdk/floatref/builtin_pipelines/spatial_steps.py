@@ -43,7 +43,7 @@ def time_step(context: Context) -> Sequence[Stage]:
 
 
 def time_step_distorted(context: Context) -> Sequence[Stage]:
-    """Elapsed time, and its limit at low speed in place of it (5.7, 5.8)."""
+    """Elapsed time, replaced by its limit at low speed (5.7, 5.8)."""
     distort = DistortTimer(context.setting("timer_speed_mps"), context.setting("timer_sharpness"))
     return TimeStep(), Drop(TIME), distort
 

@@ -66,7 +66,7 @@ def first_integration_filtered(context: Context) -> Sequence[Stage]:
 
 
 def first_integration_suppressed(context: Context) -> Sequence[Stage]:
-    """Local suppression of what the filtered first integration gives (5.6)."""
+    """Local suppression of the filtered first integral (5.6)."""
     suppress = SuppressLocally(
         VELOCITY,
         context.setting("suppression_speed_mps"),
@@ -100,7 +100,7 @@ def condition_matched(context: Context) -> Sequence[Stage]:
 
 
 def condition_adaptive(context: Context) -> Sequence[Stage]:
-    """The same without the speed, which nothing else needs (5.7)."""
+    """The same without the speed, which no other stage needs (5.7)."""
     return (*condition_with_cutoff(context), Drop(TRAVEL_SPEED))
 
 
@@ -136,7 +136,7 @@ def finish_backward(context: Context) -> Sequence[Stage]:
 
 
 def finish_matched(context: Context) -> Sequence[Stage]:
-    """The backward stages over distance in state-variable form, which bears a stop."""
+    """The backward stages over distance in state-variable form, which is valid at a stop."""
     return (
         ScheduleWaveNumber(_schedule(context)),
         Drop(TRAVEL_SPEED),

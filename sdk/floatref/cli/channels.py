@@ -1,4 +1,4 @@
-"""`floatref channels`: what a native file holds, a draft of its channel map, and a map tried."""
+"""`floatref channels`: a native file's content, a draft of its channel map, a trial of a map."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,7 +15,7 @@ from floatref.values.recording import Recording
 
 
 def print_streams(report: Mapping[str, Any]) -> None:
-    """Print one line for every column of every stream, then what was not decoded."""
+    """Print one line for every column of every stream, then the content that was not decoded."""
     rows = [row for stream in report["streams"] for row in _rows(stream)]
     title = one_line(f"{report['file']} ({report['adapter']})")
     headers = ("stream", "channel", "unit", "samples", "clock", "note")
@@ -26,7 +26,7 @@ def print_streams(report: Mapping[str, Any]) -> None:
 
 
 def print_mapped(report: Mapping[str, Any]) -> None:
-    """Print what became of every channel, and how clocks were aligned."""
+    """Print the result for every channel, and the alignment of the clocks."""
     rows = [
         [
             c["channel"],
@@ -56,8 +56,8 @@ def _rows(stream: Mapping[str, Any]) -> list[list[str]]:
     if not stream["columns"]:
         return [[one_line(stream["name"]), "", "", *shared, ""]]
     name = one_line(stream["name"])
-    told = ([one_line(c[key]) for key in ("name", "unit", "note")] for c in stream["columns"])
-    return [[name, column, unit, *shared, note] for column, unit, note in told]
+    columns = ([one_line(c[key]) for key in ("name", "unit", "note")] for c in stream["columns"])
+    return [[name, column, unit, *shared, note] for column, unit, note in columns]
 
 
 def _clock_line(clock: Mapping[str, Any]) -> str:
@@ -76,7 +76,7 @@ def _skew_line(skew: Mapping[str, Any]) -> str:
     if skew["reason"]:
         return f"{line}open, {skew['reason']}"
     late, sigma = (1e3 * skew[key] for key in ("skew_s", "sigma_s"))
-    return f"{line}{late:+.2f} ± {sigma:.2f} ms, told by {skew['seconds']:.3g} s"
+    return f"{line}{late:+.2f} ± {sigma:.2f} ms, measured by {skew['seconds']:.3g} s"
 
 
 def _warn(report: Mapping[str, Any]) -> None:
@@ -93,7 +93,7 @@ def _warn(report: Mapping[str, Any]) -> None:
     "channel_map",
     type=click.Path(path_type=Path),
     metavar="FILE.toml",
-    help="Try this channel map: what becomes of the channels.",
+    help="Try this channel map and show the resulting channels.",
 )
 @click.option(
     "--dbc", type=click.Path(path_type=Path), metavar="FILE", help="Signals of a CAN log."
@@ -107,13 +107,13 @@ def channels(
     dbc: Path | None,
     as_json: bool,
 ) -> None:
-    """List what FILE holds: its channels, units and clocks, and what could not be decoded.
+    """List what FILE holds: its channels, units and clocks, and content that could not be decoded.
 
-    With --map every channel is read, put into SI units and onto one time base, and looked at.
+    With --map every channel is read, converted to SI units and one time base, and checked.
     """
     if channel_map is not None:
         if draft_map or dbc is not None:
-            raise InputError("--map stands alone; it says itself which dbc there is")
+            raise InputError("--map takes no --draft-map or --dbc; name the dbc file in the map")
         _try(file, adapter, channel_map, as_json)
         return
     reader = reader_of(file, adapter)
@@ -125,7 +125,7 @@ def channels(
         if draft_map:
             _draft(native, file, reader.name, dbc)
             return
-        report = _listed(native, file, reader.name)
+        report = _list_streams(native, file, reader.name)
     print_json(report) if as_json else print_streams(report)
 
 
@@ -158,7 +158,7 @@ def _list_recording(
             "name": "",
             "count": channel.values.size,
             "rate_hz": channel.mean_rate_hz,
-            "clock": _rate_said(channel.clock.rate)
+            "clock": _describe_rate(channel.clock.rate)
             if isinstance(channel.clock, UniformClock)
             else "time stamps",
             "columns": [{"name": str(channel.id), "unit": channel.unit, "note": ""}],
@@ -169,8 +169,8 @@ def _list_recording(
     print_json(report) if as_json else print_streams(report)
 
 
-def _listed(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
-    """Return what `floatref channels --json` prints."""
+def _list_streams(native: NativeFile, file: Path, adapter: str) -> dict[str, Any]:
+    """Return the JSON document of `floatref channels --json`."""
     return {
         "file": str(file),
         "adapter": adapter,
@@ -186,7 +186,7 @@ def _stream(stream: Stream) -> dict[str, Any]:
         "name": stream.name,
         "count": stream.count,
         "rate_hz": None if clock.rate is None else float(clock.rate),
-        "clock": _clock_said(clock),
+        "clock": _describe_clock(clock),
         "columns": [
             {"name": c.name, "unit": c.unit, "numeric": c.numeric, "note": c.note}
             for c in stream.columns
@@ -194,15 +194,15 @@ def _stream(stream: Stream) -> dict[str, Any]:
     }
 
 
-def _clock_said(clock: NativeClock) -> str:
+def _describe_clock(clock: NativeClock) -> str:
     from floatref.mapping.clocks.columns import UNKNOWN
 
     if clock.name == UNKNOWN:
         return "none"
-    said = "time stamps" if clock.rate is None else _rate_said(clock.rate)
+    said = "time stamps" if clock.rate is None else _describe_rate(clock.rate)
     named = f", clock {clock.name}" if clock.name else ""
     return f"{said}, {clock.epoch.value}{named}"
 
 
-def _rate_said(rate: Any) -> str:
+def _describe_rate(rate: Any) -> str:
     return f"{float(rate):.10g} Hz"

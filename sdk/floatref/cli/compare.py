@@ -32,9 +32,9 @@ def compare(
 ) -> None:
     """Print how well PROFILE agrees with REFERENCE, by cross correlation and by IRI.
 
-    Wheel paths are matched by name; PROFILE may have others. It is taken on the points of
-    REFERENCE, linearly between its own, where both overlap. An offset above zero says that
-    PROFILE lies farther along.
+    Wheel paths are matched by name; PROFILE may have others. It is interpolated linearly at the
+    points of REFERENCE where both overlap. An offset above zero means that PROFILE lies farther
+    along.
     """
     expected, found = profile_of(reference), profile_of(profile)
     with naming(f"{reference} and {profile}"):
@@ -52,7 +52,7 @@ def compare(
 
 
 def compare_report(reference: Profile, profile: Profile, max_offset_m: float) -> dict[str, Any]:
-    """Return what `floatref compare --json` prints, for two profiles on the same points."""
+    """Return the JSON document of `floatref compare --json` for two profiles on the same points."""
     interval = reference.interval_m
     settings = IriSettings().as_dict(interval) | {
         "max_offset_m": max_offset_m,

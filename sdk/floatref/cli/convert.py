@@ -16,13 +16,13 @@ from floatref.values.profile import Profile
 @click.command("convert")
 @click.argument("profile", type=click.Path(path_type=Path))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
-@click.option("--format", "form", type=FormatName(), help="By default, after --out's suffix.")
-@click.option("--overwrite", is_flag=True, help="Replace what is there.")
+@click.option("--format", "form", type=FormatName(), help="By default, from the suffix of --out.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing target.")
 def convert(profile: Path, out: Path, form: str | None, overwrite: bool) -> None:
     """Write PROFILE, a profile directory or a profile file of any format, in another format.
 
-    The suffix of OUT says in which; without one it is a profile directory. Points, elevations and
-    validity stay as they are, to the digits that the format holds.
+    The suffix of OUT selects the format; without a suffix it is a profile directory. Points,
+    elevations and validity are unchanged, to the digits that the format holds.
     """
     written = format_of(out, form)
     check_target(out, overwrite)

@@ -1,4 +1,4 @@
-"""The choice of a profile format on the command line, from what is registered."""
+"""The choice of a profile format on the command line, from the registered ones."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +14,12 @@ else:
 
 
 class FormatName(NameType):
-    """The name of a registered format; plug-ins are loaded when one is given or asked for."""
+    """The name of a registered format; plug-ins are loaded only when it is used."""
 
     name = "format"
 
     def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
-        """Return the names, as the help shows a choice."""
+        """Return the names as shown in the help."""
         return f"[{'|'.join(plugins().profile_formats())}]"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:

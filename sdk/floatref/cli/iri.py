@@ -1,4 +1,4 @@
-"""`floatref iri`: the IRI of a profile, whole and by segment, and the settings behind it."""
+"""`floatref iri`: the IRI of a profile, whole and by segment, and the settings used."""
 
 from pathlib import Path
 from typing import Any
@@ -32,7 +32,7 @@ UNITS = {"si": "m/km", "us": "in/mi"}
 def iri(profile: Path, segment_m: float | None, units: str, as_json: bool) -> None:
     """Print the IRI of PROFILE: a profile directory or a profile file of any format.
 
-    The car runs once over every wheel path and the result is cut into segments afterwards.
+    The car runs once over every wheel path; then the result is divided into segments.
     """
     settings = IriSettings(segment_m=segment_m)
     read = profile_of(profile)
@@ -45,10 +45,10 @@ def iri(profile: Path, segment_m: float | None, units: str, as_json: bool) -> No
 
 
 def iri_report(profile: Profile, settings: IriSettings, units: str = "si") -> dict[str, Any]:
-    """Return what `floatref iri --json` prints: settings, tracks, mean roughness index.
+    """Return the JSON document of `floatref iri --json`: settings, tracks, mean roughness index.
 
-    Values are in m/km; with ``units`` "us" each comes in in/mi as well. The mean roughness
-    index is there for two tracks, else None.
+    Values are in m/km; with ``units`` "us" each is also given in in/mi. The mean roughness index is
+    given for two tracks, else None.
     """
     tracks = [_track_report(track, profile, settings, units) for track in profile.tracks]
     report: dict[str, Any] = {"settings": settings.as_dict(profile.interval_m), "tracks": tracks}
@@ -64,7 +64,7 @@ def iri_report(profile: Profile, settings: IriSettings, units: str = "si") -> di
 def _track_report(
     track: ProfileTrack, profile: Profile, settings: IriSettings, units: str
 ) -> dict[str, Any]:
-    """Return name, IRI, length that is not valid in m, and segments of ``track``."""
+    """Return name, IRI, invalid length in m, and segments of ``track``."""
     interval = profile.interval_m
     with naming(f"track {track.name}"):
         value = whole_iri(track.elevation, interval, settings)

@@ -17,9 +17,9 @@ STREAMS = ("stdin", "stdout", "stderr")
 
 
 def open_outputs() -> None:
-    """Have what is closed of the standard streams lead nowhere.
+    """Open the closed standard streams on the null device.
 
-    Else the next file that is opened would be taken for one, by us and by what we start.
+    Otherwise the next opened file would be used as a standard stream, by us and by child processes.
     """
     while (number := os.open(os.devnull, os.O_RDWR)) < len(STREAMS):
         os.set_inheritable(number, True)
@@ -42,7 +42,7 @@ class LazyGroup(click.Group):
     def __init__(
         self, *args: Any, lazy: dict[str, tuple[str, str]] | None = None, **kwargs: Any
     ) -> None:
-        """Keep where each sub-command lives; import none of them."""
+        """Store where each sub-command is; import nothing."""
         super().__init__(*args, **kwargs)
         self._lazy = lazy or {}
 
@@ -51,7 +51,7 @@ class LazyGroup(click.Group):
         return list(self._lazy)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import and return sub-command ``cmd_name``, or None if there is none."""
+        """Import and return sub-command ``cmd_name``, or None if it is unknown."""
         if cmd_name not in self._lazy:
             return None
         module, attribute = self._lazy[cmd_name][0].split(":")
@@ -98,7 +98,7 @@ def _one_line() -> Iterator[None]:
 
 
 def _place(error: OSError) -> str:
-    """Return where ``error`` happened, followed by a colon; nothing where that is unknown."""
+    """Return the place of ``error``, followed by a colon; "" if that is unknown."""
     if error.filename:
         return f"{error.filename}: "
     modules = [frame.f_globals.get("__name__", "") for frame, _ in walk_tb(error.__traceback__)]
@@ -109,6 +109,6 @@ def _place(error: OSError) -> str:
 
 
 def _drop_output() -> None:
-    """Send standard output nowhere: what is left of it would fail again when Python exits."""
+    """Redirect standard output to the null device: remaining text would fail again at exit."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""`floatref pipelines` and `floatref adapters`: what is there to choose from."""
+"""`floatref pipelines` and `floatref adapters`: lists of the available ones."""
 
 import click
 
@@ -40,7 +40,7 @@ def adapters(as_json: bool) -> None:
         return
     rows = [[adapter.name, adapter.summary] for adapter in known]
     print_table("Adapters", ("adapter", "what it reads"), rows, numbers=False)
-    rows = [[f.name, f.suffix or "none", f.summary] for f in formats]
+    rows = [[f.name, f.suffix or "–", f.summary] for f in formats]
     print_table("Profile formats", ("format", "suffix", "what it is"), rows, numbers=False)
     _warn()
 

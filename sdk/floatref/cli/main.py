@@ -12,7 +12,10 @@ COMMANDS = {
     "convert": ("floatref.cli.convert:convert", "write a profile in another format"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
-    "channels": ("floatref.cli.channels:channels", "list what a native file holds, draft its map"),
+    "channels": (
+        "floatref.cli.channels:channels",
+        "list the content of a native file, draft its map",
+    ),
     "allan": (
         "floatref.cli.allan.command:allan",
         "noise of sensors at rest, for the Kalman pipelines",
@@ -22,7 +25,7 @@ COMMANDS = {
         "noise settings of a Kalman pipeline, from known runs",
     ),
     "batch": ("floatref.cli.batch.command:batch", "process many recordings on a cluster"),
-    "vehicle": ("floatref.cli.vehicle:vehicle", "keep what runs have told of their vehicle"),
+    "vehicle": ("floatref.cli.vehicle:vehicle", "settings of a vehicle, from its runs"),
 }
 
 

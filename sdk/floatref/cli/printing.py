@@ -1,4 +1,4 @@
-"""What commands print: one JSON object, or tables that are plain when piped."""
+"""Output of commands: one JSON object, or tables that are plain when piped."""
 
 import json
 import sys
@@ -15,7 +15,7 @@ from rich.text import Text
 from floatref.files.document import plain
 
 PIPED_WIDTH = 240
-"""Columns of a table that no terminal limits."""
+"""Width of a table outside a terminal, in characters."""
 
 
 def print_json(report: Mapping[str, Any]) -> None:
@@ -24,21 +24,21 @@ def print_json(report: Mapping[str, Any]) -> None:
 
 
 def print_settings(settings: Mapping[str, Any]) -> None:
-    """Print one line for each setting; None is "none"."""
-    lines = [[name, _shown(value)] for name, value in settings.items()]
+    """Print one line for each setting, a dash for None."""
+    lines = [[name, _format_value(value)] for name, value in settings.items()]
     print_table("Settings", ("setting", "value"), lines, numbers=False)
 
 
-def _shown(value: object) -> str:
+def _format_value(value: object) -> str:
     if value is None:
-        return "none"
+        return "–"
     return str(float(f"{value:.10g}") if isinstance(value, float) else value)
 
 
 def print_table(
     title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], numbers: bool = True
 ) -> None:
-    """Print ``rows`` under ``title``; with ``numbers`` all but the first column align right."""
+    """Print ``rows`` under ``title``; with ``numbers`` all columns but the first align right."""
     terminal = sys.stdout.isatty()
     console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH, emoji=False)
     style = box.SIMPLE_HEAD if terminal else None
@@ -63,9 +63,9 @@ def number(value: float, digits: int = 3) -> str:
 def progress_bar(
     label: str, quiet: bool, before: str | None = None
 ) -> Iterator[Callable[[float], None] | None]:
-    """Yield what shows the part that is done, from 0 to 1; None where nothing is shown.
+    """Yield a function that shows the part done, from 0 to 1; None without a terminal.
 
-    ``before`` stands there until it is called for the first time.
+    ``before`` is shown until its first call.
     """
     from rich.console import Console
     from rich.progress import Progress

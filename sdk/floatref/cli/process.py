@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 )
 @click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
 @click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
-@click.option("--format", "form", type=FormatName(), help="By default, after --out's suffix.")
-@click.option("--overwrite", is_flag=True, help="Replace what is there.")
+@click.option("--format", "form", type=FormatName(), help="By default, from the suffix of --out.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing target.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw it too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def process(
@@ -52,26 +52,26 @@ def process(
 ) -> None:
     """Write the road profile of SOURCE: a recording directory, its JSON file, or a native file.
 
-    The suffix of OUT says in which format; without one it is a profile directory.
+    The suffix of OUT selects the format; without a suffix it is a profile directory.
     """
     written = format_of(out, form)
     _check_targets(source, out, plot, overwrite)
     chosen = read_settings(settings)
     with progress_bar("Reading", as_json) as shown:
         read = recording_of(source, adapter, channel_map, shown)
-    # Until the first block is through, loops may be compiled: seconds, once per installation.
+    # Before the first block is done, loops may be compiled: seconds, once per installation.
     starting = "Starting (the first time, this compiles)"
     with progress_bar("Processing", as_json, starting) as shown:
         result = profiled(read, pipeline, chosen, shown)
     profile = result.profile
     report = _report(profile, out, result.warnings)
-    with _drawn(result, plot):
+    with _draw(result, plot):
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
 
 def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) -> None:
-    """Refuse before the work what would be refused after it."""
+    """Raise InputError now for a target to which writing would fail later."""
     check_target(out, overwrite)
     if out.resolve() == source.resolve() or source.resolve() in out.resolve().parents:
         raise InputError(f"{out}: is, or is inside, the source; choose another place")
@@ -86,8 +86,8 @@ def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) 
 
 
 @contextmanager
-def _drawn(result: "Result", plot: Path | None) -> Iterator[None]:
-    """Draw beside ``plot``; the drawing gets its name once all else is written."""
+def _draw(result: "Result", plot: Path | None) -> Iterator[None]:
+    """Draw beside ``plot``; the drawing gets its name after everything else is written."""
     if plot is None:
         yield
         return
@@ -99,7 +99,7 @@ def _drawn(result: "Result", plot: Path | None) -> Iterator[None]:
 
 
 def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str, Any]:
-    """Return what `floatref process --json` prints."""
+    """Return the JSON document of `floatref process --json`."""
     lines = list(warnings)
     return {
         "pipeline": profile.pipeline,
@@ -117,7 +117,7 @@ def _track_report(track: ProfileTrack, interval_m: float, warnings: list[str]) -
     try:
         value = iri(track.elevation, interval_m)
     except InputError as error:
-        # A profile too short or too coarse for the car is a profile all the same.
+        # A profile too short or too coarse for the IRI car is still a valid result.
         warnings.append(f"track {track.name}: no IRI: {error}")
         value = nan
     invalid_m = float((~track.valid).sum()) * interval_m

@@ -1,4 +1,4 @@
-"""`floatref vehicle`: what runs have told of their vehicle, kept as settings for the next ones."""
+"""`floatref vehicle`: estimates of a vehicle from its runs, as settings for the next runs."""
 
 from collections.abc import Mapping, Sequence
 from math import hypot, isfinite, sqrt
@@ -14,7 +14,7 @@ from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
 
 PAIRS = (("lean_expected_rad", "lean_sigma_rad"), ("tilt_expected", "tilt_sigma"))
-"""What a run tells, each with its 1-σ."""
+"""Estimates of a run, each with its 1-σ."""
 NAMES = frozenset(name for pair in PAIRS for name in pair)
 
 
@@ -32,27 +32,27 @@ NAMES = frozenset(name for pair in PAIRS for name in pair)
 @click.option("--overwrite", is_flag=True, help="Replace what is there.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def vehicle(profiles: tuple[Path, ...], out: Path, overwrite: bool, as_json: bool) -> None:
-    """Keep what the runs of PROFILEs, of one vehicle, have told of its lean and tilt.
+    """Write settings of a vehicle's lean and tilt, estimated in the runs of PROFILEs.
 
-    A road-prior pipeline learns both from brakes. `floatref process --settings` reads the
-    result, so that the next run begins with them.
+    All PROFILEs are of one vehicle. A road-prior pipeline estimates both when it brakes. `floatref
+    process --settings` reads the result, so that the next run begins with them.
     """
     check_target(out, overwrite)
     if len({place.resolve() for place in profiles}) < len(profiles):
         raise InputError("a profile is given twice; give every run once")
-    pipeline, learned = _learned(profiles)
-    settings = kept(learned)
+    pipeline, learned = _read_estimates(profiles)
+    settings = combine_estimates(learned)
     with replacing_file(out, overwrite) as beside:
         write_document(settings, beside)
     report = {"file": str(out), "pipeline": pipeline, "runs": len(learned), "settings": settings}
     print_json(report) if as_json else _print_table(out, profiles, learned, settings)
 
 
-def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    """Return the settings of a vehicle whose runs have ``learned`` theirs.
+def combine_estimates(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the settings of a vehicle from the estimates ``learned`` in its runs.
 
-    Means are weighted by 1/σ²; their 1-σ is that of one more run, in quadrature 1/√Σ(1/σ²) and
-    how the runs spread about the mean.
+    Means are weighted by 1/σ²; their 1-σ is that of one more run: 1/√Σ(1/σ²) and the spread of the
+    runs about the mean, in quadrature.
     """
     found = {}
     for mean, sigma in PAIRS:
@@ -65,23 +65,25 @@ def kept(learned: Sequence[Mapping[str, float]]) -> dict[str, float]:
     return found
 
 
-def _learned(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
-    """Return the pipeline of all ``profiles`` and what each run has told."""
+def _read_estimates(profiles: Sequence[Path]) -> tuple[str, list[Mapping[str, float]]]:
+    """Return the pipeline of all ``profiles`` and the estimates of each run."""
     read = {place: profile_of(place) for place in profiles}
     pipeline = next(iter(read.values())).pipeline
     for place, profile in read.items():
         if profile.pipeline != pipeline:
-            other = profile.pipeline or "none"
+            other = profile.pipeline or "missing"
             raise InputError(f"{place}: pipeline is {other}, that of the first is {pipeline}")
-    return pipeline, [_told(place, profile.provenance) for place, profile in read.items()]
+    return pipeline, [
+        _check_estimates(place, profile.provenance) for place, profile in read.items()
+    ]
 
 
-def _told(place: Path, provenance: Mapping[str, Any]) -> Mapping[str, float]:
+def _check_estimates(place: Path, provenance: Mapping[str, Any]) -> Mapping[str, float]:
     learned = provenance.get("learned")
     if learned is None:
         raise InputError(
-            f"{place}: tells nothing of a vehicle; give a profile by a road-prior pipeline, of a "
-            "run with a brake"
+            f"{place}: holds no estimate of a vehicle; give a profile by a road-prior pipeline, "
+            "of a run with a brake"
         )
     if not isinstance(learned, dict) or learned.keys() != NAMES:
         raise InputError(f"{place}: provenance learned has to hold {', '.join(sorted(NAMES))}")

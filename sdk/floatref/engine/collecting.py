@@ -1,4 +1,4 @@
-"""Collecting the blocks at the end of a signal flow in a profile, without holding them twice."""
+"""Collecting the blocks at the end of a signal flow in a profile, with one copy in memory."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -24,9 +24,9 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.version import __version__
 
 SPARE = 16
-"""An array that grows gets room for one more in so many samples."""
+"""A full array grows by one sample for this number of samples."""
 LARGEST_ROOM = 1 << 27
-"""Points for which room is made at most before they come; a leap of the encoder is no run."""
+"""Largest number of points allocated in advance; a jump of the encoder is not a long run."""
 
 S = TypeVar("S", np.float64, np.uint8)
 
@@ -35,7 +35,7 @@ class Growing(Generic[S]):
     """A one-dimensional array of ``kind`` that grows at its end."""
 
     def __init__(self, kind: type[S], room: int = 0) -> None:
-        """Begin without samples, with room for so many."""
+        """Begin without samples, with memory for ``room`` of them."""
         self._array: NDArray[S] = np.empty(min(room, LARGEST_ROOM), kind)
         self._size = 0
 
@@ -48,13 +48,13 @@ class Growing(Generic[S]):
         self._size = end
 
     def close(self) -> NDArray[S]:
-        """Return the array, which grows no more."""
+        """Return the array in its final length."""
         self._resize(self._size)
         return self._array
 
     def _resize(self, size: int) -> None:
-        # Resizing moves pages where the system can; nobody else refers to the array, though a
-        # debugger that looks at it would count as somebody.
+        # Resizing moves pages where the system can; nothing else refers to the array, except
+        # perhaps a debugger.
         self._array.resize(size, refcheck=False)
 
 
@@ -67,10 +67,10 @@ class Gathered:
     sigma: FloatArray | None = None
 
 
-def collected(
+def collect_tracks(
     blocks: Iterable[Block], tracks: tuple[str, ...], room: int = 0, with_sigma: bool = False
 ) -> dict[str, Gathered]:
-    """Return elevation and flags of every one of ``tracks``, and 1-σ if there is one.
+    """Return elevation and flags of all ``tracks``, and 1-σ if it is known.
 
     ``room`` is about how many points to expect.
     """
@@ -97,14 +97,14 @@ def collect_profile(
     resolved: Mapping[str, Any],
     room: int,
 ) -> Profile:
-    """Return the profile that ``blocks``, described by ``header``, amount to.
+    """Return the profile made of ``blocks``, which ``header`` describes.
 
-    ``room`` is about how many points to expect. Raises InputError if they are still in time.
+    ``room`` is the expected number of points. Raises InputError if they are on the time axis.
     """
     if header.axis is not Axis.DISTANCE:
         raise InputError(f"pipeline {chosen.name} ends on the time axis; it needs a projection")
     known = all(ChannelId(SIGMA, track) in header.channels for track in header.tracks)
-    found = collected(blocks, header.tracks, room, known)
+    found = collect_tracks(blocks, header.tracks, room, known)
     reach = Reach.of(resolved)
     tracks = tuple(
         _track(name, found.pop(name), header.step, reach, resolved) for name in header.tracks

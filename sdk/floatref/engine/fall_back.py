@@ -1,9 +1,9 @@
-"""Where the height sensor dropped out, another estimate of the road bridges the gap, flagged.
+"""Where the height sensor dropped out, another estimate of the road fills the gap, flagged.
 
-Who makes that estimate is a question to the plug-ins, `temporal_fall_back`. Its elevation takes
-the profile's place in the gap, on a line that makes both meet at the gap's ends. The pipeline's
-high-pass filter has spread the error of the bridged height beyond the gap; the same filter of the
-correction takes that back.
+A plug-in makes that estimate, in the hook `temporal_fall_back`. Its elevation replaces the
+profile's in the gap, plus a line that joins both at the gap's ends. The pipeline's high-pass filter
+has spread the error of the bridged height beyond the gap; the correction passes the same filter,
+which removes that error.
 """
 
 from collections.abc import Mapping
@@ -21,9 +21,9 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
 MEETING_M = 5.0
-"""Both estimates meet by their means over so many metres beside a gap."""
+"""Length in m beside a gap over which the means of both estimates are made equal."""
 FEWEST = 0.5
-"""So much of these metres has to be known of both."""
+"""Part of this length over which both must be known."""
 
 
 def gaps_of(
@@ -35,10 +35,10 @@ def gaps_of(
     return {track: gaps for track, gaps in found.items() if len(gaps)}
 
 
-def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:
-    """Return the profile with its gaps bridged by ``estimate``, and a line for each wheel path.
+def fill_gaps(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]]:
+    """Return the profile with its gaps filled from ``estimate``, and a line for each wheel path.
 
-    A gap whose surroundings do not tell how both meet is left as it is. Bridged points are
+    A gap stays as it is if too few points beside it are known to join both. Filled points are
     invalid.
     """
     profile = asked.profile
@@ -50,12 +50,12 @@ def bridged(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ...]
             inside = _inside(profile, asked.gaps[track.name])
             gap = _Gap(profile, track, inside, *_on_points(profile, estimate, known[track.name]))
             track, length_m = gap.bridged()
-            lines += _told(track.name, estimate.pipeline, length_m)
+            lines += _describe(track.name, estimate.pipeline, length_m)
         tracks.append(track)
     return replace(profile, tracks=tuple(tracks)), tuple(lines)
 
 
-def _told(track: str, pipeline: str, length_m: float) -> list[str]:
+def _describe(track: str, pipeline: str, length_m: float) -> list[str]:
     if length_m == 0:
         return []
     return [
@@ -89,7 +89,7 @@ def _on_points(
 
 @dataclass(frozen=True, eq=False)
 class _Gap:
-    """Gaps of one wheel path and what is known there otherwise; arrays of shape (N,), in m."""
+    """Gaps of one wheel path and the other estimate there; arrays of shape (N,), in m."""
 
     profile: Profile
     track: ProfileTrack
@@ -98,7 +98,7 @@ class _Gap:
     spread: FloatArray
 
     def bridged(self) -> tuple[ProfileTrack, float]:
-        """Return the track with its gaps bridged, and over how many m they were."""
+        """Return the track with its gaps filled, and the length of these in m."""
         line, misfit = self._meeting()
         correction = self.other + line - self.track.elevation
         done = np.isfinite(correction)
@@ -114,7 +114,7 @@ class _Gap:
         return track, float(np.count_nonzero(done) * interval_m)
 
     def _meeting(self) -> tuple[FloatArray, FloatArray]:
-        """Return what to add to the other estimate in each gap, and its 1-σ; NaN elsewhere."""
+        """Return the line to add to the other estimate in each gap, and its 1-σ; NaN elsewhere."""
         off = np.where(self.inside, np.nan, self.track.elevation - self.other)
         line, misfit = np.full(off.size, np.nan), np.full(off.size, np.nan)
         beside = max(1, round(MEETING_M / self.profile.interval_m))

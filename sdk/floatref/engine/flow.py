@@ -1,4 +1,4 @@
-"""The engine: blocks through stages, forward in one go, backward over the tape."""
+"""The engine: passes blocks through stages, forward in one go, backward over the tape."""
 
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -19,7 +19,7 @@ from floatref.values.block import Block, Event, Header
 from floatref.values.channels import ChannelId
 
 IN_MEMORY = 64 * 2**20
-"""Bytes of samples up to which a tape stays in memory; beyond, it is on disk."""
+"""Bytes of samples up to which a tape is in memory; a longer one is on disk."""
 
 M = TypeVar("M", np.bool_, np.uint8)
 Packed = Mapping[ChannelId, bytes]
@@ -36,7 +36,7 @@ class Tape:
         self._length = 0
 
     def __enter__(self) -> "Tape":
-        """Use the tape; its files are gone afterwards."""
+        """Use the tape; its files are removed at the end."""
         return self
 
     def __exit__(
@@ -102,7 +102,7 @@ def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> N
 
 @contextmanager
 def _room() -> Iterator[None]:
-    """Name the folder that is full."""
+    """Name the full folder in an error."""
     try:
         yield
     except OSError as error:
@@ -113,7 +113,7 @@ def _room() -> Iterator[None]:
 
 
 def _spool() -> SpooledTemporaryFile[bytes]:
-    # Without a size of its own: the tape decides for all channels together.
+    # Without its own size limit: the tape decides for all channels together.
     return SpooledTemporaryFile()
 
 
@@ -131,12 +131,12 @@ T = TypeVar("T")
 def run(
     stages: Sequence[Stage], header: Header, blocks: Iterable[Block]
 ) -> tuple[Header, Iterator[Block]]:
-    """Start all ``stages`` and return the last header and the blocks that come out.
+    """Start all ``stages`` and return the last header and the resulting blocks.
 
-    Nothing flows until the blocks are taken. Backward stages next to each other share one pass.
+    Nothing is processed until the blocks are read. Adjacent backward stages share one pass.
     """
     for stage in stages:
-        header = _guarded(stage, partial(stage.start, header))
+        header = _guard(stage, partial(stage.start, header))
     stream = iter(blocks)
     for kind, group in groupby(stages, key=_kind):
         if kind == "forward":
@@ -144,21 +144,21 @@ def run(
                 stream = _forward(stage, stream)
         elif kind == "survey":
             for stage in group:
-                stream = _surveyed(stage, stream)
+                stream = _survey(stage, stream)
         else:
             stream = _backward(tuple(group), stream)
     return header, stream
 
 
-def told(stages: Sequence[Stage]) -> tuple[str, ...]:
-    """Return what ``stages`` have to tell of a run, in their order, each line once."""
-    lines = (line for stage in stages for line in _guarded(stage, stage.told))
+def collect_warnings(stages: Sequence[Stage]) -> tuple[str, ...]:
+    """Return the warnings of ``stages`` on a run, in their order, each line once."""
+    lines = (line for stage in stages for line in _guard(stage, stage.told))
     return tuple(dict.fromkeys(lines))
 
 
-def learned(stages: Sequence[Stage]) -> dict[str, float]:
-    """Return the settings that a run through ``stages`` has told."""
-    return {k: v for stage in stages for k, v in _guarded(stage, stage.learned).items()}
+def collect_estimates(stages: Sequence[Stage]) -> dict[str, float]:
+    """Return the settings that ``stages`` have estimated from a run."""
+    return {k: v for stage in stages for k, v in _guard(stage, stage.learned).items()}
 
 
 def _kind(stage: Stage) -> str:
@@ -169,16 +169,16 @@ def _kind(stage: Stage) -> str:
 
 def _forward(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     for block in blocks:
-        out = _guarded(stage, partial(stage.push, block))
+        out = _guard(stage, partial(stage.push, block))
         if len(out):
             yield out
-    yield from (block for block in _guarded(stage, stage.finish) if len(block))
+    yield from (block for block in _guard(stage, stage.finish) if len(block))
 
 
-def _surveyed(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
+def _survey(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     with Tape() as tape:
         for block in blocks:
-            _guarded(stage, partial(stage.survey, block))
+            _guard(stage, partial(stage.survey, block))
             tape.append(block)
         yield from _forward(stage, tape.forward())
 
@@ -190,21 +190,21 @@ def _backward(stages: Sequence[Stage], blocks: Iterator[Block]) -> Iterator[Bloc
         for number in reversed(range(len(tape))):
             tape.rewrite(number, _through(stages, tape.read(number)))
         for stage in stages:
-            _guarded(stage, stage.finish)
+            _guard(stage, stage.finish)
         yield from tape.forward()
 
 
 def _through(stages: Sequence[Stage], block: Block) -> Block:
     length = len(block)
     for stage in stages:
-        block = _guarded(stage, partial(stage.push, block))
+        block = _guard(stage, partial(stage.push, block))
         if len(block) != length:
             raise StageError(f"stage {stage.name}: a backward stage must keep its block's length")
     return block
 
 
-def _guarded(stage: Stage, call: Callable[[], T]) -> T:
-    """Name the stage in whatever goes wrong inside it, be it ours or a vendor's."""
+def _guard(stage: Stage, call: Callable[[], T]) -> T:
+    """Name the stage in every error that it raises, ours or a vendor's."""
     try:
         return call()
     except FloatrefError:

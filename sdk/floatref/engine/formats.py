@@ -1,4 +1,4 @@
-"""Which adapter reads a source, and what it reads; an adapter's own faults in one line."""
+"""Choosing adapters and profile formats and calling them; their own failures as one line."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -29,13 +29,13 @@ T = TypeVar("T")
 def reader_of(source: Path, name: str | None) -> Adapter:
     """Return the adapter called ``name``, else the one that recognises ``source``.
 
-    Raises InputError if there is no such adapter, none recognises it, or several do.
+    Raises InputError if there is no such adapter, or not exactly one recognises it.
     """
     if name is not None:
-        return named_reader(name)
+        return get_reader(name)
     if not exists(source):
         raise InputError(f"{source}: not found")
-    found = recognising(source)
+    found = find_readers(source)
     if not found:
         names = ", ".join(plugins().adapters())
         raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
@@ -45,13 +45,13 @@ def reader_of(source: Path, name: str | None) -> Adapter:
     return found[0]
 
 
-def recognising(source: Path) -> list[Adapter]:
+def find_readers(source: Path) -> list[Adapter]:
     """Return the adapters that recognise ``source``; one that fails at it is reported."""
-    return [adapter for adapter in plugins().adapters().values() if _recognised(adapter, source)]
+    return [adapter for adapter in plugins().adapters().values() if _recognise(adapter, source)]
 
 
-def named_reader(name: str) -> Adapter:
-    """Return the adapter called ``name``; InputError if there is none."""
+def get_reader(name: str) -> Adapter:
+    """Return the adapter called ``name``; InputError if it is unknown."""
     known = plugins().adapters()
     if name not in known:
         raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
@@ -59,42 +59,42 @@ def named_reader(name: str) -> Adapter:
 
 
 def is_native(reader: Adapter) -> bool:
-    """Return whether ``reader`` lists what a file holds, for a channel map."""
+    """Return whether ``reader`` lists a file's content, for a channel map."""
     return callable(getattr(reader, "streams", None))
 
 
 def read_source(reader: Adapter, source: Path) -> Recording:
-    """Return the recording; PluginError if the adapter fails in a way it should not."""
-    with guarding(reader.name, source):
+    """Return the recording; PluginError for any error of the adapter other than InputError."""
+    with guard(reader.name, source):
         found = cast(RecordingAdapter, reader).read(source)
-    return _checked(found, reader, source, Recording, "recording")
+    return _check(found, reader, source, Recording, "recording")
 
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
-    """Return what ``source`` holds; InputError if ``reader`` does not list files."""
+    """Return the content of ``source``; InputError if ``reader`` does not list files."""
     if not exists(source):
         raise InputError(f"{source}: not found")
     if not is_native(reader) or RecordingDirectory().recognises(source):
         name = RecordingDirectory.name if is_native(reader) else reader.name
         raise InputError(f"{source}: adapter {name} has our channels; it needs no map")
-    with guarding(reader.name, source):
+    with guard(reader.name, source):
         found = cast(NativeAdapter, reader).streams(source, options)
-    native = _checked(found, reader, source, NativeFile, "native file")
+    native = _check(found, reader, source, NativeFile, "native file")
     names = [stream.name for stream in native.streams]
     if len(set(names)) < len(names):
         twice = next(name for at, name in enumerate(names) if name in names[:at])
         raise PluginError(f"adapter {reader.name}: {source}: gave two streams called {twice!r}")
 
     def close() -> None:
-        with guarding(reader.name, source):
+        with guard(reader.name, source):
             native.close()
 
     return replace(native, close=close)
 
 
 @contextmanager
-def guarding(name: str, source: Path) -> Iterator[None]:
-    """Turn what an adapter called ``name`` should not raise into a PluginError in one line."""
+def guard(name: str, source: Path) -> Iterator[None]:
+    """Turn an unexpected exception of adapter ``name`` into a PluginError in one line."""
     try:
         yield
     except (FloatrefError, MemoryError):
@@ -103,18 +103,18 @@ def guarding(name: str, source: Path) -> Iterator[None]:
         place = error.filename or source
         raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
     except (Exception, SystemExit) as error:
-        # contextlib takes a RuntimeError that a StopIteration has caused for that itself.
+        # contextlib treats a RuntimeError caused by a StopIteration as the StopIteration itself.
         cause = None if isinstance(error, StopIteration) else error
         raise PluginError(_failure(name, source, error)) from cause
 
 
-def _checked(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
+def _check(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
     if not isinstance(found, kind):
         raise PluginError(f"adapter {reader.name}: {source}: gave no {said}")
     return found
 
 
-def _recognised(adapter: Adapter, source: Path) -> bool:
+def _recognise(adapter: Adapter, source: Path) -> bool:
     try:
         return bool(adapter.recognises(source))
     except Exception as error:
@@ -130,8 +130,8 @@ def profile_of(path: Path) -> Profile:
     """Return the profile at ``path``: our directory, its profile.json, or a file of any format.
 
     A file that no format recognises is read as our CSV, whose errors say what is expected. Raises
-    InputError if ``path`` cannot be used or two formats recognise it, and PluginError if a format
-    fails in a way it should not.
+    InputError if ``path`` cannot be used or two formats recognise it, and PluginError for any other
+    error of a format.
     """
     path = Path(path)
     found = [
@@ -146,7 +146,7 @@ def profile_of(path: Path) -> Profile:
 
 
 def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
-    """Return in one line what went wrong inside ``form``."""
+    """Return one line on an ``error`` that ``form`` raised."""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
     return f"format {form.name}: {path}: {reason}"
 
@@ -155,7 +155,7 @@ def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
     try:
         return bool(form.recognises(path))
     except (OSError, ValueError):
-        # A name that cannot be opened: reading it says so.
+        # A name that cannot be opened: reading it raises the error.
         return False
     except Exception as error:
         plugins().reports.append(failure(form, path, error))
@@ -175,12 +175,12 @@ def _read(form: ProfileFormat, path: Path) -> Profile:
 
 
 def format_of(out: Path, name: str | None = None) -> ProfileFormat:
-    """Return the format called ``name``, else the one that the suffix of ``out`` asks for.
+    """Return the format called ``name``, else the one of the suffix of ``out``.
 
-    Raises InputError, with the formats there are, if it is none or that of two, or if it needs a
+    Raises InputError, which lists the formats, if no format or more than one fits, or if it needs a
     library that is missing.
     """
-    form = _chosen(out, name)
+    form = _choose(out, name)
     check = getattr(form, "check_installed", None)
     if callable(check):
         with naming(out):
@@ -188,7 +188,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
     return form
 
 
-def _chosen(out: Path, name: str | None) -> ProfileFormat:
+def _choose(out: Path, name: str | None) -> ProfileFormat:
     known = plugins().profile_formats()
     if name is not None and name not in known:
         raise InputError(f"format {name}: unknown; there are {', '.join(known)}")
@@ -213,7 +213,7 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
     """Write ``profile`` to ``out`` in the format ``form``, complete or not at all.
 
     Raises InputError if ``out`` exists and ``overwrite`` is false, cannot be written, or if the
-    format cannot hold the profile; PluginError if a format fails in a way it should not.
+    format cannot hold the profile; PluginError for any other error of the format.
     """
     if isinstance(form, ProfileDirectory):
         write_profile(profile, out, overwrite)

@@ -1,4 +1,4 @@
-"""What a plug-in looks up by name: pipelines to derive its own from, and registered stages."""
+"""Look-up by name for plug-ins: pipelines to derive new ones from, and registered stages."""
 
 from functools import cache
 from typing import Any, NoReturn
@@ -13,10 +13,10 @@ from floatref.stages.protocol import Stage
 def pipeline(name: str) -> Pipeline:
     """Return the pipeline called ``name``, with an answer for every point of its architecture.
 
-    A plug-in may look up a built-in one anywhere, at import as well; one of another plug-in is
-    known once that is loaded. Raises InputError for a name that is not known.
+    A plug-in may look up a built-in pipeline at any time, also at import; a pipeline of another
+    plug-in is known once that plug-in is loaded. Raises InputError for an unknown name.
     """
-    # Loading the plug-ins here would import the module that asks for a second time.
+    # Loading the plug-ins here would import the calling module a second time.
     built_in = _built_in()
     return built_in[name] if name in built_in else plugins().pipeline(name)
 

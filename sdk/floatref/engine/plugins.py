@@ -1,4 +1,4 @@
-"""Loading plug-ins one at a time, and asking them one at a time."""
+"""Loading plug-ins, and calling their hooks, one plug-in at a time."""
 
 import os
 import sys
@@ -40,14 +40,14 @@ HOOKS = frozenset({"hooks", "1"})
 
 
 def trace_hook(plugin: str, hook: str, outcome: str) -> None:
-    """Print which plug-in was asked, for what, and what came of it, if hooks are traced."""
+    """Print which plug-in was called, for which hook, and the outcome, if hooks are traced."""
     words = {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}
     if words & HOOKS:
         print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
 
 
-def listed(names: Iterable[str]) -> str:
-    """Return ``names`` as a trace shows them."""
+def list_names(names: Iterable[str]) -> str:
+    """Return ``names`` as one text for a trace."""
     return ", ".join(names) or "nothing"
 
 
@@ -58,7 +58,7 @@ BUILT_IN = "floatref"
 
 @dataclass(frozen=True)
 class _Caller:
-    """One plug-in's implementation of a hook; the scope is empty where all is in it."""
+    """One plug-in's implementation of a hook; an empty scope means all pipelines."""
 
     plugin: str
     scope: tuple[str, ...]
@@ -68,7 +68,7 @@ class _Caller:
 class Plugins:
     """All plug-ins of a process, and what they registered.
 
-    ``reports`` lists in one line each what was broken and skipped.
+    ``reports`` has one line for each plug-in that failed and was skipped.
     """
 
     def __init__(self) -> None:
@@ -113,8 +113,8 @@ class Plugins:
     def registered(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
         """Return what all plug-ins registered through ``hook``, by name.
 
-        A plug-in that asks while it registers gets what was registered before. Raises PluginError
-        if two plug-ins registered the same name.
+        A plug-in that calls this while it registers gets the items registered before. Raises
+        PluginError if two plug-ins registered the same name.
         """
         with self._lock:
             if hook in self._registering:
@@ -142,7 +142,7 @@ class Plugins:
         return self.registered("floatref_register_profile_formats", check_profile_format)
 
     def pipeline(self, name: str) -> Pipeline:
-        """Return the pipeline called ``name``; InputError if there is none."""
+        """Return the pipeline called ``name``; InputError if it is unknown."""
         known = self.pipelines()
         if not (self._loading or self._registering):
             for line in unknown_scopes(self._manager, known):
@@ -154,8 +154,8 @@ class Plugins:
     def ask(self, context: Context) -> Sequence[Stage]:
         """Return the stages for ``context``.
 
-        A third party that names the pipeline goes before the pipeline's own answer, and that
-        before the architecture's. Raises PluginError, with both names, if two third parties answer.
+        A third party that names the pipeline has priority over the pipeline's own answer, and that
+        over the architecture's. Raises PluginError, with both names, if two third parties answer.
         """
         checked = partial(check_stages, context=context, known=self.stages)
         answer = self._answer(context.point, context.pipeline.name, context, checked)
@@ -169,25 +169,25 @@ class Plugins:
         self, hook: str, pipeline: str, context: object, checked: Callable[[Any, str], T]
     ) -> T | None:
         answers: dict[str, T] = {}
-        # The built-in comes last, and only where no third party has answered.
+        # The built-in is asked last, and only if no third party has answered.
         for caller in sorted(self._callers(hook), key=lambda c: c.plugin == BUILT_IN):
             if caller.plugin == BUILT_IN and answers:
                 break
             where = f"{hook} of {pipeline}"
             if caller.scope and pipeline not in caller.scope:
-                trace_hook(caller.plugin, where, f"not asked, it names {listed(caller.scope)}")
+                trace_hook(caller.plugin, where, f"not asked, it names {list_names(caller.scope)}")
                 continue
             found = self._guarded(caller.plugin, partial(caller.call, context=context))
             if found:
                 answers[caller.plugin] = checked(found[0], _who(caller.plugin, pipeline))
-            trace_hook(caller.plugin, where, _shown(answers.get(caller.plugin)))
+            trace_hook(caller.plugin, where, _describe(answers.get(caller.plugin)))
         if len(answers) > 1:
             both = " and ".join(answers)
             raise PluginError(f"plug-ins {both} both answer {hook} of {pipeline}; remove one")
         return next(iter(answers.values()), None)
 
     def _callers(self, hook: str) -> list[_Caller]:
-        """Return who implements ``hook``, the built-in plug-in first."""
+        """Return the implementations of ``hook``, the built-in plug-in first."""
         everyone = dict(self._manager.list_name_plugin())
         found = []
         for implementation in getattr(self._manager.hook, hook).get_hookimpls():
@@ -213,7 +213,7 @@ class Plugins:
         except InputError as error:
             self._skip(caller.plugin, error)
         new = [name for name in register.found if name not in before]
-        trace_hook(caller.plugin, hook, f"registered {listed(new)}")
+        trace_hook(caller.plugin, hook, f"registered {list_names(new)}")
 
     def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:
@@ -237,10 +237,12 @@ def _who(plugin: str, pipeline: str) -> str:
     return f"pipeline {pipeline}" if plugin == BUILT_IN else f"plug-in {plugin}"
 
 
-def _shown(answer: object) -> str:
+def _describe(answer: object) -> str:
     if answer is None:
         return "no answer"
-    return listed(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
+    return (
+        list_names(stage.name for stage in answer) if isinstance(answer, Sequence) else "a profile"
+    )
 
 
 _LOCK = RLock()
@@ -250,7 +252,7 @@ _loaded: list[Plugins] = []
 def plugins() -> Plugins:
     """Return the plug-ins of this process, loaded once from their entry points.
 
-    A plug-in that asks while it is loaded gets those that were loaded before it.
+    A plug-in that calls this while it is loaded gets the plug-ins loaded before it.
     """
     with _LOCK:
         if not _loaded:

@@ -1,4 +1,4 @@
-"""What a plug-in may register: checked when it does, so that nothing breaks later."""
+"""Checks of what a plug-in registers, made at registration, so that nothing fails later."""
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,9 +18,9 @@ from floatref.values.profile import Profile
 
 
 def check_pipeline(pipeline: Any) -> str:
-    """Return the name of ``pipeline``; TypeError if it is none or of no known architecture."""
+    """Return the name of ``pipeline``; TypeError unless its architecture is known."""
     if not isinstance(pipeline, Pipeline):
-        raise TypeError(f"{type(pipeline).__name__} is no Pipeline")
+        raise TypeError(f"{type(pipeline).__name__} is not a Pipeline")
     if pipeline.architecture not in SIGNAL_FLOWS:
         raise TypeError(f"pipeline {pipeline.name}: no architecture {pipeline.architecture!r}")
     for point, answer in pipeline.answers.items():
@@ -28,11 +28,11 @@ def check_pipeline(pipeline: Any) -> str:
             raise TypeError(f"pipeline {pipeline.name}: no point {point!r} to answer")
         if not callable(answer) and not _are_calls(answer):
             raise TypeError(f"pipeline {pipeline.name}: {point}: give StageCalls, or a function")
-    return _described(pipeline)
+    return _describe(pipeline)
 
 
 def complete_pipeline(pipeline: Pipeline) -> Pipeline:
-    """Return ``pipeline`` with its architecture's answer at every point that it has none for."""
+    """Return ``pipeline`` with its architecture's answer at every point it does not answer."""
     return replace(pipeline, answers={**DEFAULTS[pipeline.architecture], **pipeline.answers})
 
 
@@ -47,7 +47,7 @@ def check_adapter(adapter: Any) -> str:
         raise TypeError(f"{kind} has no method recognises")
     if not any(callable(getattr(adapter, method, None)) for method in ("read", "streams")):
         raise TypeError(f"{kind} has neither a method read nor one called streams")
-    return _described(adapter)
+    return _describe(adapter)
 
 
 def check_profile_format(form: Any) -> str:
@@ -60,18 +60,18 @@ def check_profile_format(form: Any) -> str:
     named = isinstance(suffix, str) and re.fullmatch(r"\.[a-z]+", suffix)
     if not (named or isinstance(form, ProfileDirectory)):
         raise TypeError(f"{kind}: suffix {suffix!r} is not a point and small letters, as in .erd")
-    return _described(form)
+    return _describe(form)
 
 
 def check_stage(name: Any, stage: Any) -> str:
     """Return ``name``; TypeError unless it is text and ``stage`` makes one."""
     if not isinstance(name, str) or not callable(stage):
-        raise TypeError(f"{name!r} is no name of a stage's class")
+        raise TypeError(f"{name!r} is not the name of a stage class")
     return name
 
 
 class Register:
-    """What plug-ins registered through one hook, by name.
+    """The items that plug-ins registered through one hook, by name.
 
     Raises PluginError, with both names, when two register the same.
     """
@@ -82,7 +82,7 @@ class Register:
         self._check, self._owners = check, dict[str, str]()
 
     def of(self, plugin: str) -> Callable[..., None]:
-        """Return what the hook of ``plugin`` is called with."""
+        """Return the function with which the hook of ``plugin`` is called."""
 
         def register(*item: Any) -> None:
             name = self._check(*item)
@@ -94,7 +94,7 @@ class Register:
         return register
 
 
-def _described(item: Any) -> str:
+def _describe(item: Any) -> str:
     name, summary = getattr(item, "name", None), getattr(item, "summary", None)
     if not (isinstance(name, str) and name and isinstance(summary, str)):
         raise TypeError(f"{type(item).__name__} needs a name and a summary")
@@ -102,17 +102,17 @@ def _described(item: Any) -> str:
 
 
 REGISTERS = "floatref_register_"
-"""Begin of the name of every hook that registers, and answers no point."""
+"""Start of the name of every hook that registers and answers no point."""
 
 
 def scope_of(implementation: pluggy.HookImpl) -> tuple[str, ...]:
-    """Return the pipelines that an implementation of a point names; none of a built-in one."""
+    """Return the pipelines that an implementation of a point names; () for a built-in one."""
     return tuple(getattr(implementation.function, SCOPE, ()))
 
 
 def check_scopes(manager: pluggy.PluginManager, plugin: str) -> None:
     """Raise PluginError if ``plugin`` answers a point and names no pipeline for it."""
-    for point, implementation in _answering(manager):
+    for point, implementation in _find_answers(manager):
         if implementation.plugin_name == plugin and not scope_of(implementation):
             raise PluginError(
                 f"{point} names no pipeline that it answers; write "
@@ -122,7 +122,7 @@ def check_scopes(manager: pluggy.PluginManager, plugin: str) -> None:
 
 def unknown_scopes(manager: pluggy.PluginManager, known: Mapping[str, Pipeline]) -> Iterator[str]:
     """Yield a line for each pipeline that a plug-in names and that has no such point."""
-    for point, implementation in _answering(manager):
+    for point, implementation in _find_answers(manager):
         for name in scope_of(implementation):
             who = f"plug-in {implementation.plugin_name}: {point} names pipeline {name}"
             if name not in known:
@@ -131,7 +131,7 @@ def unknown_scopes(manager: pluggy.PluginManager, known: Mapping[str, Pipeline])
                 yield f"{who}, which is {known[name].architecture} and has no such point"
 
 
-def _answering(manager: pluggy.PluginManager) -> Iterator[tuple[str, pluggy.HookImpl]]:
+def _find_answers(manager: pluggy.PluginManager) -> Iterator[tuple[str, pluggy.HookImpl]]:
     for point, caller in vars(manager.hook).items():
         if not point.startswith(("_", REGISTERS)):
             yield from ((point, found) for found in caller.get_hookimpls())
@@ -141,10 +141,10 @@ Classes = Mapping[str, Callable[..., Stage]]
 
 
 def check_profile(answer: Any, who: str) -> Profile:
-    """Return ``answer``; PluginError, naming ``who`` gave it, if it is no profile."""
+    """Return ``answer``; PluginError, naming ``who`` gave it, if it is not a profile."""
     if isinstance(answer, Profile):
         return answer
-    raise PluginError(f"{who}: answered temporal_fall_back with {_kind(answer)}, no profile")
+    raise PluginError(f"{who}: answered temporal_fall_back with {_kind(answer)}, not a profile")
 
 
 def check_stages(
@@ -152,10 +152,10 @@ def check_stages(
 ) -> Sequence[Stage]:
     """Return the stages of ``answer``, its calls made; ``known`` returns the classes by name.
 
-    Raises PluginError, naming ``who`` gave it, for anything else and for a call that fails.
+    Raises PluginError, naming ``who`` gave it, for any other answer and for a call that fails.
     """
     if not isinstance(answer, Sequence):
-        raise PluginError(f"{who}: answered {context.point} with {_kind(answer)}, no stages")
+        raise PluginError(f"{who}: answered {context.point} with {_kind(answer)}, not stages")
     calls = any(isinstance(item, StageCall) for item in answer)
     classes = known() if calls else {}
     return [_stage(item, who, context, classes) for item in answer]
@@ -165,7 +165,7 @@ def _stage(item: Any, who: str, context: Context, classes: Classes) -> Stage:
     if isinstance(item, Stage):
         return item
     if not isinstance(item, StageCall):
-        raise PluginError(f"{who}: answered {context.point} with {_kind(item)}, no stages")
+        raise PluginError(f"{who}: answered {context.point} with {_kind(item)}, not stages")
     try:
         return item.make(classes, context.setting)
     except FloatrefError as error:

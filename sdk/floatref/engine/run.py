@@ -1,8 +1,8 @@
 """The main job: a recording through a pipeline to a profile.
 
-`run` takes a recording that was read through the steps in order: settle what is asked for, screen,
-prepare its blocks, ask the plug-ins for stages, run these, collect the profile. Then the gaps of
-its heights are bridged.
+`run` takes a recording through the steps in order: settle pipeline and settings, screen, prepare
+blocks, ask the plug-ins for stages, run the stages, collect the profile. Then it fills the gaps
+of the heights.
 """
 
 import warnings
@@ -14,7 +14,7 @@ from typing import Any
 from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
-from floatref.engine.fall_back import bridged, gaps_of
+from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.plugins import Plugins, plugins
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
@@ -31,12 +31,12 @@ Progress = Callable[[float], None]
 
 
 class FloatrefWarning(UserWarning):
-    """Something in a recording or a plug-in that the result does not silently hide."""
+    """A warning about a recording or a plug-in that the user of the result should know."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """A profile, one line for each thing its user should know, and what the recording showed."""
+    """A profile, its warnings of one line each, and the screening of the recording."""
 
     profile: Profile
     warnings: tuple[str, ...]
@@ -50,7 +50,7 @@ def process(
 ) -> Profile:
     """Return the profile of ``recording`` by ``pipeline``.
 
-    ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`, raises
+    ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`. Raises
     InputError for a recording, pipeline or setting that cannot be used and PluginError if two
     plug-ins answer the same point.
     """
@@ -66,7 +66,7 @@ def pipelines() -> tuple[str, ...]:
 
 
 def pipeline_capabilities(name: str) -> tuple[str, ...]:
-    """Return what pipeline ``name`` needs beside nominal sensors, of "imu", "gnss", "response".
+    """Return the sensors that pipeline ``name`` needs in addition: "imu", "gnss", "response".
 
     Raises InputError for a name that `process` does not know.
     """
@@ -74,7 +74,7 @@ def pipeline_capabilities(name: str) -> tuple[str, ...]:
 
 
 def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
-    """Return the settings of pipeline ``name`` with those ``given`` in place.
+    """Return the settings of pipeline ``name``, with the ``given`` ones replaced.
 
     Raises InputError for a pipeline or a setting that `process` does not know.
     """
@@ -83,7 +83,7 @@ def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | 
 
 @dataclass(frozen=True)
 class _Order:
-    """What is to be done: a recording at the interval of its profile, and how it is processed."""
+    """An order: a recording, the interval of its profile, and how to process it."""
 
     plugins: Plugins
     recording: Recording
@@ -100,8 +100,7 @@ def run(
 ) -> Result:
     """Return the profile and the warnings; ``progress`` is called with the fraction read.
 
-    What ``known``, the screening of an earlier run, has found out about the same channels is not
-    computed again.
+    Results of ``known``, the screening of an earlier run, for the same channels are reused.
     """
     order = _settle(plugins(), recording, pipeline, settings)
     result, source = _make_profile(order, known, progress)
@@ -113,20 +112,20 @@ def run(
 def _make_profile(
     order: _Order, known: Screening | None = None, progress: Progress | None = None
 ) -> tuple[Result, Source]:
-    """Take the way of a recording, as far as to a profile whose gaps are bridged by lines."""
+    """Process a recording into a profile whose gaps are bridged by straight lines."""
     screening = _screen(order, known)
     cautions = screening.cautions  # Raises if the recording cannot be processed.
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
     profile = _run_and_collect(order, source, stages, progress)
-    lines = (*cautions, *source.warnings, *flow.told(stages))
+    lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
     return Result(profile, lines, screening), source
 
 
 def _settle(
     loaded: Plugins, recording: Recording, pipeline: str, settings: Mapping[str, Any] | None
 ) -> _Order:
-    """Settle pipeline, settings and interval: the setting's, else the setup's."""
+    """Settle pipeline, settings and interval, which is the setting's, else the setup's."""
     chosen = loaded.pipeline(pipeline)
     resolved = chosen.resolve(settings or {})
     if "interval_m" not in resolved:
@@ -139,7 +138,7 @@ def _settle(
 
 
 def _screen(order: _Order, known: Screening | None) -> Screening:
-    """Return what the recording shows of itself, for the channels that the pipeline takes."""
+    """Return the screening of the recording, for the channels that the pipeline reads."""
     chosen = order.pipeline
     needs = NEEDS[chosen.architecture](order.recording)
     imu = None
@@ -166,17 +165,17 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
 def _run_and_collect(
     order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
-    """Push the blocks through the stages and return the profile that comes out."""
+    """Pass the blocks through the stages and return the resulting profile."""
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
-    if learned := flow.learned(stages):
+    if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
     return profile
 
 
 def _report_progress(source: Source, progress: Progress | None) -> Iterator[Block]:
-    """Yield the blocks; ``progress`` is called with the fraction that is through."""
+    """Yield the blocks; ``progress`` is called with the fraction that is done."""
     for block in source.blocks():
         yield block
         if progress is not None:
@@ -184,7 +183,7 @@ def _report_progress(source: Source, progress: Progress | None) -> Iterator[Bloc
 
 
 def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
-    """Return the result with the gaps of its heights bridged, if a plug-in can tell the road."""
+    """Return the result with its height gaps filled, if a plug-in can estimate the road."""
     gaps = gaps_of(order.recording, result.profile, source.gone)
     if not gaps:
         return result
@@ -199,9 +198,11 @@ def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
 
 
 def _ask_fall_back(loaded: Plugins, asked: DropOut) -> tuple[Profile, tuple[str, ...]]:
-    """Return the bridged profile and lines on it; the same profile if there is no estimate."""
+    """Return the filled profile and lines on it; the same profile if there is no estimate."""
     try:
         estimate = loaded.fall_back(asked)
     except InputError as error:
-        return asked.profile, (f"the height's gaps are bridged by lines alone: {error}",)
-    return (asked.profile, ()) if estimate is None else bridged(asked, estimate)
+        return asked.profile, (
+            f"the gaps of the height are bridged by straight lines only: {error}",
+        )
+    return (asked.profile, ()) if estimate is None else fill_gaps(asked, estimate)

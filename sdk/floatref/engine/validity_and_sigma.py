@@ -1,4 +1,4 @@
-"""From flags to validity: which points of a profile can be trusted."""
+"""From flags to validity: which points of a profile are valid."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -10,24 +10,24 @@ import numpy as np
 from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
 
 PIECE = 1 << 18
-"""Points looked at together, so that memory stays bounded on a long profile."""
+"""Points processed together, so that memory stays bounded on a long profile."""
 
 
 @dataclass(frozen=True)
 class Reach:
-    """How far around a flagged point its error is felt, in m.
+    """The distance in m around a flagged point within which its error matters.
 
-    Any flagged point is invalid itself: it was bridged, or lies where the vehicle crawled, stood
-    or braked hard for its speed. The high-pass filter spreads what happened there:
+    Every flagged point is invalid: it was bridged, or the vehicle crawled, stood still or braked
+    hard for its speed there. The high-pass filter spreads the error of such a point:
 
     Attributes:
         drift_m: to either side of a long gap of the accelerometer: a cut-off wavelength.
         run_in_m: from either end of the run: half a cut-off wavelength, beyond which the filter's
-            start leaves the IRI as it is.
+            start does not change the IRI.
         before_slow_m, after_slow_m: of slow travel. Contamination reached 47 m before and 76 m
-            behind a stop without suppression (section 3.3.7), and 1.5 cut-off wavelengths
-            where the stop is one time step; with suppression 15 and 30 m are enough. What
-            remains has the road's IRI within 5 % on the published runs, simulated.
+            behind a stop without suppression (section 3.3.7), and 1.5 cut-off wavelengths where the
+            stop is one time step; with suppression 15 and 30 m are enough. The remaining profile
+            has the road's IRI within 5 % on the published runs, simulated.
         after_braking_m: behind braking; the sharpest kink is where the brake is released, and
             raised the roughness up to 31.5 m behind it (section 3.3.5).
     """
@@ -40,7 +40,7 @@ class Reach:
 
     @classmethod
     def of(cls, settings: Mapping[str, Any]) -> "Reach":
-        """Return the reach that a pipeline's settings ask for; a missing one is 0."""
+        """Return the reach from a pipeline's settings; a missing setting is 0."""
         wavelength = settings.get("cutoff_wavelength_m") or 0.0
         return cls(
             drift_m=settings.get("drift_reach_m") or wavelength,
@@ -52,7 +52,7 @@ class Reach:
 
 
 def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
-    """Return which points are valid: unflagged, and out of ``reach`` of what spoils others."""
+    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones."""
     trusted: BoolArray = flags == 0
 
     def points(length_m: float) -> int:
@@ -88,18 +88,18 @@ def _groups(marked: BoolArray, apart: int) -> Iterator[tuple[int, int]]:
 
 
 LAG_M = 0.05
-"""Slopes are those over so far: what an encoder is off by after a few hundred metres."""
-"""Points looked at together, so that memory stays bounded on a long profile."""
+"""Length in m over which slopes are taken: an encoder's error after a few hundred metres."""
+"""Points processed together, so that memory stays bounded on a long profile."""
 AROUND_M = 50.0
-"""The slope is the root mean square within half of this to either side."""
+"""Length in m: the slope is the root mean square within half of it to either side."""
 
 
 def add_axis_error(
     sigma: FloatArray, elevation: FloatArray, interval_m: float, scale: float
 ) -> None:
-    """Add to ``sigma`` in m, shape (N,), what a relative error ``scale`` of distance makes.
+    """Add to ``sigma`` in m, shape (N,), the effect of a relative error ``scale`` of distance.
 
-    It is changed in place: of a long run another array would count.
+    It is changed in place: for a long run a second array would need much memory.
     """
     beside = round((AROUND_M / 2 + LAG_M) / interval_m) + 1
     for begin in range(0, sigma.size, PIECE):
@@ -113,12 +113,11 @@ def add_axis_error(
 def add_contact_error(
     sigma: FloatArray, elevation: FloatArray, interval_m: float, contact_m: float
 ) -> None:
-    """Add to ``sigma`` in m, shape (N,), what a tyre levels over ``contact_m``; in place.
+    """Add to ``sigma`` in m, shape (N,), what a tyre smooths over ``contact_m``; in place.
 
-    Of a road whose spectrum falls as C/n², the mean over L leaves out
-    ∫ C/n² (1 - sin(πnL)/(πnL))² dn = π²CL/6 of the variance. Two points L apart on the road so
-    levelled differ by 2 ∫ C/n² (sin(πnL)/(πnL))² (1 - cos 2πnL) dn = 4π²CL/3 in the mean square,
-    eight times as much.
+    Of a road whose spectrum falls as C/n², the mean over L omits ∫ C/n² (1 - sin(πnL)/(πnL))² dn =
+    π²CL/6 of the variance. Two points L apart on the smoothed road differ by 2 ∫ C/n²
+    (sin(πnL)/(πnL))² (1 - cos 2πnL) dn = 4π²CL/3 in the mean square, eight times as much.
     """
     beside = round((AROUND_M / 2 + contact_m) / interval_m) + 1
     lag_m = max(1, round(contact_m / interval_m)) * interval_m
@@ -132,8 +131,8 @@ def add_contact_error(
 def slope(elevation: FloatArray, interval_m: float, lag_m: float = LAG_M) -> FloatArray:
     """Return the root mean square of the slopes around every point, shape (N,).
 
-    A slope is that over ``lag_m``. Missing elevations are left out; it is 0 where there are no
-    others, or one.
+    A slope is taken over ``lag_m``. Missing elevations are omitted; the result is 0 where fewer
+    than two elevations are known.
     """
     lag = max(1, round(lag_m / interval_m))
     if elevation.size <= lag:

@@ -1,7 +1,7 @@
 """Recordings and profiles on disk: `floatref-recording/1`, `floatref-profile/1` and CSV.
 
-A directory holds one JSON file and raw little-endian float64 files beside it. Schemas are
-enforced on reading and on writing; what is written appears complete or not at all.
+A directory holds one JSON file and raw little-endian float64 files beside it. Schemas are enforced
+on reading and on writing; a directory is written completely or not at all.
 """
 
 from floatref.files.fingerprint import fingerprint, fingerprint_native

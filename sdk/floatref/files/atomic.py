@@ -1,4 +1,4 @@
-"""Writing that is complete or not at all: made beside the target, then renamed onto it."""
+"""Atomic writing: the content is written beside the target, then renamed to it."""
 
 import os
 import secrets
@@ -10,12 +10,12 @@ from pathlib import Path
 from floatref.errors import InputError
 
 SAMPLE_SUFFIXES = (".f64", ".u8")
-"""Suffixes of the sample files of a directory, which go when it is replaced."""
+"""Suffixes of a directory's sample files, which are deleted when it is replaced."""
 
 
 @contextmanager
 def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
-    """Yield a path beside ``path``, with its suffix, to write to; rename it when all went well.
+    """Yield a path beside ``path``, with its suffix, to write to; rename it at the end.
 
     After any exception, KeyboardInterrupt included, the new file is gone and ``path`` is as
     before. Raises InputError if ``path`` exists and ``overwrite`` is false, is not a file, or
@@ -23,7 +23,7 @@ def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
     """
     target = _target(path, overwrite)
     beside = _beside(target)
-    with _explained(path, target):
+    with _explain_errors(path, target):
         if target.exists() and not target.is_file():
             raise InputError(f"{path}: is not a file; give the name of a file to write")
         try:
@@ -37,17 +37,17 @@ def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
 
 
 @contextmanager
-def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[Path]:
-    """Yield a new, empty folder beside ``path``; give it that name when all went well.
+def replace_directory(path: Path, overwrite: bool, document: str) -> Iterator[Path]:
+    """Yield a new, empty folder beside ``path``; rename it to ``path`` at the end.
 
-    With ``overwrite`` an old folder is replaced if it is empty or holds the JSON file
-    ``document``; files in it that no directory of samples has are kept. After any exception,
-    KeyboardInterrupt included, the new folder is gone and ``path`` is as before. Raises
-    InputError if ``path`` exists and may not be replaced, or cannot be written.
+    With ``overwrite`` an old folder is replaced if it is empty or holds the JSON file ``document``;
+    other files in it are preserved. After any exception, KeyboardInterrupt included, the new folder
+    is gone and ``path`` is as before. Raises InputError if ``path`` exists and may not be replaced,
+    or cannot be written.
     """
     target = _target(path, overwrite)
     beside = _beside(target)
-    with _explained(path, target):
+    with _explain_errors(path, target):
         _check_replaceable(target, path, document)
         try:
             beside.mkdir()
@@ -59,12 +59,12 @@ def replacing_directory(path: Path, overwrite: bool, document: str) -> Iterator[
 
 
 def check_target(path: Path, overwrite: bool = False) -> None:
-    """Raise InputError now for a target that writing would be refused later."""
+    """Raise InputError now for a target to which writing would fail later."""
     _target(path, overwrite)
 
 
 def _target(path: Path, overwrite: bool) -> Path:
-    """Return where ``path`` really leads, so that a link stays a link."""
+    """Return the path behind any links, so that a link stays a link."""
     try:
         target = Path(os.path.realpath(path))
     except ValueError as error:
@@ -95,8 +95,8 @@ def _check_replaceable(target: Path, path: Path, document: str) -> None:
 
 
 @contextmanager
-def _explained(path: Path, target: Path) -> Iterator[None]:
-    """Turn the operating system's refusal to write into one line that names ``path``."""
+def _explain_errors(path: Path, target: Path) -> Iterator[None]:
+    """Turn an OSError while writing into an InputError of one line that names ``path``."""
     try:
         yield
     except OSError as error:
@@ -110,7 +110,7 @@ def _explained(path: Path, target: Path) -> Iterator[None]:
 
 
 def _settle(path: Path) -> None:
-    """Have the content on the disk before a name points to it."""
+    """Flush the content to the disk before a name points to it."""
     handle = os.open(path, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -119,7 +119,7 @@ def _settle(path: Path) -> None:
 
 
 def _exchange(new: Path, target: Path, document: str) -> None:
-    """Give ``new`` the name ``target``; the old folder comes back if that fails."""
+    """Give ``new`` the name ``target``; restore the old folder if that fails."""
     if not target.exists():
         os.rename(new, target)
         return

@@ -12,14 +12,14 @@ from floatref.errors import InputError
 from floatref.files.sources import opened
 
 LARGEST_BYTES = 4 << 20
-"""Largest JSON file that is read; samples belong into files of their own."""
+"""Largest JSON file that is read; samples belong in separate files."""
 
 
 def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
-    """Return what the JSON file ``path`` holds.
+    """Return the content of the JSON file ``path``.
 
     Raises InputError for a file that is missing, empty, above ``most_bytes``, not UTF-8, not JSON
-    or cut short, and for numbers that float64 does not hold. Of repeated keys the last one counts.
+    or truncated, and for numbers beyond float64. The last of repeated keys counts.
     """
     with opened(path) as stream:
         text = stream.read(most_bytes + 1)
@@ -29,7 +29,7 @@ def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
             "keep samples in files of their own beside it"
         )
     try:
-        return _parsed(text.decode("utf-8-sig"))
+        return _parse(text.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: byte {error.start} is not UTF-8 text; give the JSON file of the directory"
@@ -76,11 +76,16 @@ def _number(value: float, where: str) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def _parsed(text: str) -> Any:
+def _parse(text: str) -> Any:
     if not text.strip():
         raise InputError("empty; copy the complete file")
     try:
-        return json.loads(text, parse_constant=_refused, parse_float=_finite, parse_int=_integer)
+        return json.loads(
+            text,
+            parse_constant=_refuse_constant,
+            parse_float=_parse_float,
+            parse_int=_parse_integer,
+        )
     except json.JSONDecodeError as error:
         cut = error.pos >= len(text.rstrip()) or error.msg.startswith("Unterminated")
         advice = "the file is cut short, copy it again" if cut else "correct it there"
@@ -90,16 +95,16 @@ def _parsed(text: str) -> Any:
         raise InputError("lists or objects nested too deeply; flatten them") from error
 
 
-def _refused(literal: str) -> NoReturn:
+def _refuse_constant(literal: str) -> NoReturn:
     raise InputError(f"holds {literal}, which is not JSON; write null for a missing value")
 
 
-def _finite(literal: str) -> float:
+def _parse_float(literal: str) -> float:
     value = float(literal)
     if math.isinf(value):
         raise InputError(f"holds the number {shown(literal)[1:-1]}; float64 ends at 1.8e308")
     return value
 
 
-def _integer(literal: str) -> int | float:
-    return int(literal) if len(literal) <= 18 else _finite(literal)
+def _parse_integer(literal: str) -> int | float:
+    return int(literal) if len(literal) <= 18 else _parse_float(literal)

@@ -10,8 +10,8 @@ from floatref.files.sources import document_path, opened
 def fingerprint(path: Path) -> dict[str, str]:
     """Return the SHA-256 of every file of the recording at ``path``, by file name.
 
-    ``path`` is the directory or its recording.json. Raises InputError where `read_recording`
-    would because of the JSON file, or for a sample file that cannot be read.
+    ``path`` is the directory or its recording.json. Raises InputError as `read_recording` does for
+    the JSON file, and for a sample file that cannot be read.
     """
     document = document_path(path, DOCUMENT)
     names = (document.name, *sample_files(document))

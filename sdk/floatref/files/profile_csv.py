@@ -1,7 +1,7 @@
 """Profiles as CSV: columns `distance_m, <track>_elevation_m, <track>_valid`.
 
-Numbers are written so that float64 reads back the same; pipeline, settings, provenance and
-sigma are left to the profile directory.
+Numbers are written so that float64 reads back the same; pipeline, settings, provenance and sigma
+are in the profile directory only.
 """
 
 import csv
@@ -24,8 +24,8 @@ from floatref.values.profile import FARTHEST_M, Profile, ProfileTrack
 def constant_interval(distance_m: FloatArray, decimals: int) -> tuple[float, float]:
     """Return start and interval in m of ``distance_m``, shape (N,), given to ``decimals``.
 
-    The interval is the one with the fewest digits that explains every distance within its
-    rounding. Raises InputError with the row (the header is row 1) where there is none.
+    The interval has the fewest digits that fit every distance within its rounding. Raises
+    InputError with the row (the header is row 1) if no interval fits.
     """
     if distance_m.size < 2:
         raise InputError("one point only; a profile needs two for its interval")
@@ -52,10 +52,10 @@ def constant_interval(distance_m: FloatArray, decimals: int) -> tuple[float, flo
 
 
 def _unit(decimals: int, interval_m: float) -> float:
-    """Return how far ``decimals`` may move a distance from the line through the first, in m.
+    """Return the largest deviation in m that ``decimals`` allow from the line through the first.
 
-    Each of the two is off by half a unit. A unit above two fifths of the interval would hide a
-    lost row, so such distances have to be exact.
+    The distance and the first one are each rounded by half a unit. A unit above two fifths of the
+    interval could hide a lost row, so such distances must be exact.
     """
     unit = 1.001 * 10.0 ** -min(max(decimals, 0), 300)
     return unit if unit <= 0.4 * interval_m else 0.0
@@ -93,7 +93,7 @@ DISTANCE = "distance_m"
 ELEVATION = "_elevation_m"
 VALID = "_valid"
 ROWS = 1 << 16
-"""Rows handled together."""
+"""Rows processed together."""
 
 Rows = list[list[str]]
 
@@ -120,11 +120,11 @@ def write_profile_csv(profile: Profile, path: Path, overwrite: bool = False) -> 
 
 
 def read_profile_csv(path: Path) -> Profile:
-    """Return the profile in the CSV file ``path``; other columns than ours are ignored.
+    """Return the profile in the CSV file ``path``; columns of other names are ignored.
 
-    An empty or nan elevation is a missing point; without a column of validity all points that
-    have an elevation are valid. Raises InputError naming the file, the row and the value for
-    missing columns, text that is no number, and a distance without a constant interval.
+    An empty or nan elevation is a missing point; without a column of validity all points that have
+    an elevation are valid. Raises InputError naming the file, the row and the value for missing
+    columns, text that is not a number, and a distance without a constant interval.
     """
     path = Path(path)
     with opened(path) as raw, naming(path):
@@ -152,8 +152,8 @@ def _lines(profile: Profile, first: int) -> Iterator[str]:
 def _profile(reader: Iterator[list[str]]) -> Profile:
     header = [name.strip() for name in next(reader, [])]
     names = _tracks(header)
-    wanted = _wanted(header, names)
-    columns, decimals = _columns(reader, header, wanted)
+    wanted = _find_columns(header, names)
+    columns, decimals = _read_columns(reader, header, wanted)
     distance = columns[DISTANCE]
     start, interval = constant_interval(distance, decimals)
     tracks = tuple(
@@ -177,8 +177,8 @@ def _tracks(header: list[str]) -> list[str]:
     )
 
 
-def _wanted(header: list[str], names: list[str]) -> dict[str, int]:
-    """Return the columns to read and where they stand."""
+def _find_columns(header: list[str], names: list[str]) -> dict[str, int]:
+    """Return the columns to read and their positions."""
     ours = [DISTANCE, *(f"{n}{suffix}" for n in names for suffix in (ELEVATION, VALID))]
     for name in ours:
         if header.count(name) > 1:
@@ -186,10 +186,10 @@ def _wanted(header: list[str], names: list[str]) -> dict[str, int]:
     return {name: header.index(name) for name in ours if name in header}
 
 
-def _columns(
+def _read_columns(
     reader: Iterator[list[str]], header: list[str], wanted: dict[str, int]
 ) -> tuple[dict[str, FloatArray], int]:
-    """Return every wanted column, and the most decimals that a distance near the start has."""
+    """Return the requested columns, and the most decimals of a distance near the start."""
     parts: dict[str, list[FloatArray]] = {name: [] for name in wanted}
     first, decimals = 2, 0
     while rows := list(islice(reader, ROWS)):
@@ -216,7 +216,7 @@ def _check_widths(rows: Rows, header: list[str], first: int) -> None:
 
 
 def _numbers(texts: list[str], name: str, first: int) -> FloatArray:
-    """Return a column's numbers; empty is NaN, and 0 where it tells validity."""
+    """Return a column's numbers; an empty field is NaN, or 0 in a column of validity."""
     empty = 0.0 if name.endswith(VALID) else np.nan
     try:
         numbers = np.array([float(text) if text else empty for text in texts])
@@ -241,6 +241,6 @@ def _is_number(text: str) -> bool:
 
 
 def _decimals(text: str) -> int:
-    """Return how many decimals ``text`` is written with, an exponent taken into account."""
+    """Return the number of decimals of ``text``, with its exponent taken into account."""
     mantissa, _, exponent = text.strip().lower().partition("e")
     return len(mantissa.partition(".")[2]) - int(exponent or 0)

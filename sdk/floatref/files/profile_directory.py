@@ -1,11 +1,11 @@
-"""The profile directory, `floatref-profile/1`, and which kind of profile a path holds."""
+"""The profile directory, `floatref-profile/1`, and reading a profile of either kind."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_directory
+from floatref.files.atomic import replace_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.profile_csv import read_profile_csv
 from floatref.files.samples import (
@@ -26,10 +26,10 @@ SCHEMA = "floatref-profile-1"
 
 
 def read_profile(path: Path) -> Profile:
-    """Return the profile at ``path``: a directory, its profile.json, or a CSV of ours.
+    """Return the profile at ``path``: a directory, its profile.json, or a CSV of floatref.
 
-    Elevation stays in its files, mapped read-only. Raises InputError with one line naming the
-    file, the track and the value for anything that breaks the format.
+    Elevation is mapped read-only from its files. Raises InputError with one line naming the file,
+    the track and the value for anything that breaks the format.
     """
     source = document_path(path, DOCUMENT)
     if source.suffix.lower() != ".json":
@@ -54,9 +54,9 @@ def write_profile(profile: Profile, directory: Path, overwrite: bool = False) ->
     NaN in settings and provenance is written as null. Raises InputError if ``directory`` exists
     and ``overwrite`` is false, cannot be written, or if the profile breaks the format.
     """
-    document = _described(profile)
+    document = _describe(profile)
     enforce(document, SCHEMA, directory)
-    with replacing_directory(directory, overwrite, DOCUMENT) as folder:
+    with replace_directory(directory, overwrite, DOCUMENT) as folder:
         for track, entry in zip(profile.tracks, document["tracks"], strict=True):
             write_samples(track.elevation, folder / entry["elevation_file"])
             write_flags(track.valid, folder / entry["valid_file"])
@@ -87,7 +87,7 @@ def _check_length(source: Path, name: str, found: int, expected: int) -> None:
         )
 
 
-def _described(profile: Profile) -> dict[str, Any]:
+def _describe(profile: Profile) -> dict[str, Any]:
     taken: set[str] = set()
     tracks = []
     for track in profile.tracks:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_directory
+from floatref.files.atomic import replace_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.samples import free_name, read_samples, write_samples
 from floatref.files.schema import enforce
@@ -24,11 +24,11 @@ SCHEMA = "floatref-recording-1"
 def read_recording(path: Path) -> Recording:
     """Return the recording at ``path``, a directory or its recording.json.
 
-    Samples stay in their files, mapped read-only. Raises InputError with one line naming the
-    file, the channel and the value for anything that breaks the format.
+    Samples are mapped read-only from their files. Raises InputError with one line naming the file,
+    the channel and the value for anything that breaks the format.
     """
     source = document_path(path, DOCUMENT)
-    document = _enforced(source)
+    document = _read_enforced(source)
     with naming(source):
         _check_files(document["channels"])
     clocks: dict[str, StampedClock] = {}
@@ -45,9 +45,9 @@ def write_recording(recording: Recording, directory: Path, overwrite: bool = Fal
     A track's name becomes part of file names. Raises InputError if ``directory`` exists and
     ``overwrite`` is false, cannot be written, or if the recording breaks the format.
     """
-    document, samples = _described(recording)
+    document, samples = _describe(recording)
     enforce(document, SCHEMA, directory)
-    with replacing_directory(directory, overwrite, DOCUMENT) as folder:
+    with replace_directory(directory, overwrite, DOCUMENT) as folder:
         for name, values in samples.items():
             write_samples(values, folder / name)
         write_document(document, folder / DOCUMENT)
@@ -55,12 +55,12 @@ def write_recording(recording: Recording, directory: Path, overwrite: bool = Fal
 
 def sample_files(document: Path) -> tuple[str, ...]:
     """Return the names of the sample files that the recording.json at ``document`` lists."""
-    entries = _enforced(document)["channels"]
+    entries = _read_enforced(document)["channels"]
     names = [entry[key] for entry in entries for key in ("file", "time_file") if key in entry]
     return tuple(dict.fromkeys(names))
 
 
-def _enforced(source: Path) -> dict[str, Any]:
+def _read_enforced(source: Path) -> dict[str, Any]:
     document = read_document(source)
     enforce(document, SCHEMA, source)
     checked: dict[str, Any] = document
@@ -68,7 +68,7 @@ def _enforced(source: Path) -> dict[str, Any]:
 
 
 def _check_files(entries: Sequence[Mapping[str, Any]]) -> None:
-    """Refuse one file for two quantities; two wheel paths may share a sensor, and its file."""
+    """Refuse one file for two quantities; two wheel paths may share a sensor and its file."""
     names: dict[str, str] = {}
     for entry in entries:
         other = names.setdefault(entry["file"], entry["name"])
@@ -103,12 +103,12 @@ def _clock(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedCloc
 
 
 def setup_of(entry: Mapping[str, Any]) -> Setup:
-    """Return the setup that a document's ``entry``, which obeys its schema, describes."""
+    """Return the setup from a document's ``entry``, which obeys its schema."""
     tracks = {
-        name: TrackSetup(**_known(track, "reference_point_m", "laser_offset_m"))
+        name: TrackSetup(**_select(track, "reference_point_m", "laser_offset_m"))
         for name, track in entry.get("tracks", {}).items()
     }
-    known = _known(entry, "profile_interval_m", "gnss_antenna_offset_m")
+    known = _select(entry, "profile_interval_m", "gnss_antenna_offset_m")
     return Setup(**known, tracks=tracks, vehicle=_vehicle(entry.get("vehicle")))
 
 
@@ -118,8 +118,8 @@ def _vehicle(entry: Mapping[str, Any] | None) -> VehicleSetup | None:
     return VehicleSetup(entry["model"], entry["parameters"], float(entry.get("x_m", 0.0)))
 
 
-def _known(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
-    """Return those of ``keys`` that ``entry`` has, vectors as tuples of floats."""
+def _select(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
+    """Return the values of ``keys`` that ``entry`` has, vectors as tuples of floats."""
     found = {key: entry[key] for key in keys if key in entry}
     return {
         key: tuple(map(float, value)) if isinstance(value, list) else float(value)
@@ -127,7 +127,7 @@ def _known(entry: Mapping[str, Any], *keys: str) -> dict[str, Any]:
     }
 
 
-def _described(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArray]]:
+def _describe(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArray]]:
     """Return the JSON document of ``recording`` and the samples of every file it names."""
     samples: dict[str, FloatArray] = {}
     entries = _entries(recording, samples)
@@ -139,14 +139,14 @@ def _described(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArr
             "profile_interval_m": setup.profile_interval_m,
             "gnss_antenna_offset_m": setup.gnss_antenna_offset_m,
             "tracks": {name: vars(track) for name, track in setup.tracks.items()},
-            **_described_vehicle(setup.vehicle),
+            **_describe_vehicle(setup.vehicle),
         },
         "channels": entries,
     }
     return plain(document, "recording"), samples
 
 
-def _described_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:
+def _describe_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:
     if vehicle is None:
         return {}
     numbers = {"x_m": vehicle.x_m, "parameters": dict(vehicle.parameters)}
@@ -154,7 +154,7 @@ def _described_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:
 
 
 def _entries(recording: Recording, samples: dict[str, FloatArray]) -> list[dict[str, Any]]:
-    """Return what the document says of each channel; channels on one clock share its file."""
+    """Return the document's entry of each channel; channels on one clock share its time file."""
     taken: set[str] = set()
     time_files: dict[int, str] = {}
     entries = []

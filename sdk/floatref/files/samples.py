@@ -11,20 +11,20 @@ from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.scanning import chunks
 
 SAMPLE = np.dtype("<f8")
-"""A sample as it lies in the file: little-endian float64, NaN = missing."""
+"""Format of a sample in the file: little-endian float64, NaN = missing."""
 
 
 def read_samples(path: Path) -> FloatArray:
     """Return the samples of ``path``, mapped from the file and read-only, shape (N,).
 
-    Raises InputError for a file that cannot be read, is empty or is cut within a sample.
+    Raises InputError for a file that cannot be read, is empty or ends within a sample.
     """
-    return frozen(_mapped(path, SAMPLE.itemsize).view(SAMPLE))
+    return frozen(_map_file(path, SAMPLE.itemsize).view(SAMPLE))
 
 
 def read_flags(path: Path) -> BoolArray:
     """Return the bytes of ``path`` as truth values, shape (N,); InputError unless 0 or 1."""
-    flags = _mapped(path, 1)
+    flags = _map_file(path, 1)
     bad = np.flatnonzero(flags > 1)
     if bad.size:
         raise InputError(
@@ -48,7 +48,7 @@ def write_flags(flags: BoolArray, path: Path) -> None:
 
 
 def free_name(stem: str, suffix: str, taken: set[str]) -> str:
-    """Return ``stem + suffix``, numbered if ``taken`` has it apart from case, and take it."""
+    """Return ``stem + suffix``, numbered if ``taken`` has it in any case, and add it there."""
     name, number = f"{stem}{suffix}", 1
     while name.casefold() in taken:
         number += 1
@@ -57,14 +57,14 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
     return name
 
 
-def _mapped(path: Path, item_bytes: int) -> NDArray[np.uint8]:
+def _map_file(path: Path, item_bytes: int) -> NDArray[np.uint8]:
     with opened(path) as stream:
         size = stream.seek(0, 2)
         if size == 0:
             raise InputError(f"{path}: empty; copy the complete file")
         if size % item_bytes:
             raise InputError(
-                f"{path}: {size} bytes are no whole number of float64 samples; "
+                f"{path}: {size} bytes are not a whole number of float64 samples; "
                 "the file is truncated or of another type, copy or convert it again"
             )
         return np.memmap(stream, dtype=np.uint8, mode="r")

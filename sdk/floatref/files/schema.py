@@ -1,4 +1,4 @@
-"""The JSON Schemas of the directories, and their errors as one line that says what to do."""
+"""The JSON Schemas of the directories, and their errors as one line with a remedy."""
 
 import json
 from collections.abc import Iterable
@@ -22,11 +22,11 @@ SCHEMAS = (
 )
 """Names of the schemas in the package."""
 SHOWN = 16
-"""Names that an error lists of those that there are."""
+"""Largest number of known names that an error lists."""
 
 
 def read_schema(name: str) -> dict[str, Any]:
-    """Return the JSON Schema (draft 2020-12) called ``name``; InputError if there is none."""
+    """Return the JSON Schema (draft 2020-12) called ``name``; InputError if it is unknown."""
     if name not in SCHEMAS:
         raise InputError(f"schema {name}: unknown; known: {', '.join(SCHEMAS)}")
     text = (files("floatref.files") / "schemas" / f"{name}.json").read_text(encoding="utf-8")
@@ -42,7 +42,7 @@ def enforce(document: Any, name: str, source: object) -> None:
 
 
 def enforce_schema(document: Any, schema: dict[str, Any], source: object) -> None:
-    """Raise InputError unless ``document`` obeys ``schema``, whose every part is described."""
+    """Raise InputError unless ``document`` obeys ``schema``, whose parts all have a description."""
     from jsonschema import Draft202012Validator
 
     _enforce(Draft202012Validator(schema), document, source)
@@ -82,12 +82,12 @@ def _complaint(error: "ValidationError") -> str:
     if error.validator == "required":
         required = cast(list[str], error.validator_value)
         missing = [key for key in required if key not in cast(dict[str, Any], error.instance)]
-        return f"lacks {', '.join(missing)}"
+        return f"has no {', '.join(missing)}"
     if error.validator == "oneOf":
         options = cast(list[dict[str, Any]], error.validator_value)
         keys = [key for option in options for key in option["required"]]
         found = [key for key in keys if key in cast(dict[str, Any], error.instance)]
-        return f"has {' and '.join(found) or 'none'} of {', '.join(keys)}"
+        return f"has {' and '.join(found) or 'no key'} of {', '.join(keys)}"
     if error.validator == "additionalProperties" and error.validator_value is False:
         return f"has the unknown key {shown(_unknown(error))}"
     if "propertyNames" in error.absolute_schema_path:

@@ -9,7 +9,7 @@ from floatref.files.document import read_document
 
 
 def read_settings(path: Path | None) -> Mapping[str, Any]:
-    """Return the settings by name in ``path``; none for None. InputError unless it is an object."""
+    """Return the settings by name in ``path``, {} for None; InputError unless it is an object."""
     if path is None:
         return {}
     document = read_document(path)

@@ -1,4 +1,4 @@
-"""Opening files for reading, with every refusal of the operating system as one clear line."""
+"""Opening files for reading; every error of the operating system becomes one clear line."""
 
 import os
 import stat
@@ -19,7 +19,7 @@ def opened(path: Path) -> Iterator[BufferedReader]:
     """
     with ExitStack() as stack:
         with _refusals(path):
-            # Opening a named pipe would wait for a writer, so the kind is asked first.
+            # Opening a named pipe would wait for a writer, so the kind is checked first.
             _check_kind(path, os.stat(path).st_mode)
             stream = stack.enter_context(open(path, "rb"))
         yield stream

@@ -1,4 +1,4 @@
-"""A TOML file read within limits, so that none can take all memory or all time."""
+"""Reading a TOML file within limits of size, memory and time."""
 
 import math
 import re
@@ -21,10 +21,10 @@ DOTTED = re.compile(
 
 
 def read_toml(path: Path, kind: str) -> dict[str, Any]:
-    """Return what the TOML file ``path`` holds: tables, lists, strings, numbers, truth values.
+    """Return the content of the TOML file ``path``: tables, lists, strings, numbers, truth values.
 
-    Raises InputError with one line, in which ``kind`` is what the file is taken for, such as
-    "channel map", if it cannot be read, is above 1 MiB, no UTF-8 or no TOML, and for dates,
+    Raises InputError with one line, in which ``kind`` is the expected kind of file, such as
+    "channel map", if it cannot be read, is above 1 MiB, not UTF-8 or not TOML, and for dates,
     numbers beyond float64 and 64 bits, and deep nesting.
     """
     with opened(path) as stream:
@@ -32,19 +32,19 @@ def read_toml(path: Path, kind: str) -> dict[str, Any]:
     with naming(path):
         if len(content) > LARGEST_BYTES:
             raise InputError(f"larger than 1 MiB; give a {kind} in TOML")
-        document = _parsed(_decoded(content, kind), kind)
+        document = _parse(_decode(content, kind), kind)
         _check_plain(document, "")
     return document
 
 
-def _decoded(content: bytes, kind: str) -> str:
+def _decode(content: bytes, kind: str) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"byte {error.start} is not UTF-8; save the {kind} as UTF-8") from error
 
 
-def _parsed(text: str, kind: str) -> dict[str, Any]:
+def _parse(text: str, kind: str) -> dict[str, Any]:
     if DOTTED.search(text):
         raise InputError(
             f"has a name of {MOST_PARTS} parts or more, as in a.b.c; shorten it, or write \\u002E "
@@ -60,7 +60,7 @@ def _parsed(text: str, kind: str) -> dict[str, Any]:
 
 
 def _check_plain(value: Any, where: str, depth: int = 0) -> None:
-    """Refuse numbers that are none, dates, and nesting that no map has."""
+    """Refuse numbers that are not finite, dates, and nesting deeper than any valid file."""
     if depth > DEEPEST:
         raise InputError(f"{where[:60]}: nested too deeply; there is no such entry")
     if isinstance(value, dict):

@@ -15,31 +15,32 @@ from floatref.values.recording import Channel
 from floatref.values.scanning import CHUNK, median_step
 
 APART = 0.01
-"""Two clocks of one rate agree if their samples are no further apart than this, in steps."""
+"""Largest distance of the samples of two clocks of one rate that agree, in steps."""
 GAP = 5.0
-"""Time stamps this many median steps apart hold a gap; the encoder's may, in a stop."""
+"""Distance of time stamps in median steps that counts as a gap; not for an encoder at a stop."""
 BRIDGE_S = 0.01
-"""A gap up to so long is bridged well: a line misses a 15-Hz swing of the body by a tenth."""
+"""Longest gap in s that a line bridges well: its error is a tenth of a 15-Hz swing of the body."""
 BLIND_S = 0.5
-"""A gap of the encoder longer than this can hide a stop."""
+"""A gap of the encoder longer than this, in s, can hide a stop."""
 TURN_S = 0.1
-"""A line over a gap so long misses a 2-Hz pitch of the body by a few hundredths of a degree."""
+"""Gap in s over which a line misses a 2-Hz pitch of the body by a few hundredths of a degree."""
 BRIDGES_S = {DISTANCE: BLIND_S, **dict.fromkeys(("roll_rate", "pitch_rate", "yaw_rate"), TURN_S)}
-"""What may be bridged of channels for which it is not `BRIDGE_S`."""
+"""Longest gap in s to bridge, for channels where it is not `BRIDGE_S`."""
 FAR = 1 << 40
-"""Samples to the next known one, if there is none."""
+"""Number of samples to the next known one, if no such sample exists."""
 LOOK = 4096
-"""Samples looked at in one go for the end of a gap."""
+"""Samples searched in one go for the end of a gap."""
 Read = Callable[[int, int], FloatArray]
-"""What returns the samples of a channel from one index up to another, NaN if missing."""
+"""A function that returns a channel's samples from one index up to another, NaN if missing."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Samples of a channel on the clock of the blocks, and which of them are what.
+    """Samples of a channel on the clock of the blocks, with masks of their kinds.
 
-    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`
-    or what `BRIDGES_S` says, or in one of lasting damage. Samples of void damage are NaN.
+    ``missing`` samples were bridged; of these, ``lost`` ones lie in a gap longer than `BRIDGE_S`,
+    or the channel's entry in `BRIDGES_S`, or in one of lasting damage. Samples of void damage are
+    NaN.
     """
 
     values: FloatArray
@@ -49,14 +50,14 @@ class Stretch:
 
 
 class AlignedChannel:
-    """A channel seen from ``clock``; ``first`` is the clock's sample that counts as 0."""
+    """A channel resampled to ``clock``; ``first`` is the clock's sample that counts as 0."""
 
     def __init__(
         self, channel: Channel, clock: UniformClock, first: int, damage: Damage | None = None
     ) -> None:
         """Find out whether the two clocks agree; samples of ``damage`` count as missing.
 
-        Raises InputError if that leaves no sample.
+        Raises InputError if no sample remains.
         """
         self.channel = channel
         self._damage = damage or Damage()
@@ -90,7 +91,7 @@ class AlignedChannel:
         return Stretch(values[skip:], fresh[skip:], gone, far)
 
     def release(self) -> None:
-        """Let go of the samples taken, if they lie in a file."""
+        """Release the memory of the samples read, if they lie in a file."""
         release(self.channel.values)
         if isinstance(self.channel.clock, StampedClock):
             release(self.channel.clock.times_s)
@@ -98,8 +99,8 @@ class AlignedChannel:
     def _samples(
         self, low: int, high: int, longest: int
     ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
-        """Return samples ``low`` to ``high - 1``, which are missing, and which of these lost."""
-        values, missing, lost = bridged(self._sound, self.channel.values.size, low, high, longest)
+        """Return samples ``low`` to ``high - 1``, which of them are missing, and which are lost."""
+        values, missing, lost = bridge(self._sound, self.channel.values.size, low, high, longest)
         void = within(self._damage.void, low, high)
         if void is not None:
             values = np.where(void, np.nan, values)
@@ -117,7 +118,7 @@ class AlignedChannel:
             )
 
     def _sound(self, low: int, high: int) -> FloatArray:
-        """Return samples ``low`` to ``high - 1``; what is damaged is missing."""
+        """Return samples ``low`` to ``high - 1``; damaged samples are NaN."""
         values = self.channel.values[low:high]
         high = low + values.size
         for spans in (self._damage.gone, self._damage.void):
@@ -137,9 +138,9 @@ class AlignedChannel:
     def _between(
         self, place: FloatArray, low: int, mask: BoolArray | None, apart_s: float
     ) -> BoolArray | None:
-        """Return which places rest on a sample of ``mask``, or lie in a hole beyond ``apart_s``.
+        """Return which places use a sample of ``mask``, or lie in a gap of more than ``apart_s``.
 
-        A leap of the encoder is met by the first place behind it, however fast its samples come.
+        The first place behind a jump of the encoder is marked, at any rate of its samples.
         """
         before, after = np.floor(place).astype(np.int64), np.ceil(place).astype(np.int64)
         passed = before.copy()
@@ -156,13 +157,13 @@ class AlignedChannel:
         return wide if found is None else np.logical_or(found, wide)
 
 
-def bridged(
+def bridge(
     read: Read, size: int, low: int, high: int, longest: int = 0
 ) -> tuple[FloatArray, BoolArray | None, BoolArray | None]:
-    """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which those were.
+    """Return samples ``low`` to ``high - 1``, NaN bridged linearly, and which were bridged.
 
-    ``size`` is the number of samples that can be read. The last array tells which of them lie in
-    a gap of more than ``longest`` samples, or one that is open at an end of the channel.
+    ``size`` is the number of samples that can be read. The last array marks those that lie in a gap
+    of more than ``longest`` samples, or one that is open at an end of the channel.
     """
     part = read(low, high)
     if not np.isnan(part.sum()):
@@ -179,14 +180,14 @@ def bridged(
 
 
 def _gap_lengths(known: IndexArray, where: IndexArray) -> IndexArray:
-    """Return how many samples lie between the known ones on either side of each of ``where``."""
+    """Return the number of samples between the known ones on both sides of each of ``where``."""
     edges = np.concatenate(([-FAR], known, [known[-1] + FAR]))
     after = np.searchsorted(edges, where, "right")
     return np.asarray(edges[after] - edges[after - 1] - 1)
 
 
 def _good_before(read: Read, low: int) -> tuple[IndexArray, FloatArray]:
-    """Return index and value of the last known sample before ``low``, empty if there is none."""
+    """Return index and value of the last known sample before ``low``, or empty arrays."""
     for end in range(low, 0, -LOOK):
         values = read(max(end - LOOK, 0), end)
         good = np.flatnonzero(~np.isnan(values))[-1:]

@@ -1,11 +1,11 @@
 """From a recording to blocks: all channels of a run on the accelerometer's clock.
 
-A channel on that clock is passed through. Another is linear between its samples, which is
-what `distance` is defined to be; its `fresh` mask tells where a new measurement came in. A
-missing sample is bridged by the line between its neighbours and flagged; a longer gap of the
-accelerometer disturbs the floating reference height, and one of the encoder may hide a stop; both
-are flagged as that too. Samples that are there and yet measure nothing (`damage`,
-`encoder_damage`) count as missing. GNSS samples keep their own times, as events.
+A channel on that clock is passed through. Another is linear between its samples, which is the
+definition of `distance`; its `fresh` mask marks new measurements. A missing sample is bridged by
+the line between its neighbours and flagged; a longer gap of the accelerometer disturbs the floating
+reference height, and one of the encoder may hide a stop; both have flags of their own. Samples that
+are present but measure nothing (`damage`, `encoder_damage`) count as missing. GNSS samples keep
+their own times, as events.
 """
 
 import math
@@ -15,13 +15,17 @@ from math import ceil
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.intake.aligned import AlignedChannel, Stretch, bridged
+from floatref.intake.aligned import AlignedChannel, Stretch, bridge
 from floatref.intake.gnss_events import GnssEvents
-from floatref.intake.steady_rate import holes_told, steady_clock
+from floatref.intake.steady_rate import report_holes, steady_clock
 from floatref.screening.damage.damaged_samples import Damage
 from floatref.screening.damage.encoder_damage import encoder_damage
-from floatref.screening.damage.saturation import damaged_force
-from floatref.screening.damage.stuck_sensors import damaged_height, stuck_force, together
+from floatref.screening.damage.saturation import find_saturation
+from floatref.screening.damage.stuck_sensors import (
+    combine_damage,
+    find_stuck_force,
+    find_stuck_height,
+)
 from floatref.screening.findings import Screening
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
@@ -33,13 +37,13 @@ from floatref.values.needs import VERTICAL_FORCES, Needs
 from floatref.values.recording import Channel, Recording
 
 SHORT = 2
-"""So many steps before its first or behind its last sample, a channel keeps that one."""
+"""Number of steps before its first and behind its last sample for which a channel is constant."""
 LEAST = 0.5
-"""Part of the run that a channel has to cover."""
+"""Smallest part of the run that a channel must cover."""
 
 
-def covering(channel: Channel, begin_s: float, end_s: float) -> Channel:
-    """Return ``channel`` with samples from ``begin_s`` to ``end_s`` at least.
+def extend_to_cover(channel: Channel, begin_s: float, end_s: float) -> Channel:
+    """Return ``channel``, extended to at least ``begin_s`` to ``end_s``.
 
     Raises InputError if it covers less than half of that time.
     """
@@ -79,37 +83,35 @@ def _check(channel: Channel, covered_s: float, run: tuple[float, float]) -> None
 BLOCK = 65_536
 """Samples per block: 4 s at 16 kHz, small enough for the cache."""
 RANGES = HEIGHT, "suspension_deflection", "rear_suspension_deflection"
-"""Sensors that get stuck while the accelerometer beside them goes on."""
+"""Sensors that are stuck if they are constant while the accelerometer beside them is not."""
 
 
 class Source:
     """The channels of a recording that a pipeline needs, as a stream of blocks.
 
-    `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` what
-    is travelled from there to the last; `ends_m` the first and the last distance that the encoder
-    tells, less than a sample away; `fastest_mps` the fastest speed over a second of the recording;
-    `length` the number of samples that all channels cover; `gone` the damaged stretches of every
-    channel, first index and the one behind, shape (k, 2); `warnings` one line for each channel and
-    kind of damage.
+    `header` is that of the stream; `origin_m` the distance at its first sample, `distance_m` the
+    distance travelled from there to the last; `ends_m` the encoder's first and last distance, less
+    than a sample away; `fastest_mps` the fastest speed over a second of the recording; `length` the
+    number of samples that all channels cover; `gone` the damaged stretches of every channel, first
+    index and the one behind, shape (k, 2); `warnings` one line for each channel and kind of damage.
     """
 
     def __init__(self, screening: Screening, more: Sequence[str] = ()) -> None:
         """Find the channels that are needed, and the time that all of them cover.
 
-        Channels called one of ``more`` are taken beside them. Raises InputError if a channel is
-        missing.
+        Channels named in ``more`` are added. Raises InputError if a channel is missing.
         """
         recording, needs = screening.recording, screening.needs
         self._tracks = needs.tracks
-        found = dict(_needed(recording, needs))
+        found = dict(_select_needed(recording, needs))
         clock = steady_clock(found[ChannelId(needs.force, self._tracks[0])])
         first, self.length = _common_span(list(found.values()), clock)
         begin_s, end_s = clock.times(2, first, self.length - 1).tolist()
         for channel in (recording.channel(name, t) for name in more for t in self._tracks):
             if channel.id not in found:
-                found[channel.id] = covering(channel, begin_s, end_s)
+                found[channel.id] = extend_to_cover(channel, begin_s, end_s)
         damage = {name: _damage(name, found, needs.force) for name in found}
-        holes = [line for name, c in found.items() if _is_force(name) for line in holes_told(c)]
+        holes = [line for name, c in found.items() if _is_force(name) for line in report_holes(c)]
         self.gone = {name: each.gone for name, each in damage.items()}
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
         self._aligned = {
@@ -132,7 +134,7 @@ class Source:
         self.fastest_mps = screening.travel.fastest_mps
 
     def blocks(self, size: int = BLOCK) -> Iterator[Block]:
-        """Yield the run in blocks of ``size`` samples, each let go of before the next."""
+        """Yield the run in blocks of ``size`` samples, each released before the next."""
         for begin in range(0, self.length, size):
             yield self._block(begin, min(begin + size, self.length))
             for channel in self._aligned.values():
@@ -167,17 +169,17 @@ class Source:
 
 
 def _known(channel: Channel, index: int) -> float:
-    """Return a sample, or what the known ones beside it tell."""
+    """Return a sample; a missing one is interpolated between the known ones beside it."""
 
     def read(low: int, high: int) -> FloatArray:
         return channel.values[low:high]
 
-    values, *_ = bridged(read, channel.values.size, index, index + 1)
+    values, *_ = bridge(read, channel.values.size, index, index + 1)
     return float(values[0])
 
 
-def _needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
-    """Yield the channels of ``needs``; one that is shared is one of every wheel path."""
+def _select_needed(recording: Recording, needs: Needs) -> Iterator[tuple[ChannelId, Channel]]:
+    """Yield the channels of ``needs``; a shared one is yielded for every wheel path."""
     yield ChannelId(DISTANCE), recording.channel(DISTANCE, needs.tracks[0])
     for track in needs.tracks:
         yield ChannelId(needs.force, track), recording.channel(needs.force, track)
@@ -191,14 +193,14 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel], force: str) -> 
     if name.name == DISTANCE:
         return encoder_damage(found[name])
     if _is_force(name):
-        damage = damaged_force(found[name])
+        damage = find_saturation(found[name])
         if name.name == SPECIFIC_FORCE:
             return damage
-        return together(damage, stuck_force(found[name], found[ChannelId(DISTANCE)]))
+        return combine_damage(damage, find_stuck_force(found[name], found[ChannelId(DISTANCE)]))
     if name.name not in RANGES:
         return Damage()
     beside = found[ChannelId(force, name.track)]
-    return damaged_height(found[name], beside, found[ChannelId(DISTANCE)])
+    return find_stuck_height(found[name], beside, found[ChannelId(DISTANCE)])
 
 
 def _is_force(name: ChannelId) -> bool:

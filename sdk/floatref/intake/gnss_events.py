@@ -1,4 +1,4 @@
-"""GNSS samples as events that keep their own time, at whatever rate they came."""
+"""GNSS samples as events with their own times, at any rate."""
 
 from math import ceil
 
@@ -20,9 +20,9 @@ class GnssEvents:
     """The GNSS samples of a recording, in the order of their times."""
 
     def __init__(self, recording: Recording, stuck: IndexArray = NONE) -> None:
-        """Keep the channels whose names begin with ``gnss_``.
+        """Take the channels whose names begin with ``gnss_``.
 
-        ``stuck``, shape (k, 2), are first index and the one behind of heights to be left out.
+        ``stuck``, shape (k, 2), are first index and the one behind of heights to omit.
         """
         self._channels = [c for c in recording.channels if c.id.name.startswith(PREFIX)]
         self._stuck = stuck
@@ -30,7 +30,7 @@ class GnssEvents:
     def between(self, begin_s: float, end_s: float) -> tuple[Event, ...]:
         """Return the events from ``begin_s`` up to, but without, ``end_s``.
 
-        Samples of several channels at one time are one event; a missing sample is left out.
+        Samples of several channels at one time are one event; a missing sample is omitted.
         """
         found: dict[float, dict[ChannelId, float]] = {}
         for channel in self._channels:
@@ -49,7 +49,7 @@ def _samples(
     if mask is not None:
         values = np.where(mask, np.nan, values)
     pairs = zip(times, values.tolist(), strict=True)
-    # A quality that is not known is not that of a fixed ambiguity.
+    # An unknown quality does not count as a fixed ambiguity.
     kept = channel.id.name == QUALITY
     return [(time, value) for time, value in pairs if kept or value == value]
 

@@ -1,4 +1,4 @@
-"""Time stamps of a constant rate, as that rate; samples may be missing in between."""
+"""From time stamps at a constant rate to a uniform clock; samples may be missing in between."""
 
 import numpy as np
 
@@ -11,25 +11,25 @@ from floatref.values.scanning import chunks, longest_step, median_step
 JITTER = 0.01
 """Largest deviation of time stamps from a constant rate, in steps."""
 ROUNDING_S = 2e-6
-"""Stamps may be rounded to microseconds, however fast the samples come."""
+"""Stamps may be rounded to microseconds, at any rate."""
 HOLE = 1.5
-"""Time stamps so many usual steps apart, or more, have samples missing in between."""
+"""Distance of time stamps, in usual steps, from which samples are missing in between."""
 MOST_DIGITS = 12
-"""A rate is looked for with up to so many digits."""
+"""Largest number of digits of a rate."""
 
 
 def steady_clock(channel: Channel) -> UniformClock:
-    """Return the channel's clock; time stamps of a constant rate become the roundest such rate.
+    """Return the channel's clock; for time stamps, the roundest rate that fits them.
 
-    Between holes, of half the time at most, the rate has to be constant. Raises InputError if it
-    is not: an integration needs a constant step.
+    Holes may take up to half of the time; between them the rate must be constant. Raises InputError
+    if it is not: an integration needs a constant step.
     """
     if isinstance(channel.clock, UniformClock):
         return channel.clock
     times = channel.clock.times_s
     span = float(times[-1] - times[0])
     if not span > 0:
-        raise InputError(f"channel {channel.id}: one sample is no stretch of time")
+        raise InputError(f"channel {channel.id}: a single sample has no duration")
     bounds = _bounds(times)
     held = float(np.sum(times[bounds[1:] - 1] - times[bounds[:-1]]))
     steps = times.size + 1 - bounds.size
@@ -44,8 +44,8 @@ def steady_clock(channel: Channel) -> UniformClock:
     return UniformClock.of(_roundest(1.0 / step, longest, allowed), float(times[0]))
 
 
-def holes_told(channel: Channel) -> tuple[str, ...]:
-    """Return one line on the holes in an accelerometer's time stamps; empty if there are none."""
+def report_holes(channel: Channel) -> tuple[str, ...]:
+    """Return one line on the holes in an accelerometer's time stamps; empty if it has no holes."""
     if isinstance(channel.clock, UniformClock):
         return ()
     times = channel.clock.times_s
@@ -69,9 +69,9 @@ def _bounds(times: FloatArray) -> IndexArray:
 
 
 def _farthest_off(times: FloatArray, step: float, bounds: IndexArray) -> tuple[int, float]:
-    """Return which stamp is farthest off a constant ``step`` since the last hole, and by how much.
+    """Return the stamp with the largest deviation from a constant ``step``, and the deviation in s.
 
-    ``bounds`` are those of the stretches without a hole.
+    Steps are counted from the last hole; ``bounds`` limit the stretches without a hole.
     """
     worst, farthest = 0, 0.0
     for first, chunk in chunks(times):

@@ -1,4 +1,4 @@
-"""What an adapter is: a native format read into a recording, or listed for a channel map."""
+"""Adapters: they read a native format into a recording, or list its content for a channel map."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,7 +13,7 @@ from floatref.values.recording import Recording
 class Adapter(Protocol):
     """Reads one native format; `name` is what `--adapter` takes.
 
-    It has one of two more methods: `read` of a `RecordingAdapter`, or `streams` of a
+    It also has one of two methods: `read` of a `RecordingAdapter`, or `streams` of a
     `NativeAdapter`.
     """
 
@@ -21,11 +21,11 @@ class Adapter(Protocol):
     summary: str
 
     def recognises(self, source: Path) -> bool:
-        """Tell from the path, or the first bytes, whether ``source`` is of this format."""
+        """Return whether ``source`` is of this format, from its path or first bytes."""
 
 
 class RecordingAdapter(Adapter, Protocol):
-    """The adapter of a format that holds our channels."""
+    """The adapter of a format that holds the channels of floatref."""
 
     def read(self, source: Path) -> Recording:
         """Return the recording; InputError if ``source`` cannot be used."""
@@ -35,20 +35,20 @@ class NativeAdapter(Adapter, Protocol):
     """The adapter of a format with names, units and clocks of its own."""
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
-        """Return what ``source`` holds; InputError if it cannot be used.
+        """Return the content of ``source``; InputError if it cannot be used.
 
         ``options`` are those of the channel map, such as `dbc`, a path.
         """
 
 
 class RecordingDirectory:
-    """The adapter of our own recording directory."""
+    """The adapter of floatref's own recording directory."""
 
     name = "recording"
     summary = "floatref-recording/1: recording.json and raw float64 files beside it"
 
     def recognises(self, source: Path) -> bool:
-        """Tell whether ``source`` is a recording.json or holds one."""
+        """Return whether ``source`` is a recording.json or a folder that holds one."""
         return source.name == DOCUMENT or (source / DOCUMENT).is_file()
 
     def read(self, source: Path) -> Recording:

@@ -1,4 +1,4 @@
-"""What a fall-back is asked: the road where the height sensor of a run dropped out."""
+"""The question to a fall-back: the road where the height sensor of a run dropped out."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,14 +18,14 @@ class Process(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class DropOut:
-    """What a fall-back is asked: another profile of ``recording``, whose heights have gaps.
+    """The question to a fall-back: another profile of ``recording``, whose heights have gaps.
 
     Attributes:
-        recording: with every channel that it has.
-        profile: what the pipeline made of it, the gaps bridged by straight lines.
+        recording: with all its channels.
+        profile: the pipeline's profile of it, with the gaps bridged by straight lines.
         gaps: begin and end of every gap in m of distance by wheel path, shape (k, 2).
-        process: runs another pipeline on ``recording`` and returns its profile. What has been
-            found out about the recording is not computed again, and no fall-back is asked for.
+        process: runs another pipeline on ``recording`` and returns its profile. It reuses the
+            screening of the recording, and asks for no fall-back.
     """
 
     recording: Recording

@@ -1,9 +1,9 @@
 """Every hook of floatref. A hook registers, or answers one point of an architecture.
 
-An answer is the sequence of new stages for that point of the signal flow, or None to leave it
-to others. It holds for the pipelines that its function names by `answers` and no others, and goes
-before their own. Hooks are called once per run, never per sample. The order of processing is the
-architecture's; two plug-ins that answer the same point of a pipeline stop the run.
+An answer is the sequence of new stages for that point of the signal flow, or None for no answer. It
+applies only to the pipelines that its function names by `answers`, and replaces their own stages.
+Hooks are called once per run, never per sample. The architecture sets the order of processing; two
+plug-ins that answer the same point of a pipeline stop the run.
 """
 
 from collections.abc import Callable, Sequence
@@ -27,7 +27,7 @@ def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
 
 @hookspec
 def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
-    """Call ``register(format)`` for every kind of profile file that it writes and reads."""
+    """Call ``register(format)`` for every kind of profile file of the plug-in."""
 
 
 @hookspec
@@ -72,7 +72,7 @@ def temporal_project(context: Context) -> Answer:
 
 @hookspec
 def temporal_finish(context: Context) -> Answer:
-    """What is done to `elevation` over distance at the end of the run."""
+    """Processing of `elevation` over distance at the end of the run."""
 
 
 @hookspec
@@ -82,7 +82,7 @@ def temporal_fall_back(context: DropOut) -> Profile | None:
 
 @hookspec
 def spatial_condition(context: Context) -> Answer:
-    """What happens to the analog signals, in time, before the encoder triggers."""
+    """Processing of the analog signals, in time, before the encoder triggers."""
 
 
 @hookspec
@@ -107,7 +107,7 @@ def spatial_second_integration(context: Context) -> Answer:
 
 @hookspec
 def spatial_estimate(context: Context) -> Answer:
-    """In place of `time_step` and both integrations: as in time, from and to the triggers."""
+    """In place of `time_step` and both integrations: an estimator as in time, on the triggers."""
 
 
 @hookspec
@@ -127,7 +127,7 @@ def response_first_integration(context: Context) -> Answer:
 
 @hookspec
 def response_second_integration(context: Context) -> Answer:
-    """From velocities to displacements; what is measured is filtered as they are."""
+    """From velocities to displacements; measured displacements get the same filters."""
 
 
 @hookspec
@@ -142,9 +142,9 @@ def response_project(context: Context) -> Answer:
 
 @hookspec
 def response_finish(context: Context) -> Answer:
-    """From the roads under the tyres to `elevation` and `elevation_sigma` where a laser looks."""
+    """From the roads under the tyres to `elevation` and `elevation_sigma` under a laser."""
 
 
 @hookspec
 def spatial_finish(context: Context) -> Answer:
-    """What is done to `elevation` at the end of the run."""
+    """Processing of `elevation` at the end of the run."""

@@ -1,4 +1,4 @@
-"""What a pipeline is, and the context in which each of its points is answered."""
+"""Pipelines, and the context in which each of their points is answered."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -12,8 +12,8 @@ from floatref.stages.protocol import Stage
 from floatref.values.block import Header
 
 Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
-"""What a pipeline puts at a point: calls of registered stages, or a function that returns stages
-or calls."""
+"""A pipeline's answer at a point: calls of registered stages, or a function that returns stages or
+calls."""
 Ask = Callable[[str], Sequence[Stage]]
 Defaults = Mapping[str, Answer]
 
@@ -22,12 +22,12 @@ Defaults = Mapping[str, Answer]
 class Pipeline:
     """A named way through an architecture.
 
-    ``answers`` replaces the architecture's own stages at the points it names, and gives way to a
-    plug-in that answers such a point and names this pipeline; ``settings`` are
-    the pipeline's numbers with their defaults, all above zero but those ``signed``. None is a
-    number that the recording decides. ``channels`` are those of the recording that it takes
-    beside the nominal ones, for every track or shared, and ``readings`` those of GNSS;
-    ``capabilities`` are the sensors that deliver them.
+    ``answers`` replaces the architecture's own stages at the points it names; a plug-in that
+    answers such a point and names this pipeline has priority. ``settings`` are the pipeline's
+    numbers with their defaults, all above zero except the ``signed`` ones; None is a number that
+    the recording decides. ``channels`` are the channels that it reads in addition to the nominal
+    ones, for every track or shared, and ``readings`` those of GNSS; ``capabilities`` are the
+    sensors that deliver them.
     """
 
     name: str
@@ -41,15 +41,15 @@ class Pipeline:
     signed: tuple[str, ...] = ()
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
-        """Return the settings with those ``given`` in place; InputError if one cannot be.
+        """Return the settings, with the ``given`` ones replaced; InputError if one is not possible.
 
         A setting given as None keeps its default.
         """
         for name in given:
             if name not in self.settings:
-                known = ", ".join(self.settings) or "none"
+                known = ", ".join(self.settings) or "no settings"
                 raise InputError(
-                    f"setting {name}: pipeline {self.name} has none such; it has {known}"
+                    f"setting {name}: pipeline {self.name} has no such setting; it has {known}"
                 )
         chosen = {
             name: _number(name, value, name in self.signed)
@@ -59,10 +59,10 @@ class Pipeline:
         return {**self.settings, **chosen}
 
     def stages_at(self, context: "Context") -> Sequence[Stage | StageCall]:
-        """Return what this pipeline puts at the point of ``context``, for an answer to add to.
+        """Return this pipeline's stages at the point of ``context``, so that others can be added.
 
-        Raises InputError if it leaves the point to its architecture, which no pipeline that was
-        looked up by its name does.
+        Raises InputError if it leaves the point to its architecture; a pipeline that was looked up
+        by its name has an answer at every point.
         """
         if context.point not in self.answers:
             raise InputError(
@@ -94,10 +94,10 @@ class Pipeline:
 
 @dataclass(frozen=True)
 class Context:
-    """What a point of the signal flow is answered from; every hook of a point takes one.
+    """The run for which a point of the signal flow is answered; every hook of a point takes one.
 
     ``point`` is the hook's name, ``header`` that of the raw stream in time, ``origin_m`` the
-    encoder distance of its first sample, ``ends_m`` the first and the last that the encoder tells
+    encoder distance of its first sample, ``ends_m`` the encoder's first and last distance, if
     within a sample of the stream's ends, ``fastest_mps`` the fastest speed over a second.
     """
 
@@ -110,7 +110,7 @@ class Context:
     ends_m: tuple[float, float] = (0.0, 0.0)
 
     def setting(self, name: str) -> float:
-        """Return setting ``name``; InputError if nothing has decided it."""
+        """Return setting ``name``; InputError if it has no value."""
         value = self.settings.get(name)
         if value is None:
             raise InputError(f"setting {name}: pipeline {self.pipeline.name} needs it")

@@ -1,4 +1,4 @@
-"""What a profile format is: a file of one kind, written from a profile and read back into one."""
+"""Profile formats: each writes a profile to one kind of file and reads it back."""
 
 from pathlib import Path
 from typing import Protocol
@@ -9,17 +9,17 @@ from floatref.files.profile_directory import DOCUMENT
 from floatref.values.profile import Profile
 
 LONGEST_HEADER = 1 << 20
-"""Bytes in which the column of distance of a CSV has to turn up."""
+"""Bytes within which the header of a CSV must name the column of distance."""
 
 
 class ProfileFormat(Protocol):
     """Writes and reads one kind of profile file; `name` is what `--format` takes.
 
-    `suffix`, such as ".erd", has small letters only. A format does not care for an existing file
-    or for a write that fails half-way: it is given the name of a new file, with the suffix that
-    the user gave, and that gets its final name when `write` has returned. One that needs a library
-    may have a method `check_installed`, which raises InputError where it is missing: it is called
-    before the work on what is to be written.
+    `suffix`, such as ".erd", has small letters only. A format need not handle an existing file or a
+    write that fails half-way: it gets the name of a new file, with the user's suffix, and the file
+    gets its final name when `write` has returned. A format that needs a library may have a method
+    `check_installed`, which raises InputError if the library is missing; it is called before the
+    profile is computed.
     """
 
     name: str
@@ -27,7 +27,7 @@ class ProfileFormat(Protocol):
     summary: str
 
     def recognises(self, path: Path) -> bool:
-        """Tell from the first bytes of the file, or from ``path``, whether it is of this format."""
+        """Return whether the file is of this format, from its first bytes or its path."""
 
     def read(self, path: Path) -> Profile:
         """Return the profile in ``path``; InputError, in one line, if it cannot be used."""
@@ -37,14 +37,14 @@ class ProfileFormat(Protocol):
 
 
 class ProfileDirectory:
-    """Our own profile directory: the one format that is a folder, and has no suffix."""
+    """floatref's own profile directory: the only format that is a folder and has no suffix."""
 
     name = "profile"
     suffix = ""
     summary = "floatref-profile/1: profile.json and raw float64 files beside it"
 
     def recognises(self, path: Path) -> bool:
-        """Tell whether ``path`` is a JSON file or a folder that holds a profile.json."""
+        """Return whether ``path`` is a JSON file or a folder that holds a profile.json."""
         return path.suffix.lower() == ".json" or (path / DOCUMENT).is_file()
 
     def read(self, path: Path) -> Profile:
@@ -57,14 +57,14 @@ class ProfileDirectory:
 
 
 class ProfileTable:
-    """Our own CSV: columns distance_m, <track>_elevation_m, <track>_valid."""
+    """floatref's own CSV: columns distance_m, <track>_elevation_m, <track>_valid."""
 
     name = "csv"
     suffix = ".csv"
     summary = "table of distance, elevation and validity"
 
     def recognises(self, path: Path) -> bool:
-        """Tell whether the first row of ``path`` names a column of distance."""
+        """Return whether the first row of ``path`` names a column of distance."""
         if path.suffix.lower() == ".json" or not path.is_file():
             return False
         with path.open("rb") as stream:
@@ -72,7 +72,7 @@ class ProfileTable:
         return DISTANCE.encode() in (name.strip(b' "\r\n') for name in header.split(b","))
 
     def read(self, path: Path) -> Profile:
-        """Return the profile; InputError for anything that cannot be read as one."""
+        """Return the profile; InputError if the file is not one."""
         return read_profile(path)
 
     def write(self, profile: Profile, path: Path) -> None:

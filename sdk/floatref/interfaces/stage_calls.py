@@ -1,4 +1,4 @@
-"""A stage by its registered name, with what it is made from: one call makes one for each run."""
+"""A stage by its registered name, with its arguments: one call makes a new stage for each run."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from floatref.stages.protocol import Stage
 
 @dataclass(frozen=True)
 class Setting:
-    """Stands in a `StageCall` for the number of a setting of the pipeline that runs."""
+    """An argument of a `StageCall`: the value of a setting of the pipeline that runs."""
 
     name: str
 
@@ -21,7 +21,7 @@ class Setting:
 class StageCall:
     """A registered stage and its arguments, such as ``StageCall("FromFirst", "height")``.
 
-    An argument may be a `Setting`. A call may stand wherever a point is answered with a stage.
+    An argument may be a `Setting`. A call may be used wherever a point is answered with a stage.
     """
 
     name: str
@@ -37,7 +37,7 @@ class StageCall:
     def make(
         self, known: Mapping[str, Callable[..., Stage]], setting: Callable[[str], float]
     ) -> Stage:
-        """Return a new stage; ``known`` are the classes by name, ``setting`` finds a number.
+        """Return a new stage; ``known`` are the classes by name, ``setting`` returns a number.
 
         Raises InputError for an unknown name, a missing setting or arguments that do not fit.
         """
@@ -46,14 +46,14 @@ class StageCall:
             raise InputError(f"stage {self.name}: unknown; there are {', '.join(close)} and others")
         arguments = [_resolve(value, setting) for value in self.arguments]
         keywords = {name: _resolve(value, setting) for name, value in self.keywords.items()}
-        return _made(self.name, known[self.name], arguments, keywords)
+        return _make(self.name, known[self.name], arguments, keywords)
 
 
 def _resolve(value: Any, setting: Callable[[str], float]) -> Any:
     return setting(value.name) if isinstance(value, Setting) else value
 
 
-def _made(
+def _make(
     name: str, kind: Callable[..., Stage], arguments: list[Any], keywords: dict[str, Any]
 ) -> Stage:
     try:
@@ -67,5 +67,5 @@ def _made(
     except Exception as error:
         raise PluginError(f"stage {name}: {type(error).__name__}: {error}") from error
     if not isinstance(stage, Stage):
-        raise PluginError(f"stage {name}: made {type(stage).__name__}, which is no Stage")
+        raise PluginError(f"stage {name}: made {type(stage).__name__}, which is not a Stage")
     return stage

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref.engine.formats import guarding
+from floatref.engine.formats import guard
 from floatref.errors import one_line
 from floatref.files.sources import naming
 from floatref.mapping.channel_map.column_names import find, full_name, map_of_ours
@@ -169,7 +169,7 @@ class _Mapping:
         stated = {(c.file, c.stream): c for c in self._chart.clocks if c.rate is not None}
         clock = stated.get(key) or stated.get((key[0], None))
         path = self._opened.paths[key[0]]
-        with naming(path), guarding(self._opened.adapters[key[0]], path):
+        with naming(path), guard(self._opened.adapters[key[0]], path):
             taken = take(stream, wanted, self._spool, clock, shown.of(stream.count))
         name = f"{path.name}: stream {stream.name!r}: "
         self._told += [f"{name}{line}" for line in taken.told]

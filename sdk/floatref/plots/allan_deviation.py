@@ -11,7 +11,7 @@ import numpy as np
 
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
-from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, shown_name, title
+from floatref.plots.figure import COLOURS, check_suffix, label_of, legend, new_figure, save, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +30,7 @@ PANEL_INCHES = 3.0
 def draw_allan(found: Sequence[ChannelNoise], path: Path) -> None:
     """Write a drawing of the Allan deviations ``found`` to ``path`` (.png, .pdf or .svg).
 
-    One panel for each unit, logarithmic on both axes: what was measured with its standard
+    One panel for each unit, logarithmic on both axes: the measured deviation with its standard
     uncertainty shaded, and dashed the curve (6.53) with the letters of its coefficients, each in
     the middle of the cluster times where its term is the largest. Raises InputError if matplotlib
     is missing or ``path`` cannot be written.
@@ -55,10 +55,10 @@ def draw_allan(found: Sequence[ChannelNoise], path: Path) -> None:
 
 def _draw_measured(ax: Axes, noise: ChannelNoise, colour: str) -> None:
     time, deviation = noise.allan.cluster_s, noise.allan.deviation
-    name = shown_name(str(noise.id))
+    name = label_of(str(noise.id))
     ax.plot(time, deviation, ".", color=colour, markersize=4.0, label=name)
     fitted, scatter = noise.fit.allan, noise.fit.scatter
-    # A deviation is off by a factor as likely up as down, and never below zero.
+    # The error of a deviation is a factor, equally likely up and down, so never below zero.
     low, high = fitted.deviation * np.exp(-scatter), fitted.deviation * np.exp(scatter)
     ax.fill_between(fitted.cluster_s, low, high, color=colour, alpha=0.2, linewidth=0.0)
 

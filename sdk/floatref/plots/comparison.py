@@ -34,11 +34,11 @@ def draw_comparison(
 ) -> None:
     """Write a drawing of ``profile`` against ``reference`` to ``path`` (.png, .pdf or .svg).
 
-    One column for each wheel path of the reference: both elevations, high-pass filtered alike
-    with −3 dB at 91.44 m, their difference, and both short-interval roughness profiles in m/km.
-    The title holds the agreement (2.16) within ±``max_offset_m``. Points that are not valid in
-    ``profile`` are shaded. Raises InputError if a wheel path is missing in ``profile``, the two
-    do not overlap, matplotlib is missing, or ``path`` cannot be written.
+    One column for each wheel path of the reference: both elevations, high-pass filtered alike with
+    −3 dB at 91.44 m, their difference, and both short-interval roughness profiles in m/km. The
+    title holds the agreement (2.16) within ±``max_offset_m``. Invalid points of ``profile`` are
+    shaded. Raises InputError if a wheel path is missing in ``profile``, the two do not overlap,
+    matplotlib is missing, or ``path`` cannot be written.
     """
     path = Path(path)
     check_suffix(path)
@@ -88,7 +88,7 @@ def _draw_roughness(ax: Axes, expected: ProfileTrack, found: ProfileTrack, grid:
 def _title(
     expected: ProfileTrack, found: ProfileTrack, interval_m: float, max_offset_m: float
 ) -> str:
-    """Return wheel path, agreement and offset in words."""
+    """Return wheel path, agreement and offset as text."""
     try:
         result = agreement(
             expected.elevation, found.elevation, interval_m, max_offset_m=max_offset_m

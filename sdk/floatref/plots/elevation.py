@@ -1,4 +1,4 @@
-"""A profile with its roughness and the speed it was measured at, as one drawing."""
+"""A profile with its roughness and travel speed, as one drawing."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from floatref.plots.figure import (
     COLOURS,
     check_suffix,
     in_readable_unit,
+    label_of,
     legend,
     line,
     new_figure,
     roughness,
     save,
     shade,
-    shown_name,
     title,
 )
 from floatref.values.arrays import FloatArray
@@ -36,9 +36,9 @@ def draw_profile(
     """Write a drawing of ``profile`` to ``path`` (.png, .pdf or .svg).
 
     Elevation, short-interval roughness in m/km, and ``speed`` if given, as distances in m and
-    speeds in m/s, unless none of them is finite. Points that are not valid for a wheel path are
-    shaded. Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or
-    ``path`` cannot be written.
+    speeds in m/s, if any of them is finite. Points that are not valid for a wheel path are shaded.
+    Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or ``path`` cannot
+    be written.
     """
     path = Path(path)
     check_suffix(path)
@@ -71,7 +71,7 @@ def _draw_elevation(ax: Axes, profile: Profile) -> None:
             profile.distance_m,
             factor * track.elevation,
             color=colour,
-            label=shown_name(track.name),
+            label=label_of(track.name),
         )
     ax.set_ylabel(f"Elevation ({unit})")
 
@@ -81,7 +81,7 @@ def _draw_roughness(ax: Axes, profile: Profile) -> None:
     for track, colour in zip(profile.tracks, _colours(profile), strict=True):
         trace, value = roughness(track.elevation, profile.interval_m)
         found = f"IRI {value:.2f} m/km" if value == value else "no IRI"
-        line(ax, middle, trace, color=colour, label=f"{shown_name(track.name)}: {found}")
+        line(ax, middle, trace, color=colour, label=f"{label_of(track.name)}: {found}")
     ax.set_ylabel("Roughness over\n7.62 m (m/km)")
     ax.set_ylim(bottom=0.0)
 

@@ -29,7 +29,7 @@ def check_suffix(path: Path) -> None:
 
 
 def check_drawing(path: Path) -> None:
-    """Raise InputError now if a drawing to ``path`` would be refused later."""
+    """Raise InputError now if writing a drawing to ``path`` would fail later."""
     check_suffix(path)
     new_figure(1, 1, [1.0])
 
@@ -69,15 +69,15 @@ def dress(ax: Axes) -> None:
 
 
 def legend(ax: Axes) -> None:
-    """Put the legend of ``ax`` above its right end, off the lines."""
+    """Put the legend of ``ax`` above its right end, clear of the lines."""
     style: dict[str, Any] = {"frameon": False, "fontsize": "small", "borderaxespad": 0.2}
     drawn = ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=6, **style)
     for text in drawn.get_texts():
         text.set_parse_math(False)
 
 
-def shown_name(name: str) -> str:
-    """Return ``name`` as a label that legends do not leave out: they do after an underscore."""
+def label_of(name: str) -> str:
+    """Return ``name`` as a label that legends show; they omit names with a leading underscore."""
     return f" {name}" if name.startswith("_") else name
 
 
@@ -90,7 +90,7 @@ def save(figure: Figure, path: Path) -> None:
     """Write ``figure`` to ``path``, replacing a file; InputError where that cannot be written."""
     check_suffix(path)
     with replacing_file(path, overwrite=True) as beside, warnings.catch_warnings():
-        # A name in letters that the font lacks is drawn as boxes.
+        # A name in letters that are missing in the font is drawn as boxes.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
         figure.savefig(beside, dpi=DOTS_PER_INCH, format=path.suffix.lower()[1:])
 
@@ -99,17 +99,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 BINS = 3000
-"""Most stretches that a line is thinned to; each keeps its lowest and its highest value."""
+"""Largest number of stretches of a thinned line; each has its lowest and highest value."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 REFERENCE_COLOUR = "0.25"
 SHADE = "#F0C9C0"
 
 
-def thinned(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray, FloatArray]:
+def thin(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray, FloatArray]:
     """Return points that draw the same line: of each stretch the lowest and the highest value.
 
-    NaN counts only where a stretch has nothing else. Short lines are returned as they are.
+    A stretch gives NaN only if all its values are NaN. Short lines are returned as they are.
     """
     if y.size <= 2 * bins:
         return x, y
@@ -121,15 +121,15 @@ def thinned(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray,
 
 def line(ax: Axes, x: FloatArray, y: FloatArray, **style: Any) -> None:
     """Draw ``y`` over ``x`` on ``ax``, thinned."""
-    ax.plot(*thinned(x, y), **{"linewidth": 0.9, **style})
+    ax.plot(*thin(x, y), **{"linewidth": 0.9, **style})
 
 
 def shade(ax: Axes, x: FloatArray, invalid: BoolArray, label: str | None = None) -> None:
-    """Shade the stretches of ``x`` where ``invalid`` is true; nothing if there are none."""
+    """Shade the stretches of ``x`` where ``invalid`` is true, if any."""
     if not invalid.any():
         return
-    places, share = thinned(x, invalid.astype(np.float64))
-    # Of a stretch with one bad point the highest value is 1; its outline is wide enough to see.
+    places, share = thin(x, invalid.astype(np.float64))
+    # A stretch with one invalid point has the highest value 1; its outline is wide enough to see.
     ax.fill_between(
         places,
         0.0,

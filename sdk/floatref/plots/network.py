@@ -1,4 +1,4 @@
-"""How rough a network is, and where: the summary of a batch as one drawing."""
+"""The roughness of a network and its map: the summary of a batch as one drawing."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ __all__ = ["SUMMARY_COLUMNS", "draw_summary"]
 HISTOGRAM_INCHES, MAP_INCHES, FILES_INCHES = 2.6, 5.6, 3.2
 BINS = 60
 NAMED = 24
-"""Most files that are named below the drawing; more would run into each other."""
+"""Largest number of file names below the drawing; more would overlap."""
 LONGEST_NAME = 28
 COLOUR_MAP = "turbo"
-"""Smooth roads are blue and rough ones dark red; neither is lost on white."""
+"""Smooth roads are blue and rough ones dark red; both are visible on white."""
 VALID, FLAGGED, UNKNOWN = COLOURS[0], COLOURS[1], "0.7"
 
 
@@ -33,9 +33,9 @@ def draw_summary(columns: Mapping[str, Sequence[Any]], path: Path) -> None:
 
     ``columns`` are `SUMMARY_COLUMNS`, a row for each segment of each wheel path and one for each
     file that failed; lengths in m, roughness in m/km, positions in degrees. Above are the
-    kilometres over the mean roughness index, the IRI for a single wheel path, with what is not
-    valid in its own colour. Below is a map of it; without positions the median and the range of
-    each file, in order. Raises InputError for columns that do not fit, if matplotlib is missing or
+    kilometres over the mean roughness index, the IRI for a single wheel path, with invalid lengths
+    in their own colour. Below is a map of it; without positions the median and the range of each
+    file, in order. Raises InputError for columns that do not fit, if matplotlib is missing or
     ``path`` cannot be written.
     """
     path = Path(path)
@@ -55,7 +55,7 @@ def draw_summary(columns: Mapping[str, Sequence[Any]], path: Path) -> None:
 
 
 def _top(roughness: FloatArray) -> float:
-    """Return the roughness up to which is drawn: a few wild segments do not hide the rest."""
+    """Return the largest drawn roughness, so that a few extreme segments do not hide the others."""
     known = roughness[np.isfinite(roughness)]
     if not known.size:
         return 1.0
@@ -81,7 +81,7 @@ def _draw_lengths(ax: Axes, found: Segments, top: float) -> None:
     ax.set_xlim(0.0, top)
     ax.set_ylim(bottom=0.0)
     beyond = int((found.roughness > top).sum())
-    more = f"; at the end: {_counted(beyond, 'segment')} above" if beyond else ""
+    more = f"; at the end: {_count(beyond, 'segment')} above" if beyond else ""
     ax.set_xlabel(f"{_quantity(found)} (m/km){more}")
     ax.set_ylabel("Length (km)")
     legend(ax)
@@ -93,7 +93,7 @@ def _draw_map(figure: Figure, ax: Axes, found: Segments, located: BoolArray, top
     style: dict[str, Any] = {"s": size, "linewidths": 0.0, "rasterized": True}
     plain, rough = located & ~known, located & known
     ax.scatter(found.longitude[plain], found.latitude[plain], color=UNKNOWN, **style)
-    # The roughest last: they are what one looks for.
+    # The roughest last, on top: they matter most.
     order = np.flatnonzero(rough)[np.argsort(found.roughness[rough], kind="stable")]
     dots = ax.scatter(
         found.longitude[order],
@@ -107,13 +107,13 @@ def _draw_map(figure: Figure, ax: Axes, found: Segments, located: BoolArray, top
     bar = figure.colorbar(dots, ax=ax, shrink=0.9, extend="max" if _beyond(found, top) else None)
     bar.set_label(f"{_quantity(found)} (m/km)")
     middle = float(np.median(found.latitude[located]))
-    # One degree of longitude is that much shorter than one of latitude.
+    # One degree of longitude is shorter than one of latitude by this factor.
     ax.set_aspect(1.0 / max(np.cos(np.radians(middle)), 0.01), adjustable="datalim")
     ax.margins(0.05)
     ax.set_xlabel("Longitude (°)")
     ax.set_ylabel("Latitude (°)")
     if unplaced := int((~located).sum()):
-        title(ax, f"{unplaced} of {_counted(located.size, 'segment')} without a position")
+        title(ax, f"{unplaced} of {_count(located.size, 'segment')} without a position")
 
 
 def _beyond(found: Segments, top: float) -> bool:
@@ -159,12 +159,12 @@ def _title(found: Segments) -> str:
     failed, unknown = int(found.failed.sum()), int(np.isnan(found.roughness).sum())
     length_km = float(np.nansum(found.length_m)) / 1000.0
     parts = [
-        _counted(len(found.names), "file") + (f" ({failed:,} failed)" if failed else ""),
+        _count(len(found.names), "file") + (f" ({failed:,} failed)" if failed else ""),
         f"{length_km:,.1f} km",
-        _counted(found.file.size, "segment") + (f" ({unknown:,} without IRI)" if unknown else ""),
+        _count(found.file.size, "segment") + (f" ({unknown:,} without IRI)" if unknown else ""),
     ]
     return ", ".join(parts)
 
 
-def _counted(number: int, what: str) -> str:
+def _count(number: int, what: str) -> str:
     return f"{number:,} {what}{'' if number == 1 else 's'}"

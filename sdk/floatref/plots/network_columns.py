@@ -1,4 +1,4 @@
-"""The columns of a summary as segments: wheel paths of a segment are one, and files have order."""
+"""The columns of a summary as segments: wheel paths are combined, and files are in order."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ SUMMARY_COLUMNS = (
     "mean_roughness_index_m_per_km",
     "flagged_m",
 )
-"""Columns of a summary that a drawing of it takes."""
+"""Columns of a summary that its drawing needs."""
 FAILED = "failed"
 
 
@@ -30,11 +30,11 @@ class Segments:
     """Segments of a network, each of shape (N,), and its files, each of shape (F,).
 
     Attributes:
-        file: place of the segment's file among the files.
+        file: index of the segment's file among the files.
         roughness: mean roughness index, else the mean IRI of its wheel paths, in m/km.
         length_m: of the segment.
-        flagged_m: length that is not valid, the mean of the wheel paths.
-        latitude, longitude: of its start in degrees; longitudes have no leap at 180.
+        flagged_m: invalid length, the mean of the wheel paths.
+        latitude, longitude: of its start in degrees; longitudes do not jump at 180.
         paired: whether its roughness is a mean roughness index.
         names, failed: of the files.
     """
@@ -53,7 +53,7 @@ class Segments:
 def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
     """Return the segments in ``columns`` of a summary, in its order; missing values are NaN.
 
-    Raises InputError for a column that is not there, or is not as long as the others.
+    Raises InputError for a column that is missing, or not as long as the others.
     """
     _check(columns)
     places = {name: at for at, name in enumerate(dict.fromkeys(columns["name"]))}
@@ -74,7 +74,7 @@ def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
         length_m=mean["length_m"],
         flagged_m=mean["flagged_m"],
         latitude=mean["latitude_deg"],
-        longitude=_without_leap(values["longitude_deg"][first]),
+        longitude=_remove_jump(values["longitude_deg"][first]),
         paired=~np.isnan(index),
         names=tuple(places),
         failed=failed,
@@ -93,7 +93,7 @@ def _check(columns: Mapping[str, Sequence[Any]]) -> None:
 
 
 def _means(values: FloatArray, which: NDArray[np.intp], count: int) -> FloatArray:
-    """Return the mean of what is finite for each of ``count`` segments, NaN where nothing is."""
+    """Return the mean of the finite values for each of ``count`` segments, NaN without any."""
     there = np.isfinite(values)
     sums = np.bincount(which[there], values[there], count)
     numbers = np.bincount(which[there], minlength=count)
@@ -102,8 +102,8 @@ def _means(values: FloatArray, which: NDArray[np.intp], count: int) -> FloatArra
     return found
 
 
-def _without_leap(longitude: FloatArray) -> FloatArray:
-    """Return ``longitude`` in degrees within 180 of where most of the network lies."""
+def _remove_jump(longitude: FloatArray) -> FloatArray:
+    """Return ``longitude`` in degrees within 180 of the middle of the network."""
     turn = np.exp(1j * np.radians(longitude[np.isfinite(longitude)]))
     middle = float(np.degrees(np.angle(turn.sum()))) if turn.size else 0.0
     found: FloatArray = middle + (longitude - middle + 180.0) % 360.0 - 180.0

@@ -1,4 +1,4 @@
-"""How much the loss of every run moves with each setting, a group of short lines for a setting."""
+"""The change of every run's loss with each setting: a group of short lines for a setting."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.plots.figure import COLOURS, check_suffix, legend, new_figure, save, shown_name, title
+from floatref.plots.figure import COLOURS, check_suffix, label_of, legend, new_figure, save, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Curves = Mapping[str, tuple[Sequence[float], Sequence[float]]]
 """Factors on a value and the losses there, by run."""
 WIDTH = 0.8
-"""Of a group, of which one stands for every setting."""
+"""Width of the group of a setting, where 1 is the distance of groups."""
 PANEL_INCHES = 4.2
 
 
@@ -48,7 +48,7 @@ def _draw_group(ax: Axes, place: int, curves: Curves, labelled: bool) -> None:
     for (name, (factors, losses)), colour in zip(curves.items(), cycle(COLOURS), strict=False):
         octaves = np.log2(np.asarray(factors))
         x = place + WIDTH / 2.0 * octaves / np.abs(octaves).max()
-        label = shown_name(name) if labelled else None
+        label = label_of(name) if labelled else None
         ax.plot(x, losses, "-", color=colour, linewidth=1.2, label=label)
         ax.plot(x[octaves == 0], np.asarray(losses)[octaves == 0], ".", color=colour)
 

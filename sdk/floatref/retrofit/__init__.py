@@ -1,15 +1,15 @@
-"""Every algorithm of chapter 5 alone, for an engine that is not ours: plain arrays in and out.
+"""Every algorithm of chapter 5 alone, for other engines: plain arrays in and out.
 
-One object per wheel path and run. It takes chunks of any length from one sample up, keeps its
-state from one to the next, and gives the numbers of the pipelines' stages, bit for bit, however
-the run is cut. Arrays are float64 of shape (N,), the answer is a new array of the same length,
-and what is passed in is left as it was. `copy.deepcopy` saves the state.
+One object per wheel path and run. It takes chunks of any length from one sample up, stores its
+state between them, and gives the numbers of the pipelines' stages, bit for bit, for any division
+into chunks. Arrays are float64 of shape (N,), the result is a new array of the same length, and the
+arguments are not changed. `copy.deepcopy` saves the state.
 
-A missing sample is NaN, or masked. It is bridged by the one before it, so the answer has no NaN;
-``bridged`` counts such samples, and `numpy.isnan` of the chunk tells which they are. An infinite
-sample, signals of different length in one call, or a speed without a possible cut-off raise
-InputError, and a refused chunk counts for nothing. A set of calls that belongs together
-(acceleration, velocity and height) is counted, and an incomplete one raises StageError.
+A missing sample is NaN, or masked. It is replaced by the sample before it, so the result has no
+NaN; ``bridged`` counts such samples, and `numpy.isnan` of the chunk marks them. An infinite sample,
+signals of different length in one call, or a speed without a possible cut-off raise InputError, and
+a refused chunk does not change the state. A set of calls that belongs together (acceleration,
+velocity and height) is counted, and an incomplete one raises StageError.
 
 The algorithms are linear in the vertical signals, so these may be in any unit, the same for
 all of them; m/s², m/s and m are meant below. Speeds are in m/s, time in s, distance in m.

@@ -69,8 +69,8 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
-                is not below half the rate.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off is
+                not below half the rate.
             StageError: after the end of the run.
         """
         call = "AdaptiveHighPass.acceleration"
@@ -87,8 +87,8 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
-                is not below half the rate.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off is
+                not below half the rate.
             StageError: beyond the samples of the acceleration so far; after the end of the run.
         """
         call = "AdaptiveHighPass.velocity"
@@ -105,8 +105,8 @@ class AdaptiveHighPass:
             speed: travel speed there in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off
-                is not below half the rate.
+            InputError: for arrays of other shapes or infinite samples; for a speed whose cut-off is
+                not below half the rate.
             StageError: after the end of the run.
         """
         call = "AdaptiveHighPass.height"
@@ -123,8 +123,8 @@ class AdaptiveHighPass:
             speed: the speed of all forward calls in m/s, shape (N,).
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone;
-                for a speed whose cut-off is not below half the rate.
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN only; for a
+                speed whose cut-off is not below half the rate.
             StageError: unless N samples of all three signals have passed, at this speed; the
                 second time.
         """
@@ -148,9 +148,9 @@ class AdaptiveHighPass:
             interval_m: distance between points in m.
 
         Raises:
-            InputError: for arrays of other shapes or infinite samples; a profile of NaN alone; an
+            InputError: for arrays of other shapes or infinite samples; a profile of NaN only; an
                 interval not above zero; a speed without a cut-off.
-            StageError: unless all three signals have come as far; the second time.
+            StageError: unless all three signals have equally many samples; the second time.
         """
         call = "AdaptiveHighPass.reverse_over_distance"
         z, v_x = chunks(call, profile=profile, speed=speed)
@@ -172,7 +172,7 @@ class AdaptiveHighPass:
 
 
 def backward(axis: Header, scheduled: Stage, *kinds: Callable[[str], Stage]) -> Alone:
-    """Return the backward pass over elevation and speed, at the cut-off that is ``scheduled``.
+    """Return the backward pass over elevation and speed, at the cut-off of the stage ``scheduled``.
 
     Its stages are of ``kinds``, first to last.
     """

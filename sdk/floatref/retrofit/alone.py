@@ -1,4 +1,4 @@
-"""Stages without a stream around them: plain arrays in, one plain array out."""
+"""Stages without a stream: plain arrays in, one plain array out."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -23,13 +23,13 @@ class Alone:
     """A chain of stages for one wheel path.
 
     Attributes:
-        bridged: how many samples were missing (NaN) so far and were bridged.
+        bridged: number of missing (NaN) samples that were bridged so far.
     """
 
     def __init__(
         self, axis: Header, inputs: Sequence[str], output: str, stages: Sequence[Stage]
     ) -> None:
-        """Start ``stages``, given the signals named ``inputs``, to make ``output`` of them."""
+        """Start ``stages``, given the signals named ``inputs``, to compute ``output`` from them."""
         self._inputs = tuple(_channel(name) for name in inputs)
         self._output, self._stages = _channel(output), tuple(stages)
         header = axis.adding(*self._inputs)
@@ -48,7 +48,7 @@ class Alone:
         if flags is not None:
             self.bridged += int(np.count_nonzero(flags & Flag.MISSING))
         result = block[self._output]
-        # Stages give out arrays of their own, read-only; here one belongs to the caller.
+        # Stages return read-only arrays of their own; here the array belongs to the caller.
         result.flags.writeable = True
         return result
 
@@ -68,9 +68,9 @@ def over_distance(interval_m: float) -> Header:
 def chunks(call: str, **signals: ArrayLike) -> tuple[FloatArray, ...]:
     """Return ``signals`` as read-only contiguous float64 arrays of one common shape (N,).
 
-    They are all of one layout, since filters are compiled anew for every other one. Raises
-    InputError in the name of ``call`` for what is no such array, for an infinite sample, and for
-    signals of different length.
+    All have one layout, since filters are compiled again for every other one. Raises InputError in
+    the name of ``call`` for anything else, for an infinite sample, and for signals of different
+    length.
     """
     arrays = {name: _chunk(f"{call}: {name}", values) for name, values in signals.items()}
     lengths = {array.size for array in arrays.values()}
@@ -93,7 +93,7 @@ def _chunk(name: str, values: ArrayLike) -> FloatArray:
 def _rational(rate_hz: float | Fraction) -> Fraction:
     if isinstance(rate_hz, Fraction):
         return rate_hz
-    # Single precision has rounded the rate, and a time axis must not drift.
+    # Single precision rounds the rate, and a time axis must not drift.
     if isinstance(rate_hz, bool) or not isinstance(rate_hz, int | float | np.integer):
         kind = type(rate_hz).__name__
         raise InputError(f"rate_hz is {rate_hz!r}, {kind}; give int, float or Fraction, in Hz")

@@ -1,4 +1,4 @@
-"""Calls that belong together: how far each signal has come, and what is missing at the end."""
+"""Calls that belong together: samples of each signal so far, and missing ones at the end."""
 
 import zlib
 
@@ -36,7 +36,7 @@ class Calls:
             self._speeds[signal] = _checksum(speed, self._speeds[signal])
 
     def end(self, call: str) -> None:
-        """End the run at ``call``; StageError unless every signal has come as far."""
+        """End the run at ``call``; StageError unless all signals have equally many samples."""
         self._require_running(call)
         self._require_complete(call)
         self._ended = True
@@ -81,7 +81,7 @@ def _checksum(speed: FloatArray, before: int) -> int:
 
 
 class Band:
-    """The speeds at which the cut-off (5.3) is one that a filter at a given rate can have."""
+    """The speeds at which the cut-off (5.3) is possible for a filter at a given rate."""
 
     def __init__(self, schedule: AdaptiveCutOff, step_s: float) -> None:
         """Check the cut-offs of ``schedule`` for a filter that samples every ``step_s``."""
@@ -99,7 +99,7 @@ class Band:
 
 
 def require_profile(call: str, profile: FloatArray) -> None:
-    """Raise InputError, in the name of ``call``, for a profile without any sample that is there."""
+    """Raise InputError, in the name of ``call``, for a profile of missing samples only."""
     if profile.size and np.isnan(profile).all():
         raise InputError(
             f"{call}: all {profile.size} samples of profile are missing (NaN); there is nothing "

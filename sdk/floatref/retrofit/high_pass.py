@@ -25,7 +25,7 @@ class FixedHighPass:
     """HPF_B3 (A.1) in two stages, one before each integration, both on the height.
 
     The same filter on both sides of the difference cancels the vehicle's motion; so all three
-    signals have to pass, sample by sample the same stretch, before the run can end.
+    signals must pass, with the same samples, before the run can end.
     """
 
     def __init__(self, axis: Header, cutoff: float) -> None:
@@ -52,7 +52,7 @@ class FixedHighPass:
             a: next samples in m/s², shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN.
+            InputError: unless the array is one-dimensional, of finite numbers and NaN.
             StageError: after the end of the run.
         """
         (x,) = chunks(f"{type(self).__name__}.acceleration", a=a)
@@ -66,7 +66,7 @@ class FixedHighPass:
             v: next samples in m/s, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN.
+            InputError: unless the array is one-dimensional, of finite numbers and NaN.
             StageError: beyond the samples of the acceleration so far; after the end of the run.
         """
         (x,) = chunks(f"{type(self).__name__}.velocity", v=v)
@@ -80,7 +80,7 @@ class FixedHighPass:
             h: next samples in m, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN.
+            InputError: unless the array is one-dimensional, of finite numbers and NaN.
             StageError: after the end of the run.
         """
         (x,) = chunks(f"{type(self).__name__}.height", h=h)
@@ -94,7 +94,7 @@ class FixedHighPass:
             profile: the second integral minus the filtered height in m, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN, or of NaN
+            InputError: unless the array is one-dimensional, of finite numbers and NaN, or of NaN
                 alone.
             StageError: unless N samples of all three signals have passed; the second time.
         """
@@ -130,8 +130,9 @@ class HighPass(FixedHighPass):
 class SpatialHighPass(FixedHighPass):
     """Spatial high-pass filtering before the integrations (5.9): one sample per interval.
 
-    ``cutoff_wavelength_m`` is that of each third-order pass. The filter removes longer
-    wavelengths from every point; those within about one from either end are run-in and run-out.
+    ``cutoff_wavelength_m`` is that of each third-order pass. The filter removes longer wavelengths
+    from every point; points within about one such wavelength from either end are run-in and
+    run-out.
     """
 
     def __init__(self, interval_m: float, cutoff_wavelength_m: float = 105.91) -> None:

@@ -1,4 +1,4 @@
-"""What acts at low speed alone: local suppression, timer distortion, height-sensor reflection."""
+"""Algorithms for low speed only: local suppression, timer distortion, height-sensor reflection."""
 
 from fractions import Fraction
 
@@ -23,8 +23,8 @@ from floatref.values.plain import above_zero
 class LocalSuppression:
     """A PI controller that holds the vertical velocity at zero below a speed (5.6).
 
-    It stands after the first integration, on its own or between the stages of `HighPass`. Every
-    sample below ``below_mps`` loses content below about 0.13 Hz; there is no step at either end.
+    Use it after the first integration, alone or between the stages of `HighPass`. Every sample
+    below ``below_mps`` loses content below about 0.13 Hz; there is no step at either end.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class LocalSuppression:
 
     @property
     def bridged(self) -> int:
-        """How many samples so far lacked (NaN) velocity or speed and were bridged."""
+        """Number of samples so far with missing (NaN) velocity or speed, which were bridged."""
         return self._control.bridged
 
     def velocity(self, v: ArrayLike, speed: ArrayLike) -> FloatArray:
@@ -93,7 +93,7 @@ class TimerDistortion:
             dt: measured time steps (5.4) in s, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array, for a step below zero or missing.
+            InputError: unless the array is one-dimensional; for a step below zero or missing.
         """
         (steps,) = chunks("TimerDistortion.time_step", dt=dt)
         _require_steps("TimerDistortion.time_step: dt", steps)
@@ -103,8 +103,8 @@ class TimerDistortion:
 class HeightReflection:
     """The second integration over distance, completed from the height sensor (5.9).
 
-    Where the time step was shortened, the height sensor's own change stands in for what the
-    integral lacks, and cancels when the height is subtracted: the profile is flat there.
+    Where the time step was shortened, the change of the height replaces the missing part of the
+    integral, and cancels when the height is subtracted: the profile is flat there.
     """
 
     def __init__(self) -> None:
@@ -115,7 +115,7 @@ class HeightReflection:
 
     @property
     def bridged(self) -> int:
-        """How many samples so far lacked (NaN) velocity or height and were bridged."""
+        """Number of samples so far with missing (NaN) velocity or height, which were bridged."""
         return self._integral.bridged
 
     def reference_height(

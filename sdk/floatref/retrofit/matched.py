@@ -1,4 +1,4 @@
-"""The high-pass filter that is matched exactly: an observer in place of both integrations."""
+"""The exactly matched high-pass filter: an observer in place of both integrations."""
 
 from fractions import Fraction
 
@@ -17,11 +17,11 @@ BACKWARD = StateHighPassB3S2R, StateHighPassB3S1R
 
 
 class MatchedHighPass:
-    """The floating reference height, drawn to the height below the cut-off (5.3) of the speed.
+    """The floating reference height, which follows the height below the cut-off (5.3) of the speed.
 
-    It takes the place of both integrations and of the filters around them: subtract the height as
-    it was measured. The vehicle's motion cancels however the cut-off varies. At a constant one the
-    difference is (A.1) of the profile; content below the cut-off is removed.
+    It replaces both integrations and the filters around them: subtract the measured height. The
+    vehicle's motion cancels at any variation of the cut-off. At a constant one the difference is
+    (A.1) of the profile; content below the cut-off is removed.
 
     Attributes:
         schedule: the cut-off that it follows.
@@ -52,7 +52,7 @@ class MatchedHighPass:
 
     @property
     def bridged(self) -> int:
-        """How many samples so far lacked (NaN) a signal, profile or speed and were bridged."""
+        """Number of samples so far bridged for a missing (NaN) signal, profile or speed."""
         return self._observer.bridged + self._reverse.bridged
 
     def reference_height(self, a: ArrayLike, h: ArrayLike, speed: ArrayLike) -> FloatArray:
@@ -77,7 +77,7 @@ class MatchedHighPass:
     def reverse(self, profile: ArrayLike, speed: ArrayLike) -> FloatArray:
         """Return the backward pass in time over the whole run's elevation, HPF_B3S2R, HPF_B3S1R.
 
-        The stages are in state-variable form, which bears a stop.
+        The stages are in state-variable form, which is valid at a stop.
 
         Args:
             profile: the floating reference height minus the height in m, shape (N,).

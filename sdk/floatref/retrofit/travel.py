@@ -15,15 +15,15 @@ from floatref.values.plain import above_zero
 WIDEST_S = 60.0
 """Longest window of a speed, in s."""
 ROUNDING_M = 1e-6
-"""Largest step back of a distance, in m, that is taken for rounding."""
+"""Largest step back of a distance, in m, that counts as rounding."""
 
 
 class TravelSpeed:
     """Speed from the encoder's progress over the preceding ``window_s`` (5.6, 5.7).
 
-    Before its first sample the vehicle is taken to stand, so the speed grows from zero within the
-    window. One object serves all wheel paths: call it once for each chunk, and use the answer for
-    every one of them. A chunk given twice is a distance that goes back, and refused.
+    Before its first sample the vehicle is assumed to be stationary, so the speed grows from zero
+    within the window. One object serves all wheel paths: call it once for each chunk, and use the
+    result for all paths. A chunk given twice is a distance that goes back, and is refused.
     """
 
     def __init__(self, rate_hz: float | Fraction, window_s: float = speed.WINDOW_S) -> None:
@@ -39,7 +39,7 @@ class TravelSpeed:
 
     @property
     def bridged(self) -> int:
-        """How many missing (NaN) distances were bridged so far."""
+        """Number of missing (NaN) distances that were bridged so far."""
         return self._speed.bridged
 
     def of(self, distance: ArrayLike) -> FloatArray:
@@ -49,7 +49,7 @@ class TravelSpeed:
             distance: next samples of the travelled distance in m, shape (N,).
 
         Raises:
-            InputError: for what is no one-dimensional array of finite numbers and NaN; for a
+            InputError: unless the array is one-dimensional, of finite numbers and NaN; for a
                 distance that goes back by more than `ROUNDING_M`.
         """
         (x,) = chunks("TravelSpeed.of", distance=distance)

@@ -1,1 +1,1 @@
-"""Is a recording what it says? Units, signs, axes, clocks and places of its sensors."""
+"""Checks of a recording: units, signs, axes, clocks, sensor positions and damaged samples."""

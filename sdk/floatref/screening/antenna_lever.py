@@ -1,32 +1,32 @@
-"""Where the GNSS antenna is, from how its height swings with pitch and roll."""
+"""The position of the GNSS antenna, from the swing of its height with pitch and roll."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.explanations import detrended, windows
+from floatref.screening.explanations import detrend, windows
 from floatref.screening.gnss_readings import fixed_readings
-from floatref.screening.slow_series import Motion, integrated
+from floatref.screening.slow_series import Motion, integrate
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.recording import ORIGIN, Recording, TrackSetup, Vector
 
 SPAN_S = 5.0
 DEGREE = 3
-"""Bias, speed and place at the start of a window, and a slope that turns, are free."""
+"""Degree of the free polynomial: bias, initial speed and height, and a changing slope."""
 FEWEST_READINGS = 40
 FEWEST_WINDOWS = 6
 KNOWN_M = 0.3
-"""An arm is known to this standard deviation, or it is not told."""
+"""Largest standard deviation in m of a lever arm that is reported."""
 OFF_M, OFF = 0.5, 4.0
-"""It contradicts the setup beyond both, the second in standard deviations."""
+"""The arm contradicts the setup beyond both limits: in m and in standard deviations."""
 NO_ARM_M = 0.1
-"""Rates in deg/s make any arm so short, or shorter."""
+"""Rates in deg/s make every arm shorter than this, in m."""
 
 
 @dataclass(frozen=True)
 class Antenna:
-    """Where the antenna is in body X and Y, by its swing.
+    """The position of the antenna in body X and Y, measured by its swing.
 
     Attributes:
         place_m: from the vehicle point, in m.
@@ -42,13 +42,13 @@ class Antenna:
 def check_antenna(
     recording: Recording, track: str, motion: Motion, faults: IndexArray
 ) -> Iterator[str]:
-    """Yield a warning if the antenna's offset is missing, or not where its swing says."""
+    """Yield a warning if the antenna's offset is missing, or contradicts its swing."""
     given = recording.setup.gnss_antenna_offset_m
-    found = located(recording, track, motion, faults)
+    found = locate_antenna(recording, track, motion, faults)
     if given == ORIGIN:
         hint = ""
         if found is not None:
-            hint = f" (its swing says {_place(found, 0)}, {_place(found, 1)})"
+            hint = f" (its swing shows {_place(found, 0)}, {_place(found, 1)})"
         yield (
             "setup.gnss_antenna_offset_m: 0, 0, 0, so the antenna is taken to sit at the vehicle "
             f"point; measure where it is and give it{hint}"
@@ -59,7 +59,7 @@ def check_antenna(
     off = [axis for axis in (0, 1) if _is_off(found, given, axis)]
     if off and max(np.abs(found.arm_m)) < NO_ARM_M:
         yield (
-            "channels roll_rate, pitch_rate: the antenna swings a fraction of what they say; if "
+            "channels roll_rate, pitch_rate: the antenna swings a fraction of what they show; if "
             "they are in deg/s, multiply by 0.0174533, else measure setup.gnss_antenna_offset_m "
             "again"
         )
@@ -80,10 +80,12 @@ def _place(antenna: Antenna, axis: int) -> str:
     return f"{'XY'[axis]} = {antenna.place_m[axis]:.1f} m ± {2 * antenna.sigma_m[axis]:.1f} m"
 
 
-def located(recording: Recording, track: str, motion: Motion, faults: IndexArray) -> Antenna | None:
-    """Return where the antenna is, None if the body swings too little to tell.
+def locate_antenna(
+    recording: Recording, track: str, motion: Motion, faults: IndexArray
+) -> Antenna | None:
+    """Return the antenna's position, None if the body swings too little to measure it.
 
-    (6.39) less what the accelerometers integrate to, window by window, is -θ·l_x + φ·l_y.
+    (6.39) minus the integrated accelerometers, window by window, is -θ·l_x + φ·l_y.
     """
     parts = list(_normal_equations(recording, motion, faults))
     if len(parts) < FEWEST_WINDOWS:
@@ -114,7 +116,7 @@ def _normal_equations(
         rows = np.column_stack([table[part], free[part]])
         if rows.shape[0] < FEWEST_READINGS or np.isnan(rows).any():
             continue
-        left = detrended(times[part], rows, DEGREE)
+        left = detrend(times[part], rows, DEGREE)
         basis, _ = np.linalg.qr(left[:, 3:] / np.maximum(np.abs(left[:, 3:]).max(axis=0), 1e-12))
         left = left[:, :3] - basis @ (basis.T @ left[:, :3])
         angles, height = left[:, 1:], left[:, 0]
@@ -125,7 +127,7 @@ def _normal_equations(
 def _columns(
     recording: Recording, motion: Motion, faults: IndexArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return times; height, -pitch and roll there; and what a tilt not known adds to the height."""
+    """Return times; height, -pitch and roll; and the effect of an unknown tilt on the height."""
     channel = recording.channel("gnss_height")
     sound = fixed_readings(recording)
     for first, behind in faults:
@@ -138,8 +140,7 @@ def _columns(
         return np.interp(times, motion.times, row)
 
     lifted, along, across = (
-        read(integrated(integrated(row)))
-        for row in (motion.lift, motion.forces[0], motion.forces[1])
+        read(integrate(integrate(row))) for row in (motion.lift, motion.forces[0], motion.forces[1])
     )
     roll, pitch = (read(row) for row in motion.swing)
     table = np.stack([channel.values[sound] - lifted, -pitch, roll], axis=1)

@@ -1,7 +1,7 @@
 """Which of several explanations a signal follows, judged window by window.
 
-A window counts for one only if it leaves much less of the signal unexplained than every other,
-and than no explanation at all: noise, drift, and a vehicle that hardly moves count for none.
+A window counts for an explanation only if this leaves a much smaller residual than every other one,
+and than no explanation at all. So noise, drift and a vehicle that hardly moves do not count.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,25 +13,26 @@ from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
 
 RIGHT = "right"
-"""Name of the explanation that should hold."""
+"""Name of the explanation that a correct recording follows."""
 FEWEST = 12
-"""Values of a window."""
+"""Fewest values in a window."""
 HEARD, LOUDEST = 0.3, 3.0
-"""A window counts from this logarithm of the ratio of squared residuals on, and up to that."""
+"""Smallest and largest evidence of a window: the logarithm of the ratio of squared residuals."""
 CERTAIN, OUTWEIGHED = 3.0, 4.0
-"""So much together is certain, if it is so many times what speaks against it."""
+"""Sum of evidence above which an explanation is accepted, and its smallest ratio to the sum against
+it."""
 LIKELY = 1.5
-"""So much is worth a word, if it is twice what speaks against it."""
+"""Sum of evidence above which a suspicion is reported, if it is twice the sum against it."""
 
 
 @dataclass(frozen=True)
 class Look:
-    """How a signal is looked at.
+    """How a signal is examined.
 
     Attributes:
         span_s: length of a window in s; windows overlap by half.
-        floor: what sensors that work leave unexplained, in the signal's unit.
-        degree: of the polynomial that is free in each window; -1 for none.
+        floor: root mean square residual of working sensors, in the signal's unit.
+        degree: of the polynomial that is free in each window; -1 for no polynomial.
     """
 
     span_s: float
@@ -41,7 +42,7 @@ class Look:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What speaks for the right explanation, and for the wrong one that most speaks for.
+    """The evidence for the right explanation, and for the wrong one with the most evidence.
 
     Attributes:
         right: sum over the windows, 0 or above.
@@ -72,13 +73,13 @@ class Evidence:
 def weigh(
     times: FloatArray, signal: FloatArray, explanations: Mapping[str, FloatArray], look: Look
 ) -> Evidence:
-    """Return what speaks for each of ``explanations`` of ``signal``.
+    """Return the evidence for ``explanations`` of ``signal``.
 
     Args:
         times: in s, increasing, shape (n,).
         signal: at these times, NaN where it is missing.
-        explanations: what it would be if one of them held, `RIGHT` and others.
-        look: windows, and how exact the signal is.
+        explanations: the signal expected under each explanation, `RIGHT` and others.
+        look: the windows, and the accuracy of the signal.
     """
     table = np.stack([signal, *explanations.values()], axis=1)
     known: BoolArray = np.logical_not(np.isnan(table).any(axis=1))
@@ -86,16 +87,16 @@ def weigh(
     for part in windows(times, look.span_s):
         rows = table[part][known[part]]
         if rows.shape[0] >= max(FEWEST, 0.9 * (part.stop - part.start)):
-            left = detrended(times[part][known[part]], rows, look.degree)
-            heard += _heard(left, look.floor)
+            left = detrend(times[part][known[part]], rows, look.degree)
+            heard += _score_window(left, look.floor)
     found = dict(zip(explanations, heard.tolist(), strict=True))
     right = found.pop(RIGHT)
     name = max(found, key=found.__getitem__)
     return Evidence(right, found[name], name)
 
 
-def _heard(rows: FloatArray, floor: float) -> FloatArray:
-    """Return by how much the best explanation beats all others, and none; 0 for the others."""
+def _score_window(rows: FloatArray, floor: float) -> FloatArray:
+    """Return the lead of the best explanation over all others and over no explanation, else 0."""
     left = rows[:, :1] - np.column_stack([np.zeros(rows.shape[0]), rows[:, 1:]])
     squares = np.sum(left**2, axis=0) + rows.shape[0] * floor**2
     best, second = np.argsort(squares)[:2]
@@ -105,7 +106,7 @@ def _heard(rows: FloatArray, floor: float) -> FloatArray:
     return heard[1:]
 
 
-def detrended(times: FloatArray, rows: FloatArray, degree: int) -> FloatArray:
+def detrend(times: FloatArray, rows: FloatArray, degree: int) -> FloatArray:
     """Return ``rows``, shape (n, k), less their polynomials of ``degree`` in ``times``."""
     place = 2.0 * (times - times[0]) / (times[-1] - times[0]) - 1.0
     basis: list[FloatArray] = []
@@ -133,11 +134,11 @@ def windows(times: FloatArray, span_s: float) -> Iterator[slice]:
         yield slice(first, behind)
 
 
-def said(evidence: Evidence, lines: Mapping[str, str], fatal: bool = True) -> Iterator[str]:
-    """Raise InputError with the line of what is certainly wrong, or yield it as a suspicion.
+def report_fault(evidence: Evidence, lines: Mapping[str, str], fatal: bool = True) -> Iterator[str]:
+    """Raise InputError with the line of a fault that is certain, or yield it as a suspicion.
 
-    A name with "-" that has no line of its own shares that of the name without; of a name without
-    a line nothing is said. What is not ``fatal`` is yielded, however certain.
+    A name with "-" that has no line of its own uses the line of the name without it; a name without
+    a line gives no report. If not ``fatal``, a certain fault is yielded, too.
     """
     line = lines.get(evidence.name) or lines.get(evidence.name.removeprefix("-"))
     if line is None:

@@ -1,4 +1,4 @@
-"""What is found out about a recording before it is processed: once, for all that need it."""
+"""The screening of a recording before it is processed: computed once for all users."""
 
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
@@ -14,7 +14,7 @@ from floatref.values.recording import Recording
 
 @dataclass(frozen=True, eq=False)
 class Facts:
-    """What a recording shows whatever pipeline takes it; each is computed when first read."""
+    """Facts about a recording that hold for every pipeline; each is computed when first read."""
 
     recording: Recording
 
@@ -30,19 +30,19 @@ class Facts:
 
     @cached_property
     def examined(self) -> Examine:
-        """Examines a channel, each once."""
+        """A function that examines a channel, each once."""
         return cache(examine_channel)
 
 
 @dataclass(frozen=True, eq=False)
 class Screening:
-    """What a recording shows of itself, for one pipeline.
+    """The screening of a recording for one pipeline.
 
     Attributes:
         recording: the recording.
-        needs: the channels that the pipeline takes.
-        imu: what it reads of IMU and GNSS; None if nothing.
-        facts: what does not depend on the pipeline.
+        needs: the channels that the pipeline reads.
+        imu: its use of IMU and GNSS; None if it uses neither.
+        facts: facts that do not depend on the pipeline.
     """
 
     recording: Recording
@@ -58,9 +58,9 @@ class Screening:
         imu: ImuUse | None = None,
         known: "Screening | None" = None,
     ) -> "Screening":
-        """Return the screening for a pipeline, which without ``needs`` takes the nominal channels.
+        """Return the screening for a pipeline; without ``needs``, it reads the nominal channels.
 
-        What ``known`` has found out about the same channels is not computed again.
+        Results of ``known`` for the same channels are reused.
         """
         needs = nominal_needs(recording) if needs is None else needs
         if known is None or known.recording.channels is not recording.channels:

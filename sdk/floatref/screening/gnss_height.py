@@ -1,4 +1,4 @@
-"""Readings of gnss_height that no antenna gives: stuck, by leaps, or never fixed."""
+"""Readings of gnss_height that are not valid: stuck, with jumps, or never RTK fixed."""
 
 from collections.abc import Iterator
 
@@ -6,27 +6,28 @@ import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE
 from floatref.screening.gnss_readings import RTK_FIXED, fixed_readings, usual_step
-from floatref.screening.imu_channels import STEPS, told_spans
+from floatref.screening.imu_channels import STEPS, describe_spans
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 
 UNFIXED_S = 1.0
-"""So long without a fixed reading is worth a word."""
+"""Time in s without a fixed reading from which a warning is given."""
 STUCK_S, STUCK = 2.0, 5
-"""A height that repeats itself for so long, in so many readings, is stuck if anything moves."""
+"""A height is stuck if it is constant for this time in s and this number of readings while
+something moves."""
 UNUSUAL = 20.0
-"""So many times the usual number of identical readings."""
+"""Length of a stuck run, in usual lengths of runs of identical readings."""
 VELOCITY, ANGLE, TRAVEL_M, ALIVE = 0.01, 1e-3, 0.5, 0.1
-"""What moves meanwhile: vertical velocity in m/s, attitude in rad, or a vehicle that gets so far
-while the vertical force spreads over so many m/s²."""
+"""Smallest motion meanwhile: vertical velocity in m/s, attitude in rad, or a distance in m with a
+spread of the vertical force in m/s²."""
 LOOKED_S = 20.0
-"""So much of a stuck stretch is looked at for motion."""
+"""Part of a stuck stretch, in s, that is searched for motion."""
 JUMP_M, UNEXPLAINED = 0.2, 8.0
-"""A jump leaves so much, and so many times the usual, unexplained by the vertical velocity."""
+"""Smallest residual of a jump against the vertical velocity, in m and in usual residuals."""
 
 
-def fixed_told(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
+def report_unfixed(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
     """Yield a line if readings between ``begin_s`` and ``end_s`` are not RTK fixed."""
     quality = recording.find("gnss_quality")
     if quality is None:
@@ -46,8 +47,8 @@ def fixed_told(recording: Recording, begin_s: float, end_s: float) -> Iterator[s
     if wide.size:
         spans = np.stack([edges[wide], edges[wide + 1]], axis=1)
         yield (
-            f"channel gnss_height: no RTK-fixed reading for {told_spans(spans)}; constants take "
-            "its place"
+            f"channel gnss_height: no RTK-fixed reading for {describe_spans(spans)}; constants "
+            "take its place"
         )
 
 
@@ -59,8 +60,8 @@ def _most(values: FloatArray) -> str:
 def gnss_faults(recording: Recording) -> IndexArray:
     """Return which readings of gnss_height are stuck: shape (k, 2), first and the one behind.
 
-    The height repeats itself bit by bit for `STUCK_S`, far longer than it usually does, while
-    the antenna's velocity or attitude changes, or the vehicle drives over a road that it feels.
+    The height repeats itself bit by bit for `STUCK_S`, far longer than usual, while the antenna's
+    velocity or attitude changes, or the vehicle drives over a road that moves it.
     """
     channel = recording.find("gnss_height")
     if channel is None or channel.values.size < STUCK:
@@ -79,7 +80,7 @@ def gnss_faults(recording: Recording) -> IndexArray:
 
 
 def _usual(lengths: IndexArray) -> FloatArray:
-    """Return for each run of identical readings how long runs are where half of all others lie."""
+    """Return for each run of identical readings the run length within which half of others lie."""
     order = np.sort(lengths)
     total = np.cumsum(order)
     middle = order[np.searchsorted(total, total[-1] / 2)]
@@ -98,14 +99,14 @@ def _moves(recording: Recording, begin_s: float, end_s: float) -> bool:
     for name, limit in limits.items():
         if _spread(recording.find(name), begin_s, end_s) > limit:
             return True
-    # A recording of the vehicle's response may have no height.
+    # A recording of the vehicle's response may have no height sensor.
     track = next((t for t in recording.tracks if recording.find("height", t)), recording.tracks[0])
     force = _spread(recording.find("vertical_specific_force", track), begin_s, end_s)
     return force > ALIVE and _spread(recording.find("distance", track), begin_s, end_s) > TRAVEL_M
 
 
 def _spread(channel: Channel | None, begin_s: float, end_s: float) -> float:
-    """Return over how much the samples of that time spread; 0 if there is none."""
+    """Return the spread of the samples of that time; 0 without samples."""
     if channel is None:
         return 0.0
     clock = channel.clock
@@ -118,8 +119,8 @@ def _spread(channel: Channel | None, begin_s: float, end_s: float) -> float:
     return float(np.ptp(known)) if known.size else 0.0
 
 
-def faults_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
-    """Yield a line on the stuck readings of gnss_height, if there are any."""
+def report_faults(recording: Recording, faults: IndexArray) -> Iterator[str]:
+    """Yield a line on the stuck readings of gnss_height, if any."""
     if not faults.size:
         return
     channel = recording.channel("gnss_height")
@@ -132,13 +133,13 @@ def faults_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
         )
         return
     spans = np.stack([times[faults[:, 0]], times[faults[:, 1] - 1]], axis=1)
-    yield f"channel gnss_height: stuck for {told_spans(spans)}; not used there"
+    yield f"channel gnss_height: stuck for {describe_spans(spans)}; not used there"
 
 
-def jumps_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
+def report_jumps(recording: Recording, faults: IndexArray) -> Iterator[str]:
     """Yield a line if gnss_height jumps from one fixed reading to the next.
 
-    A jump is what gnss_vertical_velocity does not explain, over a second at most.
+    A jump is a step that gnss_vertical_velocity does not explain, over a second at most.
     """
     sound = fixed_readings(recording)
     for first, behind in faults:
@@ -159,7 +160,7 @@ def jumps_told(recording: Recording, faults: IndexArray) -> Iterator[str]:
 
 
 def _leaps(recording: Recording, sound: BoolArray) -> tuple[FloatArray, FloatArray]:
-    """Return times in s, and by how much in m the height changes beyond its velocity."""
+    """Return times in s, and the change in m of the height beyond its velocity."""
     height, velocity = (
         recording.channel(name) for name in ("gnss_height", "gnss_vertical_velocity")
     )

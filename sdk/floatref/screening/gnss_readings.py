@@ -1,4 +1,4 @@
-"""Readings of a GNSS receiver beside the means of the IMU, and which of them are fixed."""
+"""Readings of a GNSS receiver beside the means of the IMU, and which are RTK fixed."""
 
 from dataclasses import dataclass
 
@@ -13,9 +13,10 @@ TOGETHER_S = 0.2
 """Readings within this time are averaged: single ones are as noisy as a smooth road's swing."""
 EARTH_RADIUS_M = 6371e3
 COURSE_S, COURSE_M = 1.0, 3.0
-"""The course is that of the way in this time, if it is so long."""
+"""The course is the direction of the distance travelled in this time in s, if it is this long in
+m."""
 DELAYS_S = (-0.3, -0.2, 0.2, 0.3)
-"""Where the body swings evenly, such a delay looks like an inverted sign."""
+"""Delays in s that look like an inverted sign where the body swings evenly."""
 RTK_FIXED = 4.0
 
 
@@ -25,9 +26,9 @@ class Readings:
 
     Attributes:
         motion: the run.
-        stamps: time of every reading that is there, shape (m,), in s.
-        group: which mean each of them is part of, shape (m,).
-        times: the mean time of each, shape (n,), in s.
+        stamps: time of every reading that is not missing, shape (m,), in s.
+        group: index of the mean that each belongs to, shape (m,).
+        times: the mean times, shape (n,), in s.
         values: the means, shape (n,).
     """
 
@@ -45,26 +46,26 @@ class Readings:
         stamps = stamps[during]
         begin = stamps[0] if stamps.size else 0.0
         _, group = np.unique(np.floor((stamps - begin) / TOGETHER_S + 1e-6), return_inverse=True)
-        parts = _averaged(group, stamps), _averaged(group, values[during])
+        parts = _average(group, stamps), _average(group, values[during])
         return cls(motion, stamps, group, *parts)
 
     def beside(self, row: FloatArray, late_s: float = 0.0) -> FloatArray:
-        """Return what ``row``, shape (k,) on the run's grid, is at the readings, shape (n,).
+        """Return ``row``, shape (k,) on the run's grid, at the readings, shape (n,).
 
-        They are taken to be ``late_s`` late.
+        The readings are assumed to be ``late_s`` late.
         """
-        return _averaged(self.group, np.interp(self.stamps - late_s, self.motion.times, row))
+        return _average(self.group, np.interp(self.stamps - late_s, self.motion.times, row))
 
     def delayed(self, row: FloatArray) -> dict[str, FloatArray]:
         """Return the same for readings late or early by up to half a swing of the body."""
         return {f"late {late_s:g} s": self.beside(row, late_s) for late_s in DELAYS_S}
 
     def on_grid(self) -> FloatArray:
-        """Return the readings on the run's grid, linear in between; there must be some."""
+        """Return the readings on the run's grid, linear in between; there must be at least one."""
         return np.interp(self.motion.times, self.times, self.values)
 
 
-def _averaged(group: IndexArray, values: FloatArray) -> FloatArray:
+def _average(group: IndexArray, values: FloatArray) -> FloatArray:
     if not group.size:
         return np.empty(0)
     return np.asarray(np.bincount(group, values) / np.bincount(group))
@@ -88,16 +89,16 @@ def course(recording: Recording, motion: Motion) -> Readings | None:
 
 
 def _step(times: FloatArray, way: FloatArray) -> FloatArray:
-    """Return by how much ``way`` grows in `COURSE_S` around each of ``times``."""
+    """Return the growth of ``way`` in `COURSE_S` around each of ``times``."""
     half = COURSE_S / 2
     return np.asarray(np.interp(times + half, times, way) - np.interp(times - half, times, way))
 
 
 def fixed_readings(recording: Recording) -> BoolArray:
-    """Return which readings of gnss_height are there and have a fixed ambiguity, shape (N,).
+    """Return which readings of gnss_height are not missing and have a fixed ambiguity, shape (N,).
 
     Each has the quality of the reading of gnss_quality nearest in time; without that channel all
-    are taken as fixed.
+    count as fixed.
     """
     height, quality = recording.channel("gnss_height"), recording.find("gnss_quality")
     there: BoolArray = ~np.isnan(height.values)
@@ -112,5 +113,5 @@ def fixed_readings(recording: Recording) -> BoolArray:
 
 
 def usual_step(times: FloatArray) -> float:
-    """Return the median step of ``times`` in s; infinite if there is but one."""
+    """Return the median step of ``times`` in s; infinite for a single time."""
     return median_step(times) if times.size > 1 else np.inf

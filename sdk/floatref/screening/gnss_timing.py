@@ -1,4 +1,4 @@
-"""Whether GNSS is on the recording's time base: its span, and when it sees the body swing."""
+"""Whether GNSS is on the recording's time base: its span, and the time of the body's swing."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -7,40 +7,40 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.screening.explanations import RIGHT, Look, said, weigh
+from floatref.screening.explanations import RIGHT, Look, report_fault, weigh
 from floatref.screening.gnss_readings import Readings
 from floatref.screening.slow_series import (
     STEP_S,
     Motion,
-    integrated,
+    integrate,
     means,
-    smoothed,
+    smooth,
 )
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 
 SLOW_S = 2.0
-"""Swings of the body are faster than means over this time, taken twice."""
+"""Span in s of the means, taken twice, that are removed; swings of the body are faster."""
 FARTHEST_S = 30.0
-"""Time stamps are looked for up to so far off: leap seconds are 18 s."""
+"""Largest delay in s that is searched: leap seconds are 18 s."""
 CLEAR, ALONE = 5.0, 8.0
-"""The right delay stands out by so many standard deviations of all others; more, if no other
-channel tells it."""
+"""Peak of the right delay in standard deviations of all others; the second if only one channel
+shows it."""
 FEWEST, APART_S = 200, 0.25
-"""Readings of a channel that tells it, and how far apart they are at most: swings last 0.5 s."""
+"""Fewest readings of a channel for that, and their largest distance in s: swings last 0.5 s."""
 TOGETHER_S = 0.05
-"""Two channels agree up to this."""
+"""Largest difference in s of two channels that agree."""
 MOST = 0.75
-"""They are looked for up to such a share of the run off."""
+"""Largest delay that is searched, as a part of the run."""
 LATE_S, WRONG_S = 0.06, 0.5
-"""From the first on a warning is given, from the second on the recording is refused."""
+"""Delays in s from which a warning is given, and from which the recording is refused."""
 
 
 def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[str]:
     """Yield a warning if GNSS covers less than half of the run from ``begin_s`` to ``end_s``.
 
-    Raises InputError if it covers none of it: its time stamps have another epoch.
+    Raises InputError if it does not overlap the run: its time stamps have another epoch.
     """
     channel = recording.channel("gnss_height")
     first, last = channel.span_s
@@ -59,7 +59,7 @@ def check_epoch(recording: Recording, begin_s: float, end_s: float) -> Iterator[
         )
 
 
-def delay_told(delay_s: float) -> Iterator[str]:
+def report_delay(delay_s: float) -> Iterator[str]:
     """Yield a warning if GNSS is late (or early, below 0) for the IMU by ``delay_s``.
 
     Raises InputError from `WRONG_S` on: the time stamps are of another time base.
@@ -76,17 +76,17 @@ def delay_told(delay_s: float) -> Iterator[str]:
     yield line
 
 
-def on_time(recording: Recording, delay_s: float) -> Recording:
-    """Return the recording with the GNSS channels ``delay_s`` earlier, if that is worth a word."""
+def correct_delay(recording: Recording, delay_s: float) -> Recording:
+    """Return the recording, with the GNSS channels ``delay_s`` earlier if that gives a warning."""
     if abs(delay_s) < LATE_S:
         return recording
     channels = (
-        _earlier(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
+        _shift_clock(c, delay_s) if c.id.name.startswith("gnss_") else c for c in recording.channels
     )
     return replace(recording, channels=tuple(channels))
 
 
-def _earlier(channel: Channel, by_s: float) -> Channel:
+def _shift_clock(channel: Channel, by_s: float) -> Channel:
     clock = channel.clock
     if isinstance(clock, StampedClock):
         return replace(channel, clock=StampedClock.of(clock.times_s - by_s))
@@ -102,10 +102,10 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
     Raises InputError where that is certain.
     """
     readings = Readings.of(recording.channel("gnss_vertical_velocity"), motion)
-    rising = readings.beside(integrated(motion.lift))
-    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrated(motion.lift))}
+    rising = readings.beside(integrate(motion.lift))
+    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrate(motion.lift))}
     evidence = weigh(readings.times, readings.values, explained, HEAVE)
-    yield from said(
+    yield from report_fault(
         evidence,
         {
             "sign": "channel gnss_vertical_velocity: the sign is inverted against "
@@ -115,21 +115,21 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
 
 
 def delay(recording: Recording, motion: Motion) -> float:
-    """Return by how many s GNSS sees the body swing later than the IMU does; 0 if none tells it.
+    """Return the delay in s of the body's swing in GNSS against the IMU; 0 if not measurable.
 
-    Two channels have to agree on it, or one to be sure by itself.
+    Two channels must agree on it, or one must be clear by itself.
     """
     own = {
-        "gnss_vertical_velocity": integrated(motion.lift),
+        "gnss_vertical_velocity": integrate(motion.lift),
         "gnss_roll": motion.swing[0],
         "gnss_pitch": motion.swing[1],
     }
     found = []
     for name, row in own.items():
         channel = recording.find(name)
-        told = np.empty(0) if channel is None else means(channel, motion.grid)
-        if _is_dense(told):
-            found.append(_peak(_correlation(row, told)))
+        measured = np.empty(0) if channel is None else means(channel, motion.grid)
+        if _is_dense(measured):
+            found.append(_peak(_correlation(row, measured)))
     clear = sorted((d, c) for d, c in found if c >= CLEAR)
     close = [(a, b) for (a, _), (b, _) in pairwise(clear) if b - a <= TOGETHER_S]
     if close:
@@ -137,14 +137,14 @@ def delay(recording: Recording, motion: Motion) -> float:
     return clear[0][0] if len(clear) == 1 and clear[0][1] >= ALONE else 0.0
 
 
-def _is_dense(told: FloatArray) -> bool:
-    """Return whether the readings follow a swing of the body, and are enough to tell its time."""
-    known = np.flatnonzero(~np.isnan(told))
+def _is_dense(measured: FloatArray) -> bool:
+    """Return whether the readings are dense and many enough to measure the time of a swing."""
+    known = np.flatnonzero(~np.isnan(measured))
     return known.size >= FEWEST and float(np.median(np.diff(known))) * STEP_S <= APART_S
 
 
 def _peak(correlation: FloatArray) -> tuple[float, float]:
-    """Return the delay of the peak in s, and by how many standard deviations it stands out."""
+    """Return the delay of the peak in s, and its height in standard deviations of the others."""
     peak = int(np.argmax(correlation))
     beside = np.abs(np.arange(correlation.size) - peak) > SLOW_S / STEP_S
     spread = float(np.std(correlation[beside])) if beside.any() else 0.0
@@ -155,9 +155,9 @@ def _peak(correlation: FloatArray) -> tuple[float, float]:
     return delay * STEP_S, at / spread
 
 
-def _correlation(own: FloatArray, told: FloatArray) -> FloatArray:
+def _correlation(own: FloatArray, measured: FloatArray) -> FloatArray:
     """Return the correlation of two rows by the delay of the second, up to `FARTHEST_S`."""
-    x, y = (np.nan_to_num(row - smoothed(row, SLOW_S)) for row in (own, told))
+    x, y = (np.nan_to_num(row - smooth(row, SLOW_S)) for row in (own, measured))
     reach = min(int(FARTHEST_S / STEP_S), int(MOST * x.size))
     size = 1 << (2 * x.size - 1).bit_length()
     product = np.fft.irfft(np.conj(np.fft.rfft(x, size)) * np.fft.rfft(y, size), size)

@@ -1,11 +1,11 @@
-"""Horizontal accelerometers against the travel that encoder, yaw rate and GNSS tell."""
+"""Horizontal accelerometers against the travel that encoder, yaw rate and GNSS measure."""
 
 from collections.abc import Iterator
 
-from floatref.screening.explanations import RIGHT, Look, said, weigh
+from floatref.screening.explanations import RIGHT, Look, report_fault, weigh
 from floatref.screening.gnss_readings import course
 from floatref.screening.roll_and_pitch import DEGREES, axes
-from floatref.screening.slow_series import Motion, integrated, smoothed
+from floatref.screening.slow_series import Motion, integrate, smooth
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Recording
 
@@ -13,20 +13,20 @@ SMOOTH_S = 0.5
 TRAVEL = Look(span_s=20.0, floor=0.05)
 """Braking and setting off; the slope of the road and a bias are free."""
 CURVES = Look(span_s=10.0, floor=1.5, degree=-1)
-"""A road banked by 15 % takes 1.5 m/s² off, and nothing is free: a long curve is constant."""
+"""A road banked by 15 % removes 1.5 m/s². No polynomial is free: a long curve is constant."""
 COURSE = Look(span_s=8.0, floor=0.01, degree=0)
-"""Turns of the course; where it starts is free."""
+"""Turns of the course; its initial direction is free."""
 
 
 def check_travel_force(recording: Recording, track: str, motion: Motion) -> Iterator[str]:
-    """Yield a warning if the longitudinal force does not seem to be what speeds the vehicle up.
+    """Yield a warning if the longitudinal force does not seem to be the vehicle's acceleration.
 
     Raises InputError where that is certain: the sign, the axis or the unit is wrong.
     """
-    along, across, _ = (smoothed(force, SMOOTH_S) for force in motion.forces)
+    along, across, _ = (smooth(force, SMOOTH_S) for force in motion.forces)
     evidence = weigh(
         motion.times,
-        smoothed(motion.acceleration, SMOOTH_S),
+        smooth(motion.acceleration, SMOOTH_S),
         {
             RIGHT: along,
             "sign": -along,
@@ -42,7 +42,7 @@ def check_travel_force(recording: Recording, track: str, motion: Motion) -> Iter
         for name in ("longitudinal", "lateral")
     )
     against = "against the encoder's acceleration"
-    yield from said(
+    yield from report_fault(
         evidence,
         {
             "sign": f"channel {one}: the sign is inverted {against}; multiply by -1",
@@ -63,10 +63,10 @@ def check_curves(recording: Recording, track: str, motion: Motion) -> Iterator[s
 
     Raises InputError where that is certain.
     """
-    speed, across = smoothed(motion.speed, SMOOTH_S), smoothed(motion.forces[1], SMOOTH_S)
+    speed, across = smooth(motion.speed, SMOOTH_S), smooth(motion.forces[1], SMOOTH_S)
     evidence = weigh(
         motion.times,
-        speed * smoothed(motion.rates[2], SMOOTH_S),
+        speed * smooth(motion.rates[2], SMOOTH_S),
         {
             RIGHT: across,
             "sign": -across,
@@ -76,14 +76,14 @@ def check_curves(recording: Recording, track: str, motion: Motion) -> Iterator[s
         CURVES,
     )
     force, yaw = (recording.channel(n, track).id for n in ("lateral_specific_force", "yaw_rate"))
-    yield from said(
+    yield from report_fault(
         evidence,
         {
             "sign": f"channels {force} and {yaw}: contradict each other in curves; multiply the "
             "one that is negative in a left turn by -1",
-            "unit": f"channel {yaw}: 57.3 times what {force} says in curves, looks like deg/s; "
+            "unit": f"channel {yaw}: 57.3 times what {force} shows in curves, looks like deg/s; "
             "multiply by 0.0174533",
-            "-unit": f"channel {yaw}: -57.3 times what {force} says in curves, looks like deg/s "
+            "-unit": f"channel {yaw}: -57.3 times what {force} shows in curves, looks like deg/s "
             "with a sign inverted; multiply by 0.0174533 and check both signs",
         },
     )
@@ -94,14 +94,14 @@ def check_course(recording: Recording, track: str, motion: Motion) -> Iterator[s
 
     Raises InputError where that is certain.
     """
-    told = course(recording, motion)
-    if told is None:
+    direction = course(recording, motion)
+    if direction is None:
         return
-    roll, pitch, yaw = (told.beside(integrated(rate)) for rate in motion.rates)
-    evidence = weigh(told.times, told.values, axes(yaw, roll, pitch), COURSE)
+    roll, pitch, yaw = (direction.beside(integrate(rate)) for rate in motion.rates)
+    evidence = weigh(direction.times, direction.values, axes(yaw, roll, pitch), COURSE)
     name = recording.channel("yaw_rate", track).id
     witness = "the course of gnss_latitude and gnss_longitude"
-    yield from said(
+    yield from report_fault(
         evidence,
         {
             "sign": f"channel {name}: the sign is inverted against {witness}; multiply by -1 (left "

@@ -1,20 +1,20 @@
-"""Whether IMU and GNSS are installed as a Kalman pipeline takes them to be.
+"""Whether IMU and GNSS are installed as a Kalman pipeline assumes.
 
-A wrong sign, a wrong unit or an exchanged axis leaves a profile that looks like one. What a run
-contradicts beyond doubt is refused; what it makes likely, and what is bridged, is a warning.
+A wrong sign, a wrong unit or an exchanged axis leaves a profile that looks like one. A certain
+fault is refused; a likely fault, and a bridged gap, is a warning.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from floatref.screening.antenna_lever import check_antenna
-from floatref.screening.gnss_height import faults_told, fixed_told, jumps_told
+from floatref.screening.gnss_height import report_faults, report_jumps, report_unfixed
 from floatref.screening.gnss_timing import (
     check_epoch,
     check_velocity,
+    correct_delay,
     delay,
-    delay_told,
-    on_time,
+    report_delay,
 )
 from floatref.screening.horizontal_forces import check_course, check_curves, check_travel_force
 from floatref.screening.imu_channels import (
@@ -32,7 +32,7 @@ from floatref.values.recording import Channel, Recording
 
 @dataclass(frozen=True)
 class ImuUse:
-    """What a pipeline reads of IMU and GNSS.
+    """The channels of IMU and GNSS that a pipeline reads.
 
     Attributes:
         tracks: wheel paths, in order; channels without one are shared.
@@ -48,16 +48,16 @@ class ImuUse:
 def check_kinematics(recording: Recording, use: ImuUse, faults: IndexArray) -> tuple[str, ...]:
     """Return warnings about the IMU and GNSS channels that are used, one line each.
 
-    What wheel paths share is checked with the first one. What each path's accelerometers measure
-    of the antenna, its place and its delay, differs by their noise, so the first path tells it.
+    Shared channels are checked with the first wheel path. The antenna's position and delay,
+    measured with each path's accelerometers, differ only by noise, so the first path is used.
 
     Args:
-        recording: one that `examine` has found plausible.
-        use: what is read.
+        recording: a recording that `examine` has found plausible.
+        use: the channels that are read.
         faults: stuck readings of gnss_height, as `gnss_faults` returns them.
 
     Raises InputError with one line naming the channel, the value and what to do, for channels that
-    are missing, silent for most of the run or beyond what a vehicle does, GNSS of another time
+    are missing, silent for most of the run or beyond the limits of a vehicle, GNSS on another time
     base, and a sign, unit or axis that is certainly wrong.
     """
     for track in use.tracks:
@@ -69,12 +69,12 @@ def check_kinematics(recording: Recording, use: ImuUse, faults: IndexArray) -> t
         lines += check_epoch(recording, *first.span_s(recording))
     motion = Motion.of(recording, first.track)
     late_s = delay(recording, motion) if use.gnss and motion is not None else 0.0
-    aligned = on_time(recording, late_s)
-    lines += _of_imu(aligned, first, motion, use, late_s)
+    aligned = correct_delay(recording, late_s)
+    lines += _check_imu(aligned, first, motion, use, late_s)
     if use.gnss:
-        lines += _of_gnss(aligned, first, motion, faults)
+        lines += _check_gnss(aligned, first, motion, faults)
     for path in others:
-        lines += _of_another(aligned, path, use)
+        lines += _check_other_path(aligned, path, use)
     return tuple(dict.fromkeys(lines))
 
 
@@ -86,7 +86,7 @@ class _Path:
     own: tuple[Channel, ...]
 
     def has_own(self, *names: str) -> bool:
-        """Return whether one of the channels called ``names`` is its own."""
+        """Return whether one of the channels called ``names`` is not shared."""
         return any(channel.id.name in names for channel in self.own)
 
     def span_s(self, recording: Recording) -> tuple[float, float]:
@@ -102,25 +102,25 @@ def _paths(recording: Recording, tracks: tuple[str, ...]) -> Iterator[_Path]:
         seen.update(channel.id for channel in channels)
 
 
-def _of_another(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
-    """Yield what a wheel path behind the first one adds."""
+def _check_other_path(recording: Recording, path: _Path, use: ImuUse) -> Iterator[str]:
+    """Yield further warnings for a wheel path after the first one."""
     yield from imu_silences(path.own)
     motion = Motion.of(recording, path.track)
-    yield from _of_imu(recording, path, motion, use)
+    yield from _check_imu(recording, path, motion, use)
     if use.gnss and motion is not None:
         yield from check_velocity(recording, motion)
 
 
-def _of_imu(
+def _check_imu(
     recording: Recording, path: _Path, motion: Motion | None, use: ImuUse, late_s: float = 0.0
 ) -> Iterator[str]:
-    """Yield warnings about the channels that are the path's own, and about a GNSS that is late."""
+    """Yield warnings about the path's own channels, and about a delay of GNSS."""
     if motion is None or not path.own:
         return
     check_alive(recording, path.track, motion)
     if path.has_own(*RATES):
         check_plausible_rates(recording, path.track, motion)
-    yield from delay_told(late_s)
+    yield from report_delay(late_s)
     yield from check_travel_force(recording, path.track, motion)
     if path.has_own(*RATES):
         yield from check_course(recording, path.track, motion)
@@ -128,12 +128,12 @@ def _of_imu(
     yield from check_rates(recording, path.track, motion, use.attitude)
 
 
-def _of_gnss(
+def _check_gnss(
     recording: Recording, first: _Path, motion: Motion | None, faults: IndexArray
 ) -> Iterator[str]:
-    yield from fixed_told(recording, *first.span_s(recording))
-    yield from faults_told(recording, faults)
+    yield from report_unfixed(recording, *first.span_s(recording))
+    yield from report_faults(recording, faults)
     if motion is not None:
         yield from check_velocity(recording, motion)
         yield from check_antenna(recording, first.track, motion, faults)
-    yield from jumps_told(recording, faults)
+    yield from report_jumps(recording, faults)

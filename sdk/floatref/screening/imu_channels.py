@@ -1,4 +1,4 @@
-"""IMU channels that a pipeline needs: whether they are there, where they are silent or wild."""
+"""IMU channels that a pipeline needs: missing channels, silences and impossible samples."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
@@ -8,8 +8,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.screening.gnss_readings import Readings
 from floatref.screening.plausibility import HIGHEST_FORCE
-from floatref.screening.roll_and_pitch import AXES, TILT_SMOOTH_S, Axis, attitudes
-from floatref.screening.slow_series import RATES, SWING_S, Motion, smoothed
+from floatref.screening.roll_and_pitch import AXES, TILT_SMOOTH_S, Axis, read_attitudes
+from floatref.screening.slow_series import RATES, SWING_S, Motion, smooth
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
@@ -26,15 +26,15 @@ LARGEST_READINGS = {
     "gnss_vertical_velocity": 100.0,
     **dict.fromkeys(("gnss_pitch", "gnss_roll", "gnss_latitude", "gnss_longitude"), 360.0),
 }
-"""No antenna on a road has a reading beyond this, in m and m/s, nor an angle, even in degrees."""
+"""Limits of an antenna's readings on a road, in m, m/s, and of angles, even in degrees."""
 SILENT_S = 0.1
-"""A silence of the IMU up to so long is bridged without a word."""
+"""Longest silence of the IMU in s that is bridged without a warning."""
 STEPS = 2.5
-"""So many usual steps between two samples are no silence."""
+"""Longest step between two samples, in usual steps, that is not a silence."""
 
 
 def check_present(recording: Recording, track: str, uses_gnss: bool, uses_attitude: bool) -> None:
-    """Raise InputError naming all channels that the pipeline needs and ``recording`` lacks."""
+    """Raise InputError naming all channels that the pipeline needs and that are missing."""
     needed = [*IMU]
     needed += HEIGHT_CHANNELS if uses_gnss else ()
     needed += ATTITUDE_CHANNELS if uses_attitude else ()
@@ -58,11 +58,12 @@ def imu_silences(channels: Iterable[Channel]) -> Iterator[str]:
     """
     for channel in channels:
         _check_range(channel, HIGHEST_RATE if channel.id.name in RATES else HIGHEST_FORCE)
-        silences = silent(channel)
+        silences = find_silences(channel)
         if silences.size:
             lengths = silences[:, 1] - silences[:, 0]
             yield (
-                f"channel {channel.id}: no samples for {told_spans(silences)}; bridged and flagged"
+                f"channel {channel.id}: no samples for {describe_spans(silences)}; bridged "
+                "and flagged"
             )
             _check_share(channel, float(lengths.sum()))
 
@@ -75,8 +76,8 @@ def check_readings(recording: Recording) -> None:
             _check_range(channel, limit)
 
 
-def told_spans(spans: FloatArray) -> str:
-    """Return how long ``spans``, shape (k, 2), k > 0, in s, are, how many, and which is longest."""
+def describe_spans(spans: FloatArray) -> str:
+    """Return total length, number and longest of ``spans``, shape (k, 2), k > 0, in s, as text."""
     lengths = spans[:, 1] - spans[:, 0]
     longest = int(np.argmax(lengths))
     places = "1 place" if len(spans) == 1 else f"{len(spans)} places"
@@ -86,10 +87,10 @@ def told_spans(spans: FloatArray) -> str:
     )
 
 
-def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
-    """Return where ``channel`` has no sample for longer, shape (k, 2), in s.
+def find_silences(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
+    """Return where ``channel`` has no sample for more than ``longest_s``, shape (k, 2), in s.
 
-    A silence starts a usual step behind the last sample; one at an end of the channel counts.
+    A silence starts a usual step after the last sample; one at an end of the channel counts.
     """
     step = _usual_step(channel)
     longest = max(longest_s, (STEPS - 1) * step)
@@ -104,7 +105,7 @@ def silent(channel: Channel, longest_s: float = SILENT_S) -> FloatArray:
 
 
 def _known_times(channel: Channel, chunk: FloatArray, first: int) -> FloatArray:
-    """Return the times in s of the samples that are there, of every one or so that none is far."""
+    """Return the times in s of valid samples, or of every few if all are valid."""
     if isinstance(channel.clock, UniformClock) and not np.isnan(chunk.sum()):
         every = max(1, int(SILENT_S / 2 * float(channel.clock.rate)))
         few = channel.clock.times(-(-chunk.size // every), first, every)
@@ -143,14 +144,14 @@ def _check_share(channel: Channel, silent_s: float) -> None:
 
 SMOOTH_S = 0.5
 SPEEDS_UP, TURNS, SWINGS = 0.5, 2.0, 0.004
-"""What a sensor that works does not miss: acceleration and that of a curve, beyond any bank of a
-road, in m/s², and an angle in rad."""
+"""Motions that a working sensor shows: acceleration, and acceleration in a curve beyond any bank of
+a road, in m/s², and an angle in rad."""
 CONSTANT = 1e-12
 """Means of identical samples differ by rounding alone."""
 
 
 class Moved(NamedTuple):
-    """A sensor's row, what another one shows of its motion, how much is enough, and what it is."""
+    """A sensor's row, the motion that another one shows, the smallest motion, and its name."""
 
     row: FloatArray
     shown: FloatArray
@@ -159,11 +160,11 @@ class Moved(NamedTuple):
 
 
 def check_alive(recording: Recording, track: str, motion: Motion) -> None:
-    """Raise InputError for a constant channel of the IMU, where others show what it should see.
+    """Raise InputError for a constant channel of the IMU, if others show that it should change.
 
-    A perfect sensor on a straight, level road is constant, too, and is not blamed.
+    A perfect sensor on a straight, level road is constant, too, and is accepted.
     """
-    for name, moved in _moved(recording, motion).items():
+    for name, moved in _find_motion(recording, motion).items():
         known = moved.row[~np.isnan(moved.row)]
         if not known.size or np.ptp(known) > CONSTANT * max(1.0, abs(known[0])):
             continue
@@ -175,33 +176,33 @@ def check_alive(recording: Recording, track: str, motion: Motion) -> None:
             )
 
 
-def _moved(recording: Recording, motion: Motion) -> dict[str, Moved]:
+def _find_motion(recording: Recording, motion: Motion) -> dict[str, Moved]:
     turning = motion.speed * motion.rates[2]
-    told = attitudes(recording, motion)
+    attitude_readings = read_attitudes(recording, motion)
     found = {
         "longitudinal_specific_force": Moved(
             motion.forces[0],
-            smoothed(motion.acceleration, SMOOTH_S),
+            smooth(motion.acceleration, SMOOTH_S),
             SPEEDS_UP,
             "the vehicle speeds up or brakes",
         ),
         "lateral_specific_force": Moved(
-            motion.forces[1], smoothed(turning, SMOOTH_S), TURNS, "the vehicle turns"
+            motion.forces[1], smooth(turning, SMOOTH_S), TURNS, "the vehicle turns"
         ),
         "yaw_rate": Moved(
-            motion.rates[2], smoothed(motion.forces[1], SMOOTH_S), TURNS, "the vehicle turns"
+            motion.rates[2], smooth(motion.forces[1], SMOOTH_S), TURNS, "the vehicle turns"
         ),
     }
     for axis in AXES:
-        shown = _swing(motion, told, axis)
+        shown = _swing(motion, attitude_readings, axis)
         found[axis.rate] = Moved(motion.rates[axis.row], shown, SWINGS, "the body swings")
     return found
 
 
-def _swing(motion: Motion, told: Mapping[str, Readings], axis: Axis) -> FloatArray:
-    """Return by how much GNSS, else gravity, leaves its own means over some seconds, in rad."""
-    if axis.angle in told:
-        angle = told[axis.angle].on_grid()
+def _swing(motion: Motion, attitude_readings: Mapping[str, Readings], axis: Axis) -> FloatArray:
+    """Return the angle in rad of GNSS, else of gravity, minus its mean over some seconds."""
+    if axis.angle in attitude_readings:
+        angle = attitude_readings[axis.angle].on_grid()
     else:
-        angle = smoothed(motion.tilts[axis.row], TILT_SMOOTH_S)
-    return np.asarray(angle - smoothed(angle, SWING_S))
+        angle = smooth(motion.tilts[axis.row], TILT_SMOOTH_S)
+    return np.asarray(angle - smooth(angle, SWING_S))

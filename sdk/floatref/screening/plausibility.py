@@ -1,4 +1,4 @@
-"""Whether a recording can be what it says: units, signs, gaps and spans of its channels."""
+"""Whether a recording is plausible: units, signs, gaps and spans of its channels."""
 
 from collections.abc import Callable, Iterator
 
@@ -20,11 +20,11 @@ LIMITS = {
     "rate": (10.0, "if it is in deg/s, multiply by 0.0174533"),
     "acceleration": (500.0, "if it is in deg/s^2, multiply by 0.0174533"),
 }
-"""By the last word of a channel's name: no vehicle on a road goes beyond, and the likely cause."""
+"""By the end of a channel's name: the limit of a vehicle on a road, and the likely cause."""
 
 
 def check_motion(channel: Channel, summary: Summary) -> None:
-    """Refuse a channel of the response that never changes, or goes beyond what a vehicle does.
+    """Refuse a channel of the response that never changes, or exceeds the limit of a vehicle.
 
     Raises InputError with one line naming the channel, the value and what to do.
     """
@@ -52,11 +52,11 @@ def check_motion(channel: Channel, summary: Summary) -> None:
 GRAVITY_TOLERANCE = 2.0
 """How far the mean of a vertical accelerometer may be from g, in m/s²: bias and tilt."""
 HIGHEST_FORCE = 1e4
-"""No sample of an accelerometer in a vehicle is beyond this, in m/s²."""
+"""Limit of an accelerometer's samples in a vehicle, in m/s²."""
 LONGEST_RANGE_M = 10.0
-"""No height sensor of a profiler looks farther than this, in m."""
+"""Longest range of a profiler's height sensor, in m."""
 LARGEST_HEIGHT_M = 100.0
-"""No sample of a height sensor that works is beyond this, in m."""
+"""Limit of the samples of a working height sensor, in m."""
 TRUNCATION_S = 0.5
 """How much earlier than the others a channel may end, in s."""
 LOWEST_ACCELEROMETER_HZ = 20.0
@@ -70,10 +70,10 @@ MISREADINGS = (
     (980.665, 100.0, "looks like cm/s^2 or mg, multiply by 0.01 or 0.00980665"),
     (9806.65, 1000.0, "looks like mm/s^2, multiply by 0.001"),
 )
-"""Mean of a vertical accelerometer, how near it has to be, and what that means."""
+"""Mean of a vertical accelerometer, its tolerance, and the meaning."""
 
 Examine = Callable[[Channel, float], tuple[str, ...]]
-"""What examines a channel of a recording with a profile interval in m, as `examine_channel`."""
+"""A function that examines a channel at a profile interval in m, as `examine_channel` does."""
 
 
 def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
@@ -82,19 +82,19 @@ def examine_channel(channel: Channel, interval_m: float) -> tuple[str, ...]:
     Raises InputError as `examine`.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        return tuple(_examined(channel, interval_m))
+        return tuple(_examine(channel, interval_m))
 
 
 def examine(
     recording: Recording, needs: Needs | None = None, look: Examine = examine_channel
 ) -> tuple[str, ...]:
-    """Return warnings about ``recording``, one line each, for what can be processed all the same.
+    """Return warnings about ``recording``, one line each; it can be processed despite them.
 
     Without ``needs``, every wheel path that has a height needs an accelerometer and the distance.
     ``look`` examines each channel. Raises InputError with one line naming the channel, the value
     and what to do for missing channels, channels without samples or with more than half of them
-    missing, implausible units and signs, samples that no sensor gives, an accelerometer that never
-    moves, a distance that goes backwards, jumps or stands still, and truncated channels.
+    missing, implausible units and signs, impossible samples, an accelerometer that is constant, a
+    distance that goes backwards, jumps or is constant, and truncated channels.
     """
     needed = (nominal_needs(recording) if needs is None else needs).channels(recording)
     interval_m = recording.setup.profile_interval_m
@@ -103,9 +103,9 @@ def examine(
     return (*warnings, *_unused_setup(recording))
 
 
-def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
+def _examine(channel: Channel, interval_m: float) -> Iterator[str]:
     summary = Summary.of(channel.values)
-    yield from _missing(channel, summary)
+    yield from _check_missing(channel, summary)
     name = channel.id.name
     if name in VERTICAL_FORCES:
         _check_accelerometer(channel, summary)
@@ -117,7 +117,7 @@ def _examined(channel: Channel, interval_m: float) -> Iterator[str]:
         check_motion(channel, summary)
 
 
-def _missing(channel: Channel, summary: Summary) -> Iterator[str]:
+def _check_missing(channel: Channel, summary: Summary) -> Iterator[str]:
     if not summary.missing:
         return
     share = 100 * summary.missing / summary.count
@@ -143,7 +143,7 @@ def _check_accelerometer(channel: Channel, summary: Summary) -> None:
             "accelerometer; give rate_hz in Hz, not kHz"
         )
     which, level = "mean", summary.mean
-    if _wild(summary, HIGHEST_FORCE):
+    if _is_wild(summary, HIGHEST_FORCE):
         # A few wild samples move the mean, not the median.
         which, level = "median", _median(channel.values)
     meaning = _meaning(level)
@@ -160,9 +160,9 @@ def _check_accelerometer(channel: Channel, summary: Summary) -> None:
 
 
 def _meaning(level: float) -> str | None:
-    """Return what mean or median ``level`` of an accelerometer means, None if it is as it should.
+    """Return the meaning of an accelerometer's mean or median ``level``, None if it is right.
 
-    A level beyond all sensors is left to the samples that are beyond them, too.
+    A level beyond all sensors is reported by the check of samples.
     """
     if abs(level - STANDARD_GRAVITY) <= GRAVITY_TOLERANCE:
         return None
@@ -192,13 +192,13 @@ def _check_height(channel: Channel, summary: Summary) -> None:
     _check_samples(channel, summary, LARGEST_HEIGHT_M)
 
 
-def _wild(summary: Summary, limit: float) -> bool:
+def _is_wild(summary: Summary, limit: float) -> bool:
     return summary.least < -limit or summary.greatest > limit
 
 
 def _check_samples(channel: Channel, summary: Summary, limit: float) -> None:
     """Refuse the first sample beyond ``limit``, in the channel's unit."""
-    if not _wild(summary, limit):
+    if not _is_wild(summary, limit):
         return
     at = first_where(lambda values: np.abs(values) > limit, channel.values) or 0
     raise InputError(
@@ -215,13 +215,15 @@ def _check_spans(recording: Recording) -> None:
     earliest = min(spans, key=lambda channel: spans[channel][0])
     for channel, (begin, end) in spans.items():
         if end < spans[latest][1] - TRUNCATION_S:
-            raise _truncated(channel, f"ends at {end:.6g} s", latest, f"{spans[latest][1]:.6g} s")
+            raise _truncation_error(
+                channel, f"ends at {end:.6g} s", latest, f"{spans[latest][1]:.6g} s"
+            )
         if begin > spans[earliest][0] + TRUNCATION_S:
             first = f"{spans[earliest][0]:.6g} s"
-            raise _truncated(channel, f"starts at {begin:.6g} s", earliest, first)
+            raise _truncation_error(channel, f"starts at {begin:.6g} s", earliest, first)
 
 
-def _truncated(channel: ChannelId, what: str, other: ChannelId, when: str) -> InputError:
+def _truncation_error(channel: ChannelId, what: str, other: ChannelId, when: str) -> InputError:
     return InputError(
         f"channel {channel}: {what}, but {other} at {when}; the file is truncated or its rate_hz "
         "or start_s is wrong, so copy it again or correct them"

@@ -1,4 +1,4 @@
-"""Three witnesses of roll and pitch: the rates, the attitude of GNSS, and gravity."""
+"""Three measurements of roll and pitch compared: rates, attitude of GNSS, and gravity."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.screening.explanations import RIGHT, Evidence, Look, weigh
 from floatref.screening.gnss_readings import Readings
-from floatref.screening.slow_series import Motion, smoothed
+from floatref.screening.slow_series import Motion, smooth
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Recording
 
@@ -15,12 +15,12 @@ DEGREES = 180.0 / np.pi
 ATTITUDE = Look(span_s=3.0, floor=2e-4)
 """Drift of a receiver and bias of a gyro are free."""
 READINGS = 15
-"""A window holds so many readings, however slow the receiver."""
+"""Fewest readings in a window, at any rate of the receiver."""
 TILT = Look(span_s=10.0, floor=1e-3)
 TILT_SMOOTH_S = 1.0
-"""Above 0.3 Hz the accelerometers tell the body's own swing, not gravity."""
+"""Above 0.3 Hz the accelerometers measure the body's own swing, not gravity."""
 UPRIGHT = 0.5
-"""An angle beyond this, in rad, is no tilt of a road."""
+"""Limit of the tilt of a road, in rad."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +54,12 @@ AXES = (
 
 @dataclass(frozen=True)
 class Witnesses:
-    """What they say of one axis.
+    """Evidence from the three measurements of one axis.
 
     Attributes:
-        attitude: GNSS of the rate.
-        rate: the tilt of the rate.
-        angle: the tilt of GNSS.
+        attitude: of GNSS on the rate.
+        rate: of the tilt on the rate.
+        angle: of the tilt on GNSS.
     """
 
     attitude: Evidence
@@ -67,24 +67,28 @@ class Witnesses:
     angle: Evidence
 
 
-def attitudes(recording: Recording, motion: Motion) -> dict[str, Readings]:
-    """Return the readings of gnss_roll and gnss_pitch during the run, of those that are there."""
+def read_attitudes(recording: Recording, motion: Motion) -> dict[str, Readings]:
+    """Return the readings of gnss_roll and gnss_pitch during the run, without empty channels."""
     found = [recording.find(axis.angle) for axis in AXES]
-    told = {c.id.name: Readings.of(c, motion) for c in found if c is not None}
-    return {name: readings for name, readings in told.items() if readings.times.size}
+    attitude_readings = {c.id.name: Readings.of(c, motion) for c in found if c is not None}
+    return {name: readings for name, readings in attitude_readings.items() if readings.times.size}
 
 
-def heard(motion: Motion, told: Mapping[str, Readings]) -> tuple[Witnesses, Witnesses]:
-    """Return what the witnesses say of roll and of pitch."""
-    tilts = np.stack([smoothed(row, TILT_SMOOTH_S) for row in motion.tilts])
-    both = len(told) == len(AXES)
-    level = [told[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
+def weigh_witnesses(
+    motion: Motion, attitude_readings: Mapping[str, Readings]
+) -> tuple[Witnesses, Witnesses]:
+    """Return the evidence on roll and on pitch."""
+    tilts = np.stack([smooth(row, TILT_SMOOTH_S) for row in motion.tilts])
+    both = len(attitude_readings) == len(AXES)
+    level = (
+        [attitude_readings[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
+    )
     angles = motion.turned(np.clip(level, -UPRIGHT, UPRIGHT))
-    slow = [smoothed(angle, TILT_SMOOTH_S) for angle in angles]
-    calm = [smoothed(row, TILT_SMOOTH_S) for row in level]
+    slow = [smooth(angle, TILT_SMOOTH_S) for angle in angles]
+    calm = [smooth(row, TILT_SMOOTH_S) for row in level]
     roll, pitch = (
         Witnesses(
-            _attitude(told.get(axis.angle), angles, axis.row),
+            _attitude(attitude_readings.get(axis.angle), angles, axis.row),
             _tilt(motion, tilts, slow, axis.row),
             _tilt(motion, tilts, calm, axis.row) if both else Evidence(),
         )
@@ -112,7 +116,7 @@ def _tilt(
 
 
 def axes(own: FloatArray, *others: FloatArray) -> dict[str, FloatArray]:
-    """Return what an angle is if a rate is right, of wrong sign or unit, or of another axis."""
+    """Return the angle expected for a right rate, a wrong sign or unit, or another axis."""
     explained = {RIGHT: own, "sign": -own, "unit": own / DEGREES, "-unit": -own / DEGREES}
     for name, other in zip(("first", "second"), others, strict=False):
         explained |= {name: other, f"-{name}": -other}

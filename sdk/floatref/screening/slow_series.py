@@ -1,4 +1,4 @@
-"""What IMU and encoder of a run tell, as slow series on one grid of times.
+"""IMU and encoder of a run as slow series on one grid of times.
 
 Hours at kilohertz become means over 50 ms: gravity, turns, braking and the body's swing remain,
 wheels and engine do not.
@@ -21,9 +21,9 @@ STEP_S = 0.05
 FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_specific_force")
 RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 FEWEST = 60
-"""Means; a run of less than three seconds tells nothing."""
+"""Fewest means; a run of less than three seconds is not examined."""
 SWING_S = 10.0
-"""Means over so long, taken twice, are the slope of the road and the drift of a gyro."""
+"""Means over this time in s, taken twice, give the slope of the road and the drift of a gyro."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class Motion:
     @cached_property
     def speed(self) -> FloatArray:
         """Travel speed, shape (n,), in m/s."""
-        return np.gradient(bridged(self.distance), STEP_S)
+        return np.gradient(bridge(self.distance), STEP_S)
 
     @cached_property
     def acceleration(self) -> FloatArray:
@@ -91,8 +91,8 @@ class Motion:
     def tilts(self) -> FloatArray:
         """Roll and pitch that the horizontal forces show, shape (2, n), in rad.
 
-        What is left of them besides travel is gravity: roll (f_y - v r)/g and pitch (a - f_x)/g,
-        (2.17) for small angles.
+        The horizontal forces minus those of travel are gravity: roll (f_y - v r)/g and pitch (a -
+        f_x)/g, (2.17) for small angles.
         """
         roll = self.forces[1] - self.speed * self.rates[2]
         pitch = self.acceleration - self.forces[0]
@@ -101,22 +101,22 @@ class Motion:
     def turned(self, tilts: FloatArray) -> FloatArray:
         """Return the angles that the rates integrate to, shape (3, n), in rad: roll, pitch, yaw.
 
-        ``tilts``, shape (2, n), tell how much of a turn of the course is roll and pitch, (6.27)
-        and (6.28) for small angles.
+        ``tilts``, shape (2, n), give the part of a turn of the course that is roll and pitch,
+        (6.27) and (6.28) for small angles.
         """
         roll, pitch = tilts
         p, q, r = self.rates
-        return np.stack([integrated(rate) for rate in (p + pitch * r, q - roll * r, r)])
+        return np.stack([integrate(rate) for rate in (p + pitch * r, q - roll * r, r)])
 
     @cached_property
     def swing(self) -> FloatArray:
         """Roll and pitch against their means over some seconds, shape (2, n), in rad."""
         angles = self.turned(np.zeros((2, self.grid.count)))[:2]
-        return np.stack([angle - smoothed(angle, SWING_S) for angle in angles])
+        return np.stack([angle - smooth(angle, SWING_S) for angle in angles])
 
     @cached_property
     def lift(self) -> FloatArray:
-        """Vertical acceleration as far as the swing tells what is vertical, in m/s², (6.37)."""
+        """Vertical acceleration in m/s², with the vertical direction from the swing, (6.37)."""
         roll, pitch = self.swing
         along, across, normal = self.forces
         upright = normal * np.cos(pitch) * np.cos(roll)
@@ -125,7 +125,7 @@ class Motion:
 
 
 def means(channel: Channel, grid: Grid) -> FloatArray:
-    """Return the mean of ``channel`` over every stretch of ``grid``, NaN where it has none."""
+    """Return the mean of ``channel`` over every stretch of ``grid``, NaN where it has no sample."""
     first = _first_samples(channel, grid.edges)
     found = np.full(grid.count, np.nan)
     for low, high in _groups(first):
@@ -163,7 +163,7 @@ def _groups(first: IndexArray) -> Iterator[tuple[int, int]]:
         yield low, min(low + size, first.size - 1)
 
 
-def bridged(values: FloatArray) -> FloatArray:
+def bridge(values: FloatArray) -> FloatArray:
     """Return ``values``, shape (n,), with NaN replaced by the line between the neighbours."""
     known = np.flatnonzero(~np.isnan(values))
     if known.size in (0, values.size):
@@ -171,13 +171,13 @@ def bridged(values: FloatArray) -> FloatArray:
     return np.interp(np.arange(values.size), known, values[known])
 
 
-def smoothed(values: FloatArray, span_s: float) -> FloatArray:
+def smooth(values: FloatArray, span_s: float) -> FloatArray:
     """Return the mean of ``values``, shape (n,), over ``span_s``, taken twice; NaN stays NaN.
 
     That is 3 dB down at 0.32 / ``span_s``.
     """
     length = min(max(1, round(span_s / STEP_S)), values.size)
-    found = bridged(values)
+    found = bridge(values)
     for _ in range(2):
         found = _moving_mean(found, length)
     return np.where(np.isnan(values), np.nan, found)
@@ -191,7 +191,7 @@ def _moving_mean(values: FloatArray, length: int) -> FloatArray:
     return np.asarray((sums[high] - sums[low]) / (high - low) + values.mean())
 
 
-def integrated(rate: FloatArray) -> FloatArray:
+def integrate(rate: FloatArray) -> FloatArray:
     """Return the integral of ``rate``, shape (n,), at the same times; NaN stays NaN."""
-    steps = bridged(rate) * STEP_S
+    steps = bridge(rate) * STEP_S
     return np.where(np.isnan(rate), np.nan, np.cumsum(steps) - steps / 2)

@@ -14,7 +14,7 @@ from floatref.values.scanning import every
 
 
 class Travel(NamedTuple):
-    """How a vehicle travelled, every `WINDOW_S`; both are empty for a run that short.
+    """How a vehicle travelled, every `WINDOW_S`; both are empty for a shorter run.
 
     Attributes:
         distance_m: of the encoder, shape (n,), in m.
@@ -26,7 +26,7 @@ class Travel(NamedTuple):
 
     @classmethod
     def of(cls, recording: Recording) -> "Travel":
-        """Return the encoder's progress over `WINDOW_S` (5.6); missing samples are passed over."""
+        """Return the encoder's progress over `WINDOW_S` (5.6); missing samples are skipped."""
         channel = recording.channel(DISTANCE, recording.tracks[0])
         stride = _stride(channel)
         distance = every(stride, channel.values)

@@ -1,4 +1,4 @@
-"""Array types shared by every value, their freezing, and letting go of mapped files."""
+"""Array types shared by every value; making arrays read-only and releasing mapped files."""
 
 import mmap
 from enum import IntFlag
@@ -27,17 +27,17 @@ class Flag(IntFlag):
     BRAKING = 8
     """Braking so hard for the speed that the tilt of the accelerometer matters."""
     UNCERTAIN = 16
-    """The 1-σ of the elevation is larger than what is vouched for."""
+    """The 1-σ of the elevation is above the limit for a valid point."""
 
 
 LASTING = Flag.DRIFT | Flag.SLOW | Flag.BRAKING
-"""What a sample between two points of the profile does to the second of them, too."""
+"""Flags that a sample between two points of the profile also gives to the second point."""
 
 
 def frozen(values: ArrayLike) -> FloatArray:
     """Return ``values`` as a read-only, one-dimensional float64 array without gaps in memory.
 
-    Such an array is not copied: the caller gives it up. Raises ValueError for more than one
+    An array that already has this layout is not copied. Raises ValueError for more than one
     dimension.
     """
     array = np.asarray(values, dtype=np.float64)
@@ -60,10 +60,10 @@ def new_record(fields: np.dtype[np.void]) -> np.record:
 
 
 def release(values: NDArray[Any]) -> None:
-    """Let go of the memory that looking at ``values`` took, if they lie in a read-only file.
+    """Release the memory that reading ``values`` took, if they lie in a read-only file.
 
-    They can be looked at again. Nothing happens for an array in memory, or where the operating
-    system cannot be told.
+    They can be read again. Does nothing for an array in memory, or where the operating system has
+    no call for it.
     """
     array, base = values, values.base
     while isinstance(base, np.ndarray):

@@ -59,10 +59,12 @@ class Header:
         return replace(self, axis=Axis.DISTANCE, step=interval_m, origin=origin_m)
 
     def require(self, stage: str, *channels: ChannelId) -> None:
-        """Raise InputError unless all ``channels`` are there for ``stage`` to use."""
+        """Raise InputError unless all ``channels`` are present for ``stage`` to use."""
         missing = [str(c) for c in channels if c not in self.channels]
         if missing:
-            raise InputError(f"stage {stage} needs channel {', '.join(missing)}; add what makes it")
+            raise InputError(
+                f"stage {stage} needs channel {', '.join(missing)}; add a stage that makes it"
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +79,7 @@ class Event:
 class Block:
     """Samples ``first`` to ``first + length - 1`` of every channel.
 
-    ``fresh`` tells where a channel's value is a new measurement (a held or interpolated one is
+    ``fresh`` is true where a channel's value is a new measurement (a held or interpolated one is
     not); a channel without a mask is fresh throughout. ``flags`` holds `Flag` bits; a channel
     without them is trusted throughout.
     """
@@ -133,7 +135,7 @@ class Block:
 
 
 def join_blocks(blocks: Sequence[Block]) -> Block:
-    """Return ``blocks``, one or more and each behind the one before, as one."""
+    """Return one or more successive ``blocks`` as one block."""
     if len(blocks) == 1:
         return blocks[0]
     sizes = [len(block) for block in blocks]

@@ -50,7 +50,7 @@ CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
         "gnss_pitch": ChannelSpec("rad", "Euler pitch, nose down positive"),
         "gnss_roll": ChannelSpec("rad", "asin(cos pitch sin roll), left side up positive"),
         "gnss_quality": ChannelSpec(
-            "1", "0 none, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
+            "1", "0 no fix, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
         ),
         "gnss_latitude": ChannelSpec("rad", "geodetic latitude"),
         "gnss_longitude": ChannelSpec("rad", "geodetic longitude"),
@@ -94,11 +94,11 @@ FACTORS: Mapping[tuple[str, str], str] = MappingProxyType(
         ("km/h", "m/s"): "1/3.6",
     }
 )
-"""By what to multiply samples in a common other unit."""
+"""Factors that convert samples from other common units."""
 
 
 def channel_spec(name: str) -> ChannelSpec:
-    """Return the specification of channel ``name``; InputError if there is none."""
+    """Return the specification of channel ``name``; InputError if it is unknown."""
     if name in CHANNELS:
         return CHANNELS[name]
     near = get_close_matches(name, CHANNELS, n=1)

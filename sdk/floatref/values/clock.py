@@ -16,7 +16,7 @@ from floatref.values.scanning import first_step_where, first_where
 LOWEST_RATE_HZ = Fraction(1, 1000)
 HIGHEST_RATE_HZ = Fraction(10_000_000)
 LATEST_S = 1e12
-"""Largest time from zero, in s: 32000 years, whatever the epoch."""
+"""Largest distance of a time from zero, in s: 32000 years, enough for every epoch."""
 
 _ADVICE = f"give times in s, within {LATEST_S:g} s of zero"
 

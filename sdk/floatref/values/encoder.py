@@ -17,10 +17,10 @@ SLOWEST_MPS = 0.1
 AVERAGED_S = 0.5
 """Speed is averaged over this time, in s: counts come in bursts."""
 ROLLS_BACK_M = 1.0
-"""A vehicle that stops may roll back so far, in m; a reversed encoder goes on."""
+"""Largest roll-back of a vehicle that stops, in m; a reversed encoder exceeds it."""
 MOST_POINTS = 1e9
 FINEST_STEP = 1e-3
-"""How much of the profile interval float64 may lose to rounding."""
+"""Largest rounding error of float64, as a part of the profile interval."""
 
 
 def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Iterator[str]:
@@ -69,7 +69,7 @@ def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
 
 
 def _check_direction(channel: Channel) -> None:
-    """Refuse a distance that goes back farther than a vehicle rolls; a spike does not."""
+    """Refuse a distance that goes back farther than a vehicle rolls; a spike is accepted."""
     if _goes_back(chunks(channel.values)) is None:
         return
     found = _goes_back(_without_spikes(channel.values))
@@ -83,7 +83,7 @@ def _check_direction(channel: Channel) -> None:
 
 
 def _goes_back(stretches: Iterator[tuple[int, FloatArray]]) -> tuple[int, float] | None:
-    """Return the first sample that lies behind, and by how much, if any does by too much."""
+    """Return the first sample that goes back by too much and by how many m, or None."""
     reached, back = -np.inf, None
     for first, chunk in stretches:
         if chunk[0] >= reached and (chunk[1:] >= chunk[:-1]).all():
@@ -101,7 +101,7 @@ def _goes_back(stretches: Iterator[tuple[int, FloatArray]]) -> tuple[int, float]
 
 
 def _without_spikes(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-    """Yield stretches of ``values``; single samples that leap and come back at once are NaN."""
+    """Yield stretches of ``values``; a single sample that jumps and returns at once becomes NaN."""
     before = np.nan
     for first, chunk in chunks(values):
         after = values[first + chunk.size : first + chunk.size + 1]
@@ -113,7 +113,7 @@ def _without_spikes(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
 
 
 def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None:
-    """Refuse a distance that gives no point, or more points than memory holds."""
+    """Refuse a distance that gives no point of the profile, or more points than fit in memory."""
     length = summary.greatest - summary.least
     if length < interval_m:
         moved = f"never leaves {summary.least:.6g} m" if length == 0 else f"moves {length:.3g} m"
@@ -148,15 +148,15 @@ def _check_speed(channel: Channel) -> None:
 
 
 def _speeds(times: FloatArray, distance: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return how far it is from every known place to the next, for how long, and since when."""
+    """Return distance, duration and start time of every step between known samples, in m and s."""
     known = ~np.isnan(distance)
     return np.diff(distance[known]), np.diff(times[known]), times[known][:-1]
 
 
 def _held_count(values: FloatArray) -> float:
-    """Return the mean step in m of a distance that is held between its steps, else 0.
+    """Return the mean step in m of a distance that is constant between its steps, else 0.
 
-    It is held where most steps follow a sample that stood still.
+    It counts as such if most steps follow a pair of equal samples.
     """
     moved, held, length = 0, 0, 0.0
     for _, chunk in chunks(values, overlap=2):

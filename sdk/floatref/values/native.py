@@ -1,7 +1,7 @@
 """A native file before it is mapped: streams of columns, each stream on a clock of its own.
 
-An adapter delivers what the file holds, as the file says it: its names, its units, its ticks. A
-channel map says what of it is which channel of a recording.
+An adapter delivers the content of the file unchanged: its names, its units, its ticks. A channel
+map assigns columns of the file to channels of a recording.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -20,10 +20,10 @@ Ticks = NDArray[np.int64] | NDArray[np.float64]
 
 
 class Epoch(Enum):
-    """What the zero of a clock is."""
+    """The time that the zero of a clock means."""
 
     LOCAL = "local"
-    """The device's own: its start, or none."""
+    """A time of the device's own, such as its start, or not known."""
     DAY = "day"
     """Midnight UTC of an unknown day."""
     UTC = "utc"
@@ -50,7 +50,7 @@ class NativeClock:
     name: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse a rate and a tick that are not above zero."""
+        """Refuse a rate or a tick that is not above zero."""
         if self.tick_s <= 0 or (self.rate is not None and self.rate <= 0):
             raise InputError(f"clock of {self.rate} Hz with ticks of {self.tick_s} s; correct it")
 
@@ -59,8 +59,8 @@ class NativeClock:
 class Column:
     """A quantity of a stream: its name and unit, both as the file has them; "" is no unit.
 
-    ``note`` is one line for the person who lists the file. A column that holds no numbers is
-    listed and cannot be mapped.
+    ``note`` is one line for the user who lists the file. A column without numbers is listed but
+    cannot be mapped.
     """
 
     name: str
@@ -85,9 +85,9 @@ class Rows:
 class Stream:
     """Columns of a native file that share one clock, and how to read them.
 
-    ``read(names)`` yields the rows of the columns ``names`` from the first one on, in pieces of
-    at most a few megabytes; with no names the ticks alone. It can be called again. ``count`` is
-    how many rows the file says it has.
+    ``read(names)`` yields the rows of the columns ``names`` from the first one on, in pieces of at
+    most a few megabytes; with no names, the ticks alone. It can be called again. ``count`` is the
+    number of rows that the file states.
     """
 
     name: str
@@ -106,12 +106,12 @@ class Stream:
 
 
 def _nothing() -> None:
-    """Close what needs no closing."""
+    """Do nothing: the file needs no closing."""
 
 
 @dataclass(frozen=True, eq=False)
 class NativeFile:
-    """What a native file holds; a context that closes it.
+    """The content of a native file; a context manager that closes the file.
 
     ``told`` has one line for each kind of content that could not be decoded, with its count.
     """

@@ -1,4 +1,4 @@
-"""What a pipeline takes of a recording: wheel paths, the clock of its blocks, and channels."""
+"""What a pipeline reads from a recording: wheel paths, the clock of its blocks, and channels."""
 
 from dataclasses import dataclass
 
@@ -18,13 +18,13 @@ VERTICAL_FORCES = (
 
 @dataclass(frozen=True)
 class Needs:
-    """Channels that a pipeline takes, beside the distance, of every wheel path.
+    """Channels that a pipeline reads for every wheel path, in addition to the distance.
 
     Attributes:
         tracks: the wheel paths, in order.
         force: the accelerometer whose clock is that of the blocks.
-        others: names of further channels, of each wheel path or shared by all; what neither has
-            is left out.
+        others: names of further channels, of each wheel path or shared by all; a channel that is
+            missing is omitted.
     """
 
     tracks: tuple[str, ...]
@@ -34,7 +34,7 @@ class Needs:
     def channels(self, recording: Recording) -> tuple[Channel, ...]:
         """Return the channels in ``recording``, the distance first, each once.
 
-        Raises InputError if an accelerometer that keeps time, or the distance, is missing.
+        Raises InputError if the accelerometer that gives the clock, or the distance, is missing.
         """
         found = [recording.channel(DISTANCE, self.tracks[0])]
         for track in self.tracks:
@@ -50,12 +50,12 @@ def nominal_needs(recording: Recording) -> Needs:
 
 
 def profiled_tracks(recording: Recording) -> tuple[str, ...]:
-    """Return the wheel paths that have a height, in order; InputError if there is none."""
+    """Return the wheel paths that have a height, in order; InputError if no path has one."""
     return tracks_with(recording, HEIGHT)
 
 
 def tracks_with(recording: Recording, name: str) -> tuple[str, ...]:
-    """Return the wheel paths that have a channel ``name``, in order; InputError if none has."""
+    """Return the wheel paths that have channel ``name``, in order; InputError if no path has it."""
     tracks = tuple(t for t in recording.tracks if recording.find(name, t) is not None)
     if not tracks:
         recording.channel(name)

@@ -1,4 +1,4 @@
-"""Numbers and arrays as a caller has them, made float64 or refused in one line."""
+"""Numbers and arrays from a caller: converted to float64, or refused with one line."""
 
 from collections.abc import Iterable
 from decimal import Decimal
@@ -19,7 +19,7 @@ NUMERIC = "biuf"
 def above_zero(name: str, value: float) -> float:
     """Return ``value``, called ``name``; InputError unless it is finite and above zero."""
     if not isinstance(value, Real) or isinstance(value, bool):
-        raise InputError(f"{name} is {value!r}, no number; give one above zero")
+        raise InputError(f"{name} is {value!r}, not a number; give one above zero")
     if not (isfinite(value) and value > 0.0):
         raise InputError(f"{name} is {value}; give a number above zero")
     return float(value)
@@ -28,8 +28,8 @@ def above_zero(name: str, value: float) -> float:
 def numbers(name: str, values: ArrayLike) -> FloatArray:
     """Return ``values``, called ``name``, as a read-only C-contiguous float64 array.
 
-    A float64 array of that layout is not copied, and stays writable to its owner. What is masked
-    becomes NaN. Raises InputError for what holds no real numbers, or an infinite one.
+    A float64 array of that layout is not copied, and stays writable to its owner. Masked entries
+    become NaN. Raises InputError for values that are not real numbers, or are infinite.
     """
     try:
         array = _real(np.asanyarray(values))

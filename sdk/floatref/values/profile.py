@@ -14,7 +14,7 @@ from floatref.values.arrays import BoolArray, FloatArray, frozen
 SHORTEST_INTERVAL_M = 1e-5
 LONGEST_INTERVAL_M = 1000.0
 FARTHEST_M = 1e10
-"""Largest distance from the origin, in m: beyond, float64 does not hold a profile's interval."""
+"""Largest distance from the origin, in m: beyond it float64 is too coarse for an interval."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,7 @@ class Profile:
         return self.interval_m * (self.tracks[0].elevation.size - 1)
 
     def track(self, name: str) -> ProfileTrack:
-        """Return the track called ``name``; InputError if there is none."""
+        """Return the track called ``name``; InputError if it is missing."""
         for track in self.tracks:
             if track.name == name:
                 return track

@@ -48,7 +48,7 @@ class Setup:
     vehicle: VehicleSetup | None = None
 
     def __post_init__(self) -> None:
-        """Refuse an interval that cannot be one; freeze the tracks."""
+        """Refuse an impossible interval; make the tracks read-only."""
         check_interval(self.profile_interval_m, "setup.profile_interval_m")
         object.__setattr__(self, "tracks", MappingProxyType(dict(self.tracks)))
 

@@ -1,4 +1,4 @@
-"""Looking through long channels a piece at a time, so that memory stays bounded."""
+"""Reading long channels in pieces, so that memory stays bounded."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from floatref.values.arrays import BoolArray, FloatArray, release
 
 CHUNK = 1 << 18
-"""Samples looked at together (2 MiB)."""
+"""Samples in one piece (2 MiB)."""
 
 S = TypeVar("S", bound=np.generic)
 
@@ -18,8 +18,8 @@ S = TypeVar("S", bound=np.generic)
 def chunks(values: NDArray[S], overlap: int = 0) -> Iterator[tuple[int, NDArray[S]]]:
     """Yield stretches of ``values``, shape (N,), with the index of their first sample.
 
-    Each stretch goes on for ``overlap`` samples into the next one. Samples of a file are let go
-    of before the next stretch.
+    Each stretch continues for ``overlap`` samples into the next one. Samples of a file are released
+    before the next stretch.
     """
     for first in range(0, values.size, CHUNK):
         yield first, values[first : first + CHUNK + overlap]
@@ -56,7 +56,7 @@ def first_step_where(
 
 @dataclass(frozen=True)
 class Summary:
-    """What the valid samples of a channel amount to; NaN where there are none."""
+    """Statistics of the valid samples of a channel; NaN if no sample is valid."""
 
     count: int
     missing: int
@@ -108,10 +108,10 @@ def longest_step(values: FloatArray) -> tuple[int, float]:
 
 
 def median_step(values: FloatArray) -> float:
-    """Return the median step of ``values``, shape (N,), which increase all along; NaN for N < 2.
+    """Return the median step of ``values``, shape (N,), which increase throughout; NaN for N < 2.
 
-    A long channel's steps are never held together: they are counted by their leading bits, then
-    those in the middle by the next ones.
+    The steps of a long channel are never in memory together: they are counted by their leading
+    bits, then those around the median by the next bits.
     """
     count = values.size - 1
     if count <= CHUNK:
@@ -120,7 +120,7 @@ def median_step(values: FloatArray) -> float:
 
 
 def _ranked_step(rank: int, values: FloatArray) -> float:
-    """Return the step that ``rank`` others precede in order; positive floats sort as integers."""
+    """Return the step at ``rank`` in ascending order; positive floats sort as integers."""
     found = 0
     for shift in (48, 32, 16, 0):
         counts = np.zeros(1 << 16, np.int64)

@@ -1,4 +1,4 @@
-"""What is known of the vehicle that carries the sensors: a model's name and its parameters."""
+"""The vehicle that carries the sensors: the name of its model and the parameters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class VehicleSetup:
     x_m: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no finite number; freeze the parameters."""
+        """Refuse a number that is not finite; make the parameters read-only."""
         if not self.model:
             raise InputError("setup.vehicle.model is empty; name the model of the vehicle")
         numbers: dict[str, Any] = {**self.parameters, "x_m": self.x_m}

@@ -75,7 +75,7 @@ def test_parquet_keeps_what_a_vehicle_is_learned_from(folder):
     for suffix in ("", ".parquet"):
         result = invoke("vehicle", folder / f"made{suffix}", "--out", folder / "kept.json")
         assert result.exit_code == 2
-        assert "tells nothing of a vehicle" in result.stderr
+        assert "holds no estimate of a vehicle" in result.stderr
     from floatref.engine.formats import profile_of
 
     kept = profile_of(folder / "made.parquet")

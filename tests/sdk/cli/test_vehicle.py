@@ -1,4 +1,4 @@
-"""`floatref vehicle`: what runs have told of their vehicle goes to the next one."""
+"""`floatref vehicle`: the estimates of a vehicle from its runs go to the next one."""
 
 import json
 from collections.abc import Callable
@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.cli.main import main
-from floatref.cli.vehicle import kept
+from floatref.cli.vehicle import combine_estimates
 from floatref.files import read_profile, write_profile, write_recording
 from floatref_conformance.proving_ground import Scenario, simulate
 
@@ -94,7 +94,7 @@ def test_as_sure_runs_are_averaged_and_the_sigma_is_that_of_one_more(
 ) -> None:
     one = {"tilt_expected": 0.0, "tilt_sigma": 1.0}
     learned = [{**one, "lean_expected_rad": mean, "lean_sigma_rad": sigma} for mean in means]
-    found, count = kept(learned), len(means)
+    found, count = combine_estimates(learned), len(means)
     average = sum(means) / count
     assert found["lean_expected_rad"] == pytest.approx(average, abs=1e-12)
     variance = sum((mean - average) ** 2 for mean in means) / count
@@ -116,7 +116,7 @@ def test_the_surer_run_counts_for_more(
         {**one, "tilt_expected": mean, "tilt_sigma": sigma}
         for mean, sigma in zip(means, sigmas, strict=True)
     ]
-    found, (a, b) = kept(learned), (sigma**2 for sigma in sigmas)
+    found, (a, b) = combine_estimates(learned), (sigma**2 for sigma in sigmas)
     expected = (b * means[0] + a * means[1]) / (a + b)
     assert found["tilt_expected"] == pytest.approx(expected, abs=1e-12)
     apart = a * b * (means[0] - means[1]) ** 2 / (a + b) ** 2
@@ -150,7 +150,7 @@ def short(profile: Path, at: Path) -> Path:
 @pytest.mark.parametrize(
     ("make", "told"),
     [
-        (bare, "tells nothing of a vehicle"),
+        (bare, "holds no estimate of a vehicle"),
         (of_another_pipeline, "pipeline is road-prior-smoother-imu"),
         (spoilt, "learned tilt_sigma is 0.0"),
         (short, "has to hold"),

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.engine.collecting import Growing, collected
+from floatref.engine.collecting import Growing, collect_tracks
 from floatref.values.block import Block
 from floatref.values.channels import ChannelId
 
@@ -27,7 +27,7 @@ def test_every_track_gets_its_elevation_and_no_flags_are_zeros():
         Block(0, {LEFT: np.array([1.0, 2.0]), RIGHT: np.array([5.0, 6.0])}, flags={RIGHT: marks}),
         Block(2, {LEFT: np.array([4.0]), RIGHT: np.array([8.0])}),
     ]
-    found = collected(iter(blocks), ("left", "right"))
+    found = collect_tracks(iter(blocks), ("left", "right"))
     left, right = found["left"], found["right"]
     assert (left.elevation.tolist(), left.flags.tolist()) == ([1.0, 2.0, 4.0], [0, 0, 0])
     assert (right.elevation.tolist(), right.flags.tolist()) == ([5.0, 6.0, 8.0], [3, 0, 0])
@@ -43,7 +43,7 @@ def test_every_track_gets_its_own_sigma_if_there_is_one():
             2, {LEFT: np.ones(1), RIGHT: np.ones(1), sigmas[0]: np.ones(1), sigmas[1]: np.ones(1)}
         ),
     ]
-    found = collected(iter(blocks), ("left", "right"), with_sigma=True)
+    found = collect_tracks(iter(blocks), ("left", "right"), with_sigma=True)
     assert found["left"].sigma.tolist() == [0.1, 0.2, 1.0]
     assert found["right"].sigma.tolist() == [0.5, 0.6, 1.0]
-    assert collected(iter(blocks), ("left", "right"))["left"].sigma is None
+    assert collect_tracks(iter(blocks), ("left", "right"))["left"].sigma is None

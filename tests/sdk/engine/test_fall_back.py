@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floatref.engine.fall_back import bridged
+from floatref.engine.fall_back import fill_gaps
 from floatref.interfaces.drop_out import DropOut
 from floatref.measures import high_pass
 from floatref.values.arrays import FloatArray
@@ -57,7 +57,7 @@ def test_an_estimate_off_by_a_line_restores_the_road_inside_and_beside(
     gaps = np.array([[float(begin), float(begin + length)]])
     profile = profile_of(gaps)
     off = datum + tilt * INTERVAL_M * np.arange(POINTS)
-    found, _ = bridged(asked(gaps, profile), estimate_of(TRUE + off))
+    found, _ = fill_gaps(asked(gaps, profile), estimate_of(TRUE + off))
     before = np.abs(profile.tracks[0].elevation - TRUE)
     after = np.abs(found.tracks[0].elevation - TRUE)
     # What is left is the line's own error: the margins are off by what the filter spread.
@@ -67,7 +67,7 @@ def test_an_estimate_off_by_a_line_restores_the_road_inside_and_beside(
 def test_an_exact_estimate_leaves_a_hundredth() -> None:
     gaps = np.array([[150.0, 160.0]])
     profile = profile_of(gaps)
-    found, lines = bridged(asked(gaps, profile), estimate_of(TRUE))
+    found, lines = fill_gaps(asked(gaps, profile), estimate_of(TRUE))
     error = np.abs(found.tracks[0].elevation - TRUE).max()
     assert error < 0.01 * np.abs(profile.tracks[0].elevation - TRUE).max()
     assert lines == (
@@ -80,14 +80,14 @@ def test_bridged_points_are_invalid_and_no_others() -> None:
     profile = profile_of(gaps)
     sound = replace(profile.tracks[0], valid=np.ones(POINTS, np.bool_))
     drop_out = asked(gaps, replace(profile, tracks=(sound,)))
-    found, _ = bridged(drop_out, estimate_of(TRUE))
+    found, _ = fill_gaps(drop_out, estimate_of(TRUE))
     np.testing.assert_array_equal(found.tracks[0].valid, profile.tracks[0].valid)
 
 
 def test_sigma_is_that_of_the_estimate_and_of_the_meeting() -> None:
     gaps = np.array([[150.0, 160.0]])
     profile = profile_of(gaps, off_m=0.0, sigma=1e-4)
-    found, _ = bridged(asked(gaps, profile), estimate_of(TRUE, sigma=3e-3))
+    found, _ = fill_gaps(asked(gaps, profile), estimate_of(TRUE, sigma=3e-3))
     sigma = found.tracks[0].sigma
     assert sigma is not None
     inside = slice(6000, 6400)
@@ -99,7 +99,7 @@ def test_sigma_is_that_of_the_estimate_and_of_the_meeting() -> None:
 def test_a_gap_at_an_end_keeps_the_datum_of_its_one_side() -> None:
     gaps = np.array([[390.0, np.inf]])
     profile = profile_of(np.array([[390.0, 399.9]]))
-    found, lines = bridged(asked(gaps, profile), estimate_of(TRUE + 0.02))
+    found, lines = fill_gaps(asked(gaps, profile), estimate_of(TRUE + 0.02))
     assert lines
     assert np.abs(found.tracks[0].elevation - TRUE)[15600:].max() < 2e-3
 
@@ -118,6 +118,6 @@ def test_a_gap_at_an_end_keeps_the_datum_of_its_one_side() -> None:
 )
 def test_what_cannot_be_bridged_is_left(gaps: FloatArray, estimate: Profile) -> None:
     profile = profile_of(np.array([[150.0, 160.0]]))
-    found, lines = bridged(asked(gaps, profile), estimate)
+    found, lines = fill_gaps(asked(gaps, profile), estimate)
     np.testing.assert_array_equal(found.tracks[0].elevation, profile.tracks[0].elevation)
     assert lines == ()

@@ -133,9 +133,13 @@ def test_what_stages_tell_is_told_in_their_order_and_once():
         def told(self):
             return tuple(line.upper() for line in self.lines)
 
-    assert flow.told([Telling("b", "a"), Telling(), Telling("a", "c")]) == ("B", "A", "C")
+    assert flow.collect_warnings([Telling("b", "a"), Telling(), Telling("a", "c")]) == (
+        "B",
+        "A",
+        "C",
+    )
     with pytest.raises(StageError, match="stage Telling: AttributeError"):
-        flow.told([Telling(1.0)])
+        flow.collect_warnings([Telling(1.0)])
 
 
 def test_a_full_disk_names_the_folder(monkeypatch):

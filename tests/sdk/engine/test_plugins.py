@@ -128,7 +128,7 @@ def format_with(suffix, name="mine"):
 @pytest.mark.parametrize(
     ("hook", "item", "message"),
     [
-        ("floatref_register_pipelines", ["temporal"], "str is no Pipeline"),
+        ("floatref_register_pipelines", ["temporal"], "str is not a Pipeline"),
         (
             "floatref_register_pipelines",
             [Pipeline("x", "hybrid", "of a plug-in")],
@@ -145,7 +145,7 @@ def format_with(suffix, name="mine"):
             "no point 'temporal_finnish'",
         ),
         ("floatref_register_adapters", [object()], "object has no method recognises"),
-        ("floatref_register_stages", [7, object], "7 is no name"),
+        ("floatref_register_stages", [7, object], "7 is not the name"),
         ("floatref_register_profile_formats", [object()], "object has no method recognises"),
         (
             "floatref_register_profile_formats",

@@ -55,7 +55,10 @@ def test_the_interval_can_be_set(steady):
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"cut_off": 91.44}, "setting cut_off: pipeline temporal-basic has none such; it has int"),
+        (
+            {"cut_off": 91.44},
+            "setting cut_off: pipeline temporal-basic has no such setting; it has",
+        ),
         ({"interval_m": "5 mm"}, "setting interval_m: '5 mm' is not a number"),
         ({"interval_m": True}, "setting interval_m: True is not a number"),
         ({"cutoff_wavelength_m": -1}, "setting cutoff_wavelength_m: -1.0 must be finite and abo"),

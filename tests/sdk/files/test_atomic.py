@@ -16,7 +16,7 @@ from floatref.files import (
     write_profile_csv,
     write_recording,
 )
-from floatref.files.atomic import check_target, replacing_directory, replacing_file
+from floatref.files.atomic import check_target, replace_directory, replacing_file
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -44,7 +44,7 @@ def test_a_failure_in_the_middle_leaves_everything_as_it_was(
     before = listing(tmp_path)
 
     def fill_folder() -> None:
-        with replacing_directory(tmp_path / "p", True, "profile.json") as folder:
+        with replace_directory(tmp_path / "p", True, "profile.json") as folder:
             (folder / "left.f64").write_bytes(b"half")
             raise failure
 

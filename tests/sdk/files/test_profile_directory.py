@@ -111,7 +111,7 @@ def test_a_profile_that_breaks_the_format_is_not_written(
     ("change", "text"),
     [
         (lambda d: d.update(format="floatref-recording/1"), 'expected "floatref-profile/1"'),
-        (lambda d: d.pop("interval_m"), "lacks interval_m"),
+        (lambda d: d.pop("interval_m"), "has no interval_m"),
         (lambda d: d.update(interval_m=0), "interval_m is 0; expected the profile interval in m"),
         (lambda d: d.update(start_m="0"), 'start_m is "0"; expected the distance of the first'),
         (lambda d: d.update(settings=[]), r"settings is .*expected an object with the settings"),
@@ -134,7 +134,7 @@ def test_a_spoilt_document_is_named(
     ("name", "content", "text"),
     [
         ("left.f64", b"", "empty; copy the complete file"),
-        ("left.f64", bytes(31), "31 bytes are no whole number of float64 samples"),
+        ("left.f64", bytes(31), "31 bytes are not a whole number of float64 samples"),
         ("left.f64", bytes(24), "left.valid.u8: 4 points, but the elevation has 3"),
         ("left.f64", np.full(4, np.inf).tobytes(), "track left: infinite elevation"),
         ("left.valid.u8", b"\1\1\2\1", "left.valid.u8: byte 2 is 2; write one byte per point"),

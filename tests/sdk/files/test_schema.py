@@ -100,10 +100,10 @@ CHANNEL = {"native": "a", "channel": "height"}
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        ({}, "lacks channels"),
+        ({}, "has no channels"),
         ({"channels": []}, "channels is a list of 0; expected a list of 1 to 256 channels"),
         ({"channels": [CHANNEL] * 257}, "channels is a list of 257"),
-        ({"channels": [{"native": "a"}]}, r"channels\[0\] lacks channel; expected a channel with"),
+        ({"channels": [{"native": "a"}]}, r"channels\[0\] has no channel; expected a channel with"),
         ({"channels": [{**CHANNEL, "unt": "m"}]}, 'unknown key "unt"; did you mean unit\\?'),
         ({"channels": [{**CHANNEL, "xyz": 1}]}, 'unknown key "xyz"; known: native, channel, '),
         ({"channels": [{**CHANNEL, "axis": "+Z"}]}, r'axis \(height\)? ?is "\+Z"; (did|known)'),

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref.intake.blocks import Source
-from floatref.intake.steady_rate import holes_told
+from floatref.intake.steady_rate import report_holes
 from floatref.screening.findings import Screening
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
@@ -32,7 +32,7 @@ def test_holes_are_told_with_their_number_and_length(begins, count, steady):
     kept = np.ones(channel.values.size, bool)
     for begin in begins:
         kept[100 * begin : 100 * begin + count] = False
-    (line,) = holes_told(stamped(channel, kept))
+    (line,) = report_holes(stamped(channel, kept))
     lost_s = len(begins) * (count + 1) * float(np.diff(channel.times_s).mean())
     assert f"no samples for {lost_s:.4g} s in {len(begins)} places" in line
     holed = Recording(tuple(stamped(c, kept) for c in recording.channels))
@@ -41,5 +41,5 @@ def test_holes_are_told_with_their_number_and_length(begins, count, steady):
 
 def test_where_no_sample_is_missing_nothing_is_told(steady):
     channel = steady().channel(FORCE)
-    assert holes_told(channel) == ()
-    assert holes_told(stamped(channel, slice(None))) == ()
+    assert report_holes(channel) == ()
+    assert report_holes(stamped(channel, slice(None))) == ()

@@ -64,7 +64,7 @@ def test_a_call_that_cannot_be_made_names_pipeline_and_point(call, message):
 
 @pytest.mark.parametrize(
     ("kind", "message"),
-    [(lambda: 7, "made int, which is no Stage"), (lambda: 1 / 0, "ZeroDivisionError: division")],
+    [(lambda: 7, "made int, which is not a Stage"), (lambda: 1 / 0, "ZeroDivisionError: division")],
 )
 def test_a_class_that_makes_no_stage_is_named(kind, message):
     with pytest.raises(PluginError, match=f"stage Odd: {message}"):

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from floatref.plots.figure import in_readable_unit, roughness, shade, thinned
+from floatref.plots.figure import in_readable_unit, roughness, shade, thin
 
 FEW = settings(deadline=None, max_examples=25)
 
@@ -16,7 +16,7 @@ FEW = settings(deadline=None, max_examples=25)
 def test_thinned_line_keeps_every_extreme_where_it_is(seed: int, count: int, bins: int) -> None:
     y = np.random.default_rng(seed).normal(size=count)
     x = np.arange(count, dtype=float)
-    places, values = thinned(x, y, bins)
+    places, values = thin(x, y, bins)
     assert values.size <= max(count, 2 * bins)
     assert (values.min(), values.max()) == (y.min(), y.max())
     assert np.all(np.diff(places) >= 0)
@@ -27,13 +27,13 @@ def test_thinned_line_keeps_every_extreme_where_it_is(seed: int, count: int, bin
 
 def test_short_line_is_not_touched() -> None:
     x, y = np.arange(10.0), np.arange(10.0) ** 2
-    np.testing.assert_array_equal(thinned(x, y), (x, y))
+    np.testing.assert_array_equal(thin(x, y), (x, y))
 
 
 def test_stretch_without_values_stays_a_gap() -> None:
     y = np.ones(10_000)
     y[4000:6000] = np.nan
-    _, values = thinned(np.arange(10_000.0), y, 100)
+    _, values = thin(np.arange(10_000.0), y, 100)
     assert np.isnan(values[82:118]).all()
     assert np.isfinite(values[:78]).all()
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.screening.antenna_lever import check_antenna, located
+from floatref.screening.antenna_lever import check_antenna, locate_antenna
 from floatref.screening.gnss_height import gnss_faults
 from floatref.screening.slow_series import Motion
 from floatref.values.recording import Recording, Setup
@@ -35,7 +35,7 @@ def with_arm(recording: Recording, x: float, y: float, z: float) -> Recording:
 @pytest.mark.parametrize("vehicle", ["minivan", "pickup", "soft-van"])
 def test_the_arm_is_found_within_its_uncertainty(vehicle: str) -> None:
     recording, motion = driven(vehicle)
-    found = located(recording, "left", motion, gnss_faults(recording))
+    found = locate_antenna(recording, "left", motion, gnss_faults(recording))
     assert found is not None
     true = recording.setup.gnss_antenna_offset_m[:2]
     off = np.abs(np.subtract(found.place_m, true)) / np.array(found.sigma_m)
@@ -60,7 +60,7 @@ def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
     recording, motion = driven("soft-van")
     (line,) = told(with_arm(recording, 0.0, 0.0, 0.0), motion)
     assert line.startswith("setup.gnss_antenna_offset_m: 0, 0, 0, so the antenna is taken to sit")
-    assert "(its swing says X = -" in line
+    assert "(its swing shows X = -" in line
 
 
 def test_rates_in_degrees_are_not_blamed_on_the_antenna() -> None:
@@ -77,7 +77,7 @@ def test_a_parked_vehicle_tells_nothing_of_the_arm() -> None:
     motion = Motion.of(recording, "left")
     assert motion is not None
     faults = gnss_faults(recording)
-    assert located(recording, "left", motion, faults) is None
+    assert locate_antenna(recording, "left", motion, faults) is None
     assert told(with_arm(recording, 5.0, -3.0, 1.0), motion) == ()
     (line,) = told(replace(recording, setup=Setup()), motion)
     assert line.endswith("measure where it is and give it")

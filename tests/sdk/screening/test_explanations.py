@@ -10,8 +10,8 @@ from floatref.screening.explanations import (
     RIGHT,
     Evidence,
     Look,
-    detrended,
-    said,
+    detrend,
+    report_fault,
     weigh,
     windows,
 )
@@ -101,12 +101,12 @@ def test_windows_with_a_gap_are_passed_over(seed: int, share: float) -> None:
 @given(seed=st.integers(0, 999), degree=st.integers(0, 3), begin=st.floats(-1e6, 1e6))
 def test_a_polynomial_is_taken_out_and_nothing_else(seed: int, degree: int, begin: float) -> None:
     rows = swings(seed).T
-    left = detrended(begin + TIMES, rows, degree)
+    left = detrend(begin + TIMES, rows, degree)
     place = TIMES / TIMES[-1] - 0.5
     powers = np.stack([place**k for k in range(degree + 1)], axis=1)
     np.testing.assert_allclose(powers.T @ left, 0.0, atol=1e-6)
-    np.testing.assert_allclose(detrended(begin + TIMES, rows - left, degree), 0.0, atol=1e-9)
-    np.testing.assert_array_equal(detrended(begin + TIMES, rows, -1), rows)
+    np.testing.assert_allclose(detrend(begin + TIMES, rows - left, degree), 0.0, atol=1e-9)
+    np.testing.assert_array_equal(detrend(begin + TIMES, rows, -1), rows)
 
 
 @laws
@@ -123,9 +123,9 @@ def test_windows_cover_everything(span: float, count: int) -> None:
 def test_what_is_certain_is_refused_and_what_is_likely_is_told() -> None:
     lines = {"sign": "multiply by -1"}
     with pytest.raises(InputError, match="multiply by -1"):
-        list(said(Evidence(0.5, 4.0, "sign"), lines))
-    assert list(said(Evidence(0.5, 4.0, "sign"), lines, fatal=False)) == ["multiply by -1"]
-    (line,) = said(Evidence(0.5, 2.0, "-sign"), lines)
+        list(report_fault(Evidence(0.5, 4.0, "sign"), lines))
+    assert list(report_fault(Evidence(0.5, 4.0, "sign"), lines, fatal=False)) == ["multiply by -1"]
+    (line,) = report_fault(Evidence(0.5, 2.0, "-sign"), lines)
     assert line.startswith("multiply by -1 (")
-    assert list(said(Evidence(3.0, 4.0, "sign"), lines)) == []
-    assert list(said(Evidence(), lines)) == []
+    assert list(report_fault(Evidence(3.0, 4.0, "sign"), lines)) == []
+    assert list(report_fault(Evidence(), lines)) == []

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.screening.gnss_height import faults_told, fixed_told, gnss_faults, jumps_told
+from floatref.screening.gnss_height import gnss_faults, report_faults, report_jumps, report_unfixed
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 
@@ -76,7 +76,7 @@ def test_a_height_that_sticks_is_found(
         recording = with_values(recording, VELOCITY, rising)
     faults = gnss_faults(recording)
     np.testing.assert_array_equal(faults, [[at, min(at + length, COUNT)]])
-    (line,) = faults_told(recording, faults)
+    (line,) = report_faults(recording, faults)
     assert line.startswith("channel gnss_height: stuck for ")
     assert line.endswith("; not used there")
 
@@ -85,7 +85,7 @@ def test_a_height_that_never_changes_is_told_as_that() -> None:
     recording = with_height(swaying(), 0, COUNT, 199.0)
     faults = gnss_faults(recording)
     np.testing.assert_array_equal(faults, [[0, COUNT]])
-    (line,) = faults_told(recording, faults)
+    (line,) = report_faults(recording, faults)
     assert line.startswith("channel gnss_height: every reading is 199 m")
 
 
@@ -101,9 +101,9 @@ def test_a_sound_height_is_not_suspected(seed: int, drive: tuple[float, bool]) -
     recording = swaying(seed, *drive)
     faults = gnss_faults(recording)
     assert faults.size == 0
-    assert list(faults_told(recording, faults)) == []
-    assert list(jumps_told(recording, faults)) == []
-    assert list(fixed_told(recording, 5.0, 65.0)) == []
+    assert list(report_faults(recording, faults)) == []
+    assert list(report_jumps(recording, faults)) == []
+    assert list(report_unfixed(recording, 5.0, 65.0)) == []
 
 
 def test_a_height_may_rest_where_nothing_moves() -> None:
@@ -133,7 +133,7 @@ def test_a_jump_is_told_with_size_and_time(seed: int, at: int, by_m: float, back
     recording = swaying(seed)
     values = recording.channel(HEIGHT).values.copy()
     values[at : at + back] += by_m
-    (line,) = jumps_told(with_values(recording, HEIGHT, values), gnss_faults(recording))
+    (line,) = report_jumps(with_values(recording, HEIGHT, values), gnss_faults(recording))
     returns = at + back < COUNT
     assert line.startswith(f"channel gnss_height: jumps in {2 if returns else 1} place")
     told = float(line.split("most by ")[1].split(" m at ")[0])
@@ -151,8 +151,8 @@ def test_an_outage_or_unfixed_readings_hide_a_change(seed: int, at: int, outage:
     values[at : at + outage] += np.linspace(0, 3, outage)
     quality[at : at + outage] = 5.0
     recording = with_values(with_values(recording, HEIGHT, values), QUALITY, quality)
-    assert list(jumps_told(recording, gnss_faults(recording))) == []
-    (line,) = fixed_told(recording, 5.0, 65.0)
+    assert list(report_jumps(recording, gnss_faults(recording))) == []
+    (line,) = report_unfixed(recording, 5.0, 65.0)
     seconds = (outage + 1) / RATE
     assert line.startswith(
         f"channel gnss_height: no RTK-fixed reading for {seconds:.4g} s in 1 place"
@@ -162,27 +162,27 @@ def test_an_outage_or_unfixed_readings_hide_a_change(seed: int, at: int, outage:
 @pytest.mark.parametrize("kind", [0.0, 1.0, 2.0, 5.0])
 def test_readings_that_are_never_fixed_are_told(kind: float) -> None:
     recording = with_values(swaying(), QUALITY, np.full(COUNT, kind))
-    (line,) = fixed_told(recording, 5.0, 65.0)
+    (line,) = report_unfixed(recording, 5.0, 65.0)
     assert line.startswith(f"channel gnss_quality: never 4 (RTK fixed), mostly {kind:g}; ")
     assert "constants take its place" in line
 
 
 def test_without_a_quality_all_are_taken_as_fixed_and_that_is_told() -> None:
-    (line,) = fixed_told(with_values(swaying(), QUALITY, None), 5.0, 65.0)
+    (line,) = report_unfixed(with_values(swaying(), QUALITY, None), 5.0, 65.0)
     assert line.startswith("channel gnss_quality: missing; every reading")
 
 
 def test_a_quality_of_its_own_times_goes_with_the_nearest_reading() -> None:
     recording = swaying()
-    assert list(fixed_told(with_quality(recording, STAMPS + 0.02), 5.0, 65.0)) == []
-    (line,) = fixed_told(with_quality(recording, STAMPS[: COUNT // 2]), 5.0, 65.0)
+    assert list(report_unfixed(with_quality(recording, STAMPS + 0.02), 5.0, 65.0)) == []
+    (line,) = report_unfixed(with_quality(recording, STAMPS[: COUNT // 2]), 5.0, 65.0)
     assert line.startswith("channel gnss_height: no RTK-fixed reading for 29.9")
     slow = StampedClock.of(STAMPS[::2] + 0.01)
     quality = np.full(COUNT // 2, 4.0)
     quality[200:300] = 2.0
     others = tuple(c for c in recording.channels if c.id.name != QUALITY)
     recording = Recording((*others, Channel.of(QUALITY, quality, slow)))
-    (line,) = fixed_told(recording, 5.0, 65.0)
+    (line,) = report_unfixed(recording, 5.0, 65.0)
     assert line.startswith("channel gnss_height: no RTK-fixed reading for 10.0")
 
 

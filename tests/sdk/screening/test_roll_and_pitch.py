@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.screening.roll_and_pitch import attitudes, heard
+from floatref.screening.roll_and_pitch import read_attitudes, weigh_witnesses
 from floatref.screening.slow_series import FORCES, Motion
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
@@ -60,7 +60,7 @@ def test_a_slalom_on_a_bank_hides_neither_a_right_pitch_nor_a_wrong_one(
     recording = swinging(roll, turn, 0.01, seed, -1.0 if inverted else 1.0)
     motion = Motion.of(recording, "main")
     assert motion is not None
-    _, pitch = heard(motion, attitudes(recording, motion))
+    _, pitch = weigh_witnesses(motion, read_attitudes(recording, motion))
     assert pitch.attitude.certain if inverted else pitch.attitude.confirmed
     assert pitch.attitude.name == "sign" or not inverted
 
@@ -70,7 +70,7 @@ def test_a_receiver_whose_angles_rest_is_no_witness(seed: int) -> None:
     recording = swinging(0.05, 0.3, 0.0, seed)
     motion = Motion.of(recording, "main")
     assert motion is not None
-    roll, pitch = heard(motion, attitudes(recording, motion))
+    roll, pitch = weigh_witnesses(motion, read_attitudes(recording, motion))
     for evidence in (roll.attitude, pitch.attitude):
         assert not evidence.likely
         assert not evidence.confirmed

@@ -13,10 +13,10 @@ from floatref.screening.slow_series import (
     STEP_S,
     Grid,
     Motion,
-    bridged,
-    integrated,
+    bridge,
+    integrate,
     means,
-    smoothed,
+    smooth,
 )
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
@@ -71,11 +71,11 @@ def test_means_are_those_of_the_samples_within(
 def test_smoothing_keeps_a_constant_and_the_middle_of_a_line(
     level: float, slope: float, span: float, count: int
 ) -> None:
-    flat = smoothed(np.full(count, level), span)
+    flat = smooth(np.full(count, level), span)
     np.testing.assert_allclose(flat, level, atol=1e-9)
     width = 2 * (round(span / STEP_S) // 2) + 1
     times = STEP_S * np.arange(count)
-    line = smoothed(level + slope * times, width * STEP_S)
+    line = smooth(level + slope * times, width * STEP_S)
     inner = slice(width, count - width)
     np.testing.assert_allclose(line[inner], (level + slope * times)[inner], atol=1e-9)
 
@@ -87,17 +87,17 @@ def test_an_integral_is_the_angle_and_a_gap_stays_one(
 ) -> None:
     omega, times = 2 * np.pi * frequency, Grid(0.0, 400).times
     rate = omega * np.cos(omega * times + phase)
-    found = integrated(rate)
+    found = integrate(rate)
     expected = np.sin(omega * times + phase)
     np.testing.assert_allclose(found - found.mean(), expected - expected.mean(), atol=0.07)
     rate[at : at + 3] = np.nan
-    assert np.isnan(integrated(rate)[at : at + 3]).all()
-    assert not np.isnan(np.delete(integrated(rate), slice(at, at + 3))).any()
+    assert np.isnan(integrate(rate)[at : at + 3]).all()
+    assert not np.isnan(np.delete(integrate(rate), slice(at, at + 3))).any()
 
 
 def test_a_bridge_is_a_line() -> None:
     values = np.array([np.nan, 1.0, np.nan, np.nan, 4.0, np.nan])
-    np.testing.assert_array_equal(bridged(values), [1.0, 1.0, 2.0, 3.0, 4.0, 4.0])
+    np.testing.assert_array_equal(bridge(values), [1.0, 1.0, 2.0, 3.0, 4.0, 4.0])
 
 
 def recorded(make: Callable[[str, np.ndarray], np.ndarray], seconds: float = 20.0) -> Recording:

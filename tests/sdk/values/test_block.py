@@ -63,7 +63,9 @@ def test_the_distance_axis_keeps_the_rate_of_time(header: Header) -> None:
 
 def test_what_a_stage_needs_and_lacks_is_named(header: Header) -> None:
     header.require("combine", A, H)
-    with pytest.raises(InputError, match="stage combine needs channel distance; add what makes it"):
+    with pytest.raises(
+        InputError, match="stage combine needs channel distance; add a stage that makes it"
+    ):
         header.require("combine", A, ChannelId("distance"))
 
 

@@ -7,7 +7,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from floatref.engine.formats import is_native, named_reader
+from floatref.engine.formats import get_reader, is_native
 from floatref.engine.run import resolved_settings
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ChannelMap
@@ -32,7 +32,7 @@ def checked(options: Defaults) -> ChannelMap | None:
     processed with.
     """
     resolved_settings(options.pipeline, options.settings)
-    native = options.adapter is None or is_native(named_reader(options.adapter))
+    native = options.adapter is None or is_native(get_reader(options.adapter))
     length = options.segment_m
     if length is not None and not (isfinite(length) and length > 0):
         raise InputError(f"segment {length} m: must be above zero; give metres, as in 100")

@@ -18,7 +18,7 @@ from floatref.batch.jobs.recognition import (
     walked,
 )
 from floatref.batch.jobs.source_names import name_below, unique_names
-from floatref.engine.formats import recognising
+from floatref.engine.formats import find_readers
 from floatref.errors import InputError
 from floatref.files.recording_directory import DOCUMENT as RECORDING
 from floatref.files.sources import naming
@@ -147,7 +147,7 @@ class _Search:
 
     def _take_folder(self, folder: Path, base: Path, options: Defaults) -> int:
         """Take the recording ``folder``, or those in it; return how many there are."""
-        if recognising(folder):
+        if find_readers(folder):
             self._add(folder, base, options)
             return 1
         if self._is_ours(folder) or kind_of_folder(folder, None) is not Kind.FOLDER:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from floatref.batch.jobs.job import PROFILES, RECORDS
 from floatref.batch.jobs.manifest import is_manifest
-from floatref.engine.formats import recognising
+from floatref.engine.formats import find_readers
 from floatref.errors import InputError
 from floatref.files.profile_directory import DOCUMENT as PROFILE
 from floatref.files.profile_directory import FORMAT
@@ -45,7 +45,7 @@ class Kind(Enum):
 
 def kind_of_folder(path: Path, adapter: str | None) -> Kind:
     """Return what the folder ``path`` is; ``adapter`` alone is to read sources, unless None."""
-    if found := recognising(path):
+    if found := find_readers(path):
         wanted = adapter is None or adapter in (reader.name for reader in found)
         return Kind.SOURCE if wanted else Kind.OTHER
     ours = (path / PROFILE).is_file() or is_output(path)
@@ -62,7 +62,7 @@ def kind_of_file(path: Path, adapter: str | None) -> Kind:
         return Kind.OTHER
     if adapter is None and suffix in SUFFIXES:
         return Kind.SOURCE
-    names = [reader.name for reader in recognising(path)]
+    names = [reader.name for reader in find_readers(path)]
     if adapter is None:
         return Kind.SOURCE if names else Kind.OTHER
     return Kind.SOURCE if adapter in names or (not names and suffix in SUFFIXES) else Kind.OTHER

@@ -1,4 +1,4 @@
-"""What `floatref allan` reports: channels, coefficients, settings, and what to doubt."""
+"""The report of `floatref allan`: channels, coefficients, settings and warnings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -29,7 +29,7 @@ SETTINGS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "pitch_rate_walk": ("pitch_rate", "random_walk"),
     }
 )
-"""Settings of the Kalman pipelines: of which channel, and which of its coefficients."""
+"""Settings of the Kalman pipelines, each with its channel and coefficient."""
 UNITS: Mapping[str, str] = MappingProxyType(
     {
         "ramp": "{}/s",
@@ -41,49 +41,51 @@ UNITS: Mapping[str, str] = MappingProxyType(
 )
 """Units of the coefficients of a signal in the unit {}."""
 AT_REST: Mapping[str, float] = MappingProxyType({"rad/s": 2e-3, "m/s^2": 0.05, "m/s": 0.15})
-"""Sensors in use at rest are below this deviation in their unit, vehicles in motion above."""
+"""Limit of the deviation in the sensor's unit: sensors at rest are below, in motion above."""
 SWAYS_S = 0.3
-"""A vehicle that moves sways about so fast."""
+"""Cluster time in s in which a moving vehicle sways."""
 TRAVEL_M = 0.1
 POOR = 1.5
-"""A curve that is off by this factor somewhere does not describe the noise."""
+"""Factor between curve and deviation from which the curve does not describe the noise."""
 STUCK, STUCK_S = 100.0, 1.0
-"""No sensor that works repeats itself so many times as often as usual, for so long in s."""
+"""Shortest run of identical samples of a stuck sensor, in usual runs and in s."""
 RTK_FIXED = 4.0
 DIGITS = 4
-"""Digits of a setting; its uncertainty is a per cent or more."""
+"""Digits of a setting, whose uncertainty is one per cent or more."""
 
 
-def chosen(recording: Recording, names: Sequence[str]) -> tuple[Channel, ...]:
+def choose_channels(recording: Recording, names: Sequence[str]) -> tuple[Channel, ...]:
     """Return the channels called ``names``, with or without a track, or all that are analysed.
 
-    Raises InputError for a name that no channel with noise at rest has.
+    Raises InputError for a name of no such channel.
     """
     there = [c for name in ANALYSED for c in recording.channels if c.id.name == name]
     if not there:
-        raise InputError(f"no channel has noise at rest to look at; there could be {_list()}")
+        raise InputError(
+            f"no channel has noise at rest to analyse; possible channels are {_list()}"
+        )
     known = {str(c.id) for c in there} | {c.id.name for c in there}
     for name in names:
         if name not in known:
             here = ", ".join(str(c.id) for c in there)
-            raise InputError(f"channel {name}: not one to look at here; there are {here}")
+            raise InputError(f"channel {name}: cannot be analysed here; there are {here}")
     return tuple(c for c in there if not names or {c.id.name, str(c.id)} & set(names))
 
 
 def allan_report(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> dict[str, Any]:
-    """Return what `floatref allan --json` prints."""
+    """Return the JSON document of `floatref allan --json`."""
     return {
-        "settings": {name: _rounded(value) for name, (value, _) in recommended(found).items()},
+        "settings": {name: _round(value) for name, (value, _) in recommend_settings(found).items()},
         "channels": [_channel_report(noise) for noise in found],
         "warnings": list(warnings),
     }
 
 
-def recommended(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, ChannelNoise]]:
-    """Return settings of the Kalman pipelines in SI units, and the channel that each is from.
+def recommend_settings(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, ChannelNoise]]:
+    """Return settings of the Kalman pipelines in SI units, and the channel of each.
 
-    Of several wheel paths the noisiest counts. What the data do not show, or a curve that is off by
-    `POOR` somewhere, gives no setting.
+    Of several wheel paths the noisiest counts. A coefficient that the data do not show, or a curve
+    that is off by `POOR` somewhere, gives no setting.
     """
     settings = {}
     for name, (channel, term) in SETTINGS.items():
@@ -95,14 +97,14 @@ def recommended(found: Sequence[ChannelNoise]) -> dict[str, tuple[float, Channel
     return settings
 
 
-def doubts(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
-    """Yield warnings about the noise that was found in ``channel``, one line each."""
+def check_noise(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
+    """Yield warnings about the noise of ``channel``, one line each."""
     stretch, where = noise.stretch, f"channel {noise.id}"
     span = f"{noise.begin_s:.6g} s to {noise.end_s:.6g} s"
     if stretch.left_out:
         yield (
-            f"{where}: samples missing or at uneven times; {span} is the longest stretch without, "
-            f"and {100 * stretch.count / channel.values.size:.3g} % of all; the rest is left out"
+            f"{where}: samples missing or at uneven times; {span} is the longest complete stretch, "
+            f"and {100 * stretch.count / channel.values.size:.3g} % of all; the rest is not used"
         )
     held_s = stretch.longest_held * stretch.interval_s
     if held_s >= STUCK_S and stretch.longest_held > STUCK * stretch.held:
@@ -122,8 +124,8 @@ def doubts(noise: ChannelNoise, channel: Channel) -> Iterator[str]:
         )
 
 
-def travelled(recording: Recording) -> Iterator[str]:
-    """Yield warnings about a recording that is not, or not all, one at rest."""
+def check_stationary(recording: Recording) -> Iterator[str]:
+    """Yield warnings about a recording that was not, or not completely, made at rest."""
     for channel in recording.channels:
         if channel.id.name == "distance":
             summary = Summary.of(channel.values)
@@ -182,7 +184,7 @@ def _coefficient(noise: ChannelNoise, term: str) -> dict[str, Any]:
     }
 
 
-def _rounded(value: float) -> float:
+def _round(value: float) -> float:
     return float(f"{value:.{DIGITS}g}")
 
 

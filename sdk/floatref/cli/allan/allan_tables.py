@@ -1,4 +1,4 @@
-"""What `floatref allan` prints: channels, their noise coefficients, and settings."""
+"""The tables of `floatref allan`: channels, their noise coefficients, and settings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import nan, pi
@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import click
 
-from floatref.cli.allan.allan_report import SETTINGS, recommended, unit_of
+from floatref.cli.allan.allan_report import SETTINGS, recommend_settings, unit_of
 from floatref.cli.printing import number, print_table
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
@@ -30,7 +30,7 @@ CUSTOMARY: Mapping[str, tuple[float, str]] = MappingProxyType(
         "rad": (DEGREES, "deg"),
     }
 )
-"""What to multiply a coefficient by, and the unit that data sheets give it in."""
+"""Factor from a coefficient to the unit of data sheets, and that unit."""
 
 
 def print_tables(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> None:
@@ -49,7 +49,7 @@ def print_tables(found: Sequence[ChannelNoise], warnings: Sequence[str]) -> None
 
 
 def _title(noise: ChannelNoise) -> str:
-    """Return what was analysed, how it spreads, and how well the curve describes it."""
+    """Return the analysed span, its standard deviation, and the error of the curve."""
     factor, at_s = noise.fit.worst()
     unit = noise.unit.replace("^2", "²")
     return (
@@ -60,7 +60,7 @@ def _title(noise: ChannelNoise) -> str:
 
 
 def _rows(noise: ChannelNoise, term: str) -> Iterator[list[str]]:
-    """Yield the row of ``term`` if it is there, or bounded where a setting asks for it."""
+    """Yield the row of ``term`` if it was found, or its bound if a setting needs it."""
     value, unit = getattr(noise.fit.coefficients, term), unit_of(term, noise.unit)
     name = term.replace("_", " ")
     if value > 0:
@@ -81,7 +81,7 @@ def _rows(noise: ChannelNoise, term: str) -> Iterator[list[str]]:
 
 
 def _setting_rows(found: Sequence[ChannelNoise]) -> Iterator[list[str]]:
-    values = recommended(found)
+    values = recommend_settings(found)
     for name, (channel, term) in SETTINGS.items():
         if name in values:
             value, noise = values[name]

@@ -1,4 +1,4 @@
-"""`floatref allan`: the noise of sensors at rest, and the settings that it gives."""
+"""`floatref allan`: the noise of sensors at rest, and settings from it."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
@@ -6,7 +6,12 @@ from pathlib import Path
 
 import click
 
-from floatref.cli.allan.allan_report import allan_report, chosen, doubts, travelled
+from floatref.cli.allan.allan_report import (
+    allan_report,
+    check_noise,
+    check_stationary,
+    choose_channels,
+)
 from floatref.cli.allan.allan_tables import print_tables
 from floatref.cli.printing import print_json
 from floatref.errors import InputError
@@ -53,11 +58,11 @@ def allan(
     _check_targets(settings, plot)
     read = recording_of(recording, adapter).recording
     with naming(recording):
-        found, warnings = _analysed(read, names, between, quiet=as_json)
+        found, warnings = _analyse(read, names, between, quiet=as_json)
         report = allan_report(found, warnings)
         if settings is not None and not report["settings"]:
-            raise InputError("shows no setting; record accelerometers and gyros, for longer")
-    with _drawn(found, plot):
+            raise InputError("gives no setting; record accelerometers and gyros, for longer")
+    with _draw(found, plot):
         if settings is not None:
             with replacing_file(settings) as beside:
                 write_document(report["settings"], beside)
@@ -65,7 +70,7 @@ def allan(
 
 
 def _check_targets(settings: Path | None, plot: Path | None) -> None:
-    """Refuse before the work what would be refused after it."""
+    """Raise InputError now for a target to which writing would fail later."""
     if settings is not None:
         check_target(settings)
     if plot is not None:
@@ -75,33 +80,37 @@ def _check_targets(settings: Path | None, plot: Path | None) -> None:
         check_drawing(plot)
 
 
-def _analysed(
+def _analyse(
     recording: Recording, names: tuple[str, ...], between: tuple[float, float] | None, quiet: bool
 ) -> tuple[list[ChannelNoise], list[str]]:
-    """Return the noise of every channel that can be used, and warnings.
+    """Return the noise of every usable channel, and warnings.
 
-    One that cannot be is a warning, unless it was asked for by name or is the only one.
+    An unusable channel gives a warning, or an InputError if it was named or is the only one.
     """
-    channels, found, warnings = chosen(recording, names), [], list(travelled(recording))
-    for channel, progress in _shown(channels, quiet):
+    channels, found, warnings = (
+        choose_channels(recording, names),
+        [],
+        list(check_stationary(recording)),
+    )
+    for channel, progress in _show_progress(channels, quiet):
         try:
             noise = channel_noise(channel, between, progress)
         except InputError as error:
             if names or len(channels) == 1:
                 raise
-            warnings.append(f"{error}; left out")
+            warnings.append(f"{error}; not analysed")
             continue
         found.append(noise)
-        warnings.extend(doubts(noise, channel))
+        warnings.extend(check_noise(noise, channel))
     if not found:
         raise InputError(f"no channel can be used: {warnings[-1]}")
     return found, warnings
 
 
-def _shown(
+def _show_progress(
     channels: tuple[Channel, ...], quiet: bool
 ) -> Iterator[tuple[Channel, Callable[[float], None]]]:
-    """Yield every channel and what to tell its progress, under a bar on a terminal."""
+    """Yield every channel and a function to report its progress, under a bar on a terminal."""
     from rich.console import Console
     from rich.progress import Progress
 
@@ -122,8 +131,8 @@ def _shown(
 
 
 @contextmanager
-def _drawn(found: list[ChannelNoise], plot: Path | None) -> Iterator[None]:
-    """Draw beside ``plot``; the drawing gets its name once all else is written."""
+def _draw(found: list[ChannelNoise], plot: Path | None) -> Iterator[None]:
+    """Draw beside ``plot``; the drawing gets its name after everything else is written."""
     if plot is None:
         yield
         return

@@ -1,4 +1,4 @@
-"""What `floatref batch` prints at its end."""
+"""The progress and the final report of `floatref batch`."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,47 +19,49 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 EVERY_S = 30.0
-"""Between two plain lines."""
+"""Time in s between two plain lines."""
 
 REFRESH_S = 5.0
-"""Until a bar is drawn anew, with the number of workers."""
+"""Time in s until a bar is drawn again, with the number of workers."""
 
 
 @contextmanager
 def progress(
     tally: Tally, stream: TextIO, workers: Callable[[], int], every_s: float = EVERY_S
 ) -> Iterator[Callable[[], None]]:
-    """Show ``tally`` on ``stream`` as it grows; yield what is to be called when it has."""
+    """Show ``tally`` on ``stream`` as it grows; yield the function to call after each change."""
     from rich.console import Console
 
     console = Console(file=stream)
     if console.is_terminal:
-        with _bar(tally, console) as show, _regularly(lambda: show(workers()), REFRESH_S):
+        with _bar(tally, console) as show, _call_regularly(lambda: show(workers()), REFRESH_S):
             yield show
         return
-    with _regularly(lambda: print(said(tally, workers()), file=stream, flush=True), every_s):
+    with _call_regularly(
+        lambda: print(describe_progress(tally, workers()), file=stream, flush=True), every_s
+    ):
         yield lambda: None
 
 
 @contextmanager
 def _bar(tally: Tally, console: "Console") -> Iterator[Callable[..., None]]:
-    """Yield what moves a bar to where ``tally`` is; it keeps the number of workers if given."""
+    """Yield a function that sets a bar to ``tally``; it stores the number of workers if given."""
     from rich.progress import BarColumn, Progress, TextColumn
 
     columns = (BarColumn(), TextColumn("{task.description}"))
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(said(tally), total=1.0)
+        task = bar.add_task(describe_progress(tally), total=1.0)
         known: list[int] = []
 
         def show(*workers: int) -> None:
             known[:] = workers or known
-            bar.update(task, completed=tally.part, description=said(tally, *known))
+            bar.update(task, completed=tally.part, description=describe_progress(tally, *known))
 
         yield show
 
 
-def said(tally: Tally, workers: int | None = None) -> str:
-    """Return one line, what matters least last: a narrow terminal cuts it off."""
+def describe_progress(tally: Tally, workers: int | None = None) -> str:
+    """Return one line on ``tally``, the least important last: a narrow terminal truncates it."""
     now_s = monotonic()
     parts = [f"{tally.seen} of {tally.files} files", f"{len(tally.failed)} failed"]
     left_s = tally.left_s(now_s)
@@ -81,8 +83,8 @@ def duration(seconds: float) -> str:
 
 
 @contextmanager
-def _regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
-    """Call ``act`` every so often, also while no file comes to its end."""
+def _call_regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
+    """Call ``act`` every ``every_s`` s, also while no file is completed."""
     over = Event()
 
     def repeat() -> None:
@@ -99,14 +101,14 @@ def _regularly(act: Callable[[], None], every_s: float) -> Iterator[None]:
 
 
 FAILURES = 20
-"""Files without a profile that are listed; all of them are in the summary."""
+"""Largest number of listed files without a profile; all of them are in the summary."""
 
 NAMES = 3
-"""Names that a remark tells of those that there are."""
+"""Largest number of names in a remark."""
 
 
 def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
-    """Print counts, the roughest segments, failures with their reasons, and what was written."""
+    """Print counts, the roughest segments, failures with their reasons, and the written files."""
     _print_counts(document)
     if tally.roughest:
         _print_roughest(tally)
@@ -116,17 +118,20 @@ def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
 
 
 def tell_remarks(passed_over: Sequence[Path], no_longer_given: Sequence[str]) -> None:
-    """Print a warning on files that are no recordings, and on profiles that stay from before."""
+    """Print warnings on files that are not recordings, and on profiles of earlier inputs."""
     if passed_over:
-        names = counted([path.name for path in passed_over])
-        click.echo(f"Warning: passed over, no recordings that we know: {names}", err=True)
+        names = count_names([path.name for path in passed_over])
+        click.echo(f"Warning: skipped, not recordings of a known format: {names}", err=True)
     if no_longer_given:
-        names = counted(no_longer_given)
-        click.echo(f"Warning: no longer given, kept, not in the summary: {names}", err=True)
+        names = count_names(no_longer_given)
+        click.echo(
+            f"Warning: no longer given; the profiles remain but are not in the summary: {names}",
+            err=True,
+        )
 
 
-def counted(names: Sequence[str]) -> str:
-    """Return how many ``names`` there are, and the first of them."""
+def count_names(names: Sequence[str]) -> str:
+    """Return the number of ``names``, and the first of them."""
     more = ", ..." if len(names) > NAMES else ""
     files = "1 file" if len(names) == 1 else f"{len(names)} files"
     return f"{files} ({', '.join(names[:NAMES])}{more})"

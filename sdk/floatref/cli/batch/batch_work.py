@@ -1,4 +1,4 @@
-"""What `floatref batch` does: a folder, a cluster, every file, and one summary of them all."""
+"""The work of `floatref batch`: open folder and cluster, process all files, write one summary."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -27,7 +27,7 @@ from floatref.cli.batch.batch_report import progress, tell_remarks
 
 @dataclass(frozen=True)
 class Work:
-    """What the command was asked for, as it was typed."""
+    """The arguments of the command, as given."""
 
     given: Sequence[str]
     defaults: Defaults
@@ -39,7 +39,7 @@ class Work:
 
     @property
     def command(self) -> Command:
-        """Return what batch.json tells of it."""
+        """Return the command as stored in batch.json."""
         options = asdict(self.defaults)
         chart = options.pop("channel_map")
         return Command(
@@ -55,12 +55,12 @@ class Work:
 
 
 def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
-    """Process what was ``found``, count it in ``tally``, and return what batch.json holds.
+    """Process the files ``found``, count them in ``tally``, and return the content of batch.json.
 
     Raises InputError for a folder or a cluster that cannot be used.
     """
     with prepared(work.out, work.resume), returned_records(work.out) as returned:
-        workers = _processed(found.jobs, work, tally, returned)
+        workers = _process(found.jobs, work, tally, returned)
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
@@ -73,8 +73,8 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
     return document
 
 
-def _processed(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
-    """Fill ``tally`` and ``returned``; return how many workers there were."""
+def _process(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) -> int:
+    """Fill ``tally`` and ``returned``; return the number of workers."""
     with (
         silence() as shown,
         connect(work.out, work.jobs, work.cluster) as client,

@@ -53,7 +53,11 @@ SOME_FAILED = 5
     help="Workers on this machine; by default one per processor.",
 )
 @click.option("--cluster", metavar="URL", help="Address of a Dask scheduler, as tcp://HOST:8786.")
-@click.option("--resume", is_flag=True, help="Go on in DIR; keep what is done and unchanged.")
+@click.option(
+    "--resume",
+    is_flag=True,
+    help="Continue in DIR; do not repeat files that are done and unchanged.",
+)
 @click.option(
     "--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw the summary too."
 )
@@ -79,9 +83,9 @@ def batch(
     row of the summary, and the exit code is 5.
     """
     if jobs and cluster:
-        raise InputError("--jobs is for workers of this machine; leave it or --cluster out")
+        raise InputError("--jobs is for workers of this machine; omit it or --cluster")
     tally = Tally()
-    with interruptible(lambda: _interrupted(tally)):
+    with interruptible(lambda: _describe_interruption(tally)):
         check_installed()
         _check_drawing(plot, out)
         defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
@@ -93,7 +97,7 @@ def batch(
 
 
 def _check_drawing(plot: Path | None, out: Path) -> None:
-    """Refuse before the work what would be refused after it; ``out`` may have to be made."""
+    """Raise InputError now if drawing would fail later; ``out`` may not exist yet."""
     if plot is None:
         return
     from floatref.plots import check_drawing
@@ -103,8 +107,8 @@ def _check_drawing(plot: Path | None, out: Path) -> None:
     check_drawing(plot)
 
 
-def _interrupted(tally: Tally) -> str:
-    """Return one line on how far the command came."""
+def _describe_interruption(tally: Tally) -> str:
+    """Return one line on the number of files that are done."""
     if not tally.seen:
         return "Interrupted before any file was done"
     return (

@@ -14,10 +14,10 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def interruptible(line: Callable[[], str]) -> Iterator[None]:
-    """Let both signals raise KeyboardInterrupt once, and end with what ``line`` says.
+    """Let both signals raise KeyboardInterrupt once, and end with the text of ``line``.
 
-    After the first one both are ignored, so that what has to be stopped is stopped. A signal
-    that was ignored before stays so.
+    After the first one both are ignored, so that workers can be stopped. A signal that was ignored
+    before stays ignored.
     """
     before = {number: signal.getsignal(number) for number in SIGNALS}
     caught = [number for number in SIGNALS if before[number] != signal.SIG_IGN]

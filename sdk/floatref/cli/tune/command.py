@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     required=True,
     type=click.Path(path_type=Path),
     metavar="PROFILE",
-    help="Of the road of all runs, on the same axis of distance.",
+    help="Profile of the road of all runs, on the same axis of distance.",
 )
 @click.option(
     "--out",
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     "--settings",
     type=click.Path(path_type=Path),
     metavar="FILE.json",
-    help="Settings to keep, and to begin with.",
+    help="Settings that stay fixed, and initial values.",
 )
 @click.option("--adapter", metavar="NAME", help="Read every RECORDING with this adapter.")
 @click.option(
@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     metavar="METRES",
     help="Largest offset searched.",
 )
-@click.option("--overwrite", is_flag=True, help="Replace what is there.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing target.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw it too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def tune(
@@ -78,22 +78,22 @@ def tune(
 ) -> None:
     """Tune the noise of the accelerations and the rates to runs whose road profile is known.
 
-    Follows section 6.4.4 of the dissertation: no harm at high speed first, then braking, stops and
-    low speed. Runs are told apart by their encoders. `floatref process --settings` reads the
+    Follows section 6.4.4 of the dissertation: first no loss at high speed, then braking, stops and
+    low speed. Runs are classified by their encoders. `floatref process --settings` reads the
     result.
     """
     _check_targets(out, plot, overwrite)
     given = read_settings(settings)
     expected = profile_of(reference)
     runs = _read(recordings, adapter)
-    tuning = _tuned(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
-    with _drawn(tuning, plot), replacing_file(out, overwrite) as beside:
+    tuning = _tune(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
+    with _draw(tuning, plot), replacing_file(out, overwrite) as beside:
         write_document(tuning.settings, beside)
     print_json(tune_report(tuning, out)) if as_json else print_tables(tuning, out)
 
 
 def _check_targets(out: Path, plot: Path | None, overwrite: bool) -> None:
-    """Refuse before the work what would be refused after it."""
+    """Raise InputError now for a target to which writing would fail later."""
     check_target(out, overwrite)
     if out.is_dir():
         raise InputError(f"{out}: is a folder; give the name of a file to write")
@@ -108,7 +108,7 @@ def _check_targets(out: Path, plot: Path | None, overwrite: bool) -> None:
 
 
 def _read(sources: tuple[Path, ...], adapter: str | None) -> dict[str, Recording]:
-    """Return the recordings by the shortest names that tell them apart."""
+    """Return the recordings by the shortest names that are distinct."""
     short = [source.resolve().name for source in sources]
     names = short if len(set(short)) == len(short) else [str(source) for source in sources]
     places = [source.resolve() for source in sources]
@@ -121,7 +121,7 @@ def _read(sources: tuple[Path, ...], adapter: str | None) -> dict[str, Recording
     }
 
 
-def _tuned(
+def _tune(
     runs: Mapping[str, Recording],
     reference: Profile,
     pipeline: str,
@@ -131,13 +131,13 @@ def _tuned(
 ) -> "Tuning":
     from floatref.tuning import tune as tuned
 
-    with _shown(quiet) as (tell, done):
+    with _show_progress(quiet) as (tell, done):
         return tuned(runs, reference, pipeline, given, max_offset_m, tell, done)
 
 
 @contextmanager
-def _shown(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int], None]]]:
-    """Yield what to tell of steps and profiles, which a terminal shows as they come."""
+def _show_progress(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int], None]]]:
+    """Yield functions to report steps and profiles, which a terminal shows at once."""
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -164,8 +164,8 @@ def _shown(quiet: bool) -> Iterator[tuple[Callable[[str], None], Callable[[int],
 
 
 @contextmanager
-def _drawn(tuning: "Tuning", plot: Path | None) -> Iterator[None]:
-    """Draw beside ``plot``; the drawing gets its name once all else is written."""
+def _draw(tuning: "Tuning", plot: Path | None) -> Iterator[None]:
+    """Draw beside ``plot``; the drawing gets its name after everything else is written."""
     if plot is None:
         yield
         return

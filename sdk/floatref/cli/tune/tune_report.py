@@ -1,4 +1,4 @@
-"""What `floatref tune` reports: values, scores of the runs, sensitivity, and what to doubt."""
+"""The report of `floatref tune`: values, scores of the runs, sensitivity and warnings."""
 
 from collections.abc import Iterator
 from math import isnan, nan
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from floatref.tuning.sensitivity import Sensitivity
 
 FEELS = 0.02
-"""A run whose loss rises by more depends on the precision of a value."""
+"""Rise of a run's loss above which it depends on the precision of a value."""
 
 
 def tune_report(tuning: "Tuning", out: Path) -> dict[str, Any]:
-    """Return what `floatref tune --json` prints."""
+    """Return the JSON document of `floatref tune --json`."""
     return {
         "pipeline": tuning.pipeline,
         "file": str(out),
@@ -38,14 +38,14 @@ def tune_report(tuning: "Tuning", out: Path) -> dict[str, Any]:
 
 
 def warnings_of(tuning: "Tuning") -> Iterator[str]:
-    """Yield one line for each thing that the result does not silently hide."""
+    """Yield one line for each thing that the user of the result should know."""
     yield from tuning.prepared.warnings
     if tuning.prepared.missing:
         yield f"recommended, and not among the runs: {'; '.join(tuning.prepared.missing)}"
     if not tuning.harmless:
         yield (
             "no values are as good as the nominal profiler at high speed and in light braking; "
-            "look at these runs' scores before you use the settings"
+            "check these runs' scores before you use the settings"
         )
     for name, run in tuning.prepared.runs.items():
         limit = run.comparison.max_offset_m
@@ -65,7 +65,7 @@ def warnings_of(tuning: "Tuning") -> Iterator[str]:
 
 
 def loss_curves(tuning: "Tuning") -> dict[str, dict[str, tuple[list[float], list[float]]]]:
-    """Return factors and losses by run by setting, as the drawing takes them."""
+    """Return factors and losses by setting and run, as the drawing needs them."""
     return {
         item.setting: {
             name: (list(item.scores), item.losses(name)) for name in tuning.prepared.runs
@@ -146,7 +146,7 @@ AGREEMENT = (
 )
 CHANGED = ("setting", "value", "loss at 0.71", "at 1", "at 1.41", "largest rise", "in")
 ENOUGH = 10.0
-"""Errors beyond tenfold are told as that."""
+"""Relative error from which it is printed as a factor."""
 
 
 def print_tables(tuning: "Tuning", out: Path) -> None:
@@ -175,7 +175,7 @@ def _value_row(tuning: "Tuning", name: str) -> list[str]:
 
 
 def _run_rows(tuning: "Tuning", name: str) -> Iterator[list[str]]:
-    """Yield a row for each wheel path; name and kind stand in the first."""
+    """Yield a row for each wheel path; name and kind are in the first."""
     comparison = tuning.prepared.runs[name].comparison
     each = (tuning.prepared.nominal[name], tuning.before[name], tuning.after[name])
     begin = [name, str(comparison.drive.kind)]

@@ -1,1 +1,1 @@
-"""Samples that are there and measure nothing: saturated, stuck, lost counts of the encoder."""
+"""Samples that are present but measure nothing: saturated, stuck, lost encoder counts."""

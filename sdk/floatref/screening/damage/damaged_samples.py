@@ -1,7 +1,7 @@
-"""Samples of a sensor that are there and yet measure nothing, and runs of identical samples.
+"""Samples of a sensor that are present but measure nothing, and runs of identical samples.
 
-What identical samples mean is judged by the channel itself, so that a coarse or a slow sensor,
-which repeats itself anyway, is not suspected.
+Runs of identical samples are compared with the usual runs of the same channel, so that a coarse or
+slow sensor, which always repeats samples, is not suspected.
 """
 
 from dataclasses import dataclass, field
@@ -18,12 +18,12 @@ EVERY = (np.inf, -np.inf)
 
 @dataclass(frozen=True, eq=False)
 class Damage:
-    """Stretches of a channel to be left out; shape (k, 2): first index and the one behind.
+    """Stretches of a channel to exclude; shape (k, 2): first index and the one behind.
 
     Attributes:
         gone: not measured, to be bridged.
-        lasting: of these or others, what disturbs the samples that follow, however short.
-        void: not measured, and no line between the neighbours is what it was.
+        lasting: of these or others, stretches that disturb the samples after them, at any length.
+        void: not measured, and a line between the neighbours is not a valid bridge.
         warnings: one line for each kind.
     """
 
@@ -72,7 +72,7 @@ class Runs:
 
 @dataclass(frozen=True, eq=False)
 class Usual:
-    """How long the runs of identical samples of a channel are, and its smallest step.
+    """The lengths of a channel's runs of identical samples, and its smallest step.
 
     Attributes:
         held: number of runs of each length, shape (n,); longer ones count as the longest.
@@ -86,7 +86,7 @@ class Usual:
 
     @classmethod
     def of(cls, values: FloatArray, over: float = 0.0) -> "Usual":
-        """Count the runs of ``values``, shape (N,), that end by a step of more than ``over``."""
+        """Count the runs of ``values``, shape (N,), that end with a step of more than ``over``."""
         from floatref.kernels import holds
 
         memory, held = holds.new_count(), np.zeros(holds.LONGEST, np.int64)
@@ -97,25 +97,25 @@ class Usual:
 
     @property
     def samples(self) -> int:
-        """How many samples there are."""
+        """Number of samples."""
         return int(self._lying().sum())
 
     @property
     def hold(self) -> float:
-        """Length of the run in the middle: that of a sensor's holds, whatever is damaged."""
+        """Median length of the runs: the usual hold of the sensor, with or without damage."""
         return self._middle(self.held)
 
     def beside(self, length: int) -> float:
-        """Return the length of the runs that half of all other samples lie in.
+        """Return the length of run within which half of all other samples lie.
 
-        Other than those of one run of ``length``: what is damaged does not tell what is usual.
+        One run of ``length`` is excluded, because a damaged run must not count as usual.
         """
         samples = self._lying()
         samples[min(length, samples.size - 1)] -= length
         return self._middle(samples)
 
     def _lying(self) -> IndexArray:
-        """How many samples lie in runs of each length."""
+        """Number of samples in runs of each length."""
         return np.append(self.held[:-1] * np.arange(self.held.size - 1), self.longest)
 
     @staticmethod
@@ -125,7 +125,7 @@ class Usual:
 
 
 def extremes(values: FloatArray) -> tuple[float, float]:
-    """Return the least and the greatest of the samples that are there."""
+    """Return the smallest and the largest of the samples that are not missing."""
     least, greatest = np.inf, -np.inf
     for _, chunk in chunks(values):
         least = np.fmin(least, np.fmin.reduce(chunk))
@@ -133,8 +133,8 @@ def extremes(values: FloatArray) -> tuple[float, float]:
     return float(least), float(greatest)
 
 
-def told(channel: Channel, spans: IndexArray, what: str) -> str:
-    """Return one line that says ``what`` is wrong in ``spans`` of ``channel``, and where."""
+def describe_damage(channel: Channel, spans: IndexArray, what: str) -> str:
+    """Return one line on the damage ``what`` in ``spans`` of ``channel``."""
     lengths = spans[:, 1] - spans[:, 0]
     begin = float(channel.clock.times(1, int(spans[np.argmax(lengths), 0]))[0])
     return (
@@ -144,7 +144,7 @@ def told(channel: Channel, spans: IndexArray, what: str) -> str:
 
 
 def within(spans: IndexArray, low: int, high: int) -> BoolArray | None:
-    """Return which of samples ``low`` to ``high - 1`` lie in ``spans``; None if none does.
+    """Return which of samples ``low`` to ``high - 1`` lie in ``spans``; None if no sample does.
 
     ``spans`` are in order and do not overlap.
     """
@@ -158,8 +158,8 @@ def within(spans: IndexArray, low: int, high: int) -> BoolArray | None:
     return np.cumsum(edges[:-1]) > 0
 
 
-def merged(spans: IndexArray) -> IndexArray:
-    """Return ``spans``, shape (k, 2), in order, those that touch or overlap as one."""
+def merge(spans: IndexArray) -> IndexArray:
+    """Return ``spans``, shape (k, 2), in order; those that touch or overlap are joined."""
     found: list[list[int]] = []
     for begin, end in sorted(spans.tolist()):
         if found and begin <= found[-1][1]:

@@ -1,9 +1,9 @@
-"""Encoder samples that tell no travel: behind where it has been, leaps, silence, lost counts."""
+"""Encoder samples that do not measure travel: steps back, jumps, silence, lost counts."""
 
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.screening.damage.damaged_samples import NONE, Damage, told
+from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
 from floatref.screening.damage.encoder_path import (
     AFTER_GAP,
     BEFORE_STEP,
@@ -18,29 +18,30 @@ from floatref.values.encoder import FASTEST_MPS
 from floatref.values.recording import Channel
 
 SOUND, SILENT, LEAPT, FAST, SLOW, STALLED = range(6)
-"""What the way to a knot is: travelled, made up for at once after a silence, a leap, too many
-counts, too few, none for too long."""
+"""Kinds of the distance to a knot: travelled, caught up at once after a silence, a jump, too many
+counts, too few counts, no counts for too long."""
 HARDEST = 2.0 * STANDARD_GRAVITY
-"""No vehicle brakes or speeds up so hard, in m/s²."""
+"""Limit of braking and speeding up of any vehicle, in m/s²."""
 UNEVEN = 0.2
 """A wheel that hops or is out of round is faster or slower than the vehicle by this share."""
 MOVING_MPS = 2.5
-"""At a lower speed lost counts are not looked for; there all is flagged as slow."""
+"""Below this speed lost counts are not searched for; everything there is flagged as slow."""
 LEAP = 5.0
-"""A step beyond so many usual ones, and beyond `FASTEST_MPS`, was not travelled in its time."""
+"""A step of more than this number of usual steps, faster than `FASTEST_MPS`, is a jump."""
 ROUGH = 1.5
-"""A way is known within so many usual steps."""
+"""Uncertainty of the distance between two knots, in usual steps."""
 LATE = 2.5
-"""A count that takes longer than so many usual intervals is late."""
+"""A count is late after more than this number of usual intervals."""
 SHORTEST_S, AT_ONCE = 0.02, 2.5
-"""An encoder that is held so long, and then takes more than so many usual steps, was silent."""
+"""An encoder was silent if it was constant for this time in s, and then took more than this number
+of usual steps."""
 MADE_UP = 2.5
-"""What comes at once after a silence is what was travelled meanwhile, within this factor."""
+"""The step after a silence is the distance travelled meanwhile, within this factor."""
 
 
 @compiled
-def least(speed: float, time_s: float) -> float:
-    """Return how far a vehicle gets at least that has ``speed`` in m/s, in m."""
+def shortest_travel(speed: float, time_s: float) -> float:
+    """Return the shortest distance in m that a vehicle at ``speed`` in m/s travels."""
     braked_s = min(time_s, max(speed, 0.0) / HARDEST)
     return (max(speed, 0.0) - 0.5 * HARDEST * braked_s) * braked_s
 
@@ -49,14 +50,14 @@ def least(speed: float, time_s: float) -> float:
 def judge(
     table: FloatArray, before: FloatArray, off_m: float, usual_m: float, kinds: IndexArray
 ) -> None:
-    """Write to ``kinds`` what the way to every row of ``table`` is, except the first.
+    """Write to ``kinds`` the kind of distance to every row of ``table`` except the first.
 
     Columns are the time in s, the distance in m and the number of steps since the row before; of
-    the largest step its height, its time, the time since the first sample as far, and the time
-    that the encoder was held; of the longest interval its beginning, its time and its height; and
-    how much farther the vehicle may be than it counts. ``before`` is the distance, the time and
-    the number of steps of two ways like the first; ``off_m`` how far off a knot may be, ``usual_m``
-    the usual step. A way is judged by the two sound ones before it.
+    the largest step its height, its time, the time since the first sample as far, and the time that
+    the encoder was held; of the longest interval its beginning, its time and its height; and how
+    much farther the vehicle may be than the counts. ``before`` is the distance, the time and the
+    number of steps of two ways like the first; ``off_m`` the largest error of a knot, ``usual_m``
+    the usual step. A distance is judged by the two undamaged ones before it.
     """
     old_m, old_s, old_n = before
     new_m, new_s, new_n = before
@@ -72,7 +73,7 @@ def judge(
         most = ((1.0 + UNEVEN) * speed + unsure + 0.5 * HARDEST * took) * took
         steep = step > max(FASTEST_MPS * table[k, 4] + LEAP * local, MADE_UP * speed * since_s)
         moving, at_gap = speed >= MOVING_MPS, slowest - HARDEST * (table[k, 7] - start)
-        stops = table[k, 9] + hidden + off_m < least(at_gap, table[k, 8])
+        stops = table[k, 9] + hidden + off_m < shortest_travel(at_gap, table[k, 8])
         held = table[k, 6] > 0.0 and since_s >= SHORTEST_S
         kind = SOUND
         if moving and stops and speed * table[k, 8] > LATE * local:
@@ -80,7 +81,7 @@ def judge(
         elif steep or way > min(most, FASTEST_MPS * took) + ROUGH * local:
             own = step - speed * table[k, 4]
             kind = LEAPT if own >= 0.5 * (way - speed * took) else FAST
-        elif moving and way + hidden + ROUGH * local < least(slowest, took):
+        elif moving and way + hidden + ROUGH * local < shortest_travel(slowest, took):
             kind = SLOW
         elif held and step > AT_ONCE * local and step * MADE_UP > speed * since_s:
             kind = SILENT
@@ -91,19 +92,19 @@ def judge(
 
 
 OFF = 3.0
-"""Knots are off by up to so many times what neighbouring ways usually differ by."""
+"""Largest error of a knot, in usual differences of neighbouring distances."""
 FIRST = 9
-"""So many ways tell the speed at the beginning, by their middle one."""
+"""Number of distances whose median gives the speed at the beginning."""
 ONE_COUNT = 1.5
-"""What lies behind by one usual step trembles; up to so many is one."""
+"""A sample up to this number of usual steps behind is a tremble by one count."""
 
 
 def encoder_damage(channel: Channel) -> Damage:
-    """Return which samples of a distance ``channel`` tell no travel.
+    """Return which samples of a distance ``channel`` do not measure travel.
 
-    Samples behind where the encoder has been, spikes, and a silence that it makes up for
-    afterwards, are bridged. Leaps, and counts that are lost or too many, are void, since no line is
-    what was travelled, and lasting: engines that are triggered by the encoder integrate over them.
+    Samples behind the farthest one so far, spikes, and a silence that the encoder catches up
+    afterwards, are bridged. Jumps, and lost or surplus counts, are void, since a line does not give
+    the travelled distance, and lasting: engines that the encoder triggers integrate over them.
     """
     path = EncoderPath.of(channel)
     kinds = _kinds(path)
@@ -112,22 +113,22 @@ def encoder_damage(channel: Channel) -> Damage:
     leapt[:, 1] = path.knots[kinds == LEAPT, STEP] + 1
     fast = path.ways(kinds == FAST)
     stalled = path.between(kinds == STALLED, GAP, AFTER_GAP)
-    lost = merged(stalled, path.ways(kinds == SLOW))
-    deep = merged(path.behind[path.depths > ONE_COUNT * path.usual_m])
-    void = merged(leapt, fast, lost)
+    lost = merge_stretches(stalled, path.ways(kinds == SLOW))
+    deep = merge_stretches(path.behind[path.depths > ONE_COUNT * path.usual_m])
+    void = merge_stretches(leapt, fast, lost)
     said = (
         (deep, "goes back"),
-        (silent, "silent and made up for"),
+        (silent, "silent and caught up"),
         (leapt, "leaps"),
-        (merged(fast), "counts too much"),
+        (merge_stretches(fast), "counts too much"),
         (lost, "loses counts"),
     )
-    lines = tuple(told(channel, spans, what) for spans, what in said if spans.size)
-    return Damage(merged(path.behind, silent), void, void, lines)
+    lines = tuple(describe_damage(channel, spans, what) for spans, what in said if spans.size)
+    return Damage(merge_stretches(path.behind, silent), void, void, lines)
 
 
 def _kinds(path: EncoderPath) -> IndexArray:
-    """Return what the way to every knot of ``path`` is, as `travelled` says."""
+    """Return the kind of the distance to every knot of ``path``, as `judge` gives it."""
     kinds = np.zeros(len(path.knots), np.int64)
     if kinds.size < 3:
         return kinds
@@ -142,8 +143,8 @@ def _kinds(path: EncoderPath) -> IndexArray:
     return kinds
 
 
-def merged(*spans: IndexArray) -> IndexArray:
-    """Return stretches, shape (k, 2), in order; those that overlap or touch become one."""
+def merge_stretches(*spans: IndexArray) -> IndexArray:
+    """Return stretches, shape (k, 2), in order; those that overlap or touch are joined."""
     joined = np.concatenate([NONE, *spans])
     joined = joined[np.argsort(joined[:, 0], kind="stable")]
     ends = np.maximum.accumulate(joined[:, 1])

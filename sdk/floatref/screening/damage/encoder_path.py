@@ -1,4 +1,4 @@
-"""A distance at knots: where the encoder is farther than ever, and how it got there."""
+"""A distance at knots: samples where the encoder is farther than before, with the steps to them."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from floatref.values.recording import Channel
 from floatref.values.scanning import CHUNK, chunks
 
 KNOT_S = 0.025
-"""Knots are so far apart or more, as far as counts are."""
+"""Shortest time in s between knots, if the counts are that frequent."""
 KNOT, STEPS, STEP, BEFORE_STEP, FRONT, GAP, AFTER_GAP, FROM, LAST = range(9)
 """Columns of the knots: their sample and the number of steps to it; of the largest of these the
 sample, the last known one before it and the first as far as that; the samples that the longest
@@ -25,9 +25,9 @@ class EncoderPath:
     Attributes:
         channel: The distance.
         knots: Samples of every knot, shape (k, 8), columns as above; the last is the end.
-        distance: How far the encoder has been at each, in m.
+        distance: Farthest distance of the encoder up to each, in m.
         behind: Stretches of samples that lie behind, or are spikes, shape (b, 2).
-        depths: By how much, in m.
+        depths: How far these lie behind, in m.
         usual_m: The usual step in m.
     """
 
@@ -41,7 +41,7 @@ class EncoderPath:
     @classmethod
     def of(cls, channel: Channel) -> "EncoderPath":
         """Follow ``channel``; a channel of missing samples has no knots."""
-        knots, far, behind, depths = _followed(channel)
+        knots, far, behind, depths = _follow(channel)
         distance = channel.values[knots[:, KNOT]]
         steps = distance[1:-1] - channel.values[knots[1:-1, FROM]]
         distance[-1:] = far
@@ -49,7 +49,7 @@ class EncoderPath:
         return cls(channel, knots, distance, behind, depths, usual_m)
 
     def table(self) -> FloatArray:
-        """Return what `judge` judges, shape (k, 11)."""
+        """Return the table for `judge`, shape (k, 11)."""
         values, knots = self.channel.values, self.knots
         t = times_at(self.channel, knots[:, : AFTER_GAP + 1])
         step = values[knots[:, STEP]] - values[knots[:, FRONT]]
@@ -74,7 +74,8 @@ class EncoderPath:
     def between(self, chosen: BoolArray, before: int, behind: int) -> IndexArray:
         """Return the samples between two columns of the ``chosen`` knots, shape (k, 2).
 
-        If there is none, it is the later one: what lies between two counts hangs on it.
+        If no sample lies between them, the later column is returned, since the line between two
+        counts depends on it.
         """
         first, end = self.knots[chosen][:, [before, behind]].T
         return np.stack([first + 1, np.maximum(end, first + 2)], axis=1)
@@ -93,8 +94,8 @@ def times_at(channel: Channel, index: IndexArray) -> FloatArray:
     return np.asarray(clock.start_s + index / float(clock.rate))
 
 
-def _followed(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArray]:
-    """Return the knots, how far the encoder gets, what lies behind, and how deep that is."""
+def _follow(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArray]:
+    """Return the knots, the distance at each, the stretches behind, and how far behind they are."""
     from floatref.screening.damage import encoder_progress
 
     clock, values = channel.clock, channel.values
@@ -137,7 +138,7 @@ def _followed(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArr
 
 
 def _end(channel: Channel, knot: IndexArray, levels: FloatArray) -> IndexArray:
-    """Return the last known sample as a knot, behind which the encoder may stand."""
+    """Return the last known sample as a knot; the encoder may have been constant before it."""
     from floatref.screening.damage import encoder_progress
 
     front, last = knot[FROM], knot[LAST]

@@ -1,20 +1,20 @@
-"""How far an encoder has been, at knots, and what lies behind."""
+"""The farthest distance of an encoder at knots, and the samples that lie behind it."""
 
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray, IndexArray
 
 KNOT = 8
-"""Columns of a knot: its sample and the number of steps since the last one; of the largest of
-these the sample, the last known one before it, and the first as far as that; the two samples
-between which it took longest; and the sample that it was reached from."""
+"""Columns of a knot: its sample and the number of steps since the last one; of the largest of these
+the sample, the last known one before it, and the first as far as that; the two samples between
+which it took longest; and the sample before it."""
 FAR, BEFORE, KNOT_T, FAR_T, LONGEST, LARGEST, KNOT_X, USUAL = range(8)
-"""Levels: how far it has been, the last known sample, the times of the last knot and of the first
-sample as far, the longest interval and the largest step since the knot, its distance, and the
-usual step."""
+"""Levels: the farthest distance, the last known sample, the times of the last knot and of the first
+sample as far, the longest interval and the largest step since the knot, its distance, and the usual
+step."""
 FRONT, KNOWN = 7, 8
-"""Behind the columns of the knot to come: the first sample as far as any, and the last known."""
+"""After the columns of the next knot: the first sample at the farthest distance, the last known."""
 SPIKE = 5.0
-"""A spike is higher than so many steps of late, and comes back by half at least."""
+"""A spike is higher than this number of recent steps, and returns by at least half."""
 
 
 @compiled
@@ -30,13 +30,13 @@ def follow(
     behind: IndexArray,
     depths: FloatArray,
 ) -> tuple[int, int]:
-    """Follow ``x[:count]``; return how many rows of ``knots`` and of ``behind`` were written.
+    """Follow ``x[:count]``; return the numbers of rows written to ``knots`` and ``behind``.
 
-    ``x[0]`` is sample ``first`` of the channel; what is beyond ``count`` tells whether the last
-    one comes back at once. ``times`` are those of ``x``; if empty, time counts in samples. A knot
-    is a sample farther than all before it, ``apart`` or more after the last knot. A row of
-    ``behind`` is a stretch of samples that are less far, by up to its entry of ``depths``, or a
-    spike, which is as deep as high. Missing (NaN) samples are passed over.
+    ``x[0]`` is sample ``first`` of the channel; samples beyond ``count`` show whether the last one
+    returns at once. ``times`` are those of ``x``; if empty, time counts in samples. A knot is a
+    sample farther than all before it, ``apart`` or more after the last knot. A row of ``behind`` is
+    a stretch of samples behind the farthest, by up to its entry of ``depths``, or a spike, whose
+    depth is its height. Missing (NaN) samples are skipped.
 
     Of ``levels`` the distances, and the time of the knot, start as minus infinity, the usual step
     as infinite, all others as 0.
@@ -81,7 +81,7 @@ def _is_spike(value: float, after: float, far: float, last: float, usual: float)
 
 @compiled
 def _extend(behind: IndexArray, depths: FloatArray, back: int, now: int, depth: float) -> int:
-    """Add sample ``now`` to the last stretch, or begin one; return how many there are."""
+    """Add sample ``now`` to the last stretch, or begin one; return the number of stretches."""
     if back == 0 or behind[back - 1, 1] != now:
         behind[back, 0], depths[back] = now, 0.0
         back += 1
@@ -93,7 +93,7 @@ def _extend(behind: IndexArray, depths: FloatArray, back: int, now: int, depth: 
 def _tie(
     value: float, t: float, levels: FloatArray, coming: IndexArray, knots: IndexArray, rows: int
 ) -> int:
-    """Write the knot that came; return how many there are."""
+    """Write the new knot; return the number of knots."""
     for k in range(KNOT):
         knots[rows, k] = coming[k]
     levels[USUAL] = (value - levels[KNOT_X]) / coming[1]

@@ -1,36 +1,36 @@
-"""Samples of an accelerometer at the end of its range: what it missed there is not known."""
+"""Samples of an accelerometer at the end of its range: the true value there is unknown."""
 
 import numpy as np
 
-from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, extremes, told
+from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, describe_damage, extremes
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel
 
 SHORTEST = 3
-"""So many identical samples at the least or greatest of all are the end of the range."""
+"""Fewest identical samples at the smallest or largest value that are the end of the range."""
 OUTERMOST = 0.75 * STANDARD_GRAVITY
-"""A range ends this far from rest, in m/s², or farther."""
+"""Smallest distance of the end of a range from rest, in m/s²."""
 HELD = 3.0
-"""They are more than a hold, which so many times the usual number are."""
+"""A run of identical samples is longer than a hold beyond this number of usual lengths."""
 STAIR = 1.5
-"""A hold ends by more than so many smallest steps, else it is that of a coarse sensor."""
+"""A hold ends with a step above this number of smallest steps; else the sensor is coarse."""
 AROUND = 5.0
 FARTHEST = 1000
-"""How the swing goes on is looked at over as many samples as are identical: at least so many of
-the usual holds, at most so many samples."""
+"""The swing beside the run is examined over as many samples as the run has: at least the first
+number of usual holds, at most the second number of samples."""
 STEEP = 2.0
-"""It falls so many times farther than a smooth peak that is flat by rounding alone."""
+"""The swing falls this number of times farther than a smooth peak that is flat by rounding."""
 LONG = 6.0
 NOISY = 8.0
-"""It lasts so many holds, or falls by so many times the usual swing beside it: noise alone makes
-identical samples on a peak now and then, but neither."""
+"""The run lasts the first number of holds, or the swing falls by the second number of usual swings
+beside it: noise alone sometimes makes identical samples on a peak, but neither of these."""
 BESIDE = 250
-"""So many holds to either side tell the usual swing."""
+"""Number of holds on either side that give the usual swing."""
 
 
-def damaged_force(channel: Channel) -> Damage:
-    """Return where an accelerometer is at the end of its range."""
+def find_saturation(channel: Channel) -> Damage:
+    """Return the stretches in which an accelerometer is at the end of its range."""
     least, greatest = extremes(channel.values)
     low = least if least <= STANDARD_GRAVITY - OUTERMOST else -np.inf
     high = greatest if greatest >= STANDARD_GRAVITY + OUTERMOST else np.inf
@@ -39,11 +39,13 @@ def damaged_force(channel: Channel) -> Damage:
     spans = _cut_off(channel.values, Runs.of(channel.values, SHORTEST, (low, high)).spans)
     if not spans.size:
         return Damage()
-    return Damage(spans, spans, warnings=(told(channel, spans, "at the end of its range"),))
+    return Damage(
+        spans, spans, warnings=(describe_damage(channel, spans, "at the end of its range"),)
+    )
 
 
 def _cut_off(values: FloatArray, spans: IndexArray) -> IndexArray:
-    """Return those of ``spans``, of identical samples, that cut a swing off."""
+    """Return those of ``spans``, of identical samples, that cut off a swing."""
     if not spans.size:
         return spans
     usual = Usual.of(values)
@@ -55,7 +57,7 @@ def _cut_off(values: FloatArray, spans: IndexArray) -> IndexArray:
 
 
 def _goes_on(values: FloatArray, first: int, behind: int, hold: int, quantum: float) -> bool:
-    """Return whether the swing would go on beyond samples ``first`` to ``behind - 1``."""
+    """Return whether the swing would continue beyond samples ``first`` to ``behind - 1``."""
     length = behind - first
     reach = int(max(min(length, FARTHEST), AROUND * hold))
     drops = []
@@ -63,7 +65,7 @@ def _goes_on(values: FloatArray, first: int, behind: int, hold: int, quantum: fl
         drop = float(np.fmax.reduce(np.abs(beside - values[first]), initial=-np.inf))
         if drop < 0.0:
             continue
-        # A parabola that stays within one quantum over the run has fallen so far beside it.
+        # A parabola within one quantum over the run has fallen by this amount beside it.
         rounded = quantum * (1.0 + 2.0 * beside.size / (length - hold)) ** 2
         if drop < STEEP * rounded:
             return False
@@ -74,7 +76,7 @@ def _goes_on(values: FloatArray, first: int, behind: int, hold: int, quantum: fl
 
 
 def _swing(values: FloatArray, first: int, behind: int, hold: int, reach: int) -> float:
-    """Return by how much the samples beside usually leave the line of those ``reach`` off."""
+    """Return the usual deviation of the samples from the line between those ``reach`` away."""
     far = BESIDE * hold + 2 * reach
     around = (values[max(first - far, 0) : first], values[behind : behind + far])
     bends = [np.abs(v[: -2 * reach] - 2 * v[reach:-reach] + v[2 * reach :]) for v in around]

@@ -4,7 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, extremes, merged, told
+from floatref.screening.damage.damaged_samples import (
+    Damage,
+    Runs,
+    Usual,
+    describe_damage,
+    extremes,
+    merge,
+)
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel
@@ -12,41 +19,42 @@ from floatref.values.recording import Channel
 SHORTEST = 3
 PINNED_S = 0.002
 PINNED = 5.0
-"""A laser out of its range stays there for so long, and so many times its usual hold."""
+"""Shortest stay of a laser out of its range, in s, and in usual holds."""
 LEAP_M = 0.005
-"""It gets there, or back, by a step of this height."""
+"""Smallest step in m with which it leaves its range or returns."""
 STUCK_S = 0.05
 STUCK = 20.0
-"""A laser that is stuck repeats itself for so long, and so many times its usual hold."""
+"""Shortest run of identical samples of a stuck laser, in s, and in usual holds."""
 LASTING_S = 1.0
-"""No hold of a working laser is so long."""
+"""Every hold of a working laser is shorter than this, in s."""
 ALIVE = 0.1
-"""Meanwhile the accelerometer's readings spread over so many m/s²."""
+"""Smallest spread of the accelerometer's readings meanwhile, in m/s²."""
 TRAVEL_M = 0.5
-"""Meanwhile the vehicle gets so far: where it stands, a laser may well repeat itself, but not while
-the body heaves before it."""
+"""Shortest distance in m that the vehicle travels meanwhile: at a standstill a working laser may
+repeat itself, but not while the body heaves."""
 HEAVE_M = 0.003
 COARSE = 4.0
-"""No coarse laser repeats itself for long while the body heaves by so much, and so many of its
-smallest steps."""
+"""A coarse laser that works changes while the body heaves by the first, in m, and by the second, in
+its smallest steps."""
 HEAVE_S = 1.0
 LOOKS = 8
-"""The heave is known from the acceleration over such a time, at so many places of a long run."""
+"""The heave is computed from the acceleration over this time in s, at this number of places of a
+long run."""
 FEWEST = 8
-"""Samples that it takes."""
+"""Fewest samples for that."""
 OWN = 0.01
-"""A run of this share of all samples is no part of what is usual."""
+"""A run with this share of all samples does not count as usual."""
 AWAY = 1.5
-"""A step of more than so many smallest ones is not that of a reading that rests."""
+"""A step above this number of smallest steps is a change of the reading."""
 
 
-def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damage:
-    """Return where a height sensor is stuck, or out of its range.
+def find_stuck_height(channel: Channel, force: Channel, distance: Channel) -> Damage:
+    """Return the stretches in which a height sensor is stuck or out of its range.
 
-    It is stuck where it repeats itself while ``force`` beside it does not and ``distance`` goes
-    on, or for long while ``force`` tells that the body heaves. It is out of range where it does so
-    at the least or the greatest of all after a leap. A warning alone is given where most of the run
-    may be either stuck or a flat floor.
+    It is stuck where it repeats itself while ``force`` beside it changes and ``distance`` grows, or
+    for long while ``force`` shows that the body heaves. It is out of range where it repeats its
+    smallest or largest value after a jump. If most of the run may be either stuck or a flat floor,
+    there is only a warning.
     """
     rate = channel.mean_rate_hz
     runs = Runs.of(channel.values, max(SHORTEST, int(PINNED_S * rate)))
@@ -57,7 +65,7 @@ def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damag
     chosen = stuck | found.out_of_range()
     warnings = []
     if chosen.any():
-        warnings.append(told(channel, runs.spans[chosen], "stuck or out of range"))
+        warnings.append(describe_damage(channel, runs.spans[chosen], "stuck or out of range"))
     if 2 * runs.length[open_to_doubt & ~chosen].sum() > channel.values.size:
         warnings.append(
             f"channel {channel.id}: repeats itself for most of the run; if that was not over a "
@@ -68,20 +76,20 @@ def damaged_height(channel: Channel, force: Channel, distance: Channel) -> Damag
 
 @dataclass(frozen=True, eq=False)
 class _Repeated:
-    """Runs of identical samples of a height, and what is usual in it."""
+    """Runs of identical samples of a height, and its usual runs."""
 
     channel: Channel
     runs: Runs
     usual: Usual
 
     def out_of_range(self) -> BoolArray:
-        """Return which runs were entered or left by a leap at the least or greatest of all."""
+        """Return which runs at the smallest or largest value begin or end with a jump."""
         extreme = np.isin(self.runs.value, extremes(self.channel.values))
         pinned: BoolArray = extreme & (self.runs.length >= PINNED * self._beside())
         return pinned & (self._step() >= LEAP_M)
 
     def stuck(self, force: Channel, distance: Channel) -> tuple[BoolArray, BoolArray]:
-        """Return which runs no working sensor gives, and which a coarse one might."""
+        """Return which runs only a stuck sensor gives, and which a coarse one may give."""
         length, rate = self.runs.length, self.channel.mean_rate_hz
         shortest = max(STUCK_S * rate, min(STUCK * self.usual.hold, LASTING_S * rate))
         unusual = length >= STUCK * self._beside()
@@ -105,7 +113,7 @@ class _Repeated:
         return usual
 
     def _step(self) -> FloatArray:
-        """Return for each run the larger of the steps into it and out of it, 0 if not known."""
+        """Return for each run the larger of the steps into it and out of it, 0 if unknown."""
         values, (first, behind) = self.channel.values, self.runs.spans.T
         last = values.size - 1
         steps = np.abs(
@@ -119,7 +127,7 @@ class _Repeated:
 
 
 def travel(distance: Channel, begin_s: float, end_s: float) -> float:
-    """Return how far the vehicle gets meanwhile, in m; infinite if that is not known."""
+    """Return the distance in m that the vehicle travels meanwhile; infinite if unknown."""
     low, high = _indices(distance, begin_s, end_s)
     values = distance.values[[max(low - 1, 0), min(high, distance.values.size - 1)]]
     travel = float(values[1] - values[0])
@@ -127,15 +135,15 @@ def travel(distance: Channel, begin_s: float, end_s: float) -> float:
 
 
 def _spread(force: Channel, begin_s: float, end_s: float) -> float:
-    """Return over how much the accelerometer's samples spread; NaN where one is missing."""
+    """Return the spread of the accelerometer's samples in m/s²; NaN where one is missing."""
     values = force.values[slice(*_indices(force, begin_s, end_s))]
     return float(np.ptp(values)) if values.size else np.nan
 
 
 def _heave(force: Channel, begin_s: float, end_s: float) -> float:
-    """Return by how much the body heaves within a second, in m, at most; 0 if not known.
+    """Return the largest heave of the body within a second, in m; 0 if unknown.
 
-    That is the acceleration integrated twice, less the parabola that bias and start leave.
+    That is the acceleration integrated twice, minus the parabola of bias and initial motion.
     """
     looks = int(np.clip((end_s - begin_s) / HEAVE_S, 1, LOOKS))
     heave = 0.0
@@ -163,15 +171,15 @@ def _indices(channel: Channel, begin_s: float, end_s: float) -> tuple[int, int]:
 
 SHORTEST_FORCE = 3
 STUCK_FORCE_S = 0.02
-"""No accelerometer on a vehicle that drives repeats itself for so long, unless it is coarse or
-slow and does so all the time."""
+"""Shortest run of identical samples in s of a stuck accelerometer on a moving vehicle, unless it is
+coarse or slow and repeats samples all the time."""
 
 
-def stuck_force(channel: Channel, distance: Channel) -> Damage:
-    """Return where an accelerometer repeats itself while ``distance`` goes on.
+def find_stuck_force(channel: Channel, distance: Channel) -> Damage:
+    """Return the stretches in which an accelerometer repeats itself while ``distance`` grows.
 
-    That is for 20 ms, for so many times the usual hold of its other samples, and over 0.5 m.
-    What follows is disturbed as by a gap, since acceleration is integrated.
+    They last 20 ms, `STUCK` usual holds of its other samples, and 0.5 m. The samples after them are
+    disturbed as by a gap, since acceleration is integrated.
     """
     shortest = max(SHORTEST_FORCE, int(STUCK_FORCE_S * channel.mean_rate_hz))
     runs = Runs.of(channel.values, shortest)
@@ -183,15 +191,15 @@ def stuck_force(channel: Channel, distance: Channel) -> Damage:
     spans = spans[np.array([_goes_on(channel, distance, *s) for s in spans.tolist()], np.bool_)]
     if not spans.size:
         return Damage()
-    return Damage(spans, spans, warnings=(told(channel, spans, "stuck"),))
+    return Damage(spans, spans, warnings=(describe_damage(channel, spans, "stuck"),))
 
 
-def together(first: Damage, second: Damage) -> Damage:
+def combine_damage(first: Damage, second: Damage) -> Damage:
     """Return the damage of both."""
     return Damage(
-        merged(np.concatenate([first.gone, second.gone])),
-        merged(np.concatenate([first.lasting, second.lasting])),
-        merged(np.concatenate([first.void, second.void])),
+        merge(np.concatenate([first.gone, second.gone])),
+        merge(np.concatenate([first.lasting, second.lasting])),
+        merge(np.concatenate([first.void, second.void])),
         (*first.warnings, *second.warnings),
     )
 

@@ -85,12 +85,12 @@ def test_a_section_is_all_that_is_needed(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("", "lacks sections"),
+        ("", "has no sections"),
         ("sections = 3", "sections is 3; expected a list of 1 to 100 test sections"),
         ("sections = []", "sections is a list of 0"),
-        ("[[sections]]", "lacks name, reference, runs"),
+        ("[[sections]]", "has no name, reference, runs"),
         (SECTION.replace("reference =", "refrence ="), r"sections\[0\].refrence: did you mean ref"),
-        (SECTION.replace("reference =", "truth ="), r"sections\[0\] \(smooth\) lacks reference"),
+        (SECTION.replace("reference =", "truth ="), r"sections\[0\] \(smooth\) has no reference"),
         (f"{SECTION}too_m = 5", r"sections\[0\].too_m: did you mean to_m"),
         (f"profilr = 'a'\n{SECTION}", "profilr: did you mean profiler"),
         (f"{SECTION}[quiescant]\nsource = 'parked'", "quiescant: did you mean quiescent"),

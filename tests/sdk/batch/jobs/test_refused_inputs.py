@@ -18,7 +18,11 @@ from floatref.errors import InputError
         ("profiles", {}, "profiles: no recording in it"),
         ("profiles/p", {}, "profiles/p: no recording in it"),
         ("csv", {"pipeline": "no"}, "pipeline no: unknown"),
-        ("csv", {"settings": {"no": 1.0}}, "setting no: pipeline temporal-basic has none such"),
+        (
+            "csv",
+            {"settings": {"no": 1.0}},
+            "setting no: pipeline temporal-basic has no such setting",
+        ),
         ("csv", {"adapter": "no"}, "adapter no: unknown"),
         ("csv", {"channel_map": Path("no.toml")}, "no.toml: No such file"),
         ("csv", {"channel_map": Path("no.toml"), "adapter": "recording"}, "leave the map out"),

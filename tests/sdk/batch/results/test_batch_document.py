@@ -64,7 +64,7 @@ def test_without_a_profile_nothing_is_told_per_kilometre(tmp_path: Path) -> None
 
 def test_a_document_that_breaks_the_schema_is_never_written(tmp_path: Path) -> None:
     document = batch_document(Command(["in"], {}), Tally(), FINISHED)
-    with pytest.raises(InputError, match="lacks processed"):
+    with pytest.raises(InputError, match="has no processed"):
         write_batch_document(
             {**document, "this_run": {"wall_s": 1, "workers": 1, "length_km": 0}}, tmp_path
         )

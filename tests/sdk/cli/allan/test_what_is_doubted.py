@@ -42,7 +42,7 @@ def test_a_stuck_channel_is_left_out_and_said(
     found = report(written(tmp_path, stuck))
     assert found["warnings"] == [
         "channel pitch_rate: every sample is 0.01; a sensor that works has noise, so connect it; "
-        "left out"
+        "not analysed"
     ]
     assert "pitch_rate_density" not in found["settings"]
     assert "every sample is 0.01" in refused(tmp_path / "still", "--channel", "pitch_rate")
@@ -114,7 +114,7 @@ def test_warnings_go_to_stderr(tmp_path: Path, written: Written, run: Runs) -> N
     result = run(written(tmp_path, Channel.of("yaw_rate", np.zeros(99), UniformClock.of(50.0))))
     assert result.stderr == (
         "Warning: channel yaw_rate: every sample is 0; a sensor that works has noise, "
-        "so connect it; left out\n"
+        "so connect it; not analysed\n"
     )
     assert "Warning" not in result.stdout
 
@@ -122,14 +122,14 @@ def test_warnings_go_to_stderr(tmp_path: Path, written: Written, run: Runs) -> N
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["--channel", "rol_rate"], "channel rol_rate: not one to look at here; there are roll_"),
-        (["--channel", "distance"], "channel distance: not one to look at here"),
+        (["--channel", "rol_rate"], "channel rol_rate: cannot be analysed here; there are roll_"),
+        (["--channel", "distance"], "channel distance: cannot be analysed here"),
         (["--between", "10", "1"], "0 cluster times from 10 s to 1 s"),
         (["--between", "x", "1"], "'x' is not a valid float"),
         (["--plot", "a.txt"], "a.txt: not the name of a drawing"),
         (["--settings", "nowhere/a.json"], "its folder does not exist"),
         (["--settings", ".", "--json"], "exists"),
-        (["--channel", "gnss_height", "--settings", "a.json"], "shows no setting"),
+        (["--channel", "gnss_height", "--settings", "a.json"], "gives no setting"),
     ],
 )
 def test_what_cannot_be_done_is_one_line(
@@ -151,7 +151,7 @@ def test_nothing_to_look_at_is_one_line(tmp_path: Path, refused: Refusals, noise
         ),
     }.items():
         write_recording(Recording((channel,)), tmp_path / name)
-    assert "other: no channel has noise at rest to look at" in refused(tmp_path / "other")
+    assert "other: no channel has noise at rest to analyse" in refused(tmp_path / "other")
     assert "short: channel roll_rate: of 30 samples no 64" in refused(tmp_path / "short")
     assert "uneven: channel roll_rate: of 400 samples no 64" in refused(tmp_path / "uneven")
     assert "nowhere: not found" in refused(tmp_path / "nowhere")

@@ -16,7 +16,13 @@ from rich.console import Console
 from floatref.batch.jobs.job import Job
 from floatref.batch.results.record import Record
 from floatref.batch.results.totals import Tally
-from floatref.cli.batch.batch_report import FAILURES, counted, print_report, progress, said
+from floatref.cli.batch.batch_report import (
+    FAILURES,
+    count_names,
+    describe_progress,
+    print_report,
+    progress,
+)
 from floatref.cli.batch.interruption import interruptible
 from floatref.cli.main import main
 
@@ -50,7 +56,7 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["runs", "--out", "out", "--jobs", "0"], "0 is not in the range"),
         (
             ["runs", "--out", "out", "--jobs", "2", "--cluster", "tcp://a:1"],
-            "leave it or --cluster",
+            "omit it or --cluster",
         ),
         (["runs", "--out", "out", "--pipeline", "temporal"], "pipeline temporal: unknown"),
         (["runs", "--out", "out", "--settings", "given.json"], "setting cutoff"),
@@ -90,7 +96,7 @@ def tallied(done: int, failed: int) -> Tally:
 
 
 def test_progress_tells_files_failures_and_rate() -> None:
-    text = said(tallied(3, 2))
+    text = describe_progress(tallied(3, 2))
     assert text.startswith("5 of 6 files, 2 failed, ")
     assert text.index(" left, ") < text.index(" files/min, ") < text.index(" km/h")
 
@@ -161,7 +167,7 @@ def test_failures_are_listed_up_to_a_number(capsys: pytest.CaptureFixture[str]) 
     ],
 )
 def test_names_are_told_up_to_a_number(names: list[str], text: str) -> None:
-    assert counted(names).startswith(text)
+    assert count_names(names).startswith(text)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -128,7 +128,9 @@ def test_what_a_long_gap_hides_is_flagged_as_drift(seed):
 def test_a_channel_that_is_not_there_is_named(missing):
     channels = frozenset(drawn(0, 100, 1))
     header = Header(Axis.TIME, 0.01, 0.0, Fraction(100), channels, ("left",)).without(missing)
-    with pytest.raises(InputError, match=f"needs channel (left.)?{missing}; add what makes it"):
+    with pytest.raises(
+        InputError, match=f"needs channel (left.)?{missing}; add a stage that makes it"
+    ):
         Level().start(header)
 
 

@@ -78,7 +78,9 @@ def test_a_run_of_any_length_comes_out_whole(drive, through, length):
 @pytest.mark.parametrize("missing", ["vertical_acceleration", "height", "distance"])
 def test_a_channel_that_is_not_there_is_named(drive, missing):
     header = drive(1, 0.1, RATE).header.without(missing)
-    with pytest.raises(InputError, match=f"needs channel (left.)?{missing}; add what makes it"):
+    with pytest.raises(
+        InputError, match=f"needs channel (left.)?{missing}; add a stage that makes it"
+    ):
         smoother().start(header)
 
 

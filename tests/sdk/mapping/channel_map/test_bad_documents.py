@@ -19,7 +19,7 @@ Refusal = Callable[[Path], str]
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "lacks format, channels"),
+        (b"", "has no format, channels"),
         (b"format = ", "not TOML: "),
         (b"format = 1\nformat = 2", "not TOML: "),
         ((HEAD + LASER).replace("\n", "\r").encode(), "not TOML: "),
@@ -63,7 +63,7 @@ Refusal = Callable[[Path], str]
         (HEAD + LASER + 'axis = "z"', "axis is z, but height has none"),
         (HEAD + LASER + 'file = "gps"', 'file "gps": not in the map\'s files (none)'),
         (HEAD + "[setup]\nprofile_interval_m = 0\n" + LASER, "profile_interval_m is 0; expected"),
-        (HEAD + "[setup.vehicle]\nmodel = 'car'\n" + LASER, "setup.vehicle lacks parameters"),
+        (HEAD + "[setup.vehicle]\nmodel = 'car'\n" + LASER, "setup.vehicle has no parameters"),
         (VEHICLE + "x = 1.7\n" + LASER, 'setup.vehicle has the unknown key "x"; known: model, x_m'),
         (VEHICLE + "x_m = 1720\n" + LASER, "setup.vehicle.x_m is 1720; expected the model's own"),
         (VEHICLE + "parameters.a = 'b'\n" + LASER, 'parameters.a is "b"; expected a number'),

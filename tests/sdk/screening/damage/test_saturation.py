@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.screening.damage.damaged_samples import within
-from floatref.screening.damage.saturation import damaged_force
+from floatref.screening.damage.saturation import find_saturation
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 
@@ -25,7 +25,7 @@ def forces(seed=0, noise=0.3, quantum=0.0006):
 
 
 def of_force(values, rate=RATE):
-    return damaged_force(Channel.of(FORCE, values, UniformClock.of(rate)))
+    return find_saturation(Channel.of(FORCE, values, UniformClock.of(rate)))
 
 
 def found_share(values, at_end):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.screening.damage.stuck_sensors import damaged_height
+from floatref.screening.damage.stuck_sensors import find_stuck_height
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
@@ -32,7 +32,7 @@ def heights(seed=0, quantum=4e-6, hold=1):
 
 
 def of_height(values, force=None, distance=None):
-    return damaged_height(
+    return find_stuck_height(
         Channel.of(HEIGHT, values, CLOCK),
         Channel.of(FORCE, forces() if force is None else force, CLOCK),
         Channel.of(DISTANCE, SPEED * TIMES if distance is None else distance, CLOCK),
@@ -194,6 +194,6 @@ def test_an_accelerometer_of_its_own_clock_is_looked_at_in_the_same_time():
     late = Channel.of(HEIGHT, values, StampedClock.of(times))
     for clock in (UniformClock.of(RATE, 100.0), StampedClock.of(times)):
         distance = Channel.of(DISTANCE, SPEED * TIMES, clock)
-        assert damaged_height(late, Channel.of(FORCE, moved, clock), distance).gone.size == 2
+        assert find_stuck_height(late, Channel.of(FORCE, moved, clock), distance).gone.size == 2
         still = np.where((times > 101.4) & (times < 102.3), G, moved)
-        assert damaged_height(late, Channel.of(FORCE, still, clock), distance).gone.size == 0
+        assert find_stuck_height(late, Channel.of(FORCE, still, clock), distance).gone.size == 0

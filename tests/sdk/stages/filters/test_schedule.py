@@ -29,7 +29,7 @@ def test_a_schedule_of_no_cut_off_is_refused(name, value):
 
 @pytest.mark.parametrize("value", ["0.45", None, True, 1j])
 def test_a_setting_that_is_no_number_is_refused(value):
-    with pytest.raises(InputError, match=r"low_speed_hz is .*, no number; give one above zero"):
+    with pytest.raises(InputError, match=r"low_speed_hz is .*, not a number; give one above zero"):
         schedule.AdaptiveCutOff(low_speed_hz=value)
 
 
