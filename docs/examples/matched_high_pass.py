@@ -1,8 +1,8 @@
-"""A bouncing vehicle stops on a flat road: what cascade and observer make of it.
+"""A bouncing vehicle stops on a flat road: results of cascade and observer.
 
     python matched_high_pass.py OUT.png
 
-Prints the largest elevation that each finds where there is none, and draws it over the distance;
+Prints the largest elevation that each finds on the flat road, and draws it over the distance;
 then the roughest 7.62 m that each makes of the accelerometer's tilt in the brake.
 """
 
@@ -24,7 +24,7 @@ LEGS = (
 """Duration in s and the speeds between which it changes smoothly."""
 BEGINS = np.cumsum([0.0, *(leg[0] for leg in LEGS)])
 BOUNCE_M, BOUNCE_HZ, DIVE_M, TILT = 0.05, 2.0, 0.025, 0.1
-"""The last is what the tilted accelerometer adds to the acceleration, in m/s²."""
+"""The last is the error of the tilted accelerometer, in m/s²."""
 PIPELINES = (
     "temporal-adaptive-hpf",
     "temporal-adaptive-hpf-spatial-backward",
@@ -123,7 +123,7 @@ def roughest(profile):
 
 
 def heights(distance, elevation, metres=5.0):
-    """Return the largest elevation in mm of every so many metres, and where they end."""
+    """Return the largest elevation in mm of every stretch of road, and where the stretches end."""
     starts = np.searchsorted(distance, np.arange(distance[0], distance[-1], metres))
     ends = np.append(distance[starts[1:]], distance[-1])
     return ends, 1000.0 * np.maximum.reduceat(np.abs(elevation), starts)
@@ -142,7 +142,7 @@ def draw_drive(axes, times, speed):
 
 
 def draw_elevations(axes, found, stop_m):
-    """Draw what was found against distance."""
+    """Draw the results against distance."""
     for (name, (distance, elevation)), style in zip(found.items(), STYLES, strict=True):
         axes.semilogy(*heights(distance, elevation), **style, label=name)
     axes.axvline(stop_m, color="0.6", linewidth=0.8, zorder=0)

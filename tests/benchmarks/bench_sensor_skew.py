@@ -63,9 +63,9 @@ def run_row(name: str) -> str:
             warned.append(f"{shift_ms:+g}")
     if not found.known:
         told = f"open, {1e3 * found.sigma_s:.2f}" if found.sigma_s > 0 else "open, no such moment"
-        return f"| {name} | {told} | | {', '.join(warned) or 'none'} |"
+        return f"| {name} | {told} | | {', '.join(warned) or '–'} |"
     told = f"{1e3 * found.skew_s:+.3f} ± {1e3 * found.sigma_s:.3f}"
-    return f"| {name} | {told} | {1e3 * max(errors):.3f} | {', '.join(warned) or 'none'} |"
+    return f"| {name} | {told} | {1e3 * max(errors):.3f} | {', '.join(warned) or '–'} |"
 
 
 def drawn_stops() -> Iterator[tuple[str, Recording]]:

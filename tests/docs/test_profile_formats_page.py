@@ -24,7 +24,7 @@ def test_the_table_has_every_format_with_its_suffix() -> None:
         if line.startswith(("| | `", "| suffix |"))
     ]
     known = plugins().profile_formats().values()
-    assert table == [[f.name for f in known], [f.suffix or "none" for f in known]]
+    assert table == [[f.name for f in known], [f.suffix or "no suffix" for f in known]]
 
 
 def test_the_example_is_what_is_written(tmp_path: Path) -> None:

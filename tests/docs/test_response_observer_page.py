@@ -41,8 +41,8 @@ def test_the_numbers_of_the_cases_are_the_codes(cases):
         f"noise of {1e6 * bench.displacement_sigma:g} µm and {bench.displacement_bits} bit",
         f"noise of {bench.acceleration_sigma:g} m/s²",
         f"{1e6 * field.displacement_sigma:g} µm and {field.displacement_bits} bit, "
-        f"{field.acceleration_sigma:g} m/s² and a bias as large",
-        f"off by {100 * field.scale:g} %",
+        f"{field.acceleration_sigma:g} m/s² and a bias of the same size",
+        f"calibration errors of {100 * field.scale:g} %",
     ):
         assert said in TEXT, said
     assert field.acceleration_bias == field.acceleration_sigma

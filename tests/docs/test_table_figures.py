@@ -92,7 +92,7 @@ def test_quoted_cells_are_the_tables() -> None:
 def test_quoted_rank_correlations_are_the_tables() -> None:
     chapter, stops = (TABLE["rank_correlation"][name] for name in ("chapter_5", "stops"))
     assert f"reaches {chapter['rule']:.2f} over the {chapter['cells']} cells" in TEXT
-    assert f"as it is, reaches {chapter['ours']:.3f}." in TEXT
+    assert f"with its defaults, reaches {chapter['ours']:.3f}." in TEXT
     assert f"Among the {stops['cells']} cells of stops" in TEXT
     assert f"and ours is {stops['ours']:.3f}." in TEXT
 
@@ -178,7 +178,10 @@ def test_quoted_peaks_on_a_flat_road_come_out_again() -> None:
 def test_at_the_near_stop_plumb_sensors_leave_the_sweep_of_the_cut_off() -> None:
     run, adaptive = "ns_72-11_0.20g", "temporal-adaptive-hpf"
     plumb = recorded(run)[1]
-    assert f"plumb the adaptive peak is {peak(plumb, adaptive):.1f} m/km" in TEXT
-    assert f"that of `temporal-hpf` {peak(plumb, 'temporal-hpf'):.1f}; nor" in TEXT
+    assert (
+        f"plumb accelerometer and laser the adaptive peak is {peak(plumb, adaptive):.1f} m/km"
+        in TEXT
+    )
+    assert f"that of `temporal-hpf` {peak(plumb, 'temporal-hpf'):.1f}." in TEXT
     middle = recorded(run, vehicle="minivan")[1]
-    assert f"wheelbase, it is {peak(middle, adaptive):.1f} m/km" in TEXT
+    assert f"wheelbase, the peak is {peak(middle, adaptive):.1f} m/km" in TEXT

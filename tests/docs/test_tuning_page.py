@@ -46,11 +46,11 @@ def test_numbers_are_those_of_the_code() -> None:
     assert (COARSE, PER_OCTAVE, REACH, DENSITY_DOWN, PRIORITY, ROUNDS) == (4, 2, 12, 4, 2.0, 3)
     for text in (
         f"within {AROUND_M:g} m of the critical location",
-        f"below {TOLERANCE:g} are taken for equal, gains below {LEAST_GAIN:g} for none",
-        f"at {MOST} at most",
+        f"by less than {TOLERANCE:g} count as equal, gains below {LEAST_GAIN:g} as zero",
+        f"{MOST} at most",
         f"(× {FACTORS[0]:.2f}) and up (× {FACTORS[-1]:.2f})",
         f"by more than {FEELS:g}, a warning",
-        f"by less than {LEAST_CORRELATION:g} with the reference",
+        f"correlation with the reference is below {LEAST_CORRELATION:g}",
         f"less than {LEAST_M:g} m in common",
     ):
         assert text in TEXT, text

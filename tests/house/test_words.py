@@ -1,4 +1,4 @@
-"""Plain English: words of a dialect that readers of a second language stumble over have no place."""
+"""Plain English: words that stop a reader whose second language is English are not used."""
 
 import ast
 import re

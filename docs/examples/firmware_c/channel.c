@@ -12,7 +12,7 @@ static double sound_at(struct channel *channel, struct window *window, long inde
     return window_at(window, index);
 }
 
-/* Keep the good samples on either side of the gap that sample `index` lies in. */
+/* Store the good samples on either side of the gap that contains sample `index`. */
 static void find_gap(struct channel *channel, long index)
 {
     struct window *ahead = &channel->ahead;
@@ -52,7 +52,7 @@ struct reading channel_sample(struct channel *channel, long index)
     return reading;
 }
 
-/* Where the channel is at `time`, in samples. */
+/* The place of `time` in the channel, in samples. */
 static double place_at(struct channel *channel, double time)
 {
     long last = channel->values.count - 1;

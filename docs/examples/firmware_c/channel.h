@@ -13,7 +13,7 @@
 
 enum { WINDOW = 1024 };
 
-/* A piece of a file of float64, moved to where it is looked at. */
+/* A piece of a file of float64, moved to the samples that are read. */
 struct window {
     FILE *file;
     long count, first, held;
@@ -28,12 +28,12 @@ struct clock {
 struct channel {
     struct window values, ahead, times;
     char name[TRACK_SIZE + 32];
-    struct spans gone;       /* there, but measure nothing */
-    struct spans lasting;    /* the same, and disturb what follows */
-    bool encoder;            /* whose lasting damage no line can bridge */
+    struct spans gone;       /* exist, but measure nothing */
+    struct spans lasting;    /* the same, and disturb later samples */
+    bool encoder;            /* a line cannot bridge its lasting damage */
     double rate_hz, start_s; /* of a uniform clock; the rate is 0 with a time_file */
     double mean_rate_hz;
-    double hole_s;           /* time stamps farther apart have something missing between them */
+    double hole_s;           /* samples are missing between time stamps farther apart */
     double bridge_s;         /* a longer gap is lost, not just missing */
     long bridge;             /* the same in samples */
     long left, right;        /* the good samples on either side of the latest gap */
@@ -47,7 +47,7 @@ struct reading {
     bool missing, lost;
 };
 
-/* Open the channel's files and look through them once; false and why if they cannot be used. */
+/* Open the channel's files and read them once; false and the reason if they cannot be used. */
 bool channel_open(struct channel *channel, const struct recording *recording,
                   const struct entry *entry, struct failure *failure);
 void channel_close(struct channel *channel);
@@ -59,13 +59,13 @@ double channel_time(struct channel *channel, long index);
    at most; else false. */
 bool channel_steady(struct channel *channel, struct clock *clock, struct failure *failure);
 
-/* Find out whether the channel's samples lie where those of `clock` do. */
+/* Find whether the channel's samples are at the times of those of `clock`. */
 void channel_align(struct channel *channel, const struct clock *clock);
 
-/* What the channel says at sample `index` of `clock`, at `time`. Times must not go back. */
+/* The value of the channel at sample `index` of `clock`, at `time`. Times must not go back. */
 struct reading channel_read(struct channel *channel, long index, double time);
 
-/* Sample `index` of the channel itself, bridged if it is missing; NaN where that cannot be. */
+/* Sample `index` of the channel itself, bridged if it is missing; NaN where it cannot be bridged. */
 struct reading channel_sample(struct channel *channel, long index);
 
 /* The median of the first steps between time stamps. */

@@ -1,4 +1,4 @@
-/* The clocks of channels: looked through once before a run, and compared. */
+/* The clocks of channels: read once before a run, and compared. */
 #include <limits.h>
 #include <math.h>
 
@@ -6,7 +6,7 @@
 
 static const double APART = 0.01;     /* clocks agree if their samples are nearer, in steps */
 static const double HOLE = 5.0;       /* typical steps without a time stamp */
-static const double ROLLS_BACK_M = 1.0; /* a reversed encoder goes on */
+static const double ROLLS_BACK_M = 1.0; /* from here on a reversed encoder is refused */
 static const double LATEST_S = 1e12;
 
 static bool check_stamps(struct channel *channel, struct failure *failure)
@@ -23,7 +23,7 @@ static bool check_stamps(struct channel *channel, struct failure *failure)
     return true;
 }
 
-/* Samples must be finite or NaN, at least half of them there; a distance must not go back. */
+/* Samples must be finite or NaN, at least half of them not missing; a distance must not go back. */
 static bool check_samples(struct channel *channel, double largest, struct failure *failure)
 {
     long missing = 0;

@@ -7,10 +7,10 @@
 #include "median.h"
 
 static const double REST = 9.80665;
-static const double OUTERMOST = 0.75 * 9.80665; /* a range ends so far from rest, in m/s^2 */
-static const double HELD = 3.0;                 /* longer than a hold, in usual ones */
-static const double STEEP = 3.0;                /* a smooth peak is no end of a range, in quanta */
-static const double CUT_OFF = 20.0;             /* nor a noisy one, in what steps differ by */
+static const double OUTERMOST = 0.75 * 9.80665; /* least distance of an end of range from rest, in m/s^2 */
+static const double HELD = 3.0;                 /* length of a stuck stretch, in usual holds */
+static const double STEEP = 3.0;                /* slope of an end of range, not of a smooth peak, in quanta */
+static const double CUT_OFF = 20.0;             /* the same for a noisy peak, in differences of steps */
 static const double PINNED_S = 0.002, PINNED = 5.0, LEAP_M = 0.005;
 static const double STUCK_S = 0.05, STUCK = 20.0, ALIVE = 0.1;
 enum { SATURATED = 3, BESIDE = 250 };
@@ -20,7 +20,7 @@ static bool at_an_end(const struct hold *hold, const struct usual *usual)
     return hold->value == usual->least || hold->value == usual->greatest;
 }
 
-/* Append by how much the steps between the samples from `first` up to `behind` differ. */
+/* Append the differences of the steps between the samples from `first` up to `behind`. */
 static long differences(struct window *values, long first, long behind, double *found, long count)
 {
     for (long i = first; i + 2 < behind; i++) {
@@ -32,7 +32,7 @@ static long differences(struct window *values, long first, long behind, double *
     return count;
 }
 
-/* Whether the swing that a hold cuts off would go on: what is missing is known from its slopes. */
+/* Whether the swing that a hold cuts off would continue; its slopes give the missing part. */
 static bool goes_on(struct window *values, const struct hold *hold, double quantum)
 {
     static double beside[2 * BESIDE];
@@ -78,7 +78,7 @@ static long index_from(struct channel *channel, double time)
     return low;
 }
 
-/* Whether the accelerometer moves while the height is held; one that is missing tells nothing. */
+/* Whether the accelerometer moves while the height is held; false if it is missing. */
 static bool moves(struct channel *force, double begin_s, double end_s)
 {
     double least = INFINITY, greatest = -INFINITY;

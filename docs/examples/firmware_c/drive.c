@@ -7,7 +7,7 @@ const double LOW_SPEED_HZ = 0.45, CUTOFF_WAVELENGTH_M = 105.91;
 const double TRANSITION_MPS = 2.778, TRANSITION_STEEPNESS = 2.5;
 const double SLOW_MPS = 4.444444, STOPPING_TIME_S = 5.0;
 
-static const double SPEED_S = 0.05;  /* progress over this time is the speed */
+static const double SPEED_S = 0.05;  /* the speed is the mean over this time */
 static const double WINDOW_S = 0.25; /* two such windows are compared for a brake */
 
 bool drive_open(struct drive *drive, double rate_hz, struct failure *failure)
@@ -28,7 +28,7 @@ void drive_close(struct drive *drive)
     drive->past = NULL;
 }
 
-/* The distance so many samples ago; before the run the vehicle stood where it began. */
+/* The distance a number of samples ago; before the run the vehicle is stationary at its start. */
 static double distance_before(const struct drive *drive, long samples)
 {
     long ago = samples < drive->seen ? samples : drive->seen - 1;
@@ -36,9 +36,9 @@ static double distance_before(const struct drive *drive, long samples)
     return drive->past[at < 0 ? at + drive->size : at];
 }
 
-/* Whether the vehicle, which went `before_m` in one window and `last_m` in the next, would stand
-   within STOPPING_TIME_S if it braked on like that. Braking tilts the accelerometer, and the same
-   tilt bends the profile the more the slower the vehicle. */
+/* Whether the vehicle, which went `before_m` in one window and `last_m` in the next, would stop
+   within STOPPING_TIME_S with the same deceleration. Braking tilts the accelerometer, and the same
+   tilt bends the profile more at a lower speed. */
 static bool brakes_hard(double before_m, double last_m, double window_s)
 {
     return before_m + last_m < 2.0 * STOPPING_TIME_S / window_s * (before_m - last_m);

@@ -4,9 +4,9 @@
 #include "damage.h"
 #include "holds.h"
 
-static const double FASTEST_MPS = 90.0, LEAP = 5.0; /* a step beyond was not travelled in its time */
-static const double SHORTEST_S = 0.02;              /* held so long it may be silent */
-static const double LATE = 2.5;     /* a silence is made up for, within this factor of the speed */
+static const double FASTEST_MPS = 90.0, LEAP = 5.0; /* a larger step is a leap */
+static const double SHORTEST_S = 0.02;              /* hold from which on it may be silent */
+static const double LATE = 2.5;     /* travel made up after a silence, as a factor of the expected one */
 static const double LOST_S = 0.05;  /* no vehicle stops within this time */
 static const double MOVING_MPS = 2.5, COUNTS = 5.0, STANDING_S = 2.0;
 static const double FASTEST_RATE_HZ = 1e6;
@@ -16,9 +16,9 @@ struct encoder {
     double usual_m; /* its usual step */
     double shortest;
     long lost;          /* LOST_S in samples */
-    double reached;     /* how far it has been */
-    long front;         /* the latest sample that was as far */
-    struct hold before; /* the hold before the one looked at */
+    double reached;     /* the largest distance so far */
+    long front;         /* the latest sample at that distance */
+    struct hold before; /* the hold before the present one */
 };
 
 static double time_of(const struct encoder *encoder, long index)
@@ -31,7 +31,7 @@ static long end_of(const struct hold *hold)
     return hold->first + hold->length;
 }
 
-/* By how much it is farther than ever before; 0 behind a missing sample. */
+/* Its progress beyond the largest distance so far; 0 after a missing sample. */
 static double progress(const struct encoder *encoder, const struct hold *now)
 {
     const struct hold *before = &encoder->before;
@@ -48,7 +48,7 @@ static void go_on(struct encoder *encoder, const struct hold *now)
     encoder->before = *now;
 }
 
-/* Large steps count more, so that a fine encoder's slow travel does not. */
+/* Large steps have more weight, so that a fine encoder's slow travel has little. */
 static double usual_step(struct encoder encoder)
 {
     struct holds holds = holds_of(&encoder.channel->values);
@@ -82,7 +82,7 @@ static bool makes_up(const struct encoder *encoder, const struct hold *silence,
            made_up < meanwhile * LATE;
 }
 
-/* Whether the vehicle would have had to stop at once for this hold, and it goes on later. */
+/* Whether for this hold the vehicle would have had to stop at once, and moves on later. */
 static bool loses_counts(const struct encoder *encoder, const struct hold *hold)
 {
     if (hold->length < encoder->shortest || end_of(hold) >= encoder->channel->values.count)
@@ -93,7 +93,7 @@ static bool loses_counts(const struct encoder *encoder, const struct hold *hold)
            speed * LOST_S >= COUNTS * encoder->usual_m;
 }
 
-/* Judge the hold before, now that it is known how it ended, and the step to this one. */
+/* Judge the hold before, whose end is now known, and the step to this one. */
 static bool judge(const struct encoder *encoder, const struct hold *now, struct failure *failure)
 {
     struct spans *gone = &encoder->channel->gone, *lasting = &encoder->channel->lasting;

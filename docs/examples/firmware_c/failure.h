@@ -1,4 +1,4 @@
-/* Why something could not be done: one line for whoever reads the answer. */
+/* The reason for a failure: one line for the reader of the answer. */
 #ifndef FAILURE_H
 #define FAILURE_H
 
@@ -8,7 +8,7 @@ struct failure {
     char text[512];
 };
 
-/* Keep the line, unless there is one already, and return false. */
+/* Store the line, unless there is one already, and return false. */
 bool fail(struct failure *failure, const char *format, ...);
 
 #endif

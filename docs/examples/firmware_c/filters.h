@@ -1,8 +1,8 @@
 /* The filter stages and the integral, one sample at a time.
 
-   Each is a few numbers of state. They are written so that nothing cancels: a cut-off of 0.45 Hz
+   Each has a few numbers of state. Their form avoids cancellation: a cut-off of 0.45 Hz
    at 16 kHz is c = tan(pi f dt) = 9e-5, and the recursion (A.9) as it is printed takes differences
-   of numbers that agree to c squared, which single precision cannot hold. */
+   of numbers that agree to c squared, which single precision cannot represent. */
 #ifndef FILTERS_H
 #define FILTERS_H
 
@@ -24,7 +24,7 @@ struct low_pass_2 {
 };
 
 /* HPF_B3S1 and HPF_B3S2: (A.2) and (A.3), started by (A.14) and (A.15). The cut-off may change
-   from sample to sample. Kept is what has been removed so far, which is slow and small. */
+   from sample to sample. The state is the part removed so far, which is slow and small. */
 struct high_pass_1 {
     bool started;
     real removed, output, c;

@@ -1,4 +1,4 @@
-/* Replay the golden vectors of a folder and say which stages pass: golden FOLDER */
+/* Replay the golden vectors of a folder and print which stages pass: golden FOLDER */
 #define _POSIX_C_SOURCE 200112L
 
 #include <dirent.h>
@@ -59,7 +59,7 @@ static bool number_of(struct json object, const char *group, const char *key, do
            json_number(value, number);
 }
 
-/* Read the signals called `names`, as far as there are names. */
+/* Read the signals called `names`. */
 static bool read_signals(struct json document, const char *group, const char *const *names,
                          struct signals *signals)
 {
@@ -108,7 +108,7 @@ static bool replay(const char *name, struct json document, const struct stage *s
     for (int i = 0; i < MOST_SETTINGS && stage->settings[i] != NULL; i++)
         read = read && number_of(document, "settings", stage->settings[i], &settings[i]);
     if (!read) {
-        printf("FAIL  %-36s lacks a setting or a signal\n", name);
+        printf("FAIL  %-36s a setting or a signal is missing\n", name);
         return false;
     }
     memset(&made, 0, sizeof made);

@@ -1,4 +1,4 @@
-/* The least that speaks the protocol: a device that leaves every recording out. */
+/* The simplest program with the protocol: a device that skips every recording. */
 #include <stddef.h>
 
 #include "protocol.h"

@@ -22,7 +22,7 @@ static int hex_digit(char c)
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* The code of four hexadecimal digits, -1 if they are none. */
+/* The code of four hexadecimal digits, -1 if they are not hexadecimal. */
 static long hex_code(const char *p, const char *end)
 {
     long code = 0;
@@ -37,7 +37,7 @@ static long hex_code(const char *p, const char *end)
     return code;
 }
 
-/* Each of these returns where the value ends, NULL if it is not one. */
+/* Each of these returns the end of the value, NULL if it is not one. */
 static const char *skip_string(const char *p, const char *end)
 {
     for (p++; p < end && *p != '"'; p++) {

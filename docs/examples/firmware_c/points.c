@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double TIE = 1e-6; /* a distance so near below a point, in intervals, reached it */
+static const double TIE = 1e-6; /* a distance this close below a point, in intervals, has reached it */
 static const double MOST_POINTS = 5e7;
 
 bool points_open(struct points *points, int tracks, double interval_m, double length_m,
@@ -49,7 +49,7 @@ void points_close(struct points *points)
     free(points->pending);
 }
 
-/* Keep one point, `part` of the way from the sample before to this one. */
+/* Store one point, `part` of the way from the sample before to this one. */
 static void keep(struct points *points, const struct sample *sample, real part)
 {
     long k = points->count++;
@@ -66,7 +66,7 @@ static void keep(struct points *points, const struct sample *sample, real part)
 
 /* Point k is taken by the first sample whose distance has reached it. Where samples are farther
    apart than the interval, it is read between two of them, linear in distance. A distance that is
-   not known, or behind, is where the vehicle has been last. */
+   not known, or goes back, is the last one of the vehicle. */
 void points_step(struct points *points, const struct sample *sample)
 {
     double slack = TIE * points->interval_m;

@@ -4,7 +4,7 @@
 
 #include "drive.h"
 
-/* The points of all wheel paths, the only memory that grows with a run. It is taken once. */
+/* The points of all wheel paths, the only memory that grows with a run. It is allocated once. */
 struct points {
     double interval_m, start_m;
     long count, room;
@@ -19,22 +19,22 @@ struct points {
     unsigned *flags_before, *pending;
 };
 
-/* What one sample brings: elevations and flags by wheel path. */
+/* The data of one sample: elevations and flags by wheel path. */
 struct sample {
     struct motion motion;
     const real *elevation;
     const unsigned *flags;
 };
 
-/* Take the memory for `length_m` of profile. */
+/* Allocate the memory for `length_m` of profile. */
 bool points_open(struct points *points, int tracks, double interval_m, double length_m,
                  struct failure *failure);
 void points_close(struct points *points);
 
-/* Keep the points that this sample reaches. */
+/* Store the points that this sample reaches. */
 void points_step(struct points *points, const struct sample *sample);
 
-/* Give the last point the flags of what came behind it. */
+/* Give the last point the flags of the samples after it. */
 void points_finish(struct points *points);
 
 #endif

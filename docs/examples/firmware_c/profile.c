@@ -42,7 +42,7 @@ static void write_double(FILE *file, double value)
     fwrite(bytes, 1, sizeof bytes, file);
 }
 
-/* The two files of wheel path `i`, named by its number: any name will do for a track. */
+/* The two files of wheel path `i`, named by its number, since a track may have any name. */
 static bool write_track(const char *folder, const struct points *points, int i,
                         struct failure *failure)
 {

@@ -5,7 +5,7 @@
 #include "points.h"
 #include "recording.h"
 
-/* Make the folder `path` with all that `points` holds; its flags say 1, trust it, or 0. */
+/* Make the folder `path` with the contents of `points`; its flags are 1, valid, or 0. */
 bool profile_write(const char *path, const struct recording *recording,
                    const struct points *points, struct failure *failure);
 

@@ -89,7 +89,7 @@ static bool obey(const struct device *device, struct json request)
     else if (strcmp(command, "run") == 0)
         answer_run(device, request);
     else
-        answer_text(request, "error", "cmd is none of start, run, stop");
+        answer_text(request, "error", "cmd is not start, run or stop");
     return true;
 }
 

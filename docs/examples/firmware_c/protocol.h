@@ -6,9 +6,9 @@
 
 struct device {
     const char *name, *version, *architecture;
-    /* Process a recording into a profile; false and why if it cannot. */
+    /* Process a recording into a profile; false and the reason if it cannot. */
     bool (*run)(const char *recording, const char *profile, struct failure *failure);
-    /* If not NULL, every run is answered by this reason for leaving it out. */
+    /* If not NULL, every run is skipped for this reason. */
     const char *skips;
 };
 

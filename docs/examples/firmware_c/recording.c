@@ -14,7 +14,7 @@ const double LARGEST[QUANTITIES] = {1e4, 100.0, 1e10};
 const double FASTEST_HZ = 1e7;
 static const char *const UNITS[QUANTITIES] = {"m/s^2", "m", "m"};
 
-/* The whole file, with '\0' behind it, to be freed by the caller. */
+/* The whole file with '\0' at its end; the caller frees it. */
 static char *read_text(const char *path, size_t *length, struct failure *failure)
 {
     FILE *file = fopen(path, "rb");
@@ -35,7 +35,7 @@ static char *read_text(const char *path, size_t *length, struct failure *failure
     return NULL;
 }
 
-/* A member that has to be the name of a file in the folder; left empty if there is none. */
+/* A member that has to be the name of a file in the folder; empty if it is missing. */
 static bool read_file_name(struct json entry, const char *key, char *name, struct failure *failure)
 {
     struct json value;
@@ -95,7 +95,7 @@ static void note_track(struct recording *recording, const char *track)
         strcpy(recording->track[recording->tracks++], track);
 }
 
-/* Keep the channel if it is one of ours; every channel counts for the wheel paths. */
+/* Store the channel if it is one of ours; the wheel paths of every channel count. */
 static bool read_entry(struct recording *recording, struct json json, struct failure *failure)
 {
     char name[64];
@@ -124,7 +124,7 @@ static bool read_entry(struct recording *recording, struct json json, struct fai
     return true;
 }
 
-/* Leave the wheel paths that have a height. */
+/* Remove the wheel paths without a height. */
 static bool keep_profiled(struct recording *recording, struct failure *failure)
 {
     int kept = 0;

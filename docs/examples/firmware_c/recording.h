@@ -1,4 +1,4 @@
-/* What recording.json says: which samples lie in which file, and when they were taken. */
+/* Contents of recording.json: the file of every channel, and when its samples were taken. */
 #ifndef RECORDING_H
 #define RECORDING_H
 
@@ -14,7 +14,7 @@ enum {
 enum quantity { VERTICAL_SPECIFIC_FORCE, HEIGHT, DISTANCE, QUANTITIES };
 
 extern const char *const QUANTITY_NAMES[QUANTITIES];
-extern const double LARGEST[QUANTITIES]; /* no sample that measures something is beyond */
+extern const double LARGEST[QUANTITIES]; /* largest possible samples */
 extern const double FASTEST_HZ;
 
 struct entry {

@@ -7,7 +7,7 @@
 #include "track.h"
 #include "validity.h"
 
-/* Keep one value; a stage in single precision has rounded it already. */
+/* Store one value; a stage in single precision has rounded it already. */
 static void put(struct signals *out, int signal, double value)
 {
     if (out->count[signal] < MOST_SAMPLES)
@@ -81,7 +81,7 @@ static void project(const double *settings, const struct signals *in, struct sig
     points_close(&points);
 }
 
-/* Force and height through a wheel path, at a rate that takes no anti-alias filter. */
+/* Force and height through a wheel path, at a rate that needs no anti-alias filter. */
 static void pipeline(const double *settings, const struct signals *in, struct signals *out)
 {
     struct points points;

@@ -12,7 +12,7 @@ struct signals {
     double samples[MOST_SIGNALS][MOST_SAMPLES];
 };
 
-/* One stage: its settings, inputs and outputs by name, and what it does. */
+/* One stage: its settings, inputs and outputs by name, and its function. */
 struct stage {
     const char *name;
     const char *settings[MOST_SETTINGS];

@@ -55,7 +55,7 @@ static bool open_channels(struct session *session, struct failure *failure)
     return channel_steady(&session->paths[0].force, &session->clock, failure);
 }
 
-/* Look for samples that measure nothing, in all channels. */
+/* Search all channels for samples that measure nothing. */
 static bool find_damage(struct session *session, struct failure *failure)
 {
     if (!damaged_distance(&session->distance, failure))
@@ -80,7 +80,7 @@ static struct channel *channel_of(struct session *session, int i)
     return i % 2 == 1 ? &path->force : &path->height;
 }
 
-/* Line the channels up with the first accelerometer and find the samples that all cover. */
+/* Align the channels with the first accelerometer and find the samples that all cover. */
 static bool align(struct session *session, struct failure *failure)
 {
     const struct clock *clock = &session->clock;
@@ -107,7 +107,7 @@ static double time_of(const struct session *session, long index)
     return session->clock.start_s + (double)index / session->clock.rate_hz;
 }
 
-/* How far the distance goes; its last samples may be missing. */
+/* The end of the distance; its last samples may be missing. */
 static double length_of(struct session *session)
 {
     double from = channel_read(&session->distance, session->first,
@@ -123,7 +123,7 @@ static unsigned flags_of(struct reading reading, unsigned lost)
     return (reading.missing ? MISSING : 0u) | (reading.lost ? lost : 0u);
 }
 
-/* Take every sample through the drive, the wheel paths and the projection. */
+/* Process every sample by the drive, the wheel paths and the projection. */
 static void process(struct session *session)
 {
     real elevation[MOST_TRACKS];

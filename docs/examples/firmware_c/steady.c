@@ -13,7 +13,7 @@ enum { MOST_DIGITS = 12, STEPS = WINDOW - 1 };
 /* The stretches of time stamps without a hole. */
 struct stretches {
     double step_s;         /* the mean one */
-    double held_s, span_s; /* how long they are together, and with the holes */
+    double held_s, span_s; /* their total length, without and with the holes */
     double longest_s;
 };
 
@@ -28,7 +28,7 @@ double typical_step(struct window *times)
     return median(steps, count);
 }
 
-/* Measure what lies between steps longer than `hole_s`. */
+/* Measure the stretches between steps longer than `hole_s`. */
 static struct stretches measure(struct window *times, double hole_s)
 {
     struct stretches found = {0.0, 0.0, 0.0, 0.0};

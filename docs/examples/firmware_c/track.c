@@ -4,7 +4,7 @@
 
 static const double GRAVITY = 9.80665;
 static const double ANTI_ALIAS_HZ = 1000.0;
-static const double LEAST_RATE_HZ = 4000.0; /* up to here the sensors have to be the filter */
+static const double LEAST_RATE_HZ = 4000.0; /* below this rate the sensors have to filter */
 
 void track_open(struct track *track, double rate_hz)
 {

@@ -8,7 +8,7 @@ const struct reach REACH = {105.91, 52.955, 15.0, 30.0, 30.0};
 
 enum { SPOILT = 128 };
 
-/* Mark what lies within `before` points before and `after` points behind a flag. */
+/* Mark the points from `before` points before to `after` points after a flag. */
 static void spread(unsigned char *flags, long count, unsigned flag, long before, long after)
 {
     long since = count, until = count;

@@ -6,7 +6,7 @@
 
 enum { BYTES = 8 };
 
-/* Files are little-endian whatever the processor is. */
+/* Files are little-endian on every processor. */
 static double decoded(const unsigned char *bytes)
 {
     uint64_t bits = 0;

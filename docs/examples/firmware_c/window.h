@@ -8,7 +8,7 @@ bool window_open(struct window *window, const char *folder, const char *name,
                  struct failure *failure);
 void window_close(struct window *window);
 
-/* Sample `index`, which has to lie within the file; NaN if the file cannot be read there. */
+/* Sample `index`, which has to be within the file; NaN if the file cannot be read there. */
 double window_at(struct window *window, long index);
 
 #endif

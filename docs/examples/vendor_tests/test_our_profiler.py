@@ -1,4 +1,4 @@
-"""A vendor's own test suite: a stage held to the laws, and a device to the checks."""
+"""A vendor's own test suite: laws of a stage, and checks of a device."""
 
 import numpy as np
 
@@ -28,9 +28,9 @@ class LagHeight(Stage):
 
     def advance(self, block: Block) -> Block:
         """Return the block with the heights, and their flags, that came before."""
-        none = np.zeros(len(block), np.uint8)
+        clean = np.zeros(len(block), np.uint8)
         values = {c: self._late(str(c), block[c]) for c in self.channels}
-        flags = {c: self._late(f"flags {c}", block.flags.get(c, none)) for c in self.channels}
+        flags = {c: self._late(f"flags {c}", block.flags.get(c, clean)) for c in self.channels}
         return block.setting(values, flags)
 
     def _late(self, name: str, new: np.ndarray) -> np.ndarray:

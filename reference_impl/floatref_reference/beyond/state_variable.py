@@ -8,8 +8,8 @@ which two are integrals with the cut-off ω inside:
 The slope that hp has beside x' falls with ω. The literal form of a varying filter (A.9) keeps the
 slope of its output instead: as c falls to 0 it tends to y_k - y_{k-1} = y_{k-1} - y_{k-2}. At a
 stop the cut-off wavelength of section 5.7 is a few points and behind it a hundred metres, so a
-slope of several per metre goes on until that long wavelength lets it decay. With the states as
-the integrals a step decays with the phase ∫ ω dx, whatever path ω takes.
+slope of several per metre continues until that long wavelength lets it decay. With the states as
+the integrals a step decays with the phase ∫ ω dx, for any course of ω.
 
 At a constant cut-off both forms are the filter of appendix A. The functions here run in reverse,
 take the cut-off at every sample, and start as section A.3 starts.

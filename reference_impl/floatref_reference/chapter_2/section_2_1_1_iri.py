@@ -1,8 +1,8 @@
 """2.1.1 International Roughness Index (IRI): the four steps.
 
-The printed text leaves some conventions open. These are the ones kept here:
+The printed text leaves some conventions open. These are the ones used here:
 
-- Step 2 averages round(0.25 m / Δx) slopes; it is left out at Δx = 0.25 m and above, and where
+- Step 2 averages round(0.25 m / Δx) slopes; it is omitted at Δx = 0.25 m and above, and where
   the window holds one slope only. Smoothed slope i is the mean of slopes i … i+n-1; near the
   end, of the slopes that remain. The shift by half a window is constant and moves nothing else.
 - The slope is held constant over an interval, which makes the state transition exact.

@@ -91,7 +91,7 @@ def correlation(p: npt.ArrayLike, q: npt.ArrayLike, i: int) -> np.longdouble:
     """Compute the correlation coefficient at one offset.
 
     Equation:
-        (2.14), with the factor 1/N that the print lacks:
+        (2.14), with the factor 1/N that is missing in print:
         ρ_pq(iΔx) = Σ (p(x_k) - μ_p) (q(x_{k+i}) - μ_q) / (N σ_p σ_q), with mean and standard
         deviation over the overlap.
 

@@ -137,12 +137,12 @@ def line(t_own: npt.ArrayLike, t_base: npt.ArrayLike) -> Line:
 
 
 def earliest_line(t_gnss: npt.ArrayLike, t_base: npt.ArrayLike) -> Line:
-    """Fit the line that no reading of a reference time lies below.
+    """Fit the line above or on which all readings of a reference time lie.
 
     Equation:
-        Section 4.4, "records a reference time": a reading may be recorded late and never early,
-        so of all lines through two readings that none lies below, the one with the least sum of
-        what the others lie above it.
+        Section 4.4, "records a reference time": a reading may be recorded late but never early.
+        So of all lines through two readings, with no reading below the line, it is the one with the
+        least sum of the distances of the readings above it.
 
     Args:
         t_gnss: reference time that was read, s, shape (N,), N > 1.

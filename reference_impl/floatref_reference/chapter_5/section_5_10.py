@@ -55,10 +55,10 @@ def adjusted_time_step(dt: npt.ArrayLike, dt_0: Real, beta: Real = BETA) -> Sign
 def reflected_position(
     v_zp: npt.ArrayLike, dt_adj: npt.ArrayLike, dt: npt.ArrayLike, h: npt.ArrayLike
 ) -> Signal:
-    """Integrate the vertical velocity and let the height stand in for what is attenuated.
+    """Integrate the vertical velocity and replace the attenuated part by the height.
 
     Equation:
-        (5.9), with the factor 1/2 of the trapezoidal rule that the print lacks, and with a plus
+        (5.9), with the factor 1/2 of the trapezoidal rule missing in print, and with a plus
         where it prints a minus: r_zp has to follow h for r_zp - h to be flat.
         r_zp(x_k) = r_zp(x_{k-1}) + Δt_Adj(x_k) (v_zp(x_k) + v_zp(x_{k-1})) / 2
         + (1 - (Δt_Adj(x_k)/Δt(x_k))²) (h(x_k) - h(x_{k-1})), with r_zp(x_1) = 0.

@@ -59,7 +59,7 @@ def trigger(r_xp: npt.ArrayLike, dx: float) -> list[tuple[int, np.longdouble]]:
         while x_k ≤ r_xp(t_N). Point k takes the first sample i with r_xp(t_i) ≥ x_k. A step
         r_xp(t_i) - r_xp(t_{i-1}) above Δx skips points, so there the fraction of the step at x_k
         is taken. A distance within 1e-6 Δx of a point has reached it: encoder counts and points
-        are often the same decimal number, which rounding must not tell apart.
+        are often the same decimal number, which rounding must not separate.
 
     Args:
         r_xp: travel distance, m, shape (N,), non-decreasing.

@@ -26,7 +26,7 @@ def from_first(h: npt.ArrayLike) -> Signal:
     """Measure the height from its first value.
 
     Equation:
-        Section 5.5 leaves the datum of the elevation open. With h(t_1) taken off, the
+        Section 5.5 does not define the datum of the elevation. With h(t_1) subtracted, the
         high-pass filters start at zero and not on a step as high as the stand-off.
 
     Args:

@@ -26,7 +26,7 @@ def travel_speed(r_xp: npt.ArrayLike, f_s: Real) -> Signal:
 
     Equation:
         Section 5.6: v_xp(t_k) = (r_xp(t_k) - r_xp(t_{k-n})) / (n Δt) with n Δt nearest to 0.05 s,
-        n at least 1. Before t_1 the vehicle stands at r_xp(t_1).
+        n at least 1. Before t_1 the vehicle is stationary at r_xp(t_1).
 
     Args:
         r_xp: travel distance, m, shape (N,).

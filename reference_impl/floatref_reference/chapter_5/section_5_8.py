@@ -31,7 +31,7 @@ def velocity(a_zp: npt.ArrayLike, dt: npt.ArrayLike, v_1: Real = 0.0) -> Signal:
     """Integrate the vertical acceleration in the distance domain.
 
     Equation:
-        (5.5), with the factor 1/2 of the trapezoidal rule that the print lacks:
+        (5.5), with the factor 1/2 of the trapezoidal rule that is missing in print:
         v_zp(x_k) = v_zp(x_{k-1}) + Δt(x_k) (a_zp(x_k) + a_zp(x_{k-1})) / 2
 
     Args:
@@ -49,7 +49,7 @@ def position(v_zp: npt.ArrayLike, dt: npt.ArrayLike, r_1: Real = 0.0) -> Signal:
     """Integrate the vertical velocity in the distance domain.
 
     Equation:
-        (5.6), with the factor 1/2 of the trapezoidal rule that the print lacks:
+        (5.6), with the factor 1/2 of the trapezoidal rule that is missing in print:
         r_zp(x_k) = r_zp(x_{k-1}) + Δt(x_k) (v_zp(x_k) + v_zp(x_{k-1})) / 2
 
     Args:

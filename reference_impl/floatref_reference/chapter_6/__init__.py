@@ -19,5 +19,5 @@
 - `section_6_6_5_constant_height`: without GPS (6.65, 6.66).
 
 States and covariances are float64, which `numpy.linalg` needs. The state is that of (C.2), the
-matrices are those of appendix C; GPS stands for any satellite navigation, as in the text.
+matrices are those of appendix C; GPS means any satellite navigation, as in the text.
 """

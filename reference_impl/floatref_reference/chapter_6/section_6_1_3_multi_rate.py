@@ -9,11 +9,11 @@ from floatref_reference.chapter_6.section_6_1_2_extended import measurement_upda
 def multi_rate_update(
     x: Vector, P: Matrix, y: Vector | None, h_x: Vector, H: Matrix, R: Matrix
 ) -> tuple[Vector, Matrix]:
-    """Correct the state if there is something to correct it by.
+    """Correct the state if there is an observation.
 
     Equation:
         (6.16) x̂_{k|k} = x̂_{k|k-1}, P_{k|k} = P_{k|k-1} without an observation, else (6.13) with
-        V = I. Of an observation that lacks a component, the rows of that component are left out.
+        V = I. If a component of an observation is missing, its rows are omitted.
 
     Args:
         x: x̂_{k|k-1}, shape (ns,).

@@ -118,7 +118,7 @@ def modelled_variance(
 
     Equation:
         (6.53) σ_A²(nΔt) = R_A² (nΔt)²/2 + K_A² nΔt/3 + 2 B_A² ln(2)/π + N_A²/(nΔt) + 3 Q_A²/(nΔt)².
-        It stands in section 6.4.2, and gives each kind of noise in the unit of Ω times a power
+        It is in section 6.4.2, and gives each kind of noise in the unit of Ω times a power
         of s, here for Ω in rad/s.
 
     Args:

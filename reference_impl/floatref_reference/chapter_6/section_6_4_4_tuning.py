@@ -26,9 +26,9 @@ m/s², σ_ω'1 and σ_ω'2 in rad/s, each per time step of 1/16,000 s.
 
 The random walks are printed in m/s³ and deg/s². (C.6) adds them to a drift in m/s² or rad/s as they
 are, with 1 where the others have Δt, so here they are steps of that drift. The time constants
-speak for it too: with GPS heights, white acceleration noise acts at 0.13 rad/s and the walk at
+confirm it: with GPS heights, white acceleration noise acts at 0.13 rad/s and the walk at
 0.13 rad/s. Were the walk a rate to be multiplied by Δt, or a density in m/s^(5/2), it would act at
-0.005 or 0.03 rad/s and tuning it would have moved nothing.
+0.005 or 0.03 rad/s and tuning it would have had no effect.
 """
 
 

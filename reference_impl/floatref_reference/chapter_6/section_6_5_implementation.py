@@ -85,7 +85,7 @@ def kalman_filter(
 
     Equation:
         Section 6.5: (6.9) and (6.10) at every time step, from k-1 to k with u_{k-1}; (6.13) where
-        there is an observation, else (6.16). Steps count from 0 here: x_0 and P_0 stand for
+        there is an observation, else (6.16). Steps count from 0 here: x_0 and P_0 mean
         x̂_{0|-1}, no time update leads to them, and an observation at k = 0 corrects them.
 
     Args:
@@ -149,7 +149,7 @@ def most_recent(steps: npt.ArrayLike, readings: npt.ArrayLike, N: int) -> npt.ND
 
     Equation:
         Section 6.5: at each time step, the most recent reading of each sensor. Before the first
-        there is none, and the first is taken.
+        reading, the first one is used.
 
     Args:
         steps: time steps at which the readings came, increasing, shape (M,).

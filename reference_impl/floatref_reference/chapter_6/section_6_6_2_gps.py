@@ -35,7 +35,7 @@ def observed_at(observations: Mapping[int, Observation]) -> Observe:
     """Make observations that do not depend on the state known to the Kalman filter.
 
     Equation:
-        (6.16) at the steps that have none.
+        (6.16) at the steps without an observation.
 
     Args:
         observations: observations by step.

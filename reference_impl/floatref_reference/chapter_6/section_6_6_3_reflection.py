@@ -48,8 +48,8 @@ class References(NamedTuple):
             (6.58) and (6.61), for the stop that the next step may begin.
 
         Args:
-            y: GPS reading in the order of (C.7), None if there is none.
-            h: height-sensor reading, m, NaN if there is none.
+            y: GPS reading in the order of (C.7), None if it is missing.
+            h: height-sensor reading, m, NaN if it is missing.
 
         Returns:
             The last readings of each.
@@ -60,7 +60,7 @@ class References(NamedTuple):
 
 
 def reflected_height(h: float, y_rz_ref: float, h_ref: float) -> float:
-    """Compute the height that stands in for that of GPS at a stop.
+    """Compute the height that replaces that of GPS at a stop.
 
     Equation:
         (6.58) y_rz,k = y_rz,ref + (h_k - h_ref). Printed with h_ref - h_k; at a stop the road

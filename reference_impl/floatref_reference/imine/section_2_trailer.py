@@ -53,7 +53,7 @@ class Trailer(NamedTuple):
 
 
 TRAILER = Trailer()
-"""Round numbers of ours for such a trailer; none are printed."""
+"""Our round numbers for such a trailer; the paper prints no numbers."""
 
 
 class Motion(NamedTuple):

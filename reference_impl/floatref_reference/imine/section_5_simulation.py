@@ -110,8 +110,8 @@ def chirp(
     """Evaluate a sine whose frequency rises in proportion to time.
 
     Equation:
-        Figure 5: u = a sin(2π (f_0 t + (f_1 - f_0) t²/(2T))). The error of 5e-6 m, said to be
-        0.5 %, makes a = 1 mm; the frequencies are ours.
+        Figure 5: u = a sin(2π (f_0 t + (f_1 - f_0) t²/(2T))). The error of 5e-6 m is
+        0.5 % in print, so a = 1 mm; the frequencies are ours.
 
     Args:
         t: time, s.

@@ -8,11 +8,11 @@
 - `least_squares`: the same posterior from one least-squares problem, with matrices of its own.
 - `levelling`, `lines`: the vertical acceleration by the attitude that an inertial unit measures.
 
-It is not in the dissertation. A high-pass filter in time goes on forgetting the road while the
-vehicle stands on it; here the road under the laser, its elevation z and the slope s of its long
-waves, is a process in distance, which stands still when the vehicle does. With r, v, b the height
-of the reference point, its velocity and the slow bias of the accelerometer, κ_j unknown constants
-and u_j known signals, for each track
+It is not in the dissertation. A high-pass filter in time forgets the road while the vehicle
+is stationary; here the road under the laser, its elevation z and the slope s of its long waves, is
+a process in distance, which is constant when the vehicle is stationary. With r, v, b the height of
+the reference point, its velocity and the slow bias of the accelerometer, κ_j unknown constants and
+u_j known signals, for each track
 
     r' = v,  v' = a_m - b - Σ κ_j u_j + w_a,  b' = w_b,  κ_j' = 0,
     dz = (s - z/λ_p) V dt + √(q V) dW_q,  ds = -(s/λ_p) V dt + √(g V) dW_g,

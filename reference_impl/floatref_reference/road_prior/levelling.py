@@ -50,9 +50,9 @@ class Smoothing(NamedTuple):
 
     Attributes:
         every: samples of a bin.
-        near_s: σ of the line through what gravity says, s.
+        near_s: σ of the line through the angles by gravity, s.
         far_s: σ of the line through its difference to the integrated rates, s.
-        patience: so many bins in a row without rates, and no line goes across them.
+        patience: number of bins in a row without rates that no line crosses.
     """
 
     every: int
@@ -143,7 +143,7 @@ def attitude(unit: Unit, smoothing: Smoothing) -> tuple[Matrix, list[bool]]:
         smoothing: how.
 
     Returns:
-        θ and φ, rad, shape (2, N), and of every bin whether gravity tells them.
+        θ and φ, rad, shape (2, N), and of every bin whether gravity gives them.
     """
     every, h = smoothing.every, smoothing.every * unit.dt
     said = gravity(unit, every)

@@ -3,10 +3,10 @@
 The state is (r, v, b, z, s) of each track, one track after the other, and then the κ_j: all J of
 them once if the tracks share them, else those of the first track, of the second and so on.
 
-Between two samples Δt apart, a_m and u_j are linear in time, and the density of w_b is what its
-square averages at both ends. With that the discretization is exact: no noise is held, and steps
-can be split. Only the distance ΔX between the samples moves the road, whatever the speed was,
-and `road` says how.
+Between two samples Δt apart, a_m and u_j are linear in time, and the squared density of w_b is
+the mean of its squares at both ends. With that the discretization is exact: no noise is held, and
+steps can be split. The road changes only by the distance ΔX between the samples, at any speed,
+and `road` defines how.
 """
 
 import numpy as np

@@ -90,8 +90,8 @@ def recorded(
         t: time, s, shape (N,).
         distance: travel distance, m, shape (N,).
         a_m: accelerometer with 1 g removed, m/s², shape (n, N), or (N,) of a single track.
-        h: height, m, NaN where there is none, of the shape of a_m.
-        u: inputs, shape (n, N, J), or (N, J) for all tracks alike; none if None.
+        h: height, m, NaN where it is missing, of the shape of a_m.
+        u: inputs, shape (n, N, J), or (N, J) for all tracks alike; no inputs if None.
         a_x: longitudinal acceleration, m/s², shape (N,) or a constant.
         shared: whether the tracks have each κ_j in common.
 

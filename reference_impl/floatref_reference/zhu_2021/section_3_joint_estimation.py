@@ -69,7 +69,7 @@ def input_estimation(
         ValueError: unless J has full column rank; an acceleration at each wheel gives it.
     """
     if np.linalg.matrix_rank(J) < J.shape[1]:
-        raise ValueError(f"J does not tell {J.shape[1]} forces apart: measure wheel accelerations")
+        raise ValueError(f"J does not determine {J.shape[1]} forces: measure wheel accelerations")
     inverse = np.linalg.inv(R_tilde)
     P_F = symmetric(np.linalg.inv(J.T @ inverse @ J))
     M_k = P_F @ J.T @ inverse
@@ -171,8 +171,8 @@ def joint_input_state(
     """Estimate forces and states from all measurements up to each step.
 
     Equation:
-        Steps (a), (b) and (c) at each step. They count from 0 here: X_0 and P_0 stand for
-        X̂_{0|-1} and P_{0|-1}. F̂_{0|-1} of the print is in none of the steps.
+        Steps (a), (b) and (c) at each step. They count from 0 here: X_0 and P_0 mean
+        X̂_{0|-1} and P_{0|-1}. No step uses F̂_{0|-1} of the print.
 
     Args:
         Z: measurements, shape (N, nm).

@@ -113,6 +113,6 @@ def denoise(x: npt.ArrayLike, L: int, r: int) -> Vector:
     """
     X = embedding(x, L)
     if not 1 <= r <= L:
-        raise ValueError(f"{r} components cannot be kept of {L}")
+        raise ValueError(f"{r} of {L} components cannot be retained")
     _, U = decomposition(X)
     return diagonal_averaging(grouping(X, U, list(range(r))))

@@ -55,5 +55,5 @@ def test_noise_is_taken_off() -> None:
 
 @pytest.mark.parametrize(("L", "r"), [(1, 1), (16, 1), (10, 0), (10, 11)])
 def test_windows_and_components_that_do_not_fit_are_refused(L: int, r: int) -> None:
-    with pytest.raises(ValueError, match=r"does not fit|cannot be kept"):
+    with pytest.raises(ValueError, match=r"does not fit|cannot be retained"):
         denoise(np.zeros(30), L, r)

@@ -1,4 +1,4 @@
-"""Reading files of the RoadLogger: what is in them, under its own names, units and ticks."""
+"""Reading files of the RoadLogger: their contents, with its own names, units and ticks."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
@@ -15,7 +15,7 @@ from acme_roadlogger.layout import Header
 from floatref import Column, Epoch, NativeClock, NativeFile, Rows, Stream
 
 ROWS = 1 << 16
-"""Rows delivered in one go, and at most a block more."""
+"""Rows delivered at a time, and at most a block more."""
 
 
 class RoadLogger:
@@ -25,16 +25,16 @@ class RoadLogger:
     summary = "ACME RoadLogger, version 1"
 
     def recognises(self, source: Path) -> bool:
-        """Tell by the magic number."""
+        """Return whether the file has the magic number."""
         if not source.is_file():
             return False
         with source.open("rb") as stream:
             return stream.read(len(layout.MAGIC)) == layout.MAGIC
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
-        """Return one stream for each channel, each sample with its tick, so that gaps stay gaps.
+        """Return one stream for each channel, each sample with its tick, so that gaps remain gaps.
 
-        The whole file is looked through once: rows are counted, damage is found. Raises
+        The whole file is read once: rows are counted, damage is found. Raises
         InputError, in one line, for a header that cannot be used.
         """
         header, begin = read_header(source)

@@ -1,4 +1,4 @@
-"""Reading the blocks of a file, past whatever is damaged in between."""
+"""Reading the blocks of a file, and skipping damaged parts."""
 
 import zlib
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from floatref import InputError
 CHUNK = 1 << 20
 """Bytes read in one go."""
 MOST_FALSE = 100_000
-"""So many beginnings of blocks that are none are looked at."""
+"""Number of false beginnings of blocks after which a file is refused."""
 
 Counts = NDArray[np.int16] | NDArray[np.int32]
 Block = tuple[int, int, Counts]
@@ -24,7 +24,7 @@ Block = tuple[int, int, Counts]
 
 @dataclass
 class Skipped:
-    """What lies between sound blocks: places, bytes, and bytes since the last sound block."""
+    """The data between sound blocks: places, bytes, and bytes since the last sound block."""
 
     places: int = 0
     size: int = 0
@@ -37,7 +37,7 @@ class Skipped:
         self.last += size
 
     def told(self) -> tuple[str, ...]:
-        """Return one line for what is damaged, and one for an end that is cut off."""
+        """Return one line for damaged places, and one for a truncated end."""
         places, size, lines = self.places - (self.last > 0), self.size - self.last, []
         if places:
             lines.append(f"{places} damaged places, {size} bytes in all; samples are missing there")
@@ -49,8 +49,8 @@ class Skipped:
 def sound_blocks(source: Path, header: Header, begin: int, skipped: Skipped) -> Iterator[Block]:
     """Yield every block from byte ``begin`` on whose check is right.
 
-    Behind a damaged one the next is looked for by its sync. Raises InputError for a file that is
-    nothing but beginnings of blocks.
+    After a damaged block the next one is found by its sync. Raises InputError for a file with
+    more than `MOST_FALSE` false beginnings of blocks.
     """
     buffer, at, false = b"", 0, 0
     with source.open("rb") as stream:

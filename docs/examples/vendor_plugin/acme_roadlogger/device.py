@@ -1,4 +1,4 @@
-"""What the judge asks: our software, from a recording to a profile."""
+"""The device that the judge tests: our software, from a recording to a profile."""
 
 import warnings
 from collections.abc import Mapping
@@ -11,10 +11,10 @@ from acme_roadlogger.pipeline import NAME
 
 
 class Device:
-    """The RoadLogger with its own pipeline; nominal sensors alone."""
+    """The RoadLogger with its own pipeline; only nominal sensors."""
 
     def describe(self) -> Mapping[str, Any]:
-        """Say what it is."""
+        """Describe the device."""
         return {
             "name": "ACME RoadLogger",
             "version": __version__,
@@ -25,7 +25,7 @@ class Device:
     def run(self, recording: Path, profile: Path) -> None:
         """Process ``recording``, a recording.json, into the directory ``profile``."""
         with warnings.catch_warnings():
-            # What is repaired or flagged is no news to the judge.
+            # The judge does not need the warnings about repaired or flagged samples.
             warnings.simplefilter("ignore", floatref.FloatrefWarning)
             found = floatref.process(floatref.read_recording(recording), NAME)
         floatref.write_profile(found, profile)

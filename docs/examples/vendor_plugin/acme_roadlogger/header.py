@@ -1,4 +1,4 @@
-"""Reading the header of a file, and refusing in one line what is none."""
+"""Reading the header of a file, and refusing other files in one line."""
 
 import zlib
 from fractions import Fraction
@@ -12,11 +12,11 @@ from floatref import InputError
 RATES = Fraction(1, 1000), Fraction(10**7)
 """Slowest and fastest sensor, in Hz."""
 LARGEST = 1e30
-"""Of scale and offset; a sample is finite then."""
+"""Largest scale and offset; a sample is then finite."""
 
 
 def read_header(source: Path) -> tuple[Header, int]:
-    """Return the header of ``source`` and where the blocks begin; InputError if it is none."""
+    """Return the header of ``source`` and the place of the first block, or raise InputError."""
     with source.open("rb") as stream:
         start = stream.read(layout.HEADER.size)
         if len(start) < layout.HEADER.size or not start.startswith(layout.MAGIC):
@@ -25,8 +25,8 @@ def read_header(source: Path) -> tuple[Header, int]:
         if version != layout.VERSION:
             raise InputError(f"{source}: version {version}; this reads version {layout.VERSION}")
         if not 0 < size <= layout.MOST_CHANNELS or not ticks_per_s:
-            said = f"{size} channels and {ticks_per_s} ticks per second"
-            raise InputError(f"{source}: {said} are no logger's; copy it again")
+            numbers = f"{size} channels and {ticks_per_s} ticks per second"
+            raise InputError(f"{source}: {numbers} are no logger's; copy it again")
         table, check = stream.read(size * layout.CHANNEL.size), stream.read(layout.CHECK.size)
     if check != layout.CHECK.pack(zlib.crc32(start + table)):
         raise InputError(f"{source}: the header is truncated or damaged; copy it again")
@@ -37,15 +37,15 @@ def read_header(source: Path) -> tuple[Header, int]:
 
 def _channel(source: Path, entry: tuple[Any, ...]) -> LoggedChannel:
     name, unit, width, dropouts, top, bottom, scale, offset, code = entry
-    told = f"{source}: channel {_text(name)!r}"
+    place = f"{source}: channel {_text(name)!r}"
     if width not in layout.WIDTHS:
-        raise InputError(f"{told}: samples of {width} bytes; the logger has 2 and 4")
+        raise InputError(f"{place}: samples of {width} bytes; the logger has 2 and 4")
     if unit >= len(layout.UNITS):
-        raise InputError(f"{told}: unit code {unit} is unknown; update this plug-in")
+        raise InputError(f"{place}: unit code {unit} is unknown; update this plug-in")
     if not bottom or not RATES[0] <= Fraction(top, bottom) <= RATES[1]:
-        raise InputError(f"{told}: a rate of {top}/{bottom} Hz is no sensor's; set the logger up")
+        raise InputError(f"{place}: a rate of {top}/{bottom} Hz is no sensor's; set the logger up")
     if not (0 < abs(scale) <= LARGEST and abs(offset) <= LARGEST):
-        raise InputError(f"{told}: scale {scale}, offset {offset}; set the logger up")
+        raise InputError(f"{place}: scale {scale}, offset {offset}; set the logger up")
     dropout = code if dropouts else None
     rate = Fraction(top, bottom)
     return LoggedChannel(_text(name), layout.UNITS[unit], width, rate, scale, offset, dropout)

@@ -6,7 +6,7 @@
 | version | u16 | 1 |
 | channels | u16 | entries of the channel table, 1 to 64 |
 | ticks per second | u32 | of the logger's one clock |
-| start | i64 | when tick 0 was, in ns since 1970 UTC; 0 if the logger did not know |
+| start | i64 | time of tick 0, in ns since 1970 UTC; 0 if unknown |
 | device | 16 bytes | serial number in ASCII, padded with zeros |
 | channel table | 48 bytes each | below |
 | check | u32 | CRC-32 of all of the above |
@@ -16,10 +16,10 @@
 | name | 16 bytes | in ASCII, padded with zeros |
 | unit | u8 | place in `UNITS` |
 | width | u8 | bytes of a sample: 2 or 4, signed |
-| dropouts | u16 | 1 if the dropout code counts, else 0 |
+| dropouts | u16 | 1 if the dropout code is used, else 0 |
 | rate | 2 × u32 | samples per second, as a fraction |
 | scale, offset | 2 × f64 | a sample in its unit is scale · count + offset |
-| dropout code | i32 | the count that says that nothing was measured |
+| dropout code | i32 | the count that means a missing sample |
 
 | block | type | meaning |
 |---|---|---|
@@ -55,7 +55,7 @@ LARGEST = AROUND + max(WIDTHS) * MOST_SAMPLES
 
 @dataclass(frozen=True)
 class LoggedChannel:
-    """An entry of the channel table; ``dropout`` is None if no code stands for one."""
+    """An entry of the channel table; ``dropout`` is None if there is no dropout code."""
 
     name: str
     unit: str
@@ -68,7 +68,7 @@ class LoggedChannel:
 
 @dataclass(frozen=True)
 class Header:
-    """What stands before the blocks."""
+    """The data before the blocks."""
 
     channels: tuple[LoggedChannel, ...]
     ticks_per_s: int = 10_000_000

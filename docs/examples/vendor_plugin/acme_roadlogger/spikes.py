@@ -19,14 +19,14 @@ class RemoveSpikes(Stage):
     """Puts the median in place of a height that is farther than ``spike_m`` from it, and flags it.
 
     The median is that of the eleven samples around it; at either end of the run the outermost
-    sample is repeated. Where one of the eleven is NaN, nothing is removed. What lay under a spike
-    is not known: the sample is flagged as missing, like one that the laser dropped.
+    sample is repeated. Where one of the eleven is NaN, nothing is removed. The height
+    under a spike is not known: the sample is flagged as missing, like a dropout of the laser.
     """
 
     declared = Declared(linear=False, delay=HALF)
 
     def __init__(self, spike_m: float) -> None:
-        """Take more than ``spike_m``, in m, for a spike."""
+        """Treat a deviation of more than ``spike_m``, in m, as a spike."""
         super().__init__()
         self._spike_m = spike_m
 
@@ -46,14 +46,14 @@ class RemoveSpikes(Stage):
         return self._cleaned(wide, ready, 0)
 
     def close(self) -> tuple[Block, ...]:
-        """Return the samples that waited for others."""
+        """Return the samples that waited for later ones."""
         waiting = self.memory["waiting"]
         if waiting is None or not len(waiting):
             return ()
         return (self._cleaned(waiting, len(waiting), HALF),)
 
     def told(self) -> tuple[str, ...]:
-        """Tell how many samples were replaced."""
+        """Return the number of replaced samples."""
         removed = self.memory["removed"]
         return (f"{removed} samples of laser spikes removed and flagged",) if removed else ()
 

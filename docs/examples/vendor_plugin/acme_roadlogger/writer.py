@@ -19,9 +19,9 @@ from floatref import Channel, InputError, Recording, UniformClock, read_recordin
 
 G = 9.80665
 COUNT_M = 0.0005
-"""What one count of the encoder is, in m of travel."""
+"""Travel per count of the encoder, in m."""
 FIRST_COUNT = (1 << 31) - 20_000
-"""The encoder's counter when logging begins: it starts again after 10 m."""
+"""The encoder's counter when logging begins: it wraps after 10 m."""
 SENSORS = {
     "vertical_specific_force": ("ACC", "g", 4, 1 / G, 1e-7, 0.0, -(1 << 31)),
     "height": ("LASER", "mm", 2, 1000.0, 0.01, 300.0, -(1 << 15)),
@@ -44,7 +44,7 @@ def write_blocks(path: Path, header: Header, blocks: Iterable[tuple[int, int, Co
 
 
 def packed_header(header: Header) -> bytes:
-    """Return ``header`` as it stands in a file."""
+    """Return the bytes of ``header`` in a file."""
     device = header.device.encode("ascii")
     words = (layout.MAGIC, layout.VERSION, len(header.channels), header.ticks_per_s)
     packed = layout.HEADER.pack(*words, header.start_ns, device)
@@ -53,7 +53,7 @@ def packed_header(header: Header) -> bytes:
 
 
 def packed_block(channel: int, width: int, tick: int, counts: Counts) -> bytes:
-    """Return one block of 1 to 4096 ``counts`` as it stands in a file."""
+    """Return the bytes in a file of one block of 1 to 4096 ``counts``."""
     packed = layout.BLOCK.pack(layout.SYNC, channel, len(counts), tick)
     packed += np.asarray(counts, f"<i{width}").tobytes()
     return packed + layout.CHECK.pack(zlib.crc32(packed))
@@ -76,10 +76,10 @@ def _packed_channel(channel: LoggedChannel) -> bytes:
 def write_recording(
     recording: Recording, path: Path, start_ns: int = 0, device: str = "RL-0042"
 ) -> None:
-    """Write what a RoadLogger would have logged of the nominal channels of ``recording``.
+    """Write the nominal channels of ``recording`` as a RoadLogger would have logged them.
 
     Samples are rounded to counts; a missing one, or one out of range, becomes the dropout code,
-    or a gap where there is none. Raises InputError for a channel without a constant rate.
+    or a gap if the channel has no code. Raises InputError for a channel without a constant rate.
     """
     taken = [c for c in recording.channels if c.id.name in SENSORS]
     header = Header(tuple(map(_logged, taken)), start_ns=start_ns, device=device)

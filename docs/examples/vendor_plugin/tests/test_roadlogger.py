@@ -1,4 +1,4 @@
-"""Our own tests: what is written is read, damage is told, the stage obeys its laws."""
+"""Our own tests: data written is read, damage gives a warning, the stage obeys its laws."""
 
 import zlib
 from fractions import Fraction
@@ -108,10 +108,10 @@ def a_file(path: Path, blocks: int = 40) -> tuple[Header, list[int]]:
 
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
-def test_damage_is_told_and_takes_no_more_than_the_blocks_it_hits(
+def test_damage_gives_a_warning_and_affects_only_the_blocks_it_hits(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
 ) -> None:
-    """Flipped bits, and an end that is cut off."""
+    """Flipped bits, and a truncated end."""
     path = tmp_path_factory.mktemp("files") / "run.arl"
     _, begins = a_file(path)
     whole = bytearray(path.read_bytes())
@@ -152,7 +152,7 @@ def test_any_byte_of_the_header_may_be_wrong(
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         ({"width": 3}, "samples of 3 bytes"),
         ({"rate": Fraction(10**9)}, "no sensor's"),
@@ -161,11 +161,11 @@ def test_any_byte_of_the_header_may_be_wrong(
         ({"offset": float("nan")}, "offset nan"),
     ],
 )
-def test_a_sound_header_may_still_say_nonsense(tmp_path: Path, change: dict, said: str) -> None:
+def test_a_sound_header_may_have_wrong_values(tmp_path: Path, change: dict, message: str) -> None:
     """Its check is right, and it is refused."""
     entry = {"name": "A", "unit": "g", "width": 2, "rate": Fraction(1), **change}
     (tmp_path / "run.arl").write_bytes(packed_header(Header((LoggedChannel(**entry),))))
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         RoadLogger().streams(tmp_path / "run.arl", {})
 
 
