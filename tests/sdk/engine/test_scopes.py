@@ -18,6 +18,7 @@ from floatref import (
     hookimpl,
 )
 from floatref.engine.plugins import Plugins
+from floatref.engine.run import process
 
 OWN = StageCall("RemoveMean", "elevation")
 THEIRS = StageCall("FromFirst", "elevation")
