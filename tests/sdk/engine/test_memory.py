@@ -18,9 +18,9 @@ IN_A_FRESH_PROCESS = """
 import sys, resource
 from pathlib import Path
 import floatref
-from floatref.engine import tape
+from floatref.engine import flow
 
-tape.IN_MEMORY = 1 << 20
+flow.IN_MEMORY = 1 << 20
 
 def peak():
     # The other count begins with the memory of the process that started this one.

@@ -18,6 +18,7 @@ from floatref import (
     hookimpl,
 )
 from floatref.engine.plugins import Plugins
+from floatref.engine.run import process
 
 OWN = StageCall("RemoveMean", "elevation")
 THEIRS = StageCall("FromFirst", "elevation")
@@ -118,7 +119,7 @@ def test_a_fall_back_is_asked_for_the_pipelines_that_it_names():
     loaded = loaded_with(Vendor())
     for name, taken in (("kalman-filter", True), ("temporal-basic", False)):
         profile = Profile(0.1, (ProfileTrack.of("main", [0.0, 0.0]),), pipeline=name)
-        asked = DropOut(Pipeline, profile, {})
+        asked = DropOut(Pipeline, profile, {}, process)
         assert (loaded.fall_back(asked) is profile) == taken
 
 
