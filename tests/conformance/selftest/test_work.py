@@ -6,11 +6,11 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.selftest.work import graded, without_grader
 
 CHECKS = load_registry().checks
-SHORT = {"bounce", "quiescent", "constant-speed"}
+LONG = {"invariance", "braking", "stop", "throttle", "low-speed", "near-stop"}
 
 
 @pytest.mark.parametrize(
-    "id_", [pytest.param(i, marks=() if i in SHORT else pytest.mark.slow) for i in CHECKS]
+    "id_", [pytest.param(i, marks=pytest.mark.slow if i in LONG else ()) for i in CHECKS]
 )
 def test_every_limit_of_the_check_holds_on_both_sides(id_):
     check = CHECKS[id_]
