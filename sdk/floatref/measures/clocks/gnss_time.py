@@ -12,7 +12,7 @@ from floatref.values.scanning import chunks
 
 DAY_S, WEEK_S = 86400.0, 604800.0
 ASTRAY_S = 1.0
-"""A reading that is so far from what most tell is none, beside what drift explains."""
+"""Distance in s from the majority, beyond drift, from which on a reading is wrong."""
 DRIFT = 1e-3
 
 
@@ -21,9 +21,9 @@ class ReadingEdges(NamedTuple):
 
     Args:
         base_s: base time of the first sample of each, shape (n,), in s.
-        gnss_s: what it read, shape (n,), in s, going on over midnight and the end of a week.
-        update_s: the usual time between two, with that between two samples, in s.
-        dropped: readings that do not go on as time does.
+        gnss_s: the readings, shape (n,), in s, continuous over midnight and the end of a week.
+        update_s: the usual time between two readings plus that between two samples, in s.
+        dropped: number of readings that do not advance as time does.
     """
 
     base_s: FloatArray
@@ -96,7 +96,7 @@ FIRST_DAYS = (
 )
 """The first day after each leap second, UTC."""
 KNOWN_UNTIL = "2026-06-28"
-"""The list says so far that there are no others."""
+"""Last day that the list of leap seconds covers."""
 
 
 def _unix_s(day: str) -> int:
@@ -139,7 +139,7 @@ def utc_from_gps_s(gps_s: float) -> float:
 
 
 def leap_seconds_told(utc_unix_s: float) -> str | None:
-    """Return a line if ``utc_unix_s`` is later than the list of leap seconds reaches."""
+    """Return a warning if ``utc_unix_s`` is later than the end of the list of leap seconds."""
     if not utc_unix_s > _unix_s(KNOWN_UNTIL):
         return None
     day = f"{np.datetime64(int(utc_unix_s), 's')}"[:10]

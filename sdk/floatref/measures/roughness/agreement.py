@@ -1,7 +1,7 @@
 """Agreement of two signals: cross correlation over a range of offsets (2.1.5.1).
 
 Mean and standard deviation are those of the overlap at each offset, so a shifted copy of a
-signal scores 1 whatever lies beyond the overlap.
+signal scores 1 for any values beyond the overlap.
 """
 
 import math
@@ -97,8 +97,8 @@ def _correlate(p: FloatArray, q: FloatArray, largest: int) -> _Overlap:
 def _lagged_products(p: FloatArray, q: FloatArray, largest: int) -> FloatArray:
     """Return Σ p(k)·q(k + i) over the overlap for lags i from −``largest`` to ``largest``.
 
-    The transform is only ``largest`` points longer than the signals: what wraps around lands
-    on lags that are not asked for.
+    The transform is only ``largest`` points longer than the signals: the wrapped part falls on lags
+    that are not needed.
     """
     from scipy.fft import irfft, next_fast_len, rfft
 

@@ -1,4 +1,4 @@
-"""Filters that bring out the content to compare, and the agreement in a band (2.1.5.2)."""
+"""Filters for the content to compare, and the agreement in a band (2.1.5.2)."""
 
 import math
 from collections.abc import Mapping
@@ -85,9 +85,9 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     """Return HPF_B3x2 of ``elevation``, −3 dB at ``wavelength_m``, without phase shift.
 
     Elevation counts from the first measured point, as a floating reference height does, so the
-    datum has no part in the filter's run-in. Same length; NaN before the first and after the
-    last measured point and, after the bridge has been filtered, in gaps again. Raises InputError
-    for a wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
+    datum does not change the filter's run-in. Same length; NaN before the first and after the last
+    measured point and, after the bridge has been filtered, in gaps again. Raises InputError for a
+    wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
     values = checked_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
@@ -105,9 +105,9 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
 
     The slope less its mean is continued at both ends by its mirror image, as far as the band's
     longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
-    without elevation are refused. The low-pass is left out where its cut-off is not above two
-    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one
-    whose long end is not above two intervals. Source: 2.1.5.2.
+    without elevation are refused. The low-pass is not applied where its cut-off is not above two
+    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one whose
+    long end is not above two intervals. Source: 2.1.5.2.
     """
     if band not in WAVEBANDS:
         raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
