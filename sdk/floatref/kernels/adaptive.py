@@ -1,7 +1,7 @@
 """The zero-phase high-pass at a cut-off that follows the speed (5.7), on whole arrays.
 
 It is the array form of what the stages of section 5.7 do block by block with the same kernels,
-and gives the same bits: without blocks, flags and states it shows what the filter itself costs.
+and gives the same bits: without blocks, flags and states it shows the time of the filter alone.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from floatref.kernels.varying import MEMORY, high_pass_12, high_pass_21
 from floatref.values.arrays import FloatArray
 
 PIECE = 16_384
-"""Samples taken together, so that what lies between two loops stays in the cache."""
+"""Samples taken together, so that the data between two loops stays in the cache."""
 
 
 def adaptive_high_pass(

@@ -1,4 +1,4 @@
-"""What a command reads: a recording directory or a native file, and what is kept of its origin."""
+"""What a command reads: a recording directory or a native file, and its recorded origin."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A recording, where it came from, and one line for each thing to know about its reading.
+    """A recording, its origin, and the warnings from reading it, one line each.
 
     ``inputs`` is the SHA-256 of every file that was read, by its path; ``reading`` is None unless
     it came through a channel map.
@@ -39,7 +39,7 @@ class Source:
 
     @contextmanager
     def named(self) -> Iterator[None]:
-        """Put the native name of a channel into any InputError raised inside."""
+        """Add the native name of the channel to any InputError raised inside."""
         try:
             yield
         except InputError as error:
@@ -54,7 +54,7 @@ def recording_of(
 ) -> Source:
     """Return what is in ``source``, read with ``adapter`` and by ``channel_map`` if given.
 
-    Raises InputError for a source that cannot be used, and for a map where none is needed.
+    Raises InputError for a source that cannot be used, and for a map where no map is needed.
     """
     from floatref.mapping.channel_map.map_document import read_map
 
@@ -134,11 +134,11 @@ def profiled(
     settings: Mapping[str, Any],
     progress: Callable[[float], None] | None = None,
 ) -> "Result":
-    """Return the profile of ``read`` by ``pipeline``, and one line for each thing to know.
+    """Return the profile of ``read`` by ``pipeline``, and warnings, one line each.
 
-    Lines, and those of errors, have the native names of channels. ``progress`` is called with
-    the part of the recording that is through. Raises InputError with one line naming the source
-    for a recording, pipeline or setting that cannot be used.
+    Warnings and errors have the native names of channels. ``progress`` is called with the part of
+    the recording that has been processed. Raises InputError with one line naming the source for a
+    recording, pipeline or setting that cannot be used.
     """
     from floatref.engine.run import run
 

@@ -26,11 +26,11 @@ def progress_speed(distance: FloatArray, samples: int, duration_s: float) -> Flo
 class TravelSpeed(Stage):
     """Adds `travel_speed`: the encoder's progress over the preceding ``window_s`` (5.6, 5.7).
 
-    v(t_k) = (d(t_k) - d(t_{k-n})) / (n dt), n the number of samples in the window, at least
-    one. Before the first sample the vehicle is taken to stand where it begins, so speed grows
-    from zero within the window. As long as the window holds a missing distance the last speed is
-    kept, and where the distance is missing the speed is flagged. No point of the profile is changed
-    by this stage itself.
+    v(t_k) = (d(t_k) - d(t_{k-n})) / (n dt), n the number of samples in the window, at least one.
+    Before the first sample the vehicle is taken to be stationary, so speed grows from zero within
+    the window. While the window has a missing distance the last speed is repeated, and where the
+    distance is missing the speed is flagged. No point of the profile is changed by this stage
+    itself.
     """
 
     declared = Declared(shift_invariant=True)

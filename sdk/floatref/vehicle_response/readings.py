@@ -30,7 +30,7 @@ MakeEstimator = Callable[[Context, VehicleModel, Sequence[Reading], float], Road
 
 @dataclass(frozen=True)
 class Signal:
-    """A channel, its sign in the model's coordinate, and what it reads."""
+    """A channel, its sign in the model's coordinate, and its reading."""
 
     channel: ChannelId
     sign: float

@@ -1,4 +1,4 @@
-"""Jobs on a cluster: one task each, the largest first, and one record for each, come what may."""
+"""Jobs on a cluster: one task each, the largest first, and always one record for each."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 Task = Callable[[Job, bool], Record]
-"""What is done with one file, given whether what is done already is to be kept."""
+"""Processing of one file, given whether an existing result is to be reused."""
 
 KILLED = (
     "the worker ended {} times while it processed this file alone (out of memory?); give workers "
@@ -30,8 +30,8 @@ def run_jobs(
 ) -> Iterator[tuple[Job, Record]]:
     """Yield every one of ``jobs`` exactly once with its record, as they are done.
 
-    A file whose worker died is tried on other workers, and at last alone, so that it is not
-    blamed for another's doing. ``task`` is `floatref.batch.work.task.run_job` unless given.
+    A file whose worker died is tried on other workers, and at last alone, so that it does not fail
+    through another file. ``task`` is `floatref.batch.work.task.run_job` unless given.
     """
     chosen = task or _run_job
     ordered = sorted(jobs, key=lambda job: -job.size_bytes)
@@ -67,7 +67,7 @@ def _done(
 
     run = token_hex(8)
     keys = {f"floatref-{run}-{index:09d}": job for index, job in enumerate(jobs)}
-    # In one graph, which the scheduler hands out bit by bit and in this order.
+    # In one graph, which the scheduler hands out piece by piece and in this order.
     futures = client.map(_marked, jobs, key=list(keys), pure=False, resume=resume, task=task)
     waiting = as_completed(futures)
     del futures
@@ -82,8 +82,8 @@ def _worker_died(future: "Future[Record]") -> bool:
 
 
 def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
-    """Return what the task returned, or a record of why it returned nothing."""
-    # What a worker did and took with it is done once more, and waited for here.
+    """Return the record of the task, or a record of the reason why there is no result."""
+    # A result that was lost with its worker is calculated again, and waited for here.
     with suppress(Exception):
         return future.result()
     if _worker_died(future):
@@ -95,7 +95,7 @@ def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
 
 
 def _written(job: Job, resume: bool) -> Record | None:
-    """Return what a task has written of ``job`` and nobody passed on; None if that is nothing."""
+    """Return the record that a task has written for ``job`` but not returned, or None."""
     from floatref.batch.work.task import kept
 
     found = kept(job)
@@ -103,7 +103,7 @@ def _written(job: Job, resume: bool) -> Record | None:
 
 
 def _given_up(job: Job, reason: str) -> Record:
-    """Return the record of a file that no task could write one of, and leave it in its place."""
+    """Return and write the record of a file for which no task could write a record."""
     from floatref.batch.results.record import write_record
 
     record = _failed(job, reason)

@@ -16,9 +16,9 @@ from floatref.values.native import Rows, Stream
 from floatref.values.scanning import chunks
 
 UNKNOWN = "unknown"
-"""Name of the clock of a stream whose file says nothing about time."""
+"""Name of the clock of a stream whose file gives no time."""
 TOO_COARSE = 0.5
-"""Part of all rows that may repeat the time of the one before."""
+"""Largest share of rows that repeat the time of the row before."""
 
 Convert = Callable[[FloatArray, FloatArray], FloatArray]
 """From native samples and their times in s to samples in SI units."""
@@ -33,7 +33,7 @@ class Shown:
         self._progress, self._total, self._before = progress, max(total, 1), 0
 
     def of(self, count: int) -> Progress | None:
-        """Return what the next stream, of ``count`` rows, is to call."""
+        """Return the callback for the next stream, of ``count`` rows."""
         before, self._before = self._before, self._before + count
         progress = self._progress
         if progress is None:
@@ -72,11 +72,11 @@ def take(
     stated: ClockEntry | None = None,
     progress: Progress | None = None,
 ) -> Taken:
-    """Return what ``wanted`` of ``stream``, kept in ``spool``.
+    """Return the ``wanted`` columns of ``stream``, stored in ``spool``.
 
     The rate of ``stated``, if it has one, replaces the stream's own clock from its first row on.
-    Raises InputError for a stream without a clock or rows, one whose time goes back or stands
-    still, and if the disk has no room; ValueError for rows that do not fit together.
+    Raises InputError for a stream without a clock or rows, one whose time goes back or does not
+    advance, and if the disk has no room; ValueError for rows that do not fit together.
     """
     own = stated is None or stated.rate is None
     if own and stream.clock.name == UNKNOWN:
@@ -142,7 +142,7 @@ class _Taking:
                 f"stream {self._stream.name!r}: {repeated} of {kept.size} rows repeat the time of "
                 "the one before; record finer time stamps, or state rate_hz under [[clocks]]"
             )
-        told.append(f"{repeated} rows repeat the time of another; the first of each is kept")
+        told.append(f"{repeated} rows repeat the time of another; only the first of each is used")
         thin = [self._spool.thinned(values, kept) for values in (times, *columns)]
         return None, 0.0, thin[0], thin[1:]
 

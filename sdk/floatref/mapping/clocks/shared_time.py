@@ -1,6 +1,6 @@
 """Channels of several devices, each started and stopped for itself, cut to the time they share.
 
-Within one clock nothing is cut: there a channel that ends early is one that was lost.
+Within one clock nothing is cut: there the samples behind an early end were lost.
 """
 
 from collections.abc import Hashable, Sequence
@@ -25,10 +25,10 @@ class Span(NamedTuple):
 def cut_to_shared(
     channels: Sequence[Channel], clocks: Sequence[Hashable], base: int
 ) -> tuple[tuple[Channel, ...], tuple[str, ...]]:
-    """Return ``channels``, those of the vehicle cut to what all its clocks share, and what to tell.
+    """Return ``channels``, those of the vehicle cut to the time its clocks share, and warnings.
 
-    ``clocks`` says by channel which clock it came from, ``base`` which channel is that of the
-    time base. Times that differ by less than what a recording may lack stay. Raises InputError for
+    ``clocks`` has the clock of every channel, ``base`` is the channel of the time base. Times that
+    differ by less than the missing time that a recording allows are not cut. Raises InputError for
     a channel that shares no time with the base.
     """
     spans = [Span(*channel.span_s) for channel in channels]

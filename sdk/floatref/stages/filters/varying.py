@@ -140,8 +140,8 @@ class StateHighPassB3S1R(VaryingHighPass):
 class StateHighPassB3S2R(StateHighPassB3S1R):
     """HPF_B3S2R in state-variable form: bp' = w hp, lp' = w bp, hp = x - bp - lp.
 
-    Unlike (A.10) with coefficients that vary it does not swell where the cut-off falls, as it
-    does on the way back from a stop. It removes content below the cut-off from every point.
+    Unlike (A.10) with varying coefficients, its output does not grow where the cut-off falls, as on
+    the way back from a stop. It removes content below the cut-off from every point.
     """
 
     orders = "2"

@@ -1,4 +1,4 @@
-"""Along the road: from where the wheel is to where the laser would be."""
+"""Along the road: from the place of the wheel to that of the laser."""
 
 from collections.abc import Mapping
 from math import floor
@@ -14,23 +14,23 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 EXACT = 1e-6
-"""A shift is a whole number of intervals if it is one by this share of an interval."""
+"""Tolerance, in intervals, within which a shift is a whole number of intervals."""
 
 
 class ShiftAlong(Stage):
-    """Gives channels further on by their own shift in m, linear between points.
+    """Shifts channels forward by their own shift in m, linear between points.
 
-    What a wheel at x_w feels at the encoder distance s is the road at s + x_w - x_l of an axis on
-    which a sensor at x_l tells the road at s. Where no wheel has been there is no value: it is NaN,
-    flagged as missing. A value is missing where one of its two points is, and has the flags of
-    all points from there to its new place: the encoder is believed on the way. Blocks wait for a
-    shift backwards.
+    A wheel at x_w is at the encoder distance s on the road at s + x_w - x_l of an axis on which a
+    sensor at x_l measures the road at s. Where no wheel has been the value is NaN, flagged as
+    missing. A value is missing where one of its two points is missing, and has the flags of all
+    points from there to its new place, since its distance depends on the encoder there. Blocks wait
+    for a shift backwards.
     """
 
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=1 << 62)
 
     def __init__(self, shifts_m: Mapping[ChannelId, float]) -> None:
-        """Shift each channel of ``shifts_m`` by so much, ahead if above zero."""
+        """Shift each channel by its value in ``shifts_m``, forward if above zero."""
         super().__init__()
         self.shifts_m = dict(shifts_m)
         self._points: dict[ChannelId, tuple[int, float]] = {}
@@ -59,7 +59,7 @@ class ShiftAlong(Stage):
         return self._until(wide, wide.first + len(wide) - self._ahead)
 
     def close(self) -> tuple[Block, ...]:
-        """Return what waited; no wheel has been beyond the end."""
+        """Return the points held back; no wheel has been beyond the end."""
         waiting: Block | None = self.memory["waiting"]
         return () if waiting is None else (self._until(waiting, waiting.first + len(waiting)),)
 

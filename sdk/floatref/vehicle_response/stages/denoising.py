@@ -1,4 +1,4 @@
-"""Noise taken out of a channel by singular spectrum analysis, as in section 5 of Zhu.
+"""Noise removed from a channel by singular spectrum analysis, as in section 5 of Zhu.
 
 The channel is laid out in lagged windows of L samples; of the principal components of these, some
 are kept, and the windows are laid back over each other: the form of Broomhead and King, in which
@@ -30,12 +30,12 @@ def denoised(
 ) -> FloatArray:
     """Return ``samples``, shape (N,), without the components of the least variance.
 
-    This is how section 5 of Zhu takes noise off measured signals. ``window`` is L in samples, from
-    2 to N/2. What is kept is told in one of three ways: the number of ``components``, their least
-    ``share`` of the mean square, above 0 and up to 1, or the standard deviation of white ``noise``,
-    in the unit of the samples, above whose variance they stand. Memory is that of a few copies of
-    the samples. Raises InputError for a missing (NaN) sample, another shape or window, or unless
-    one of the three is given and in its range.
+    So section 5 of Zhu removes noise from measured signals. ``window`` is L in samples, from 2 to
+    N/2. Give one of three criteria: the number of ``components``, their least ``share`` of the mean
+    square, above 0 and up to 1, or the standard deviation of white ``noise``, in the unit of the
+    samples, whose variance they exceed. Memory is that of a few copies of the samples. Raises
+    InputError for a missing (NaN) sample, another shape or window, or unless one of the three is
+    given and in its range.
     """
     channel = _checked(samples, window)
     variances, vectors = singular_spectrum(channel, window)
@@ -46,7 +46,7 @@ def denoised(
 def singular_spectrum(samples: ArrayLike, window: int) -> tuple[FloatArray, FloatArray]:
     """Return variances (L,), from the largest, and vectors (L, L) in columns, of lagged windows.
 
-    The mean is not taken off. Raises InputError as `denoised` does.
+    The mean is not subtracted. Raises InputError as `denoised` does.
     """
     import scipy.linalg
 
@@ -91,9 +91,9 @@ def _kept(
     share: float | None,
     noise: float | None,
 ) -> int:
-    """Return how many components stay."""
+    """Return the number of components that are used."""
     if [components, share, noise].count(None) != 2:
-        raise InputError("denoising: give one of components, share and noise, not two and not none")
+        raise InputError("denoising: give exactly one of components, share and noise")
     if components is not None:
         if not 1 <= components <= variances.size:
             raise InputError(f"denoising: {components} components; give 1 to {variances.size}")
@@ -107,7 +107,7 @@ def _kept(
 
 
 def _above(variances: FloatArray, rows: int, noise: float | None) -> int:
-    """Return how many variances are more than those of white noise in so many windows."""
+    """Return how many variances exceed those of white noise in ``rows`` windows."""
     if noise is None or not (isfinite(noise) and noise >= 0):
         raise InputError(f"denoising: the noise is {noise}; give its standard deviation")
     size = variances.size
