@@ -62,7 +62,7 @@ def _begin(x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, back
 
 
 @compiled
-def _bridged(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
+def _bridge(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
     """Return ``x`` with missing samples bridged, from ``memory[at]`` on; store its last there."""
     missing = 0
     for i in range(x.size):
@@ -92,8 +92,8 @@ def high_pass_1(
     r, y1 = memory[3], memory[4]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = memory[2]
-    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
-    c = _bridged(c[rest], memory, 2, backward)
+    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
+    c = _bridge(c[rest], memory, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -132,8 +132,8 @@ def high_pass_2(
         begin += 1
     t, g, y1, y2, a = memory[3], memory[4], memory[5], memory[6], memory[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
-    c = _bridged(c[rest], memory, 2, backward)
+    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
+    c = _bridge(c[rest], memory, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         rate = c[i]
@@ -169,8 +169,8 @@ def high_pass_12(
     t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = first[2]
-    x, y = _bridged(x[rest], first, 1, backward), y[rest]
-    c = _bridged(c[rest], first, 2, backward)
+    x, y = _bridge(x[rest], first, 1, backward), y[rest]
+    c = _bridge(c[rest], first, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -214,8 +214,8 @@ def high_pass_21(
     t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = second[2]
-    x, y = _bridged(x[rest], second, 1, backward), y[rest]
-    c = _bridged(c[rest], second, 2, backward)
+    x, y = _bridge(x[rest], second, 1, backward), y[rest]
+    c = _bridge(c[rest], second, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate

@@ -106,7 +106,7 @@ class _Mapping:
         self._told: list[str] = []
 
     def reading(self) -> Reading:
-        plan = [self._planned(entry) for entry in self._chart.channels]
+        plan = [self._plan(entry) for entry in self._chart.channels]
         for entry in self._chart.clocks:
             self._opened.check_clock(entry)
         base = next((p for name in BASES for p in plan if p.entry.channel == name), plan[0])
@@ -137,7 +137,7 @@ class _Mapping:
             told=tuple(dict.fromkeys(map(one_line, [*told, *late]))),
         )
 
-    def _planned(self, entry: ChannelEntry) -> _Planned:
+    def _plan(self, entry: ChannelEntry) -> _Planned:
         native = self._opened.file(entry.file)
         with naming(self._opened.paths[entry.file]):
             stream, column = find(native, entry.native)
@@ -154,7 +154,7 @@ class _Mapping:
         streams: dict[Key, Stream] = {}
         places: dict[tuple[Key, Token], int] = {}
         jobs: list[tuple[Key, Stream, str, Convert, Token]] = [
-            (p.key, p.stream, p.column, self._guarded(p), p.entry) for p in plan
+            (p.key, p.stream, p.column, self._guard(p), p.entry) for p in plan
         ]
         jobs += [(key, stream, column, as_they_are, column) for key, stream, column in extra]
         for key, stream, column, convert, token in jobs:
@@ -175,7 +175,7 @@ class _Mapping:
         self._told += [f"{name}{line}" for line in taken.told]
         return taken
 
-    def _guarded(self, planned: _Planned) -> Convert:
+    def _guard(self, planned: _Planned) -> Convert:
         """Return the conversion of ``planned``, whose errors name the channel."""
 
         def convert(values: FloatArray, times_s: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from floatref.values.recording import Channel
 from floatref.values.scanning import Summary
 
 
-def looked_at(reading: Reading) -> dict[str, Any]:
+def inspect_reading(reading: Reading) -> dict[str, Any]:
     """Return what `floatref channels --map --json` prints: channels, clocks and warnings.
 
     A reason why the recording cannot be processed is a warning here.

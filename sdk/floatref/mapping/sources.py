@@ -66,7 +66,7 @@ def recording_of(
             raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
         hashes = _hashes_of(reader, source)
         origin = {"source": source.name, "adapter": reader.name, "sha256": hashes}
-        return Source(source, read_source(reader, source), origin, _placed(hashes, source))
+        return Source(source, read_source(reader, source), origin, _place(hashes, source))
     from floatref.mapping.reading import read_native
 
     reading = read_native(source, chart, reader.name, progress)
@@ -80,7 +80,7 @@ def _hashes_of(reader: Adapter, source: Path) -> dict[str, str]:
     return fingerprint(source) if ours else fingerprint_native(source)
 
 
-def _placed(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
+def _place(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
     """Return ``hashes`` of files in the folder ``source``, or beside the file, by their paths."""
     folder = source if source.is_dir() else source.parent
     return {folder.resolve() / name: value for name, value in hashes.items()}
@@ -92,7 +92,7 @@ def _inputs(reading: "Reading", channel_map: Path | None) -> dict[Path, str]:
     files += [] if channel_map is None else [channel_map]
     found: dict[Path, str] = {}
     for file in dict.fromkeys(path.resolve() for path in files):
-        found |= _placed(fingerprint_native(file), file)
+        found |= _place(fingerprint_native(file), file)
     return found
 
 
@@ -103,7 +103,7 @@ def _origin(
     origin: dict[str, Any] = {
         "source": source.name,
         "adapter": reading.adapters[""],
-        "sha256": _named(inputs, source.resolve().parent),
+        "sha256": _name_hashes(inputs, source.resolve().parent),
         "channels": dict(
             zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
         ),
@@ -115,7 +115,7 @@ def _origin(
     return origin
 
 
-def _named(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
+def _name_hashes(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
     """Return ``hashes`` by file name, or by path from ``folder`` if the name is another's."""
     found: dict[str, str] = {}
     for path, value in hashes.items():
@@ -128,7 +128,7 @@ if TYPE_CHECKING:
     from floatref.engine.run import Result
 
 
-def profiled(
+def make_profile(
     read: Source,
     pipeline: str,
     settings: Mapping[str, Any],

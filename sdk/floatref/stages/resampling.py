@@ -80,7 +80,7 @@ class ToDistance(Stage):
         held: Block | None = self.memory["held"]
         if len(points) == 0:
             return points if held is None else _part(held, slice(0, 0))
-        joined = points if held is None else _joined(held, points)
+        joined = points if held is None else _join(held, points)
         self.memory["held"] = _part(joined, slice(len(joined) - 1, len(joined)))
         return _part(joined, slice(0, len(joined) - 1))
 
@@ -166,7 +166,7 @@ def _sample(block: Block, index: int, distance: float) -> Carry:
     return values, flags
 
 
-def _joined(before: Block, after: Block) -> Block:
+def _join(before: Block, after: Block) -> Block:
     blanks = np.zeros(len(before), np.uint8), np.zeros(len(after), np.uint8)
     flags = {
         c: np.concatenate((before.flags.get(c, blanks[0]), after.flags.get(c, blanks[1])))

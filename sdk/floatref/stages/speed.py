@@ -70,11 +70,11 @@ class TravelSpeed(Stage):
         self.memory["past"] = wide[wide.size - self._samples :].copy()
         speed = progress_speed(wide, self._samples, self._duration)
         if np.isnan(wide.sum()):
-            speed = self._kept(speed, np.isnan(wide))
+            speed = self._keep_last(speed, np.isnan(wide))
         self.memory["speed"] = float(speed[-1]) if speed.size else self.memory["speed"]
         return speed
 
-    def _kept(self, speed: FloatArray, missing: BoolArray) -> FloatArray:
+    def _keep_last(self, speed: FloatArray, missing: BoolArray) -> FloatArray:
         """Return ``speed`` with the last one before wherever the window has a ``missing``."""
         count = np.cumsum(np.append(0, missing))
         unknown = count[self._samples + 1 :] - count[: speed.size] > 0

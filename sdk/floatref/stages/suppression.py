@@ -53,13 +53,13 @@ class SuppressLocally(Stage):
         speed = ChannelId(TRAVEL_SPEED)
         for track, memory in self.memory.items():
             channel = ChannelId(self.channel, track)
-            values[channel] = self._controlled(block[channel], block[speed], memory)
+            values[channel] = self._control(block[channel], block[speed], memory)
             marks = flags_of(block, channel, speed)
             if marks is not None:
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _controlled(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
+    def _control(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
         from floatref.kernels import local_suppression
 
         y = np.empty(x.size)

@@ -74,11 +74,11 @@ class ToTime(Stage):
         carry: Block | None = self.memory["carry"]
         wide = block if carry is None else join_blocks((carry, block))
         if carry is None:
-            self.memory["start"] = self._counted(wide)[0]
+            self.memory["start"] = self._count(wide)[0]
         places, cut = self._places(wide)
         share = self._shares(places)
         end = int(places[-1]) + 1
-        out = self._sampled(wide, places, share, end)
+        out = self._sample(wide, places, share, end)
         # Triggers behind the last sample are needed for the next one.
         kept = int(np.searchsorted(places, end - 1, "right")) - 1
         if kept > 0:
@@ -94,9 +94,9 @@ class ToTime(Stage):
         places, _ = self._places(carry)
         share = self._shares(places)
         places[-1] = self.memory["next"]
-        return (self._sampled(carry, places, share, self.memory["next"] + 1),)
+        return (self._sample(carry, places, share, self.memory["next"] + 1),)
 
-    def _counted(self, block: Block) -> FloatArray:
+    def _count(self, block: Block) -> FloatArray:
         """Return the times of the triggers in steps of the recording's clock."""
         assert self._header is not None
         return block[ChannelId(TIME)] * float(self._header.rate)
@@ -104,7 +104,7 @@ class ToTime(Stage):
     def _places(self, wide: Block) -> tuple[FloatArray, FloatArray]:
         """Return the triggers' times in samples of the output, and how many were cut out."""
         assert self._header is not None
-        times = self._counted(wide)
+        times = self._count(wide)
         over = np.floor(np.diff(times) - LONGEST_S * float(self._header.rate) + TIE)
         cut = self.memory["cut"] + np.append(0.0, np.cumsum(np.maximum(over, 0.0)))
         places = times - self.memory["start"] - cut
@@ -124,7 +124,7 @@ class ToTime(Stage):
         jolt = speed * (lost * lasts) ** 2 / JOLT_M_S
         return np.append(0.0, np.minimum(((lasts / self.unknown_s) ** 2 + jolt) ** 2, 1.0))
 
-    def _sampled(self, wide: Block, places: FloatArray, shares: FloatArray, end: int) -> Block:
+    def _sample(self, wide: Block, places: FloatArray, shares: FloatArray, end: int) -> Block:
         """Return the samples before ``end`` that were not yet returned."""
         assert self._header is not None
         header, first = self._header, self.memory["next"]
@@ -133,16 +133,16 @@ class ToTime(Stage):
         share, step = shares[between.behind], float(1 / header.rate)
         points = np.arange(wide.first, wide.first + len(wide), dtype=np.float64)
         distance = between.line(header.origin + points * header.step)
-        distance[self._untold(wide, between)] = np.nan
+        distance[self._find_unknown(wide, between)] = np.nan
         values = {ChannelId(DISTANCE): distance, ChannelId(MISSING_SHARE): share}
         known = np.where(between.part < 1.0, 1.0 - share, 1.0)
         for channel, x in wide.without(TIME).values.items():
             values[channel] = between.line(x)
             if channel.name == ACCELERATION:
                 values[channel] *= known
-        return Block(first, values, flags=_marked(wide, between, between.apart * step > NEAR_S))
+        return Block(first, values, flags=_mark(wide, between, between.apart * step > NEAR_S))
 
-    def _untold(self, wide: Block, between: "Between") -> BoolArray:
+    def _find_unknown(self, wide: Block, between: "Between") -> BoolArray:
         """Return the samples of unknown distance, where the encoder has lost travel.
 
         The sample next to the trigger before is not among them: later stages need it to find the
@@ -203,7 +203,7 @@ class Between:
         return found
 
 
-def _marked(wide: Block, between: Between, far: BoolArray) -> dict[ChannelId, FlagArray]:
+def _mark(wide: Block, between: Between, far: BoolArray) -> dict[ChannelId, FlagArray]:
     """Return the flags of all channels that have some; heights are missing where it is ``far``."""
     found, missing = {}, np.where(far, np.uint8(Flag.MISSING), np.uint8(0))
     for channel in wide.without(TIME).values:

@@ -77,7 +77,7 @@ def drive_of(travel: Travel, begin_m: float, end_m: float) -> Drive:
     A brake that is released there counts, and so does a stop there.
     """
     distance, speed = travel
-    smooth = _smoothed(speed)
+    smooth = _smooth(speed)
     inside = (distance > begin_m) & (distance < end_m)
     brakes = [
         (mean_g, place) for mean_g, place in _brakes(distance, smooth) if begin_m < place < end_m
@@ -137,7 +137,7 @@ def _brakes(distance: FloatArray, smooth: FloatArray) -> list[tuple[float, float
     return found
 
 
-def _smoothed(speed: FloatArray) -> FloatArray:
+def _smooth(speed: FloatArray) -> FloatArray:
     """Return the mean speed over half a second around, and of fewer samples at both ends."""
     window = np.ones(round(SMOOTHED_S / WINDOW_S))
     if speed.size < window.size:

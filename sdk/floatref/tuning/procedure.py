@@ -83,11 +83,11 @@ class Procedure:
                 break
             point, total = there, found
         self.tell("Step 6: the three walks together")
-        best = self._climbed(START)
-        other = self._climbed(point)
+        best = self._climb(START)
+        other = self._climb(point)
         if self.collective(other) < self.collective(best) - LEAST_GAIN:
             best = other
-        return Found(self._restored(best), dict(self.ranges), rounds, self.harmless)
+        return Found(self._restore(best), dict(self.ranges), rounds, self.harmless)
 
     def collective(self, point: Point) -> float:
         """Return the mean loss of all runs, plus the harm against nominal at speed."""
@@ -148,12 +148,12 @@ class Procedure:
         self.ranges[TUNED[which]] = found
         return moved(point, which, found.lowest)
 
-    def _climbed(self, point: Point) -> Point:
+    def _climb(self, point: Point) -> Point:
         free = (WALK, PITCH, ROLL)
         low, high = self.levels.lowest, self.levels.highest
         return climb(point, free, low, high, self.collective, MOST_CLIMBED)
 
-    def _restored(self, point: Point) -> Point:
+    def _restore(self, point: Point) -> Point:
         """Return ``point`` with every setting at its start where that loses nothing."""
         limit = self.collective(point) + LEAST_GAIN
         for which, step in enumerate(START):
@@ -165,7 +165,7 @@ class Procedure:
     def _harm(self, point: Point) -> float:
         """Return by how much the worst of the runs of step 2 is worse than nominal."""
         found = self._each(point, self._guarded)
-        nominal = [_weighted(self.nominal[name]) for name in self._guarded]
+        nominal = [_weigh(self.nominal[name]) for name in self._guarded]
         return max(a - b for a, b in zip(found, nominal, strict=True))
 
     def _mean(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> float:
@@ -173,7 +173,7 @@ class Procedure:
 
     def _each(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> list[float]:
         losses = self.evaluate(point, runs) if runs else {}
-        return [_weighted(losses[name], favoured) for name in runs]
+        return [_weigh(losses[name], favoured) for name in runs]
 
     @property
     def _all(self) -> list[str]:
@@ -195,7 +195,7 @@ def first_point(given: Collection[str], levels: Levels) -> Point:
     return point
 
 
-def _weighted(losses: Sequence[float], favoured: int | None = None) -> float:
+def _weigh(losses: Sequence[float], favoured: int | None = None) -> float:
     """Return the mean over the wheel paths, that of number ``favoured`` counting more."""
     weights = [1.0] * len(losses)
     if favoured is not None:

@@ -122,7 +122,7 @@ def section(reference: Profile, profile: Profile) -> tuple[float, float]:
     begin_m, end_m = max(known[0], made[0]), min(known[1], made[1])
     if not end_m - begin_m >= LEAST_M:
         raise InputError(
-            f"the reference is valid {_told(known)}, and the profile of the run {_told(made)}; "
+            f"the reference is valid {_describe(known)}, and the run's profile {_describe(made)}; "
             f"{LEAST_M:g} m have to be both: drive on, or give the same start of distance"
         )
     return begin_m, end_m
@@ -153,5 +153,5 @@ def _span(profile: Profile, begin: int, end: int) -> tuple[float, float]:
     return first, first + (end - 1 - begin) * profile.interval_m
 
 
-def _told(span: tuple[float, float]) -> str:
+def _describe(span: tuple[float, float]) -> str:
     return f"from {span[0]:.1f} to {span[1]:.1f} m" if span[0] < inf else "nowhere"

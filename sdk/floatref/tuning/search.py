@@ -126,12 +126,12 @@ def _edge(inside: int, outwards: list[int], good: Callable[[int], bool]) -> int:
     """Return the farthest good step from ``inside``, itself good, through ``outwards``."""
     for outer in outwards:
         if not good(outer):
-            return _halved(inside, outer, good)
+            return _halve(inside, outer, good)
         inside = outer
     return inside
 
 
-def _halved(inside: int, outside: int, good: Callable[[int], bool]) -> int:
+def _halve(inside: int, outside: int, good: Callable[[int], bool]) -> int:
     """Return the farthest good step between one that is good and one that is not."""
     while abs(outside - inside) > 1:
         middle = (inside + outside) // 2

@@ -73,7 +73,7 @@ class Trials:
         key = tuple(sorted(settings.items()))
         missing = [name for name in names if (name, key) not in self.known]
         found = (self.workers.map if self.workers else map)(
-            lambda name: self._scored(name, settings), missing
+            lambda name: self._score_run(name, settings), missing
         )
         for name, scores in zip(missing, found, strict=True):
             self.known[name, key] = scores
@@ -86,7 +86,7 @@ class Trials:
         """How many combinations of values were tried on any run."""
         return len({key for _, key in self.known})
 
-    def _scored(self, name: str, settings: Mapping[str, Any]) -> Scores:
+    def _score_run(self, name: str, settings: Mapping[str, Any]) -> Scores:
         chosen = self.runs[name]
         try:
             return chosen.comparison.scores(chosen.profile(self.pipeline, settings))

@@ -85,7 +85,7 @@ def tune(
         found = procedure.search()
         tell("Sensitivity")
         chosen = levels.settings(found.point)
-        varied = _varied(pipeline, numbers)
+        varied = _find_varied(pipeline, numbers)
         told = sensitivities(trials, varied, chosen, list(prepared.runs))
     return Tuning(
         pipeline=pipeline,
@@ -117,7 +117,7 @@ def _procedure(
     return Procedure(prepared.kinds, nominal, levels, trials.losses, begin, tell)
 
 
-def _varied(pipeline: str, numbers: Mapping[str, float]) -> dict[str, float]:
+def _find_varied(pipeline: str, numbers: Mapping[str, float]) -> dict[str, float]:
     """Return the settings that ``pipeline`` uses."""
     gnss = "gnss" in pipeline_capabilities(pipeline)
     return {name: x for name, x in numbers.items() if gnss or not name.startswith("gnss_")}

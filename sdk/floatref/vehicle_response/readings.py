@@ -80,7 +80,7 @@ def _signals(
 ) -> Iterator[Signal]:
     for freedom in model.freedoms:
         motion, own = found[freedom.quantity], freedom.track or track
-        for kind, name in _named(motion):
+        for kind, name in _name_kinds(motion):
             sigma = _sigma(context, motion, kind)
             reading = Reading(kind, freedom.name, sigma)
             yield Signal(ChannelId(name, own), freedom.sign, reading)
@@ -92,7 +92,7 @@ def _signals(
         )
 
 
-def _named(motion: Motion) -> Iterator[tuple[Kind, str]]:
+def _name_kinds(motion: Motion) -> Iterator[tuple[Kind, str]]:
     if motion.placed:
         yield Kind.DISPLACEMENT, motion.displacement_name
     if motion.velocity:

@@ -15,7 +15,7 @@ from floatref.batch.jobs.recognition import (
     is_recording,
     kind_of_folder,
     size_of,
-    walked,
+    walk,
 )
 from floatref.batch.jobs.source_names import name_below, unique_names
 from floatref.engine.formats import recognising
@@ -155,7 +155,7 @@ class _Search:
             return 0
         chart, beside, count = self._chart(options), self._beside(options), 0
         file_adapter = options.adapter or (chart.source.adapter if chart else None)
-        for path, kind in walked(folder, self._real_out, options.adapter, file_adapter):
+        for path, kind in walk(folder, self._real_out, options.adapter, file_adapter):
             if os.path.realpath(path) in beside:
                 continue
             if kind is Kind.SOURCE:

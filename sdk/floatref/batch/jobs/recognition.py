@@ -111,7 +111,7 @@ def _footer(path: Path) -> bytes:
         return stream.read(size)
 
 
-def walked(
+def walk(
     folder: Path, out: str, adapter: str | None, file_adapter: str | None
 ) -> Iterator[tuple[Path, Kind]]:
     """Yield every source below ``folder``, and every other file, which is skipped.
@@ -119,7 +119,7 @@ def walked(
     Unless None, ``adapter`` alone reads folders, and ``file_adapter`` files. The resolved path
     ``out`` is not searched. Raises InputError for a folder that cannot be listed.
     """
-    waiting = _listed(folder)
+    waiting = _list(folder)
     while waiting:
         entry = waiting.pop()
         path = Path(entry.path)
@@ -130,7 +130,7 @@ def walked(
         elif os.path.realpath(path) != out:
             kind = kind_of_folder(path, adapter)
             if kind is Kind.FOLDER:
-                waiting += _listed(path)
+                waiting += _list(path)
             else:
                 yield path, kind
 
@@ -149,7 +149,7 @@ def size_of(path: Path) -> int:
         return 0
 
 
-def _listed(folder: Path) -> list[os.DirEntry[str]]:
+def _list(folder: Path) -> list[os.DirEntry[str]]:
     """Return what is in ``folder``, the first by name last: it is taken from the end."""
     try:
         with os.scandir(folder) as entries:

@@ -38,7 +38,7 @@ def unique_names(names: Sequence[str], sources: Sequence[Path]) -> tuple[str, ..
     found = list(names)
     for digits in DIGITS:
         for index in _meeting(found):
-            found[index] = _marked(names[index], sources[index], digits)
+            found[index] = _mark(names[index], sources[index], digits)
     return tuple(found)
 
 
@@ -48,16 +48,16 @@ def _safe(part: str) -> str:
     plain = UNSAFE.sub("_", plain) or "_"
     if len(plain.encode()) <= LONGEST:
         return plain
-    return _tagged(plain, _digest(part)[: DIGITS[0]])
+    return _tag(plain, _digest(part)[: DIGITS[0]])
 
 
-def _marked(name: str, source: Path, digits: int) -> str:
+def _mark(name: str, source: Path, digits: int) -> str:
     place = PurePosixPath(name)
     tag = _digest(os.fsdecode(os.path.realpath(source)))[:digits]
-    return str(place.with_name(_tagged(place.name, tag)))
+    return str(place.with_name(_tag(place.name, tag)))
 
 
-def _tagged(part: str, tag: str) -> str:
+def _tag(part: str, tag: str) -> str:
     """Return ``part`` with ``tag`` before its suffix, shortened where it is too long."""
     place = PurePosixPath(part)
     suffix = place.suffix if len(place.suffix.encode()) <= 20 else ""
@@ -71,7 +71,7 @@ def _digest(text: str) -> str:
 
 def _meeting(names: Sequence[str]) -> list[int]:
     """Return which of ``names`` are equal, or lie inside another's profile or record."""
-    keys = [tuple(_folded(name).split("/")) for name in names]
+    keys = [tuple(_fold(name).split("/")) for name in names]
     counts = Counter(keys)
     folders = {key[:end] for key in counts for end in range(1, len(key))}
     return [
@@ -81,6 +81,6 @@ def _meeting(names: Sequence[str]) -> list[int]:
     ]
 
 
-def _folded(name: str) -> str:
+def _fold(name: str) -> str:
     """Return ``name`` as a disk compares it that ignores case and the encoding of accents."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())

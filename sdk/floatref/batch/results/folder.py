@@ -27,7 +27,7 @@ def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None
     after ``patience_s`` seconds.
     """
     made = _made(out, resume)
-    with _locked(out / LOCK) as alone:
+    with _lock(out / LOCK) as alone:
         if not alone:
             raise InputError(f"{out}: another batch works there; wait for it or choose another")
         try:
@@ -43,7 +43,7 @@ def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None
 @contextmanager
 def working(out: Path) -> Iterator[None]:
     """Mark, for other commands, that a task works in ``out``; many may do so at once."""
-    with _locked(out / WORKING, shared=True):
+    with _lock(out / WORKING, shared=True):
         yield
 
 
@@ -89,7 +89,7 @@ def _wait_for_tasks(out: Path, patience_s: float) -> None:
     """Wait until no task of a command that was killed works in ``out`` any more."""
     end = monotonic() + patience_s
     while True:
-        with _locked(out / WORKING) as idle:
+        with _lock(out / WORKING) as idle:
             if idle:
                 return
         if monotonic() > end:
@@ -101,7 +101,7 @@ def _wait_for_tasks(out: Path, patience_s: float) -> None:
 
 
 @contextmanager
-def _locked(path: Path, shared: bool = False) -> Iterator[bool]:
+def _lock(path: Path, shared: bool = False) -> Iterator[bool]:
     """Lock the file ``path`` if it is free, and yield whether it was.
 
     A lock ends with its process in any case. Where the file system has no locks, every

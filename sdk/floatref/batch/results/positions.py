@@ -47,7 +47,7 @@ def places(
     known = ~np.isnan(latitude + longitude)
     return (
         np.where(known, np.degrees(latitude), np.nan),
-        np.where(known, np.degrees(_turned(longitude)), np.nan),
+        np.where(known, np.degrees(_wrap(longitude)), np.nan),
     )
 
 
@@ -129,6 +129,6 @@ def _angles(fixes: _Fixes, wanted: FloatArray) -> FloatArray:
     return np.where(np.abs(wanted - reached) <= NEAR_M, angle, np.nan)
 
 
-def _turned(longitude: FloatArray) -> FloatArray:
+def _wrap(longitude: FloatArray) -> FloatArray:
     """Return ``longitude`` in rad within -pi to pi."""
     return np.mod(longitude + np.pi, 2.0 * np.pi) - np.pi

@@ -81,7 +81,7 @@ def _rows(
         longitude,
         np.asarray(indices),
         np.asarray(means),
-        _flagged(track, edges) * profile.interval_m,
+        _find_flagged(track, edges) * profile.interval_m,
     )
     values = zip(*(column.tolist() for column in columns), strict=True)
     return [Row(track.name, segment, *row) for segment, row in enumerate(values)]
@@ -95,7 +95,7 @@ def _places(
     return places(recording, track, starts)
 
 
-def _flagged(track: ProfileTrack, edges: IndexArray) -> IndexArray:
+def _find_flagged(track: ProfileTrack, edges: IndexArray) -> IndexArray:
     """Return the points of every segment that are not valid; the end belongs to the last one."""
     before = np.concatenate(([0], np.cumsum(~track.valid)))
     ends = edges.copy()

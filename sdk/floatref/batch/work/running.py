@@ -53,7 +53,7 @@ def _run_job(job: Job, resume: bool) -> Record:
     return run_job(job, resume)
 
 
-def _marked(job: Job, resume: bool, task: Task) -> Record:
+def _mark(job: Job, resume: bool, task: Task) -> Record:
     """Do one task on a worker, and let other commands know that it is being done."""
     with working(job.out):
         return task(job, resume)
@@ -68,7 +68,7 @@ def _done(
     run = token_hex(8)
     keys = {f"floatref-{run}-{index:09d}": job for index, job in enumerate(jobs)}
     # In one graph, which the scheduler hands out piece by piece and in this order.
-    futures = client.map(_marked, jobs, key=list(keys), pure=False, resume=resume, task=task)
+    futures = client.map(_mark, jobs, key=list(keys), pure=False, resume=resume, task=task)
     waiting = as_completed(futures)
     del futures
     for future in waiting:
@@ -87,14 +87,14 @@ def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
     with suppress(Exception):
         return future.result()
     if _worker_died(future):
-        return _given_up(job, KILLED.format(future.exception().args[2] + 1))
+        return _give_up(job, KILLED.format(future.exception().args[2] + 1))
     if future.status == "error":
         error = future.exception()
-        return _failed(job, f"{type(error).__name__}: {error}")
-    return _written(job, resume) or _failed(job, LOST)
+        return _fail(job, f"{type(error).__name__}: {error}")
+    return _read_written(job, resume) or _fail(job, LOST)
 
 
-def _written(job: Job, resume: bool) -> Record | None:
+def _read_written(job: Job, resume: bool) -> Record | None:
     """Return the record that a task has written for ``job`` but not returned, or None."""
     from floatref.batch.work.task import kept
 
@@ -102,18 +102,18 @@ def _written(job: Job, resume: bool) -> Record | None:
     return found and replace(found, skipped=resume)
 
 
-def _given_up(job: Job, reason: str) -> Record:
+def _give_up(job: Job, reason: str) -> Record:
     """Return and write the record of a file for which no task could write a record."""
     from floatref.batch.results.record import write_record
 
-    record = _failed(job, reason)
+    record = _fail(job, reason)
     rmtree(job.profile, ignore_errors=True)
     with suppress(FloatrefError, OSError):
         write_record(record, job.record)
     return record
 
 
-def _failed(job: Job, reason: str) -> Record:
+def _fail(job: Job, reason: str) -> Record:
     from floatref.batch.work.task import failed
 
     return failed(job, " ".join(reason.split()))

@@ -18,7 +18,7 @@ from floatref.errors import FloatrefError, one_line
 from floatref.files import fingerprint_native, read_profile, write_profile
 from floatref.files.atomic import SAMPLE_SUFFIXES
 from floatref.files.profile_directory import DOCUMENT
-from floatref.mapping.sources import profiled, recording_of
+from floatref.mapping.sources import make_profile, recording_of
 from floatref.values.recording import Recording
 
 
@@ -74,7 +74,7 @@ def run_job(job: Job, resume: bool = False) -> Record:
     """
     with _reports_apart():
         old = kept(job) if resume else None
-        return _worked(job) if old is None else old
+        return _work(job) if old is None else old
 
 
 def failed(job: Job, reason: str) -> Record:
@@ -104,7 +104,7 @@ def kept(job: Job) -> Record | None:
         if not holds(old, job):
             return None
         if old.key["segment_m"] != job.segment_m:
-            old = _measured_anew(old, job)
+            old = _measure_again(old, job)
             write_record(old, job.record)
     except Exception:
         # New files replace the old ones, whatever their fault is.
@@ -112,7 +112,7 @@ def kept(job: Job) -> Record | None:
     return replace(old, skipped=True)
 
 
-def _measured_anew(old: Record, job: Job) -> Record:
+def _measure_again(old: Record, job: Job) -> Record:
     """Return ``old`` with the rows of its profile for segments of another length."""
     rows, remarks = measured(
         read_profile(job.profile), job.segment_m, _recording(job) if old.key["located"] else None
@@ -125,7 +125,7 @@ def _recording(job: Job) -> Recording:
     return recording_of(job.source, job.adapter, job.channel_map).recording
 
 
-def _worked(job: Job) -> Record:
+def _work(job: Job) -> Record:
     watch = Watch()
     try:
         record = watch.told(_made(job), job)
@@ -142,7 +142,7 @@ def _made(job: Job) -> Record:
     """Write the profile of ``job``; return its record without the effort."""
     before = stamps_of(job)
     read = recording_of(job.source, job.adapter, job.channel_map)
-    result = profiled(read, job.pipeline, job.settings)
+    result = make_profile(read, job.pipeline, job.settings)
     profile = result.profile
     rows, remarks = measured(profile, job.segment_m, read.recording)
     check_unchanged(before, read.inputs)

@@ -36,7 +36,7 @@ def asked(job: Job) -> dict[str, Any]:
             "map": None if job.channel_map is None else str(job.channel_map),
             "pipeline": job.pipeline,
             "settings": job.settings,
-            "resolved": _resolved(job),
+            "resolved": _resolve(job),
             "versions": versions(),
         },
         "job",
@@ -56,7 +56,7 @@ def holds(record: Record, job: Job) -> bool:
     return _are(outputs) and _are(inputs) and _has_no_more(job.source, inputs)
 
 
-def _resolved(job: Job) -> dict[str, Any]:
+def _resolve(job: Job) -> dict[str, Any]:
     """Return all settings before the recording decides any; empty if they cannot be used."""
     try:
         return dict(plugins().pipeline(job.pipeline).resolve(job.settings))

@@ -101,12 +101,12 @@ def _file(entry: Mapping[str, Any], place: Path) -> FileEntry:
     if "dbc" in options:
         raise InputError("options: dbc is not an option; write it beside options")
     if "dbc" in entry:
-        options["dbc"] = str(_inside(entry["dbc"], place))
-    path = _inside(entry["path"], place) if "path" in entry else Path()
+        options["dbc"] = str(_resolve_inside(entry["dbc"], place))
+    path = _resolve_inside(entry["path"], place) if "path" in entry else Path()
     return FileEntry(path, entry.get("adapter"), options)
 
 
-def _inside(name: str, place: Path) -> Path:
+def _resolve_inside(name: str, place: Path) -> Path:
     """Return the file ``name`` beside the map ``place``; InputError if it leaves that folder."""
     said = f"path {shown(name)}"
     # A map has the same meaning and the same errors on every system.

@@ -113,18 +113,18 @@ def check_limits(channel: Channel) -> None:
     summary = Summary.of(channel.values)
     size = max(summary.greatest, -summary.least)
     if size > limit.most:
-        raise InputError(_said("a sample", size, channel.unit, limit))
+        raise InputError(_describe("a sample", size, channel.unit, limit))
     few = abs(every(max(1, channel.values.size // SAMPLED), channel.values))
     few = few[few == few]
     if few.size:
         few.sort()
         usual = float(few[few.size // 2])
         if usual > limit.usual:
-            raise InputError(_said("the median size", usual, channel.unit, limit))
+            raise InputError(_describe("the median size", usual, channel.unit, limit))
     check_gravity(channel.id.name, summary.mean)
 
 
-def _said(what: str, size: float, unit: str, limit: Limit) -> str:
+def _describe(what: str, size: float, unit: str, limit: Limit) -> str:
     said = "" if unit == "1" else f" {unit}"
     line = f"{what} is {size:.4g}{said}, which no vehicle reaches"
     if limit.per_unit == 1:

@@ -13,9 +13,9 @@ from floatref.mapping.clocks.clock_keys import (
     ClockKey,
     Key,
     absolute,
-    beginning_told,
     clock_key,
     name_clock,
+    warn_of_beginning,
 )
 from floatref.mapping.clocks.columns import Taken
 from floatref.mapping.clocks.epochs import between_epochs, since_zero
@@ -93,7 +93,7 @@ class _Aligning:
             entry, clock = self._entry(key), clock_key(key, stream)
             report, told = (
                 None,
-                beginning_told(key, stream.stream) if self._unsaid(key, entry) else (),
+                warn_of_beginning(key, stream.stream) if self._has_no_entry(key, entry) else (),
             )
             if (clock, entry) not in known:
                 with naming(f"clock of {name_clock(key)}"):
@@ -106,7 +106,7 @@ class _Aligning:
             )
         return found
 
-    def _unsaid(self, key: Key, entry: ClockEntry | None) -> bool:
+    def _has_no_entry(self, key: Key, entry: ClockEntry | None) -> bool:
         """Tell whether ``key`` is on the clock of the base and has no entry in the map."""
         same = clock_key(key, self._taken[key]) == clock_key(self._base, self._taken[self._base])
         return entry is None and same and key != self._base

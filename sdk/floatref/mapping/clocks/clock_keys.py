@@ -28,16 +28,16 @@ def name_clock(key: Key) -> str:
     return f"{file}, {key[1]}" if key[1] else file
 
 
-def unstarted(stream: Stream) -> bool:
+def has_no_start(stream: Stream) -> bool:
     """Tell whether the file of ``stream`` counts it from zero by a rate."""
     clock = stream.clock
     begun = clock.first_tick or clock.origin_ns or clock.name
     return clock.rate is not None and not begun and clock.epoch is Epoch.LOCAL
 
 
-def beginning_told(key: Key, stream: Stream) -> tuple[str, ...]:
+def warn_of_beginning(key: Key, stream: Stream) -> tuple[str, ...]:
     """Return a warning on the stream ``key`` if it is taken to begin with the accelerometer's."""
-    if not unstarted(stream):
+    if not has_no_start(stream):
         return ()
     return (
         f"clock of {name_clock(key)}: counted from zero by its rate; taken to begin with the "

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ClockEntry
 from floatref.mapping.clocks.row_times import Timing
-from floatref.mapping.clocks.stamps import leap_told, uniform_clock
+from floatref.mapping.clocks.stamps import uniform_clock, warn_of_leap
 from floatref.mapping.spool import Spool
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.native import Rows, Stream
@@ -108,7 +108,7 @@ class _Taking:
         columns = [column.finish() for column in self._columns]
         rate, start, times = self._timing.rate, self._timing.start_s, None
         if self._times is not None:
-            rate, first_s, times, columns = self._settled(self._times.finish(), columns, told)
+            rate, first_s, times, columns = self._settle(self._times.finish(), columns, told)
             start += Fraction(first_s)
         return Taken(self._stream, tuple(columns), start, rate, times, tuple(told))
 
@@ -124,14 +124,14 @@ class _Taking:
         if self._times is not None:
             self._times.append(times)
 
-    def _settled(
+    def _settle(
         self, times: FloatArray, columns: list[FloatArray], told: list[str]
     ) -> tuple[Fraction | None, float, FloatArray | None, list[FloatArray]]:
         """Return rate and start of a uniform clock; else the stamps, each time once."""
         clock = uniform_clock(times, self._timing.unit_s)
         if clock is not None:
             return clock.rate, clock.start_s, None, columns
-        leap = leap_told(times)
+        leap = warn_of_leap(times)
         told += [] if leap is None else [leap]
         kept = _first_of_each(times)
         repeated = int(kept.size - kept.sum())

@@ -6,7 +6,7 @@ from floatref.measures.clocks.gnss_time import (
     GPS_EPOCH_UNIX_S,
     gps_minus_utc_at_gps_s,
     gps_minus_utc_s,
-    leap_seconds_told,
+    warn_of_leap_seconds,
 )
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch
@@ -33,7 +33,7 @@ def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]
         return apart, ("aligned by the time of day, taken to be of the same day",)
     utc = float(own[0] if own[1] is Epoch.UTC else base[0])
     line = f"aligned by UTC and GPS time, {gps_minus_utc_s(utc)} leap seconds apart"
-    doubt = leap_seconds_told(utc)
+    doubt = warn_of_leap_seconds(utc)
     return _unix(own) - _unix(base), (line,) if doubt is None else (line, doubt)
 
 

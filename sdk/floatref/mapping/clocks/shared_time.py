@@ -38,14 +38,14 @@ def cut_to_shared(
     of = {clocks[k] for k in vehicle}
     if len(of) < 2:
         return tuple(channels), ()
-    whole = [_united([spans[k] for k in vehicle if clocks[k] == clock]) for clock in of]
+    whole = [_unite([spans[k] for k in vehicle if clocks[k] == clock]) for clock in of]
     shared = Span(max(s.begin for s in whole), min(s.end for s in whole))
     if shared.begin > shared.end:
         raise InputError(
             "the channels of its clocks share no time; look at each with fewer of them mapped, "
             "and correct under [[clocks]] how they are aligned"
         )
-    widest = _united(whole)
+    widest = _unite(whole)
     if _near(shared, widest):
         return tuple(channels), ()
     cut = [_cut(c, shared) if k in vehicle else c for k, c in enumerate(channels)]
@@ -66,7 +66,7 @@ def _check(channel: Channel, span: Span, base: Channel, time: Span) -> None:
     )
 
 
-def _united(spans: Sequence[Span]) -> Span:
+def _unite(spans: Sequence[Span]) -> Span:
     return Span(min(s.begin for s in spans), max(s.end for s in spans))
 
 

@@ -80,7 +80,7 @@ class Advancing:
         self.untimed += int((~known).sum())
 
 
-def leap_told(times_s: FloatArray) -> str | None:
+def warn_of_leap(times_s: FloatArray) -> str | None:
     """Return a warning if the longest step of ``times_s``, shape (N,), is longer than a pause."""
     if times_s.size < 2:
         return None

@@ -11,7 +11,7 @@ from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import ChannelEntry
 from floatref.mapping.channel_map.map_document import FORMAT
 from floatref.mapping.channel_map.units import MPS, known_unit
-from floatref.mapping.clocks.clock_keys import unstarted
+from floatref.mapping.clocks.clock_keys import has_no_start
 from floatref.mapping.clocks.columns import UNKNOWN
 from floatref.mapping.draft.guesses import Candidate, Guess, candidates
 from floatref.values.channels import CHANNELS
@@ -112,7 +112,7 @@ def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
     names = {(s.clock.name, s.clock.epoch) for s in timed}
     if len(names) > 1 or any(epoch is Epoch.GPS for _, epoch in names):
         yield "\n# Clocks other than the accelerometer's need an entry with their alignment:"
-    elif sum(map(unstarted, timed)) > 1:
+    elif sum(map(has_no_start, timed)) > 1:
         yield "\n# Streams are counted from zero, each by its rate. One that began later, or that"
         yield "# has a clock other than the accelerometer's, needs an entry with its alignment:"
     else:
@@ -215,11 +215,11 @@ def _text(text: str) -> str:
     quoted = json.dumps(text, ensure_ascii=False)
     dotted = text.count(".") >= MOST_PARTS
     return "".join(
-        c if c.isprintable() and not (dotted and c == ".") else _escaped(c) for c in quoted
+        c if c.isprintable() and not (dotted and c == ".") else _escape(c) for c in quoted
     )
 
 
-def _escaped(character: str) -> str:
+def _escape(character: str) -> str:
     """Return ``character`` as TOML escapes it; a lone surrogate, which TOML forbids, as U+FFFD."""
     code = ord(character)
     return f"\\U{0xFFFD if 0xD800 <= code <= 0xDFFF else code:08X}"

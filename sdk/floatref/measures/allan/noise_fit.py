@@ -169,16 +169,16 @@ class _Curve:
         """Return the upper limit of ``term``, which was removed; NaN for a term of the fit."""
         if term in terms:
             return float("nan")
-        estimate, spread = self._added(squares, terms, term)
+        estimate, spread = self._add_term(squares, terms, term)
         return float(np.sqrt(max(estimate, 0.0) + LIMIT * spread))
 
     def _without(self, term: int, terms: list[int]) -> float:
         """Return by how many standard deviations the data contradict a curve without ``term``."""
         rest = [t for t in terms if t != term]
-        estimate, spread = self._added(self.fitted(rest), rest, term)
+        estimate, spread = self._add_term(self.fitted(rest), rest, term)
         return estimate / spread
 
-    def _added(self, squares: FloatArray, terms: list[int], term: int) -> tuple[float, float]:
+    def _add_term(self, squares: FloatArray, terms: list[int], term: int) -> tuple[float, float]:
         """Return the square of ``term`` fitted with ``terms``, and its standard deviation at 0."""
         solver = self._solver(squares, [*terms, term])
         return float(solver[-1] @ self.variance), float(self._spread(solver, squares)[-1])

@@ -125,7 +125,7 @@ def align_by_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) 
     matched = match_pulses(own, base, near_s)
     at, to = own[matched.own], base[matched.base]
     line = clock_line(at, to)
-    return _aligned(line, at, to, own.size - int(line.kept.sum()), matched.told)
+    return _align(line, at, to, own.size - int(line.kept.sum()), matched.told)
 
 
 def align_by_pps(pulses_s: FloatArray, near_s: float) -> Alignment:
@@ -185,7 +185,7 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
     )
 
 
-def _aligned(
+def _align(
     line: ClockLine, own: FloatArray, base: FloatArray, dropped: int, told: tuple[str, ...]
 ) -> Alignment:
     """Return the alignment by a line through the accepted pairs of ``own`` and ``base``."""

@@ -73,7 +73,7 @@ def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray 
     if all_of_it - jitter <= max(CURVED_S**2, SURE * all_of_it / rest.size**0.5):
         return None
     half = min(int(_jitter(own_s, rest) / QUIET_S**2 / 2 + 0.5), rest.size // 6)
-    bent = _smoothed(own_s, rest, half)
+    bent = _smooth(own_s, rest, half)
     found = line.base_s + (own_s - line.own_s) * (1 + line.drift) + bent
     return found if (np.diff(found) > 0).all() else None
 
@@ -174,7 +174,7 @@ def _jitter(own_s: FloatArray, rest: FloatArray) -> float:
     return float(np.median(off**2 / (1.0 + share**2 + (1.0 - share) ** 2))) / 0.455
 
 
-def _smoothed(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:
+def _smooth(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:
     """Return ``rest`` on straight lines through ``half`` neighbours on either side."""
     found = rest.copy()
     for k in range(rest.size) if half else ():

@@ -47,7 +47,7 @@ def reading_edges(base_s: FloatArray, gnss_s: FloatArray) -> ReadingEdges:
             f"GNSS time takes {at.size} new value(s) in {base_s.size} samples; two or more are "
             "needed, so check the channel"
         )
-    read = _unrolled(at, read)
+    read = _unroll(at, read)
     shift = read - at
     usual = float(np.median(shift))
     sound = np.abs(shift - usual) <= ASTRAY_S + DRIFT * float(np.ptp(at))
@@ -78,7 +78,7 @@ def _changes(base_s: FloatArray, gnss_s: FloatArray) -> tuple[FloatArray, FloatA
     return np.concatenate(times)[1:], np.concatenate(values)[1:], float(np.median(steps))
 
 
-def _unrolled(at: FloatArray, read: FloatArray) -> FloatArray:
+def _unroll(at: FloatArray, read: FloatArray) -> FloatArray:
     """Return the readings with a day or a week added wherever they roll over."""
     steps = np.diff(read) - np.diff(at)
     near = ASTRAY_S + DRIFT * np.abs(np.diff(at))
@@ -138,7 +138,7 @@ def utc_from_gps_s(gps_s: float) -> float:
     return gps_s - gps_minus_utc_at_gps_s(gps_s) + GPS_EPOCH_UNIX_S
 
 
-def leap_seconds_told(utc_unix_s: float) -> str | None:
+def warn_of_leap_seconds(utc_unix_s: float) -> str | None:
     """Return a warning if ``utc_unix_s`` is later than the end of the list of leap seconds."""
     if not utc_unix_s > _unix_s(KNOWN_UNTIL):
         return None

@@ -55,10 +55,10 @@ def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> 
     places = _places(own, base, jitter)
     chosen, told = _nearest(base[places.base] - own[places.own], places.own, near_s, 3 * jitter)
     anchor, at = int(places.own[chosen]), int(places.base[chosen])
-    pairs = _followed(own, base, anchor, at, jitter)
+    pairs = _follow_both_ways(own, base, anchor, at, jitter)
     _check_share(own, base, pairs)
     mine, others = np.array(pairs, np.int64).T
-    return Matching(mine, others, (*told, *_parted(own, base, mine, others)))
+    return Matching(mine, others, (*told, *_warn_of_jump(own, base, mine, others)))
 
 
 def _train(times_s: FloatArray, whose: str) -> FloatArray:
@@ -147,7 +147,7 @@ def _nearest(
     )
 
 
-def _followed(
+def _follow_both_ways(
     own: FloatArray, base: FloatArray, anchor: int, at: int, jitter: float
 ) -> list[tuple[int, int]]:
     """Return the pairs of indices in order, followed from one pair both ways."""
@@ -192,7 +192,7 @@ def _check_share(own: FloatArray, base: FloatArray, pairs: list[tuple[int, int]]
         raise InputError(_nothing(own, base, found))
 
 
-def _parted(
+def _warn_of_jump(
     own: FloatArray, base: FloatArray, mine: IndexArray, others: IndexArray
 ) -> tuple[str, ...]:
     """Return a warning if many pulses in a row have no match in the common time of both trains."""

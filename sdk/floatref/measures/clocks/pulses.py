@@ -81,7 +81,7 @@ def pulse_times_by(values: FloatArray, times: Callable[[int, int], FloatArray]) 
         raise InputError(
             f"no edge from {idle:.6g} to {pulse:.6g} is complete; looked for {_SOUGHT}"
         )
-    return _without_ringing(np.array(found), np.array(rest))
+    return _drop_ringing(np.array(found), np.array(rest))
 
 
 def pulse_levels(values: FloatArray) -> PulseLevels:
@@ -162,7 +162,7 @@ def _sides(shown: FloatArray) -> NDArray[np.int8]:
     return side
 
 
-def _without_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
+def _drop_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
     """Return the edges but for those before which the signal rested for too short a time."""
     if times_s.size < 3:
         return times_s

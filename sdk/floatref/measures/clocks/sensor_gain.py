@@ -46,7 +46,7 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
         return np.nan
     force_series, height_series = on_grid(force, grid), on_grid(height, grid)
     for sign in (1.0, -1.0):
-        told = [w for w in _windows(force_series, sign * height_series, stands) if _tells(w)]
+        told = [w for w in _windows(force_series, sign * height_series, stands) if _is_usable(w)]
         if told:
             return sign * max(told, key=lambda window: window.motion_m / window.gain).gain
     return np.nan
@@ -72,7 +72,7 @@ def _windows(force: FloatArray, height: FloatArray, stands: BoolArray) -> Iterat
                 yield window
 
 
-def _tells(window: SkewWindow) -> bool:
+def _is_usable(window: SkewWindow) -> bool:
     moves = window.motion_m >= LEAST_MOTION_M * window.gain
     one = 1.0 - window.rest**2 >= LEAST_COHERENCE
     return moves and one and abs(window.skew_s) <= LARGEST_SKEW_S

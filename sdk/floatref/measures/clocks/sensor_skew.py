@@ -84,7 +84,7 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
     stands = np.zeros(grid.size, dtype=np.bool_)
     if distance is not None:
         stands = standing(distance, grid, STANDS_M, STANDS_S)
-    return _judged([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
+    return _combine([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 
 def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
@@ -161,7 +161,7 @@ def _is_one(window: SkewWindow, coherence: float, off: float) -> bool:
     return agrees and window.motion_m >= LEAST_MOTION_M
 
 
-def _judged(found: list[_Stretch]) -> Skew:
+def _combine(found: list[_Stretch]) -> Skew:
     """Return the skew estimated from all stretches together."""
     if not found:
         return Skew.none(

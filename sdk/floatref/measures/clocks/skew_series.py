@@ -33,7 +33,7 @@ def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
     for first in range(0, grid_s.size, BLOCK):
         points = grid_s[first : first + BLOCK]
         times, values = _between(channel, points[0] - HALF * STEP_S, points[-1] + HALF * STEP_S)
-        found[first : first + BLOCK] = _smoothed(times, values, points, fewest)
+        found[first : first + BLOCK] = _smooth(times, values, points, fewest)
     return found
 
 
@@ -82,9 +82,7 @@ def _between(channel: Channel, begin_s: float, end_s: float) -> tuple[FloatArray
     return times, values
 
 
-def _smoothed(
-    times: FloatArray, values: FloatArray, points: FloatArray, fewest: float
-) -> FloatArray:
+def _smooth(times: FloatArray, values: FloatArray, points: FloatArray, fewest: float) -> FloatArray:
     """Return straight lines through the samples around each of ``points``; NaN for too few."""
     known = ~np.isnan(values)
     width = (points.size - 1 + 2 * HALF) * CELLS + 1

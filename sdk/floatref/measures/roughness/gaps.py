@@ -20,7 +20,7 @@ def check_heights(elevation: FloatArray) -> None:
         )
 
 
-def checked_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
+def check_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     """Return ``elevation`` in m as float64; InputError unless it and ``interval_m`` are usable.
 
     Needs one dimension, no infinities, at least one finite point, no point beyond 1000 km, and a

@@ -19,7 +19,7 @@ from floatref.kernels.state_variable import (
     low_pass_2,
 )
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.gaps import bridged, checked_elevation, measured_stretch
+from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
 
@@ -89,7 +89,7 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     measured point and, after the bridge has been filtered, in gaps again. Raises InputError for a
     wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
-    values = checked_elevation(elevation, interval_m)
+    values = check_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
@@ -113,13 +113,13 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
         raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
     limits = WAVEBANDS[band]
     _check_cutoff(limits.long_m, interval_m)
-    values = checked_elevation(elevation, interval_m)
+    values = check_elevation(elevation, interval_m)
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
     slope = np.diff(bridged(values)) / interval_m
     margin = math.ceil(limits.long_m / interval_m)
     continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
-    return _band_passed(continued, interval_m, limits)[margin : margin + slope.size]
+    return _pass_band(continued, interval_m, limits)[margin : margin + slope.size]
 
 
 def agreement(
@@ -136,7 +136,7 @@ def agreement(
     offset above zero says that ``q`` lies farther along. Raises InputError where the two share
     no stretch, as `cross_correlation` and the filters do. Source: 2.1.5.
     """
-    p, q = checked_elevation(p, interval_m), checked_elevation(q, interval_m)
+    p, q = check_elevation(p, interval_m), check_elevation(q, interval_m)
     if p.shape != q.shape:
         raise InputError(f"profiles of {p.size} and {q.size} points; cut them to the same points")
     common = _common_stretch(p, q)
@@ -144,7 +144,7 @@ def agreement(
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
-def _band_passed(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
+def _pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
     passed = high_pass_b3x2(slope, interval_m, limits.long_m)
     if limits.short_m <= 2 * interval_m:

@@ -44,7 +44,7 @@ class Advance(Stage):
         wide = block if waiting is None else join_blocks((waiting, block))
         ready = max(0, len(wide) - self._samples)
         self.memory["waiting"] = wide.part(ready, len(wide))
-        return self._shifted(wide, ready)
+        return self._shift(wide, ready)
 
     def close(self) -> tuple[Block, ...]:
         """Return the samples held back, with the last value of the channel."""
@@ -53,9 +53,9 @@ class Advance(Stage):
             return ()
         last = waiting.part(len(waiting) - 1, len(waiting))
         wide = join_blocks((waiting, *[last] * self._samples))
-        return (self._shifted(wide, len(waiting)),)
+        return (self._shift(wide, len(waiting)),)
 
-    def _shifted(self, wide: Block, ready: int) -> Block:
+    def _shift(self, wide: Block, ready: int) -> Block:
         begin, end = self._samples, self._samples + ready
         values, flags = {}, {}
         for channel in self._late:

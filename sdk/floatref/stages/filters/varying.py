@@ -47,13 +47,13 @@ class VaryingHighPass(Stage):
         c = tangents(block[ChannelId(CUTOFF)], self._step, self.name)
         for track, memory in self.memory.items():
             channel = ChannelId(self.channel, track)
-            values[channel] = self._filtered(block[channel], c, memory)
+            values[channel] = self._filter(block[channel], c, memory)
             marks = flags_of(block, channel, ChannelId(CUTOFF))
             if marks is not None:
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _filtered(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+    def _filter(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
         y = np.empty(x.size)
         kernel = getattr(self._kernels(), f"high_pass_{self.orders}")
         kernel(x, y, c, *memory, self.direction is Direction.BACKWARD)

@@ -44,7 +44,7 @@ def disturbance_of(
     intensity = np.zeros_like(a)
     intensity[size:, size:] = accelerated * squares @ accelerated.T
     both = step_s * scale[:, None] * intensity * scale
-    covariance = _gathered(step_s * scale[:, None] * a / scale, both) / scale / scale[:, None]
+    covariance = _gather(step_s * scale[:, None] * a / scale, both) / scale / scale[:, None]
     return np.asarray(0.5 * (covariance + covariance.T))
 
 
@@ -80,7 +80,7 @@ def hold_error_of(
     return np.asarray(share * rate * (ramp * (springs + dampers)) @ ramp.T)
 
 
-def _gathered(rate: FloatArray, intensity: FloatArray) -> FloatArray:
+def _gather(rate: FloatArray, intensity: FloatArray) -> FloatArray:
     """Return ∫ exp(rate·t)·intensity·exp(rateᵀ·t) dt from 0 to 1, all of shape (s, s)."""
     from scipy.linalg import expm
 

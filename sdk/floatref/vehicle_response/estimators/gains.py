@@ -102,19 +102,19 @@ def decay_rate(
     if -worst.real >= SLOWEST_PER_S:
         return -worst.real
     n = len(model.freedoms)
-    share = _moved(error, worst, n) * _moved(error.T, worst, n)
+    share = _measure_motion(error, worst, n) * _measure_motion(error.T, worst, n)
     freedom = model.freedoms[int(np.argmax(share))].name
     if freedom in [reading.freedom for reading in measured]:
         advice = _gain_to_raise(model, freedom, measured, outputs, error)
     else:
         advice = "neither a spring nor a reading limits it: measure its displacement"
     raise InputError(
-        f"model {model.name}: the observer's error does not decay, eigenvalue {_printed(worst)} "
+        f"model {model.name}: the observer's error does not decay, eigenvalue {_format(worst)} "
         f"1/s in the motion of the {freedom}; {advice}"
     )
 
 
-def _moved(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
+def _measure_motion(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
     """Return how much each freedom moves in the eigenvectors of ``eigenvalue``, shape (n,).
 
     It is multiplied by the same of the transposed matrix, which removes freedoms moved by others,
@@ -153,7 +153,7 @@ def _gain_to_raise(
     )
 
 
-def _printed(value: complex) -> str:
+def _format(value: complex) -> str:
     imaginary = f" ± {abs(value.imag):.3g}j" if abs(value.imag) > SLOWEST_PER_S else ""
     # Rounding may give a negative zero; adding zero removes its sign.
     return f"{round(value.real, 3) + 0.0:.3g}{imaginary}"

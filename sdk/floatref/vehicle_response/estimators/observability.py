@@ -27,7 +27,7 @@ def null_space(matrix: Matrix) -> Matrix:
     Rows and columns are scaled to about 1 before, so that units have no influence; the columns
     returned are those of the given matrix.
     """
-    balanced, scale = _balanced(matrix)
+    balanced, scale = _balance(matrix)
     _, sizes, rows = np.linalg.svd(balanced)
     rank = int(np.sum(sizes > NOTHING))
     return np.asarray(scale[:, None] * rows[rank:].conj().T)
@@ -67,7 +67,7 @@ def _pencil(system: Discrete, output: FloatArray, direct: FloatArray, z: complex
     return np.vstack([above, np.hstack([output, direct])])
 
 
-def _balanced(matrix: Matrix) -> tuple[Matrix, FloatArray]:
+def _balance(matrix: Matrix) -> tuple[Matrix, FloatArray]:
     """Return ``matrix`` with rows and columns of length about 1, and the scale of columns."""
     balanced, scale = np.array(matrix), np.ones(matrix.shape[1])
     for _ in range(ROUNDS):

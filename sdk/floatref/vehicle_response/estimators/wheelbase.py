@@ -54,7 +54,7 @@ def joined(
     over, spread = np.zeros(distance.size), np.zeros(distance.size)
     weights = np.zeros(distance.size)
     for road, sigma, ahead in zip(roads, sigmas, x_m, strict=True):
-        height, deviation, weight = _told(road, sigma, ahead / step, distance.size)
+        height, deviation, weight = _read_earlier(road, sigma, ahead / step, distance.size)
         over += weight * height
         spread += weight * deviation
         weights += weight
@@ -62,7 +62,7 @@ def joined(
     return over / total, spread / total
 
 
-def joined_at_speed(
+def join_at_speed(
     roads: Sequence[ArrayLike],
     sigmas: Sequence[ArrayLike],
     x_m: Sequence[float],
@@ -97,11 +97,11 @@ def shifted(values: ArrayLike, samples: float) -> FloatArray:
         )
     whole = round(samples)
     if abs(samples - whole) < EVEN:
-        return _moved(series, whole)
+        return _move(series, whole)
     whole = floor(samples)
     nodes = np.arange(POINTS) - (POINTS // 2 - 1)
     weights = _weights(nodes, samples - whole)
-    moved = [_moved(series, whole + int(node)) for node in nodes]
+    moved = [_move(series, whole + int(node)) for node in nodes]
     return np.asarray(weights @ np.stack(moved))
 
 
@@ -112,7 +112,7 @@ def _weights(nodes: IndexArray, at: float) -> FloatArray:
     return np.asarray(factors.prod(axis=1))
 
 
-def _moved(series: FloatArray, by: int) -> FloatArray:
+def _move(series: FloatArray, by: int) -> FloatArray:
     """Return ``series`` as it is ``by`` whole samples later, NaN beyond its ends."""
     result = np.full(series.size, np.nan)
     begin, end = max(0, -by), min(series.size, series.size - by)
@@ -121,7 +121,7 @@ def _moved(series: FloatArray, by: int) -> FloatArray:
     return result
 
 
-def _told(
+def _read_earlier(
     road: ArrayLike, sigma: ArrayLike, samples: float, size: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return elevation, sigma and weight ``samples`` earlier; all are zero where unknown."""
@@ -135,7 +135,7 @@ def _told(
         raise InputError(f"a sigma of {np.nanmin(deviation):g} m; give numbers above zero, or NaN")
     # The road under a tyre x ahead of the point is under the point x later.
     height = shifted(height, -samples)
-    deviation = np.maximum(_moved(deviation, floor(-samples)), _moved(deviation, ceil(-samples)))
+    deviation = np.maximum(_move(deviation, floor(-samples)), _move(deviation, ceil(-samples)))
     known = np.isfinite(height) & np.isfinite(deviation)
     weight = known / np.where(known, deviation, 1.0) ** 2
     return np.where(known, height, 0.0), np.where(known, deviation, 0.0), weight

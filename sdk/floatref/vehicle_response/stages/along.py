@@ -68,8 +68,10 @@ class ShiftAlong(Stage):
         places = np.arange(first, max(first, end))
         values, flags = {}, {}
         for channel, (points, part) in self._points.items():
-            values[channel], own = _taken(wide, channel, places - points, part)
-            flags[channel] = own | _passed(flags_of(wide, channel), places - wide.first, points)
+            values[channel], own = _take(wide, channel, places - points, part)
+            flags[channel] = own | _gather_passed(
+                flags_of(wide, channel), places - wide.first, points
+            )
         self.memory["next"] = first + places.size
         keep = max(0, min(self.memory["next"] - self._behind - wide.first, len(wide)))
         self.memory["waiting"] = wide.part(keep, len(wide))
@@ -87,7 +89,7 @@ def _split(shift: float) -> tuple[int, float]:
     return whole, part if part > EXACT else 0.0
 
 
-def _taken(
+def _take(
     wide: Block, channel: ChannelId, places: IndexArray, part: float
 ) -> tuple[FloatArray, FlagArray]:
     """Return values and flags between each of ``places`` and ``part`` before it."""
@@ -100,7 +102,7 @@ def _taken(
     return (1.0 - part) * near + part * far, near_marks | far_marks
 
 
-def _passed(marks: FlagArray | None, places: IndexArray, points: int) -> FlagArray:
+def _gather_passed(marks: FlagArray | None, places: IndexArray, points: int) -> FlagArray:
     """Return the flags between each of ``places`` and ``points`` before it, both included."""
     if marks is None or not marks.any() or not places.size:
         return np.zeros(places.size, np.uint8)

@@ -102,14 +102,14 @@ class ToRate(Stage):
         at = np.arange(first, first + size) * ratio - (wide.first - self.memory["begun"])
         place = np.arange(len(wide))
         linear = {c: np.interp(at, place, x) for c, x in wide.values.items() if c.name in LINEAR}
-        flags = {c: _gathered(f, at, ratio) for c, f in wide.flags.items()}
+        flags = {c: _gather(f, at, ratio) for c, f in wide.flags.items()}
         self.memory["next"] = first + size
         done = ceil((first + size - 1) * ratio) - (wide.first - self.memory["begun"]) - 1
         self.memory["waiting"] = _bare(wide).part(max(0, min(done, len(wide) - 1)), len(wide))
         return Block(first, {**found, **linear}, flags=flags)
 
 
-def _gathered(flags: FlagArray, at: FloatArray, ratio: float) -> FlagArray:
+def _gather(flags: FlagArray, at: FloatArray, ratio: float) -> FlagArray:
     """Return the flags less than ``ratio`` samples from each of ``at``."""
     low = np.clip(np.floor(at - ratio).astype(np.int64) + 1, 0, flags.size)
     high = np.clip(np.ceil(at + ratio).astype(np.int64), low, flags.size)

@@ -67,7 +67,7 @@ class CompareTravel(Stage):
 
     def told(self) -> tuple[str, ...]:
         """Return a warning for every wheel path whose sensors do not agree."""
-        lines = (self._told(track, *sums) for track, (_, sums) in self.memory.items())
+        lines = (self._warn(track, *sums) for track, (_, sums) in self.memory.items())
         return tuple(line for line in lines if line)
 
     def _sides(self, block: Block, track: str) -> FloatArray:
@@ -77,7 +77,7 @@ class CompareTravel(Stage):
         marks = flags_of(block, deflection, body, wheel)
         return sides if marks is None else np.where(marks != 0, np.nan, sides)
 
-    def _told(self, track: str, count: float, xx: float, xy: float, yy: float) -> str:
+    def _warn(self, track: str, count: float, xx: float, xy: float, yy: float) -> str:
         loud = (LOUD * self.sigma_m) ** 2 * count
         if count < FEWEST or xx == 0.0 or yy < loud:
             return ""

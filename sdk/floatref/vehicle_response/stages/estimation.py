@@ -112,7 +112,7 @@ class EstimateRoad(Stage):
                     elevation_under(own_number): estimate.road[:, k].copy(),
                     sigma_under(own_number): sigma,
                 }
-                own = _told(marks, sigma)
+                own = _mark_unknown(marks, sigma)
                 for name, x in found.items():
                     values[ChannelId(name, track)] = x
                     if own is not None:
@@ -137,7 +137,7 @@ class EstimateRoad(Stage):
         return np.where(np.isnan(road), np.nan, np.sqrt(own))
 
 
-def _told(marks: FlagArray | None, sigma: FloatArray) -> FlagArray | None:
+def _mark_unknown(marks: FlagArray | None, sigma: FloatArray) -> FlagArray | None:
     """Return ``marks`` with unknown samples as missing, None without any flag."""
     unknown = np.isnan(sigma)
     if not unknown.any():

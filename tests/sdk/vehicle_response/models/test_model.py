@@ -34,7 +34,7 @@ def test_a_tyre_pushes_its_own_wheel():
     [
         ({"mass": np.diag([500.0, 0.0])}, "mass has the eigenvalue 0"),
         ({"mass": np.eye(3)}, r"mass has the shape \(3, 3\); 2 freedoms need \(2, 2\)"),
-        ({"mass": np.diag([np.nan, 1.0])}, "mass holds what is no finite number"),
+        ({"mass": np.diag([np.nan, 1.0])}, "mass has a value that is not finite"),
         ({"stiffness": STIFFNESS * [[1, -1], [1, 1]]}, "stiffness is not symmetric"),
         ({"stiffness": STIFFNESS - np.diag([0, 2e5])}, "stiffness without the tyres has the eig"),
         ({"damping": -DAMPING}, "damping without the tyres has the eigenvalue -"),
