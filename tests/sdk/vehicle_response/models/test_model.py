@@ -39,7 +39,7 @@ def test_a_tyre_pushes_its_own_wheel():
         ({"stiffness": STIFFNESS - np.diag([0, 2e5])}, "stiffness without the tyres has the eig"),
         ({"damping": -DAMPING}, "damping without the tyres has the eigenvalue -"),
         ({"tyres": ()}, "0 tyres"),
-        ({"freedoms": ()}, "the freedoms none; give"),
+        ({"freedoms": ()}, "the freedoms -; give"),
         ({"tyres": (Tyre("axle", 1e5),)}, "no freedom 'axle'; it has body, wheel"),
         ({"tyres": (Tyre("wheel", 0.0),)}, "tyre of the wheel has stiffness 0 N/m"),
         ({"tyres": (Tyre("wheel", np.inf),)}, "tyre of the wheel has stiffness inf N/m"),
