@@ -17,7 +17,7 @@ from floatref.vehicle_response import (
     Kind,
     Reading,
     hold_error_of,
-    joined_at_speed,
+    join_at_speed,
     state_space,
 )
 
@@ -114,7 +114,7 @@ def estimated(
     initial = INITIAL * np.eye(10)
     found = JointInputState.of(MODEL, readings, step_s, disturbance, initial, hold).estimate(seen)
     behind = (-ZHU_HALF_CAR.wheelbase_m, 0.0)
-    both, _ = joined_at_speed(found.road.T, found.road_sigma.T, behind, drive.speed, step_s)
+    both, _ = join_at_speed(found.road.T, found.road_sigma.T, behind, drive.speed, step_s)
     return found.road, both
 
 

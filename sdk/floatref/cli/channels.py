@@ -139,11 +139,11 @@ def _draft(native: NativeFile, file: Path, adapter: str, dbc: Path | None) -> No
 
 def _try(file: Path, adapter: str | None, channel_map: Path, as_json: bool) -> None:
     from floatref.mapping.reading import read_native
-    from floatref.mapping.report import looked_at
+    from floatref.mapping.report import inspect_reading
 
     with progress_bar("Reading", as_json) as shown:
         reading = read_native(file, channel_map, adapter, shown)
-    report = {"file": str(file), "map": str(channel_map), **looked_at(reading)}
+    report = {"file": str(file), "map": str(channel_map), **inspect_reading(reading)}
     print_json(report) if as_json else print_mapped(report)
 
 

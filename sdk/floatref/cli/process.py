@@ -14,7 +14,7 @@ from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.settings_file import read_settings
-from floatref.mapping.sources import profiled, recording_of
+from floatref.mapping.sources import make_profile, recording_of
 from floatref.values.profile import Profile, ProfileTrack
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def process(
     # Before the first block is done, loops may be compiled: seconds, once per installation.
     starting = "Starting (the first time, this compiles)"
     with progress_bar("Processing", as_json, starting) as shown:
-        result = profiled(read, pipeline, chosen, shown)
+        result = make_profile(read, pipeline, chosen, shown)
     profile = result.profile
     report = _report(profile, out, result.warnings)
     with _draw(result, plot):

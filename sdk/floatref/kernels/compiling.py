@@ -18,8 +18,8 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     other freedom is given, so infinities, NaN and the order of operations are as written. A
     division by zero gives infinity or NaN, as in numpy: a loop that could raise stays scalar.
 
-    What begins with an underscore is called by other kernels alone, and gets no entry from Python:
-    that saves a seventh of the time that compiling takes.
+    A name with an underscore is called by other kernels alone, and gets no entry from Python: that
+    saves a seventh of the compilation time.
 
     numba refuses `cache=True` with RuntimeError when it finds no folder to write to (a
     read-only installation without a home); the kernel is then compiled in every process.

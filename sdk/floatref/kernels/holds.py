@@ -55,8 +55,8 @@ def find_runs(
     ``first`` is the index of ``x[0]`` in the channel. A row of ``runs`` gets first index, length
     and value of a run that is at most ``outside[0]`` or at least ``outside[1]``. Returns how many
     there are and how many samples are done with: the rest of ``x`` is to be given again, with what
-    follows. A run up to the end of ``x`` is left open in ``memory``. Samples that no run of
-    ``least`` can lie in are passed over.
+    follows. A run up to the end of ``x`` is left open in ``memory``. Samples that cannot be part of
+    a run of ``least`` are skipped.
     """
     found, i = 0, 0
     if memory[0] > 0.0:

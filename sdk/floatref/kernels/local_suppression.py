@@ -20,7 +20,7 @@ def hold_at_zero(
     """Write to ``y`` the ``disturbance`` as a PI controller with set point 0 leaves it.
 
     It acts where ``speed`` is below ``limit``; ``integral`` is K_I dt. A missing (NaN)
-    disturbance or speed is bridged by the one before it, 0 if there is none.
+    disturbance or speed is bridged by the one before it, by 0 at the start.
     """
     active, held, moving = memory[0], memory[1], memory[2]
     last, area, offset = memory[3], memory[4], memory[5]

@@ -18,11 +18,11 @@ def observe(
 ) -> None:
     """Write the floating reference height r that follows ``height`` below the cut-off.
 
-    The observer r' = v + 2w (h - r), v' = a + b + 2w^2 (h - r), b' = w^3 (h - r) by the
-    trapezoidal rule with w dt/2 = c_k of (A.11) inside the integrals, so that r - h is the
-    filter (A.1) of the profile. v and b are kept in metres, as v dt/2 and b dt^2/4; what each
-    sample adds is solved for e = r - h in closed form. Missing (NaN) values are bridged by those
-    before them, zero acceleration and c if there are none; r is 0 before the first height.
+    The observer r' = v + 2w (h - r), v' = a + b + 2w^2 (h - r), b' = w^3 (h - r) by the trapezoidal
+    rule with w dt/2 = c_k of (A.11) inside the integrals, so that r - h is the filter (A.1) of the
+    profile. v and b are kept in metres, as v dt/2 and b dt^2/4; the contribution of each sample is
+    solved for e = r - h in closed form. Missing (NaN) values are bridged by those before them, by
+    zero acceleration and c at the start; r is 0 before the first height.
     """
     scale = 0.25 * step * step
     started, pushed, held, rate = memory[0], memory[1], memory[2], memory[3]

@@ -48,7 +48,7 @@ def integrate_steps(x: FloatArray, y: FloatArray, memory: FloatArray, steps: Flo
 def add_up(x: FloatArray, memory: FloatArray) -> None:
     """Add ``x`` to the compensated (Neumaier) sum ``memory[0] + memory[1]``; count in [2].
 
-    Missing (NaN) samples are passed over. The result does not depend on how x was split.
+    Missing (NaN) samples are skipped. The result does not depend on how x was split.
     """
     total, rest, count = memory[0], memory[1], memory[2]
     for i in range(x.size):
@@ -147,7 +147,7 @@ def integrate_reflecting(
 ) -> None:
     """Trapezoidal integral of ``x`` with reflected ``height`` in ``y``: (5.9).
 
-    ``steps[i]`` is the adjusted step to sample i, ``true_steps[i]`` what it really took. The
+    ``steps[i]`` is the adjusted step to sample i, ``true_steps[i]`` the real one. The
     memory has a fourth entry, the last height. Missing (NaN) values are bridged by those before
     them.
     """
@@ -178,9 +178,9 @@ def mark_drive(
 
     ``distance`` holds two windows of ``window`` samples before the first flag. Travel is slow if
     the progress over both windows is below ``slow``; a brake counts if, at more than that, it is
-    below ``stopping`` times what the last window is short of the one before. If the distance is
-    held between counts, in most samples, that has to be more than two of them. Where a distance
-    is missing (NaN), so is the mark.
+    below ``stopping`` times the loss of progress from the window before to the last one. If the
+    distance is held between counts, in most samples, that loss must be more than two counts. Where
+    a distance is missing (NaN), so is the mark.
     """
     steps = 0
     for i in range(1, 2 * window):

@@ -25,9 +25,9 @@ def frequencies(
 ) -> None:
     """Write (5.3) in Hz of ``speed`` in m/s to ``frequency``; NaN stays NaN.
 
-    It is v/λ_c + (f_ls - v/λ_c) / (1 + exp u), which cannot overflow. The exponential is the
-    Taylor polynomial of u/64, squared six times. It is exact to rounding where it counts; far
-    from u = 0 it errs by more, but there it is nothing beside 1, or 1 beside it.
+    It is v/λ_c + (f_ls - v/λ_c) / (1 + exp u), which cannot overflow. The exponential is the Taylor
+    polynomial of u/64, squared six times. It is exact to rounding near u = 0; farther out its error
+    is larger, but there it is negligible against 1, or 1 against it.
     """
     per_metre = 1.0 / wavelength_m
     for i in range(speed.size):

@@ -11,9 +11,8 @@ c = tan(pi f_c dt) (A.11), a first-order stage has one state s and a second-orde
 
 Each kernel reads ``x`` and writes ``y`` (they may be one array), from the last sample down if
 ``backward``. `memory` is float64: started (0 or 1), the last input, then the states. A missing
-(NaN) input is bridged by the one before it, and gives 0 as long as there is none. The states
-are advanced by small products of themselves, the newest last, because the loop waits for
-nothing else.
+(NaN) input is bridged by the one before it, and gives 0 before the first input. The states are
+advanced by small products of themselves, the newest last, because the loop waits for nothing else.
 """
 
 from floatref.kernels.compiling import compiled
@@ -34,7 +33,7 @@ def _missing_lead(x: FloatArray, backward: bool) -> int:
 
 @compiled
 def _begin(x: FloatArray, y: FloatArray, memory: FloatArray, backward: bool) -> int:
-    """Write 0 up to the first sample that is there and keep that one; return its number."""
+    """Write 0 up to the first sample that is not missing and store it; return its number."""
     lead = _missing_lead(x, backward)
     for j in range(lead):
         y[x.size - 1 - j if backward else j] = 0.0

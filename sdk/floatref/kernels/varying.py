@@ -2,7 +2,7 @@
 
 They are the recursions (A.9) and (A.10) with the coefficients of Table A.1 taken from
 c_k = tan(pi f_c dt) of the sample being computed and applied to the inputs and outputs before
-it. What is carried on is not the past input but what has been removed from it, e = x - y,
+it. The state is not the past input but the part removed from it, e = x - y,
 which changes slowly and by small amounts, so nothing cancels at a low cut-off. With D the
 difference to the sample before,
 
@@ -17,9 +17,9 @@ the step that t is about to take. With a_k = c_k + c_k^2:
          t += g + 2 b y_{k-1},  g += (b + c_k^2) y_{k-1},  y_k = (x_k - t) / (1 + a_k)
 
 Each kernel reads ``x`` and ``c`` and writes ``y`` (it may be ``x``), from the last sample down if
-``backward``. `memory` is float64: how far it is started (3 is fully), the last input, the last
-c, then the states. A missing (NaN) input or c is bridged by the one before it; the output is 0
-as long as there is none of either.
+``backward``. `memory` is float64: how far it is started (3 is fully), the last input, the last c,
+then the states. A missing (NaN) input or c is bridged by the one before it; the output is 0 before
+the first of both.
 """
 
 import numpy as np
@@ -33,7 +33,7 @@ MEMORY = 8
 
 @compiled
 def _lead(x: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
-    """Return the number of the first sample by which both an input and a c have been there."""
+    """Return the number of the first sample up to which an input and a c have occurred."""
     seen_x, seen_c = memory[0] == 1.0, memory[0] == 2.0
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
@@ -62,8 +62,8 @@ def _begin(x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, back
 
 
 @compiled
-def _bridged(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
-    """Return ``x`` with what is missing bridged, from ``memory[at]`` on; keep its last there."""
+def _bridge(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
+    """Return ``x`` with missing samples bridged, from ``memory[at]`` on; store its last there."""
     missing = 0
     for i in range(x.size):
         missing += 0 if x[i] == x[i] else 1
@@ -92,8 +92,8 @@ def high_pass_1(
     r, y1 = memory[3], memory[4]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = memory[2]
-    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
-    c = _bridged(c[rest], memory, 2, backward)
+    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
+    c = _bridge(c[rest], memory, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -132,8 +132,8 @@ def high_pass_2(
         begin += 1
     t, g, y1, y2, a = memory[3], memory[4], memory[5], memory[6], memory[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    x, y = _bridged(x[rest], memory, 1, backward), y[rest]
-    c = _bridged(c[rest], memory, 2, backward)
+    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
+    c = _bridge(c[rest], memory, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         rate = c[i]
@@ -169,8 +169,8 @@ def high_pass_12(
     t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = first[2]
-    x, y = _bridged(x[rest], first, 1, backward), y[rest]
-    c = _bridged(c[rest], first, 2, backward)
+    x, y = _bridge(x[rest], first, 1, backward), y[rest]
+    c = _bridge(c[rest], first, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -214,8 +214,8 @@ def high_pass_21(
     t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
     rate = second[2]
-    x, y = _bridged(x[rest], second, 1, backward), y[rest]
-    c = _bridged(c[rest], second, 2, backward)
+    x, y = _bridge(x[rest], second, 1, backward), y[rest]
+    c = _bridge(c[rest], second, 2, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate

@@ -1,14 +1,14 @@
 """High-pass stages with a varying cut-off in trapezoidal state-variable form.
 
 The states are the band-pass and low-pass outputs of the analog prototype, bp' = w hp and
-lp' = w bp, so a change of the cut-off leaves what has been removed where it is. The direct
+lp' = w bp, so a change of the cut-off does not change the removed part. The direct
 recursion (A.9) keeps the slope of its output instead, and a backward pass that comes from a
-stop, where the cut-off falls from one sample to the next, blows a step up by that. At a
+stop, where the cut-off falls from one sample to the next, amplifies a step by that. At a
 constant cut-off both are the same filter, see `state_variable`.
 
 Each kernel reads ``x`` and ``c`` (A.11) and writes ``y``, from the last sample down if
 ``backward``. `memory` is float64: started (0 or 1), the last input, the last c, then the states.
-A missing (NaN) input or c is bridged by the one before it, and gives 0 as long as there is none.
+A missing (NaN) input or c is bridged by the one before it, and gives 0 before the first of both.
 """
 
 from floatref.kernels.compiling import compiled

@@ -1,4 +1,4 @@
-"""Native files as recordings: a channel map says what in them is which channel.
+"""Native files as recordings: a channel map assigns their columns to channels.
 
 Names, units, signs, axes, delays and clocks are settled here; samples go to disk once, in SI
 units, so that memory does not grow with the file. Nothing is resampled.

@@ -16,8 +16,8 @@ from floatref.values.native import NativeFile
 class Opened:
     """The files of one run by their labels; they are closed with ``stack``.
 
-    ``paths``, ``adapters`` and ``databases`` tell which were opened, with which adapter, and
-    which files their options name.
+    ``paths``, ``adapters`` and ``databases`` have the files that were opened, their adapters, and
+    the files that their options name.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Opened:
                 raise InputError(f"no stream is called {entry.stream[:80]!r}; {hint}")
 
     def told(self) -> Iterator[str]:
-        """Yield what the adapters had to say of their files."""
+        """Yield the warnings of the adapters about their files."""
         for label, native in self._files.items():
             for line in native.told:
                 yield f"{self.paths[label].name}: {line}"

@@ -1,4 +1,4 @@
-"""From native files and a channel map to a recording, and to what its user should know."""
+"""From native files and a channel map to a recording, and warnings for its user."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
@@ -32,11 +32,11 @@ BASES = ("vertical_specific_force", *TOLERANCES)
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """A recording from native files: what it came from, and what to know about it.
+    """A recording from native files, with its origin and warnings.
 
-    ``files`` are those that were read by their labels in the map, ``databases`` what they were
-    decoded with; ``origins`` has the native name of every channel, ``clocks`` one object for each
-    clock that was aligned, ``told`` one line for each thing that may be wrong.
+    ``files`` are the files that were read, by their labels in the map, ``databases`` those that
+    they were decoded with; ``origins`` has the native name of every channel, ``clocks`` one object
+    for each clock that was aligned, ``told`` one warning for each possible fault.
     """
 
     recording: Recording
@@ -49,7 +49,7 @@ class Reading:
     told: tuple[str, ...]
 
     def named_natively(self, line: str) -> str:
-        """Return ``line``, which says something of a channel, with the channel's native name."""
+        """Return ``line``, a warning about a channel, with the channel's native name."""
         for channel, origin in zip(self.recording.channels, self.origins, strict=True):
             said = f"channel {channel.id}:"
             if line.startswith(said) and origin != str(channel.id):
@@ -106,7 +106,7 @@ class _Mapping:
         self._told: list[str] = []
 
     def reading(self) -> Reading:
-        plan = [self._planned(entry) for entry in self._chart.channels]
+        plan = [self._plan(entry) for entry in self._chart.channels]
         for entry in self._chart.clocks:
             self._opened.check_clock(entry)
         base = next((p for name in BASES for p in plan if p.entry.channel == name), plan[0])
@@ -137,7 +137,7 @@ class _Mapping:
             told=tuple(dict.fromkeys(map(one_line, [*told, *late]))),
         )
 
-    def _planned(self, entry: ChannelEntry) -> _Planned:
+    def _plan(self, entry: ChannelEntry) -> _Planned:
         native = self._opened.file(entry.file)
         with naming(self._opened.paths[entry.file]):
             stream, column = find(native, entry.native)
@@ -149,12 +149,12 @@ class _Mapping:
     def _taken(
         self, plan: Sequence[_Planned], extra: Sequence[tuple[Key, Stream, str]]
     ) -> tuple[dict[Key, Taken], Places]:
-        """Read every stream once; also return where in it each conversion's samples are."""
+        """Read every stream once; also return the column of each conversion's samples in it."""
         wanted: dict[Key, list[Wanted]] = {}
         streams: dict[Key, Stream] = {}
         places: dict[tuple[Key, Token], int] = {}
         jobs: list[tuple[Key, Stream, str, Convert, Token]] = [
-            (p.key, p.stream, p.column, self._guarded(p), p.entry) for p in plan
+            (p.key, p.stream, p.column, self._guard(p), p.entry) for p in plan
         ]
         jobs += [(key, stream, column, as_they_are, column) for key, stream, column in extra]
         for key, stream, column, convert, token in jobs:
@@ -175,8 +175,8 @@ class _Mapping:
         self._told += [f"{name}{line}" for line in taken.told]
         return taken
 
-    def _guarded(self, planned: _Planned) -> Convert:
-        """Return the conversion of ``planned``, whose refusals name the channel."""
+    def _guard(self, planned: _Planned) -> Convert:
+        """Return the conversion of ``planned``, whose errors name the channel."""
 
         def convert(values: FloatArray, times_s: FloatArray) -> FloatArray:
             with naming(self._where(planned)):

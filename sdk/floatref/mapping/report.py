@@ -1,4 +1,4 @@
-"""A mapped recording looked at: what each channel amounts to, and what is implausible."""
+"""Report on a mapped recording: the values of each channel, and what is implausible."""
 
 from math import isfinite, nan
 from typing import Any
@@ -10,10 +10,10 @@ from floatref.values.recording import Channel
 from floatref.values.scanning import Summary
 
 
-def looked_at(reading: Reading) -> dict[str, Any]:
+def inspect_reading(reading: Reading) -> dict[str, Any]:
     """Return what `floatref channels --map --json` prints: channels, clocks and warnings.
 
-    What would keep the recording from being processed is a warning here.
+    A reason why the recording cannot be processed is a warning here.
     """
     channels = reading.recording.channels
     warnings = list(reading.told)

@@ -1,4 +1,4 @@
-"""What a command reads: a recording directory or a native file, and what is kept of its origin."""
+"""What a command reads: a recording directory or a native file, and its recorded origin."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A recording, where it came from, and one line for each thing to know about its reading.
+    """A recording, its origin, and the warnings from reading it, one line each.
 
     ``inputs`` is the SHA-256 of every file that was read, by its path; ``reading`` is None unless
     it came through a channel map.
@@ -39,7 +39,7 @@ class Source:
 
     @contextmanager
     def named(self) -> Iterator[None]:
-        """Put the native name of a channel into any InputError raised inside."""
+        """Add the native name of the channel to any InputError raised inside."""
         try:
             yield
         except InputError as error:
@@ -54,7 +54,7 @@ def recording_of(
 ) -> Source:
     """Return what is in ``source``, read with ``adapter`` and by ``channel_map`` if given.
 
-    Raises InputError for a source that cannot be used, and for a map where none is needed.
+    Raises InputError for a source that cannot be used, and for a map where no map is needed.
     """
     from floatref.mapping.channel_map.map_document import read_map
 
@@ -66,7 +66,7 @@ def recording_of(
             raise InputError(f"{source}: adapter {reader.name} has our channels; it needs no map")
         hashes = _hashes_of(reader, source)
         origin = {"source": source.name, "adapter": reader.name, "sha256": hashes}
-        return Source(source, read_source(reader, source), origin, _placed(hashes, source))
+        return Source(source, read_source(reader, source), origin, _place(hashes, source))
     from floatref.mapping.reading import read_native
 
     reading = read_native(source, chart, reader.name, progress)
@@ -80,7 +80,7 @@ def _hashes_of(reader: Adapter, source: Path) -> dict[str, str]:
     return fingerprint(source) if ours else fingerprint_native(source)
 
 
-def _placed(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
+def _place(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
     """Return ``hashes`` of files in the folder ``source``, or beside the file, by their paths."""
     folder = source if source.is_dir() else source.parent
     return {folder.resolve() / name: value for name, value in hashes.items()}
@@ -92,7 +92,7 @@ def _inputs(reading: "Reading", channel_map: Path | None) -> dict[Path, str]:
     files += [] if channel_map is None else [channel_map]
     found: dict[Path, str] = {}
     for file in dict.fromkeys(path.resolve() for path in files):
-        found |= _placed(fingerprint_native(file), file)
+        found |= _place(fingerprint_native(file), file)
     return found
 
 
@@ -103,7 +103,7 @@ def _origin(
     origin: dict[str, Any] = {
         "source": source.name,
         "adapter": reading.adapters[""],
-        "sha256": _named(inputs, source.resolve().parent),
+        "sha256": _name_hashes(inputs, source.resolve().parent),
         "channels": dict(
             zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
         ),
@@ -115,7 +115,7 @@ def _origin(
     return origin
 
 
-def _named(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
+def _name_hashes(hashes: Mapping[Path, str], folder: Path) -> dict[str, str]:
     """Return ``hashes`` by file name, or by path from ``folder`` if the name is another's."""
     found: dict[str, str] = {}
     for path, value in hashes.items():
@@ -128,17 +128,17 @@ if TYPE_CHECKING:
     from floatref.engine.run import Result
 
 
-def profiled(
+def make_profile(
     read: Source,
     pipeline: str,
     settings: Mapping[str, Any],
     progress: Callable[[float], None] | None = None,
 ) -> "Result":
-    """Return the profile of ``read`` by ``pipeline``, and one line for each thing to know.
+    """Return the profile of ``read`` by ``pipeline``, and warnings, one line each.
 
-    Lines, and those of errors, have the native names of channels. ``progress`` is called with
-    the part of the recording that is through. Raises InputError with one line naming the source
-    for a recording, pipeline or setting that cannot be used.
+    Warnings and errors have the native names of channels. ``progress`` is called with the part of
+    the recording that has been processed. Raises InputError with one line naming the source for a
+    recording, pipeline or setting that cannot be used.
     """
     from floatref.engine.run import run
 

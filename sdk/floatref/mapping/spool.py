@@ -13,13 +13,13 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.scanning import chunks
 
 SPARE = 1 << 28
-"""Bytes that are left free on the disk."""
+"""Bytes of the disk that must remain free."""
 
 
 class Spool:
     """A folder of sample files for the time of a run; a context that removes it.
 
-    Where the system lets files go while they are mapped, arrays outlive the folder.
+    Where the system can remove files while they are mapped, arrays outlive the folder.
     """
 
     def __init__(self) -> None:
@@ -64,7 +64,7 @@ class Spool:
         return self._columns[-1]
 
     def thinned(self, values: FloatArray, kept: BoolArray) -> FloatArray:
-        """Return those of ``values``, shape (N,), that are ``kept``, on disk."""
+        """Return the ``kept`` ones of ``values``, shape (N,), on disk."""
         column = self.column()
         for first, part in chunks(values):
             column.append(part[kept[first : first + part.size]])

@@ -1,6 +1,6 @@
 """Measures of a profile: IRI, where its roughness lies, and its agreement with another.
 
-Every function of them takes a one-dimensional float64 elevation in m and its constant interval in
+Each function takes a one-dimensional float64 elevation in m and its constant interval in
 m. NaN marks points that were not measured: gaps are bridged by a straight line, and nothing is
 calculated before the first and after the last measured point. Measures of sensors at rest, by
 Allan deviation, take a channel or its samples.

@@ -1,1 +1,1 @@
-"""Stages: what is done to a block, one thing each, under one protocol with laws."""
+"""Stages: each does one operation on blocks, under one protocol with laws."""

@@ -45,7 +45,7 @@ class RemoveGravity(Stage):
 class Drop(Stage):
     """Drops the channels called ``names``, shared or of every track.
 
-    What is dropped needs no place on the tape of a backward pass. No point is changed.
+    Dropped channels take no space on the tape of a backward pass. No point is changed.
     """
 
     declared = Declared()

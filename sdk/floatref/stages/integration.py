@@ -13,11 +13,11 @@ from floatref.values.channels import ChannelId
 class Integrate(Stage):
     """Adds ``target``, the trapezoidal integral of ``source``, to every track.
 
-    On the time axis the step is constant; on the distance axis it is the channel `time_step`,
-    as in (5.5) and (5.6) with the factor ½ of the trapezoidal rule. The integral starts at
-    zero, or at the first value of channel ``starts_at`` of the same track. ``source`` is
-    dropped unless it is kept. A missing sample is bridged by the one before it and flagged; it
-    shifts all that follows by what the bridge was wrong.
+    On the time axis the step is constant; on the distance axis it is the channel `time_step`, as in
+    (5.5) and (5.6) with the factor ½ of the trapezoidal rule. The integral starts at zero, or at
+    the first value of channel ``starts_at`` of the same track. ``source`` is dropped unless
+    ``keep`` is set. A missing sample is bridged by the one before it and flagged; the error of the
+    bridge shifts all samples behind it.
     """
 
     declared = Declared()
@@ -100,7 +100,7 @@ class Combine(Stage):
 class RemoveMean(Stage):
     """Subtracts from ``channel`` of every track its mean over the run.
 
-    The mean is that of the samples that are there; it needs the whole run before the first
+    The mean is that of the samples that are not missing; it needs the whole run before the first
     output, so the engine surveys the run first. Missing samples stay missing.
     """
 

@@ -47,7 +47,7 @@ WINDOW_S = 0.25
 """Two such windows are compared: short enough to mark a brake where it begins, long enough that
 coarse encoder counts do not flicker."""
 SLOW_MPS = 16 / 3.6
-"""16 km/h, below which every suppression algorithm gives the profile up (section 5.1)."""
+"""16 km/h, below which every suppression algorithm loses the profile (section 5.1)."""
 STOPPING_TIME_S = 5.0
 """0.16 g, up to which braking rarely raised the roughness (section 3.3.1.3), takes so long to a
 standstill from 28 km/h; the brakes behind that figure were released at 24 and 32 km/h."""
@@ -56,14 +56,14 @@ standstill from 28 km/h; the brakes behind that figure were released at 24 and 3
 class MarkDrive(Stage):
     """Flags an acceleration of every track where the vehicle crawls, stands or brakes.
 
-    `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a
-    basic algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI
-    control (section 5.6) removes the road's longer waves, and timer distortion with reflection
-    (section 5.10) removes all of it. Else `Flag.BRAKING` where, braking on as between the two
-    halves of it, the vehicle would stand within ``stopping_time_s``. The accelerometer's axis
-    tilts in proportion to the deceleration a and sees that part of it, an error as a² (1.5); at
-    the speed v the profile is bent falsely by as much over v². So it is the time v/a to a
-    standstill that counts, and the same brake spoils more the slower the vehicle (section 2.3.2).
+    `Flag.SLOW` where the mean speed over the last half second is below ``slow_mps``: there a basic
+    algorithm squeezes drift into one spot, a cut-off in time (sections 5.5 and 5.7) or PI control
+    (section 5.6) removes the road's longer waves, and timer distortion with reflection (section
+    5.10) removes all of it. Else `Flag.BRAKING` where the vehicle would stop within
+    ``stopping_time_s`` at the deceleration between its two halves. The accelerometer's axis tilts
+    in proportion to the deceleration a and sees that part of it, an error as a² (1.5); at the speed
+    v the profile is bent falsely by as much over v². So it is the time v/a to a standstill that
+    counts, and the same brake causes a larger error at a lower speed (section 2.3.2).
 
     A mark comes up to half a second late. Within the first half second of a run nothing is
     marked, since there is nothing to compare with; filter run-in covers it. Values stay as they
@@ -78,7 +78,7 @@ class MarkDrive(Stage):
         stopping_time_s: float = STOPPING_TIME_S,
         channel: str = ACCELERATION,
     ) -> None:
-        """Mark travel below ``slow_mps``, else braking within ``stopping_time_s`` of a stand.
+        """Mark travel below ``slow_mps``, else braking within ``stopping_time_s`` of a standstill.
 
         The marks are flags of ``channel``.
         """

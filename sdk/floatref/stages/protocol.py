@@ -49,7 +49,7 @@ class Declared:
 
 
 class Stage(ABC):
-    """Base of all stages: it keeps the order of calls; a stage says what happens in each.
+    """Base of all stages: it checks the order of calls; a stage defines the work of each.
 
     A subclass keeps all that changes in ``self.memory``, a flat dictionary of arrays and
     numbers, so that state and restore need no code of its own.
@@ -73,7 +73,7 @@ class Stage(ABC):
     def start(self, header: Header) -> Header:
         """Begin a run and return the header of the output.
 
-        Raises StageError if the stage was started before, InputError if ``header`` lacks a
+        Raises StageError if the stage was started before, InputError if ``header`` has not every
         channel that the stage needs.
         """
         if self._phase != "new":
@@ -103,7 +103,7 @@ class Stage(ABC):
         return self.advance(block)
 
     def finish(self) -> tuple[Block, ...]:
-        """Return what was held back and end the run; raises StageError if it is not running."""
+        """Return the blocks held back and end the run; raises StageError if it is not running."""
         if self._phase != "running":
             raise StageError(f"stage {self.name}: finish after {self._phase}")
         self._phase = "finish"
@@ -119,11 +119,11 @@ class Stage(ABC):
         self._next, self._phase = state["next"], state["phase"]
 
     def told(self) -> tuple[str, ...]:
-        """Return one line for each thing in the run so far that its user should know."""
+        """Return the warnings of the run so far, one line each."""
         return ()
 
     def learned(self) -> Mapping[str, float]:
-        """Return settings that the run has told, for the next one of the same vehicle."""
+        """Return settings estimated from the run, for the next run of the same vehicle."""
         return {}
 
     @abstractmethod
@@ -135,5 +135,5 @@ class Stage(ABC):
         """Return the output for ``block``, which is known to be the next one."""
 
     def close(self) -> tuple[Block, ...]:
-        """Return what is still held back; most stages hold nothing."""
+        """Return the blocks held back; most stages hold nothing."""
         return ()

@@ -13,19 +13,19 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 MOST_POINTS = 10_000_000
-"""Points that one block may hold; more means a distance in another unit, or a leap."""
+"""Most points in one block; more means a distance in another unit, or a leap."""
 
 
 class ToDistance(Stage):
     """Takes one sample of every channel per ``interval_m`` of encoder distance.
 
-    Point k lies at ``origin_m + k * interval_m``. It takes the first time sample that has
-    reached it, so during a stop there is none (section 5.3); where time samples are further
-    apart than the interval, it is linear in distance between them. `distance` is dropped, and
-    so are samples at which the encoder is missing or behind where it has been. A point has the
-    flags of the samples it is read from; those that are `LASTING` of any sample since the point
-    before reach it too, however long the vehicle stood. Those behind the last point reach that
-    one, which is therefore held back.
+    Point k lies at ``origin_m + k * interval_m``. It takes the first time sample that has reached
+    it, so a stop gives no points (section 5.3); where time samples are further apart than the
+    interval, it is linear in distance between them. `distance` is dropped, and so are samples at
+    which the encoder is missing or behind its largest distance. A point has the flags of the
+    samples it is read from; those that are `LASTING` of any sample since the point before reach it
+    too, for a stop of any length. Flags behind the last point belong to that point, which is
+    therefore held back.
 
     With ``keep_time`` each point gets the channel `time` that an encoder-triggered engine
     stores with its sample (section 5.8).
@@ -80,7 +80,7 @@ class ToDistance(Stage):
         held: Block | None = self.memory["held"]
         if len(points) == 0:
             return points if held is None else _part(held, slice(0, 0))
-        joined = points if held is None else _joined(held, points)
+        joined = points if held is None else _join(held, points)
         self.memory["held"] = _part(joined, slice(len(joined) - 1, len(joined)))
         return _part(joined, slice(0, len(joined) - 1))
 
@@ -166,7 +166,7 @@ def _sample(block: Block, index: int, distance: float) -> Carry:
     return values, flags
 
 
-def _joined(before: Block, after: Block) -> Block:
+def _join(before: Block, after: Block) -> Block:
     blanks = np.zeros(len(before), np.uint8), np.zeros(len(after), np.uint8)
     flags = {
         c: np.concatenate((before.flags.get(c, blanks[0]), after.flags.get(c, blanks[1])))

@@ -1,4 +1,4 @@
-"""The elevation goes on where the encoder lost travel."""
+"""The elevation continues without a step where the encoder lost travel."""
 
 from typing import ClassVar
 
@@ -11,17 +11,18 @@ from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
 
 PACE_S = 0.1
-"""The pace is that of so long before."""
+"""Time in s over which the pace before a seam is measured."""
 LOST = 0.5
-"""Less than this share of the travel that the pace tells means that counts were lost."""
+"""Share of the travel expected from the pace below which counts were lost."""
 EMPTY: IndexArray = np.empty(0, np.int64)
 
 
 class Seams(Stage):
     """Shifts `floating_reference_height` behind travel that the encoder lost.
 
-    Both sides of such a stretch lie at one place, and what the road did in between would be a step
-    there. Where the encoder was silent and tells the place again, nothing is shifted.
+    Both sides of such a stretch lie at one place, and the road in between would cause a step there.
+    Where the encoder was missing and its distance includes the travel afterwards, nothing is
+    shifted.
     """
 
     declared: ClassVar[Declared] = Declared(

@@ -1,6 +1,6 @@
 """Names of the channels that stages make out of the measured ones.
 
-All are in SI units and belong to a track unless they are said to be shared.
+All are in SI units and belong to a track unless marked as shared.
 """
 
 ACCELERATION = "vertical_acceleration"
@@ -29,4 +29,4 @@ axis; shared by all tracks."""
 TRUE_TIME_STEP = "true_time_step"
 """Time in s from the trigger before, where `time_step` has been adjusted; shared by all tracks."""
 MISSING_SHARE = "missing_share"
-"""How far the acceleration is unknown, from 0 to 1; shared by all tracks."""
+"""Share of the acceleration that is unknown, from 0 to 1; shared by all tracks."""

@@ -26,11 +26,11 @@ def progress_speed(distance: FloatArray, samples: int, duration_s: float) -> Flo
 class TravelSpeed(Stage):
     """Adds `travel_speed`: the encoder's progress over the preceding ``window_s`` (5.6, 5.7).
 
-    v(t_k) = (d(t_k) - d(t_{k-n})) / (n dt), n the number of samples in the window, at least
-    one. Before the first sample the vehicle is taken to stand where it begins, so speed grows
-    from zero within the window. As long as the window holds a missing distance the last speed is
-    kept, and where the distance is missing the speed is flagged. No point of the profile is changed
-    by this stage itself.
+    v(t_k) = (d(t_k) - d(t_{k-n})) / (n dt), n the number of samples in the window, at least one.
+    Before the first sample the vehicle is taken to be stationary, so speed grows from zero within
+    the window. While the window has a missing distance the last speed is repeated, and where the
+    distance is missing the speed is flagged. No point of the profile is changed by this stage
+    itself.
     """
 
     declared = Declared(shift_invariant=True)
@@ -70,11 +70,11 @@ class TravelSpeed(Stage):
         self.memory["past"] = wide[wide.size - self._samples :].copy()
         speed = progress_speed(wide, self._samples, self._duration)
         if np.isnan(wide.sum()):
-            speed = self._kept(speed, np.isnan(wide))
+            speed = self._keep_last(speed, np.isnan(wide))
         self.memory["speed"] = float(speed[-1]) if speed.size else self.memory["speed"]
         return speed
 
-    def _kept(self, speed: FloatArray, missing: BoolArray) -> FloatArray:
+    def _keep_last(self, speed: FloatArray, missing: BoolArray) -> FloatArray:
         """Return ``speed`` with the last one before wherever the window has a ``missing``."""
         count = np.cumsum(np.append(0, missing))
         unknown = count[self._samples + 1 :] - count[: speed.size] > 0

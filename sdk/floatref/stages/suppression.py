@@ -14,12 +14,12 @@ from floatref.values.channels import ChannelId
 class SuppressLocally(Stage):
     """Acts on ``channel`` of every track below ``below_mps`` with a PI controller (5.6).
 
-    The integrated accelerometer signal d is the controller's disturbance, its set point zero:
-    v = d + o - K_P v - K_I ∫v dt, trapezoidal, which has the time constant (5.1) and the response
-    (5.2). The integral starts at zero whenever the speed comes below the limit; o is the offset
-    that the controller's last action left, so v goes on without a step when the speed is back.
-    A missing value or speed is bridged by the one before it and flagged. Every point passed
-    below ``below_mps`` lacks the content that the controller removed (below about 0.13 Hz).
+    The integrated accelerometer signal d is the controller's disturbance, its set point zero: v = d
+    + o - K_P v - K_I ∫v dt, trapezoidal, which has the time constant (5.1) and the response (5.2).
+    The integral starts at zero whenever the speed comes below the limit; o is the offset of the
+    controller's last action, so v continues without a step when the speed has risen again. A
+    missing value or speed is bridged by the one before it and flagged. The controller removes
+    content below about 0.13 Hz from every point passed below ``below_mps``.
     """
 
     declared = Declared()
@@ -53,13 +53,13 @@ class SuppressLocally(Stage):
         speed = ChannelId(TRAVEL_SPEED)
         for track, memory in self.memory.items():
             channel = ChannelId(self.channel, track)
-            values[channel] = self._controlled(block[channel], block[speed], memory)
+            values[channel] = self._control(block[channel], block[speed], memory)
             marks = flags_of(block, channel, speed)
             if marks is not None:
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _controlled(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
+    def _control(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
         from floatref.kernels import local_suppression
 
         y = np.empty(x.size)

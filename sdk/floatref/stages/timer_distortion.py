@@ -17,7 +17,7 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 BLUNTEST = 2.0
-"""Least sharpness of (5.8): at 1 it takes all time away, below it time runs backward."""
+"""Least sharpness of (5.8): at 1 the time step is zero, below 1 it is negative."""
 
 
 def adjusted_time_step(
@@ -43,11 +43,11 @@ def adjusted_time_step(
 
 
 class DistortTimer(Stage):
-    """Replaces `time_step` by dt_adj of (5.8) and keeps what it was as `true_time_step`.
+    """Replaces `time_step` by dt_adj of (5.8) and stores the old one as `true_time_step`.
 
     dt_0 is the profile's interval over ``slow_speed`` in m/s (5.7), ``sharpness`` is β. Points
-    passed more slowly than about ``slow_speed`` lose content in proportion to the square of
-    the time that is taken away.
+    passed more slowly than about ``slow_speed`` lose content in proportion to the square of the
+    removed time.
     """
 
     declared = Declared(linear=False)
@@ -80,10 +80,10 @@ class IntegrateReflecting(Stage):
     """Adds ``target``, the integral of ``source`` with reflected ``height`` (5.9), to every track.
 
     r_k = r_{k-1} + dt_adj (v_k + v_{k-1})/2 + (1 - (dt_adj/dt)^2)(h_k - h_{k-1}) with dt_adj of
-    `time_step` and dt of `true_time_step`; the last term is 0 where dt is. Its sign is that
-    which cancels in r - h. The integral starts at zero; ``source`` is dropped. A missing sample
-    is bridged by the one before it and flagged. Where dt_adj falls short of dt the profile is
-    flat: its content there is the height sensor's, cancelled.
+    `time_step` and dt of `true_time_step`; the last term is 0 where dt is. Its sign is that which
+    cancels in r - h. The integral starts at zero; ``source`` is dropped. A missing sample is
+    bridged by the one before it and flagged. Where dt_adj is below dt the profile is flat: its
+    content there is the height sensor's, cancelled.
     """
 
     declared = Declared()

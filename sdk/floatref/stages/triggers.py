@@ -21,29 +21,29 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 NEAR_S = 1e-3
-"""So close to a trigger, the reading of the height sensor is one of that moment."""
+"""Distance from a trigger, in s, within which the reading of the height sensor is valid."""
 TIE = 1e-6
-"""A trigger that is off a sample by this share of a step is at that sample."""
+"""Share of a step by which a trigger may differ from the sample that it is put on."""
 LONGEST_S = 10.0
-"""Of a longer interval so much is kept: by then the motion before it is forgotten."""
+"""Longest duration of an interval; the motion before it no longer matters afterwards."""
 JOLT_M_S = 2e-3
 """Speed lost or won from one interval to the next, times the share of the speed that it is and the
-square of the duration, at which the line tells nothing: the body answers a brake that lets go."""
+square of the duration, at which the line has no information: the body moves as a brake ends."""
 
 
 class ToTime(Stage):
     """Turns samples at the triggers, with their `time`, into a stream at the recording's rate.
 
-    All channels are linear between triggers, `distance` too, which a trigger tells exactly; it is
-    NaN where the encoder has lost travel, which the `SLOW` of a height tells. The shared channel
-    `missing_share` tells how far a line does not stand for the acceleration: what it misses grows
-    with the square of the interval, its square is the share, and that is 1 where an interval lasts
-    ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is lessened by as much.
-    A height away from any trigger is flagged. A sample has the flags of the trigger behind it, and
-    those that do not last of the one before it.
+    All channels are linear between triggers, `distance` too, which is exact at a trigger; it is NaN
+    where the encoder has lost travel, which is known by the flag `SLOW` of a height. The shared
+    channel `missing_share` is the share of the acceleration that a line misses: the missed
+    amplitude grows with the square of the interval, its square is the share, and that is 1 where an
+    interval lasts ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is reduced by
+    that share. A height away from any trigger is flagged. A sample has the flags of the trigger
+    behind it, and the non-lasting ones of the trigger before it.
 
-    Of an interval of more than `LONGEST_S` the rest is left out, so that a stop of an hour is no
-    hour of samples. Sample 0 lies at the first trigger.
+    An interval of more than `LONGEST_S` is cut to that duration, so that a stop of an hour does not
+    give an hour of samples. Sample 0 lies at the first trigger.
     """
 
     declared: ClassVar[Declared] = Declared(shift_invariant=False)
@@ -74,12 +74,12 @@ class ToTime(Stage):
         carry: Block | None = self.memory["carry"]
         wide = block if carry is None else join_blocks((carry, block))
         if carry is None:
-            self.memory["start"] = self._counted(wide)[0]
+            self.memory["start"] = self._count(wide)[0]
         places, cut = self._places(wide)
         share = self._shares(places)
         end = int(places[-1]) + 1
-        out = self._sampled(wide, places, share, end)
-        # All that lies behind the last sample concerns the next one.
+        out = self._sample(wide, places, share, end)
+        # Triggers behind the last sample are needed for the next one.
         kept = int(np.searchsorted(places, end - 1, "right")) - 1
         if kept > 0:
             self.memory["lasted"] = float(places[kept] - places[kept - 1])
@@ -94,17 +94,17 @@ class ToTime(Stage):
         places, _ = self._places(carry)
         share = self._shares(places)
         places[-1] = self.memory["next"]
-        return (self._sampled(carry, places, share, self.memory["next"] + 1),)
+        return (self._sample(carry, places, share, self.memory["next"] + 1),)
 
-    def _counted(self, block: Block) -> FloatArray:
+    def _count(self, block: Block) -> FloatArray:
         """Return the times of the triggers in steps of the recording's clock."""
         assert self._header is not None
         return block[ChannelId(TIME)] * float(self._header.rate)
 
     def _places(self, wide: Block) -> tuple[FloatArray, FloatArray]:
-        """Return the triggers' times in samples of the output, and how many were left out."""
+        """Return the triggers' times in samples of the output, and how many were cut out."""
         assert self._header is not None
-        times = self._counted(wide)
+        times = self._count(wide)
         over = np.floor(np.diff(times) - LONGEST_S * float(self._header.rate) + TIE)
         cut = self.memory["cut"] + np.append(0.0, np.cumsum(np.maximum(over, 0.0)))
         places = times - self.memory["start"] - cut
@@ -124,8 +124,8 @@ class ToTime(Stage):
         jolt = speed * (lost * lasts) ** 2 / JOLT_M_S
         return np.append(0.0, np.minimum(((lasts / self.unknown_s) ** 2 + jolt) ** 2, 1.0))
 
-    def _sampled(self, wide: Block, places: FloatArray, shares: FloatArray, end: int) -> Block:
-        """Return the samples before ``end`` that have not come out."""
+    def _sample(self, wide: Block, places: FloatArray, shares: FloatArray, end: int) -> Block:
+        """Return the samples before ``end`` that were not yet returned."""
         assert self._header is not None
         header, first = self._header, self.memory["next"]
         self.memory["next"] = end
@@ -133,19 +133,20 @@ class ToTime(Stage):
         share, step = shares[between.behind], float(1 / header.rate)
         points = np.arange(wide.first, wide.first + len(wide), dtype=np.float64)
         distance = between.line(header.origin + points * header.step)
-        distance[self._untold(wide, between)] = np.nan
+        distance[self._find_unknown(wide, between)] = np.nan
         values = {ChannelId(DISTANCE): distance, ChannelId(MISSING_SHARE): share}
         known = np.where(between.part < 1.0, 1.0 - share, 1.0)
         for channel, x in wide.without(TIME).values.items():
             values[channel] = between.line(x)
             if channel.name == ACCELERATION:
                 values[channel] *= known
-        return Block(first, values, flags=_marked(wide, between, between.apart * step > NEAR_S))
+        return Block(first, values, flags=_mark(wide, between, between.apart * step > NEAR_S))
 
-    def _untold(self, wide: Block, between: "Between") -> BoolArray:
-        """Return the samples whose place no trigger tells, as the encoder has lost travel there.
+    def _find_unknown(self, wide: Block, between: "Between") -> BoolArray:
+        """Return the samples of unknown distance, where the encoder has lost travel.
 
-        But for the one next to the trigger before, without which that could not be found again.
+        The sample next to the trigger before is not among them: later stages need it to find the
+        gap.
         """
         assert self._header is not None
         flags = wide.flags.get(ChannelId(HEIGHT, self._header.tracks[0]))
@@ -175,7 +176,7 @@ class Between:
 
     @classmethod
     def of(cls, places: FloatArray, samples: IndexArray) -> "Between":
-        """Return that of ``samples``, none behind the last of the triggers at ``places``."""
+        """Return that of ``samples``; all lie before the last of the triggers at ``places``."""
         behind = np.searchsorted(places, samples)
         before = np.maximum(behind - 1, 0)
         left = places[behind] - samples
@@ -202,7 +203,7 @@ class Between:
         return found
 
 
-def _marked(wide: Block, between: Between, far: BoolArray) -> dict[ChannelId, FlagArray]:
+def _mark(wide: Block, between: Between, far: BoolArray) -> dict[ChannelId, FlagArray]:
     """Return the flags of all channels that have some; heights are missing where it is ``far``."""
     found, missing = {}, np.where(far, np.uint8(Flag.MISSING), np.uint8(0))
     for channel in wide.without(TIME).values:

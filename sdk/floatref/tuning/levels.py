@@ -1,4 +1,4 @@
-"""The values that are tried: half an octave apart, as the sensitivity is told (section 6.4.4)."""
+"""The values that are tried: half an octave apart, as for the sensitivity (section 6.4.4)."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ FIXED = (
     *("gnss_pitch_sigma_rad", "gnss_roll_sigma_rad"),
     *("roll_rate_density", "pitch_rate_density", "yaw_rate_density"),
 )
-"""The others, which data sheets and sensors at rest tell."""
+"""The others, which are known from data sheets and sensors at rest."""
 UNITS = {
     "acceleration_density": "m/s²/√Hz",
     "acceleration_walk": "m/s²/√s",
@@ -29,9 +29,9 @@ PER_OCTAVE = 2
 REACH = 6 * PER_OCTAVE
 """Steps up and down from where the search begins, and from the pipeline's own value."""
 FARTHEST = 20 * PER_OCTAVE
-"""Steps at most, however far from the pipeline's own value the search begins."""
+"""Most steps from the start of the search, for any distance to the pipeline's own value."""
 DENSITY_DOWN = 2 * PER_OCTAVE
-"""White noise is what sensors at rest show, or more: steps down to allow for a wrong guess."""
+"""Steps down for white noise: it is at least that of sensors at rest, unless that is wrong."""
 DIGITS = 4
 """Digits of a value in a settings file."""
 

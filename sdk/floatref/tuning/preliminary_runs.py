@@ -1,4 +1,4 @@
-"""What a preliminary run is, told by its encoder: speed, brakes and stops (section 6.4.4)."""
+"""The kind of a preliminary run by its encoder: speed, brakes and stops (section 6.4.4)."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -16,7 +16,7 @@ UNEVEN = 0.4
 """Speeds of a drive at constant speed differ by less than this share of their mean."""
 STANDING_MPS = 0.16 / 3.6
 LEAST_STOP_S = 0.3
-"""Shorter than that an encoder of coarse steps stands still in a crawl, too."""
+"""Shortest stop in s: in a crawl a coarse encoder also repeats its count for a while."""
 LONG_STOP_S = 3.5
 """Stops from here on are long: between the 2 s and the 5 s that are recommended."""
 BRAKING_G, RELEASED_G = 0.1, 0.05
@@ -57,7 +57,7 @@ class Drive:
     """How a run was driven within the stretch that counts.
 
     Attributes:
-        kind: what it is.
+        kind: of the run.
         speed_kmh: mean speed over time, stops included.
         deceleration_g: of the hardest brake; 0 without one.
         stop_s: duration of the longest stop.
@@ -72,12 +72,12 @@ class Drive:
 
 
 def drive_of(travel: Travel, begin_m: float, end_m: float) -> Drive:
-    """Return how a vehicle that travelled so was driven between two encoder distances in m.
+    """Return how the vehicle of ``travel`` was driven between two encoder distances in m.
 
     A brake that is released there counts, and so does a stop there.
     """
     distance, speed = travel
-    smooth = _smoothed(speed)
+    smooth = _smooth(speed)
     inside = (distance > begin_m) & (distance < end_m)
     brakes = [
         (mean_g, place) for mean_g, place in _brakes(distance, smooth) if begin_m < place < end_m
@@ -121,7 +121,7 @@ def _stops(distance: FloatArray, speed: FloatArray, inside: BoolArray) -> list[t
 def _brakes(distance: FloatArray, smooth: FloatArray) -> list[tuple[float, float]]:
     """Return mean deceleration in g of every brake, and where in m it was released.
 
-    The mean is that of where it is half its peak or more: not of its building up and release.
+    The mean is that of where it is half its peak or more: not of its rise and release.
     """
     if not smooth.size:
         return []
@@ -137,8 +137,8 @@ def _brakes(distance: FloatArray, smooth: FloatArray) -> list[tuple[float, float
     return found
 
 
-def _smoothed(speed: FloatArray) -> FloatArray:
-    """Return the mean speed over half a second around, of as much as there is at both ends."""
+def _smooth(speed: FloatArray) -> FloatArray:
+    """Return the mean speed over half a second around, and of fewer samples at both ends."""
     window = np.ones(round(SMOOTHED_S / WINDOW_S))
     if speed.size < window.size:
         return speed

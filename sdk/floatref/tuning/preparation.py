@@ -1,4 +1,4 @@
-"""Before the search: what the runs are, where they count, and what the nominal profiler gives."""
+"""Before the search: kinds of the runs, their sections, and the nominal profiler's scores."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -18,14 +18,14 @@ from floatref.values.recording import Recording
 NOMINAL = "temporal-basic"
 """The nominal profiler: vertical accelerometer, height sensor and encoder alone."""
 LEAST_CORRELATION = 0.5
-"""Below, run and reference do not show the same road at the same places."""
+"""Least cross correlation: below it, run and reference are not of the same road and places."""
 FARTHEST_M = 25.0
-"""So far it is looked for an offset, to tell it."""
+"""Largest offset in m that is searched for the error message."""
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """The runs, their nominal scores, and one line for each thing to know about them."""
+    """The runs, their nominal scores, and warnings about them, one line each."""
 
     runs: Mapping[str, Preliminary]
     nominal: Mapping[str, Scores]
@@ -38,7 +38,7 @@ class Prepared:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """What is recommended and not among the runs, in words."""
+        """Descriptions of the recommended runs that are missing."""
         there = self.kinds.values()
         return tuple(text for kind, text in RECOMMENDED.items() if kind not in there)
 
@@ -46,7 +46,7 @@ class Prepared:
 def check_pipeline(name: str, given: Mapping[str, Any]) -> dict[str, float]:
     """Return the numbers of pipeline ``name`` with the settings ``given``.
 
-    Raises InputError for a pipeline that is unknown or has not what is tuned, and for a setting
+    Raises InputError for a pipeline that is unknown or has no settings to tune, and for a setting
     that it cannot have.
     """
     known = plugins()
@@ -65,9 +65,9 @@ def prepare(
     max_offset_m: float = 1.0,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Prepared:
-    """Return the runs in the order given; ``tell`` is told the name of each.
+    """Return the runs in the order given; ``tell`` is called with the name of each.
 
-    Raises InputError naming the run that cannot be used, and if none is at high speed.
+    Raises InputError naming the run that cannot be used, and if no run is at high speed.
     """
     runs, nominal, warnings = {}, {}, []
     for name, recording in recordings.items():
@@ -136,7 +136,7 @@ def _check_high_speed(prepared: Prepared) -> None:
 
 
 def _hint(made: Preliminary, index: int) -> str:
-    """Return what to do about a run that does not follow the reference."""
+    """Return the remedy for a run that does not follow the reference."""
     comparison = made.comparison
     length_m = comparison.end_m - comparison.begin_m
     wider = replace(comparison, max_offset_m=min(FARTHEST_M, length_m / 5))

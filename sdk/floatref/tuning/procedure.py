@@ -17,13 +17,13 @@ from floatref.tuning.search import (
 
 DENSITY, WALK, PITCH, ROLL = range(len(TUNED))
 PRIORITY = 2.0
-"""A wheel path that comes first counts so many times as much as another one."""
+"""Weight of the preferred wheel path relative to another one."""
 ROUNDS = 3
-"""Steps 2 to 4 are repeated so often at most."""
+"""Most repetitions of steps 2 to 4."""
 MOST_CLIMBED = 40
-"""Combinations that step 6 looks at from either of its beginnings."""
+"""Combinations that step 6 tries from either of its starting points."""
 MOST = 850
-"""No tuning looks at more combinations of values."""
+"""Most combinations of values that a tuning tries."""
 
 Losses = Mapping[str, Sequence[float]]
 """Of every wheel path of the runs, by the runs' names."""
@@ -32,12 +32,12 @@ Evaluate = Callable[[Point, Sequence[str]], Losses]
 
 @dataclass(frozen=True)
 class Found:
-    """What tuning has found.
+    """The result of the search.
 
     Attributes:
         point: the values that do best.
-        ranges: of the settings, steps that were as good in steps 2 to 4 where runs told them.
-        rounds: how often these were gone through.
+        ranges: of the settings, steps that were as good in steps 2 to 4, where runs determine them.
+        rounds: number of repetitions of these steps.
         harmless: whether any values did no harm at high speed and in light braking.
     """
 
@@ -49,7 +49,7 @@ class Found:
 
 @dataclass
 class Procedure:
-    """One tuning: which runs there are, what they lose, and what has been found.
+    """One tuning: its runs, their losses, and the result so far.
 
     Attributes:
         kinds: of the runs by name, one at high speed among them.
@@ -57,7 +57,7 @@ class Procedure:
         levels: the values that may be tried.
         evaluate: gives the losses of the runs asked for at a point.
         begin: where step 1 puts the walks of the rates: what sensors at rest showed, else lowest.
-        tell: is told each step.
+        tell: is called with each step.
     """
 
     kinds: Mapping[str, Kind]
@@ -70,9 +70,9 @@ class Procedure:
     harmless: bool = True
 
     def search(self) -> Found:
-        """Go through steps 2 to 6 and return the best of what they lead to.
+        """Do steps 2 to 6 and return the best of their results.
 
-        The start stays if nothing is better than it, and so does each value that does not matter.
+        The start is returned if nothing is better, and each value without influence is unchanged.
         """
         point, total, rounds = self.begin, float("inf"), 0
         for number in range(ROUNDS):
@@ -83,14 +83,14 @@ class Procedure:
                 break
             point, total = there, found
         self.tell("Step 6: the three walks together")
-        best = self._climbed(START)
-        other = self._climbed(point)
+        best = self._climb(START)
+        other = self._climb(point)
         if self.collective(other) < self.collective(best) - LEAST_GAIN:
             best = other
-        return Found(self._restored(best), dict(self.ranges), rounds, self.harmless)
+        return Found(self._restore(best), dict(self.ranges), rounds, self.harmless)
 
     def collective(self, point: Point) -> float:
-        """Return the mean loss of all runs, and what they are worse than nominal at speed."""
+        """Return the mean loss of all runs, plus the harm against nominal at speed."""
         return self._mean(point, self._all) + max(self._harm(point) - TOLERANCE, 0.0)
 
     def _no_harm(self, point: Point) -> Point:
@@ -131,7 +131,7 @@ class Procedure:
     ) -> Point:
         """Return ``point`` with setting ``which`` at the lowest step that is best for ``runs``.
 
-        What ``others`` lose against ``point`` counts as well.
+        The losses of ``others`` against ``point`` count as well.
         """
         if not runs:
             return point
@@ -148,13 +148,13 @@ class Procedure:
         self.ranges[TUNED[which]] = found
         return moved(point, which, found.lowest)
 
-    def _climbed(self, point: Point) -> Point:
+    def _climb(self, point: Point) -> Point:
         free = (WALK, PITCH, ROLL)
         low, high = self.levels.lowest, self.levels.highest
         return climb(point, free, low, high, self.collective, MOST_CLIMBED)
 
-    def _restored(self, point: Point) -> Point:
-        """Return ``point`` with every setting back at its start that loses nothing by it."""
+    def _restore(self, point: Point) -> Point:
+        """Return ``point`` with every setting at its start where that loses nothing."""
         limit = self.collective(point) + LEAST_GAIN
         for which, step in enumerate(START):
             there = moved(point, which, step)
@@ -165,7 +165,7 @@ class Procedure:
     def _harm(self, point: Point) -> float:
         """Return by how much the worst of the runs of step 2 is worse than nominal."""
         found = self._each(point, self._guarded)
-        nominal = [_weighted(self.nominal[name]) for name in self._guarded]
+        nominal = [_weigh(self.nominal[name]) for name in self._guarded]
         return max(a - b for a, b in zip(found, nominal, strict=True))
 
     def _mean(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> float:
@@ -173,7 +173,7 @@ class Procedure:
 
     def _each(self, point: Point, runs: Sequence[str], favoured: int | None = None) -> list[float]:
         losses = self.evaluate(point, runs) if runs else {}
-        return [_weighted(losses[name], favoured) for name in runs]
+        return [_weigh(losses[name], favoured) for name in runs]
 
     @property
     def _all(self) -> list[str]:
@@ -188,14 +188,14 @@ class Procedure:
 
 
 def first_point(given: Collection[str], levels: Levels) -> Point:
-    """Step 1: the walks of the rates that sensors at rest showed, else the lowest, for none."""
+    """Step 1: the walks of the rates that sensors at rest showed, else the lowest."""
     point = START
     for which in (PITCH, ROLL):
         point = point if TUNED[which] in given else moved(point, which, levels.lowest[which])
     return point
 
 
-def _weighted(losses: Sequence[float], favoured: int | None = None) -> float:
+def _weigh(losses: Sequence[float], favoured: int | None = None) -> float:
     """Return the mean over the wheel paths, that of number ``favoured`` counting more."""
     weights = [1.0] * len(losses)
     if favoured is not None:

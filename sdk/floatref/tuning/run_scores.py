@@ -17,11 +17,11 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
 
 AROUND_M = 24.0
-"""The peak is looked for so far to either side of a critical location."""
+"""Distance in m to either side of a critical location that is searched for the peak."""
 LEAST_M = 50.0
-"""Shorter stretches say little."""
+"""Shortest stretch in m that is compared."""
 LARGEST = 1.0
-"""An error of roughness beyond 100 % counts as that: both are hopeless."""
+"""Largest error of roughness that counts: 100 %."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Score:
         iri_error: of the average IRI, as a share of the reference's; NaN but at constant speed.
         peak_error: of the peak of the short-interval roughness profile at the critical location
             where it is largest, as a share of the reference's; NaN without one.
-        offset_m: how far along the profile lies.
+        offset_m: offset of the profile along the road.
     """
 
     cross_correlation: float
@@ -48,7 +48,7 @@ class Score:
 
     @property
     def loss(self) -> float:
-        """What is missing from 1 in cross correlation, and the roughness error as it counts."""
+        """1 less the cross correlation, plus the limited roughness error."""
         error = abs(self.roughness_error)
         return 1.0 - self.cross_correlation + (0.0 if isnan(error) else min(error, LARGEST))
 
@@ -61,7 +61,7 @@ HOPELESS = Score(-1.0)
 
 @dataclass(frozen=True)
 class Comparison:
-    """What the profiles of one run are compared with, and where.
+    """Reference and section for the profiles of one run.
 
     Attributes:
         reference: the profile that they should agree with.
@@ -79,8 +79,8 @@ class Comparison:
     def scores(self, profile: Profile) -> Scores:
         """Return the scores of ``profile``, of which every point counts, valid or not.
 
-        The car of the IRI runs once over all that both cover, and is cut afterwards. Raises
-        InputError for a missing wheel path.
+        The car of the IRI runs once over the common stretch, and its output is cut afterwards.
+        Raises InputError for a missing wheel path.
         """
         expected, found = on_common_grid(self.reference, profile)
         return tuple(
@@ -122,7 +122,7 @@ def section(reference: Profile, profile: Profile) -> tuple[float, float]:
     begin_m, end_m = max(known[0], made[0]), min(known[1], made[1])
     if not end_m - begin_m >= LEAST_M:
         raise InputError(
-            f"the reference is valid {_told(known)}, and what is made of the run {_told(made)}; "
+            f"the reference is valid {_describe(known)}, and the run's profile {_describe(made)}; "
             f"{LEAST_M:g} m have to be both: drive on, or give the same start of distance"
         )
     return begin_m, end_m
@@ -153,5 +153,5 @@ def _span(profile: Profile, begin: int, end: int) -> tuple[float, float]:
     return first, first + (end - 1 - begin) * profile.interval_m
 
 
-def _told(span: tuple[float, float]) -> str:
+def _describe(span: tuple[float, float]) -> str:
     return f"from {span[0]:.1f} to {span[1]:.1f} m" if span[0] < inf else "nowhere"

@@ -1,7 +1,7 @@
 """Searches on steps of half an octave: coarse ones first, then finer, of bounded effort.
 
 A loss may be flat, as it is where the GNSS or the inertial sensors decide alone, and then values
-that lose no more than a tolerance are as good as the best: a range is told, not a number.
+that lose no more than a tolerance are as good as the best: the result is a range, not a number.
 """
 
 from collections.abc import Callable, Iterator
@@ -12,7 +12,7 @@ from floatref.tuning.levels import Point, moved
 COARSE = 4
 """Steps between the values that are tried first: two octaves."""
 LEAST_GAIN = 1e-3
-"""Less is no improvement: a tenth of a per cent of cross correlation, or of roughness."""
+"""Least improvement that counts: 0.1 % of cross correlation, or of roughness."""
 TOLERANCE = 5e-3
 """Values that lose no more than this against the best are as good."""
 
@@ -28,7 +28,7 @@ class Range:
 def best_range(lowest: int, highest: int, loss: Callable[[int], float]) -> Range:
     """Return the steps around the best one that lose no more than `TOLERANCE` against it.
 
-    ``loss`` is asked for at every fourth step, then around the lowest, then towards both ends of
+    ``loss`` is calculated at every fourth step, then around the lowest, then towards both ends of
     the range, where it should rise.
     """
     coarse = _coarse(lowest, highest)
@@ -51,7 +51,7 @@ def lowest_good(
 ) -> tuple[int, int] | None:
     """Return the pair of steps with the lowest sum that is ``good``; None if no coarse pair is.
 
-    Pairs of every fourth step are asked for in the order of their sums, then finer ones below.
+    Pairs of every fourth step are tried in the order of their sums, then finer ones below.
     """
     grids = [_coarse(low, high) for low, high in zip(lowest, highest, strict=True)]
     pairs = sorted(((a, b) for a in grids[0] for b in grids[1]), key=lambda pair: (sum(pair), pair))
@@ -68,7 +68,7 @@ def lowest_good(
 
 
 def good_range(at: int, lowest: int, highest: int, good: Callable[[int], bool]) -> Range:
-    """Return the steps around ``at``, which is ``good``, that are so without a break."""
+    """Return the unbroken range of ``good`` steps around ``at``, which is good."""
     below, above = (
         range(at - COARSE, lowest - COARSE, -COARSE),
         range(at + COARSE, highest + COARSE, COARSE),
@@ -90,7 +90,7 @@ def climb(
     """Return the best of the points reached from ``point`` in steps along the ``free`` settings.
 
     Steps are of two octaves, then one, then half an octave; each has to gain `LEAST_GAIN`. At most
-    ``most`` points are looked at.
+    ``most`` points are tried.
     """
     best, known = loss(point), 1
     for width in (COARSE, COARSE // 2, COARSE // 4):
@@ -126,12 +126,12 @@ def _edge(inside: int, outwards: list[int], good: Callable[[int], bool]) -> int:
     """Return the farthest good step from ``inside``, itself good, through ``outwards``."""
     for outer in outwards:
         if not good(outer):
-            return _halved(inside, outer, good)
+            return _halve(inside, outer, good)
         inside = outer
     return inside
 
 
-def _halved(inside: int, outside: int, good: Callable[[int], bool]) -> int:
+def _halve(inside: int, outside: int, good: Callable[[int], bool]) -> int:
     """Return the farthest good step between one that is good and one that is not."""
     while abs(outside - inside) > 1:
         middle = (inside + outside) // 2

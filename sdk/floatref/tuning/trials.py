@@ -18,7 +18,7 @@ from floatref.values.recording import Recording
 
 @dataclass(frozen=True)
 class Preliminary:
-    """A preliminary run, what was found out about it, and what its profiles are compared with."""
+    """A preliminary run, its drive, and the comparison for its profiles."""
 
     name: str
     recording: Recording
@@ -32,14 +32,14 @@ class Preliminary:
 
 @dataclass
 class Trials:
-    """Every score that was asked for, kept.
+    """Cache of all calculated scores.
 
     Attributes:
-        pipeline: which one is tuned.
-        given: settings that stay.
-        levels: what the steps of a point stand for.
+        pipeline: the tuned one.
+        given: fixed settings.
+        levels: the values of the steps of a point.
         runs: by name.
-        done: is told after each profile that was made how many there are.
+        done: is called after each profile with their number so far.
     """
 
     pipeline: str
@@ -53,7 +53,7 @@ class Trials:
 
     @contextmanager
     def working(self) -> Iterator["Trials"]:
-        """Let as many runs go at a time as there are processors."""
+        """Process as many runs at a time as there are processors."""
         with ThreadPoolExecutor(os.cpu_count()) as workers:
             self.workers = workers
             try:
@@ -73,7 +73,7 @@ class Trials:
         key = tuple(sorted(settings.items()))
         missing = [name for name in names if (name, key) not in self.known]
         found = (self.workers.map if self.workers else map)(
-            lambda name: self._scored(name, settings), missing
+            lambda name: self._score_run(name, settings), missing
         )
         for name, scores in zip(missing, found, strict=True):
             self.known[name, key] = scores
@@ -86,10 +86,10 @@ class Trials:
         """How many combinations of values were tried on any run."""
         return len({key for _, key in self.known})
 
-    def _scored(self, name: str, settings: Mapping[str, Any]) -> Scores:
+    def _score_run(self, name: str, settings: Mapping[str, Any]) -> Scores:
         chosen = self.runs[name]
         try:
             return chosen.comparison.scores(chosen.profile(self.pipeline, settings))
         except FloatrefError:
-            # The same recording went through before, so it is these values that give no profile.
+            # The same recording gave a profile before, so these values are the cause.
             return (HOPELESS,) * len(chosen.comparison.reference.tracks)

@@ -1,4 +1,4 @@
-"""Tuning as a whole: preparation, procedure, what came of it, and how far that may be trusted."""
+"""Tuning as a whole: preparation, procedure, result, and its sensitivity."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -28,9 +28,9 @@ class Tuning:
         ranges: lowest and highest value of each that did as well in steps 2 to 4, where known.
         prepared: the runs, with the nominal profiler's scores.
         before, after: scores by run.
-        loss_before, loss_after: mean over the runs, and what is worse than nominal at speed.
+        loss_before, loss_after: mean over the runs, plus the harm against nominal at speed.
         sensitivity: to each standard deviation of Table 6.1.
-        rounds: how often steps 2 to 4 were gone through.
+        rounds: number of repetitions of steps 2 to 4.
         harmless: whether any values did no harm at high speed and in light braking.
         combinations, profiles: how many were tried, and made.
     """
@@ -67,10 +67,10 @@ def tune(
         recordings: the runs by name; one at a constant, high speed is needed.
         reference: profile of their road, on the same axis of distance.
         pipeline: one that has the settings `TUNED`.
-        given: settings that stay, and where the tuned ones begin: what sensors at rest showed.
+        given: fixed settings, and the start of the tuned ones: noise of sensors at rest.
         max_offset_m: largest offset of distance that is searched.
-        tell: is told each step in words.
-        done: is told after every profile how many have been made.
+        tell: is called with a description of each step.
+        done: is called after each profile with their number so far.
 
     Raises InputError for runs, a reference, a pipeline or settings that cannot be used.
     """
@@ -85,7 +85,7 @@ def tune(
         found = procedure.search()
         tell("Sensitivity")
         chosen = levels.settings(found.point)
-        varied = _varied(pipeline, numbers)
+        varied = _find_varied(pipeline, numbers)
         told = sensitivities(trials, varied, chosen, list(prepared.runs))
     return Tuning(
         pipeline=pipeline,
@@ -117,8 +117,8 @@ def _procedure(
     return Procedure(prepared.kinds, nominal, levels, trials.losses, begin, tell)
 
 
-def _varied(pipeline: str, numbers: Mapping[str, float]) -> dict[str, float]:
-    """Return the settings that ``pipeline`` looks at."""
+def _find_varied(pipeline: str, numbers: Mapping[str, float]) -> dict[str, float]:
+    """Return the settings that ``pipeline`` uses."""
     gnss = "gnss" in pipeline_capabilities(pipeline)
     return {name: x for name, x in numbers.items() if gnss or not name.startswith("gnss_")}
 

@@ -15,7 +15,7 @@ from floatref.vehicle_response.estimators.observability import (
     unseen_freedoms,
 )
 from floatref.vehicle_response.estimators.observer import UnknownInputObserver
-from floatref.vehicle_response.estimators.wheelbase import joined, joined_at_speed, shifted
+from floatref.vehicle_response.estimators.wheelbase import join_at_speed, joined, shifted
 from floatref.vehicle_response.models.connections import Connection, connected
 from floatref.vehicle_response.models.half_car import ZHU_HALF_CAR, HalfCar
 from floatref.vehicle_response.models.model import Freedom, Tyre, VehicleModel
@@ -25,7 +25,7 @@ from floatref.vehicle_response.models.quarter_car import QuarterCar
 from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized, state_space
 from floatref.vehicle_response.models.trailer import IMINE_TRAILER, Trailer
 from floatref.vehicle_response.stages.calculation_rate import calculation_rate
-from floatref.vehicle_response.stages.denoising import denoised
+from floatref.vehicle_response.stages.denoising import remove_noise
 from floatref.vehicle_response.stages.lower_rate import Resampling
 
 __all__ = [
@@ -51,16 +51,16 @@ __all__ = [
     "check_readings",
     "connected",
     "default_gains",
-    "denoised",
     "discretized",
     "disturbance_of",
     "hold_error_of",
+    "join_at_speed",
     "joined",
-    "joined_at_speed",
     "missing_displacements",
     "model_of",
     "output_matrices",
     "parameters_of",
+    "remove_noise",
     "shifted",
     "state_space",
     "unfelt_tyres",

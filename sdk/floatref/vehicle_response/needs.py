@@ -1,4 +1,4 @@
-"""What the response architecture takes of a recording: what is measured of its vehicle's model."""
+"""The channels that the response architecture needs to measure its vehicle's model."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,16 +14,16 @@ from floatref.values.recording import Recording, Setup
 from floatref.vehicle_response import VehicleModel, model_of, state_space
 
 SAMPLES_PER_PERIOD = 8.0
-"""At the model's fastest mode; with fewer the force on a tyre is not what it is between samples."""
+"""Least samples per period of the model's fastest mode, so that the hold of a force is right."""
 LEAST_SINK_M, MOST_SINK_M = 2e-4, 0.5
-"""What tyres of any vehicle give way under its weight lies between these, in m."""
+"""Range of the tyre deflection of any vehicle under its weight, in m."""
 
 MOST = {"contact_m": 2.0, "denoise_window_s": 5.0}
-"""No tyre levels the road over more; a longer window takes a memory that grows with its square."""
+"""Largest values; the memory of a window grows with the square of its length."""
 
 
 def short(context: Context, name: str) -> float:
-    """Return setting ``name``, one of `MOST`; InputError if it is above what that has for it."""
+    """Return setting ``name``, one of `MOST`; InputError if it is above the limit there."""
     value = context.setting(name)
     if value > MOST[name]:
         unit = name.rpartition("_")[2]
@@ -32,7 +32,7 @@ def short(context: Context, name: str) -> float:
 
 
 def check_sink(model: VehicleModel) -> None:
-    """Raise InputError if the tyres would hardly give way under ``model``, or by half a metre.
+    """Raise InputError if the tyres of ``model`` deflect by almost nothing, or by half a metre.
 
     A stiffness in kN/m, or a mass in t, is off by a thousand, and so would be the elevation.
     """
@@ -42,13 +42,13 @@ def check_sink(model: VehicleModel) -> None:
     sink_m = mass_kg * STANDARD_GRAVITY / stiffness
     if not LEAST_SINK_M <= sink_m <= MOST_SINK_M:
         raise InputError(
-            f"model {model.name}: under {mass_kg:.4g} kg tyres of {stiffness:.4g} N/m give way by "
-            f"{sink_m:.3g} m, which no vehicle's do; give masses in kg and stiffnesses in N/m"
+            f"model {model.name}: under {mass_kg:.4g} kg tyres of {stiffness:.4g} N/m deflect by "
+            f"{sink_m:.3g} m, which is impossible; give masses in kg and stiffnesses in N/m"
         )
 
 
 def fastest_mode_hz(model: VehicleModel) -> float:
-    """Return the highest frequency in Hz at which ``model`` swings by itself."""
+    """Return the highest frequency in Hz at which ``model`` swings freely."""
     modes = np.linalg.eigvals(state_space(model)[0])
     return float(np.abs(modes.imag).max()) / (2.0 * np.pi)
 
@@ -81,9 +81,9 @@ EXAMPLE = (
 
 @dataclass(frozen=True)
 class Motion:
-    """What is measured of the freedoms of one ``quantity``: how their channels are called.
+    """The measurements of the freedoms of one ``quantity``, with the names of their channels.
 
-    ``acceleration``, ``velocity`` and ``displacement`` tell whether there is such a channel.
+    ``acceleration``, ``velocity`` and ``displacement`` are true if such a channel exists.
     """
 
     quantity: str
@@ -129,22 +129,22 @@ class Motion:
 
     @property
     def placed(self) -> bool:
-        """Whether there is a displacement, measured or made."""
+        """Whether there is a displacement, measured or integrated."""
         return self.acceleration or self.velocity or self.displacement
 
 
 def vehicle_model(setup: Setup) -> VehicleModel:
-    """Return the model of the vehicle; InputError if the setup names none, or as `model_of`."""
+    """Return the model of the vehicle; InputError without a setup of it, or as `model_of`."""
     if setup.vehicle is None:
         raise InputError(
-            "setup.vehicle: missing, and without a height sensor the road is what the vehicle's "
-            f"response tells through its model; add {EXAMPLE} to the setup in recording.json"
+            "setup.vehicle: missing, and without a height sensor the road comes from the vehicle's "
+            f"response through its model; add {EXAMPLE} to the setup in recording.json"
         )
     return model_of(setup.vehicle)
 
 
 def response_needs(recording: Recording) -> Needs:
-    """Return the channels that tell the freedoms of the vehicle's model, of its wheel paths.
+    """Return the channels that measure the freedoms of the vehicle's model, of its wheel paths.
 
     InputError as `vehicle_model` and `check_sink`, or if no wheel path has an
     `unsprung_specific_force`.
@@ -163,7 +163,7 @@ def response_needs(recording: Recording) -> Needs:
 
 
 def motions(header: Header, model: VehicleModel) -> tuple[Motion, ...]:
-    """Return what the raw stream measures of the freedoms of ``model``, of every wheel path."""
+    """Return the measurements of the freedoms of ``model``, of every wheel path, in ``header``."""
     return tuple(
         Motion(
             motion.quantity,

@@ -30,7 +30,7 @@ MakeEstimator = Callable[[Context, VehicleModel, Sequence[Reading], float], Road
 
 @dataclass(frozen=True)
 class Signal:
-    """A channel, its sign in the model's coordinate, and what it reads."""
+    """A channel, its sign in the model's coordinate, and its reading."""
 
     channel: ChannelId
     sign: float
@@ -80,7 +80,7 @@ def _signals(
 ) -> Iterator[Signal]:
     for freedom in model.freedoms:
         motion, own = found[freedom.quantity], freedom.track or track
-        for kind, name in _named(motion):
+        for kind, name in _name_kinds(motion):
             sigma = _sigma(context, motion, kind)
             reading = Reading(kind, freedom.name, sigma)
             yield Signal(ChannelId(name, own), freedom.sign, reading)
@@ -92,7 +92,7 @@ def _signals(
         )
 
 
-def _named(motion: Motion) -> Iterator[tuple[Kind, str]]:
+def _name_kinds(motion: Motion) -> Iterator[tuple[Kind, str]]:
     if motion.placed:
         yield Kind.DISPLACEMENT, motion.displacement_name
     if motion.velocity:

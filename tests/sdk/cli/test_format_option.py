@@ -99,7 +99,7 @@ def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder):
 
 def test_a_missing_library_is_told_before_the_work(folder, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    monkeypatch.setattr(process_module, "profiled", None)
+    monkeypatch.setattr(process_module, "make_profile", None)
     result = invoke("process", folder / "run", "--out", folder / "b.parquet")
     assert result.exit_code == 2
     assert "b.parquet: writing Parquet needs pyarrow; install floatref[adapters]" in result.stderr

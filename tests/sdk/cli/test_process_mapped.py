@@ -177,7 +177,7 @@ def test_what_the_system_refuses_is_one_line(
         ('"laser"', '"lazer"', "run.log: 'lazer' is not in the file; did you mean s/laser?"),
         ("more/run.log", "more/gone.log", "gone.log: not found"),
         ("more/run.log", "../run.log", "leads out of the map's folder"),
-        ('align = "offset"', "", "says nothing; write align"),
+        ('align = "offset"', "", "has no content; write align"),
         ("[source]", '[source]\nadapter = "mdf9"', "adapter mdf9: unknown"),
     ],
 )

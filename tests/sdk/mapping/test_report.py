@@ -11,7 +11,7 @@ import pytest
 from floatref.files.document import plain
 from floatref.mapping import read_native
 from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
-from floatref.mapping.report import looked_at
+from floatref.mapping.report import inspect_reading
 
 Put = Callable[..., Path]
 
@@ -19,7 +19,9 @@ Put = Callable[..., Path]
 def test_a_channel_is_summed_up(put: Put, make_stream, a_drive) -> None:
     run = a_drive()
     run["height"][[3, 5]] = np.nan
-    report = looked_at(read_native(put(make_stream("s", run, rate=Fraction(1000), first_tick=4))))
+    report = inspect_reading(
+        read_native(put(make_stream("s", run, rate=Fraction(1000), first_tick=4)))
+    )
     assert [c["channel"] for c in report["channels"]] == list(run)
     height = report["channels"][1]
     good = run["height"][~np.isnan(run["height"])]
@@ -47,7 +49,7 @@ def test_what_cannot_be_processed_is_a_warning_with_the_native_name(
               for n in run)
     )  # fmt: skip
     source = put(make_stream("s", {f"{n}x": v for n, v in run.items()}, rate=Fraction(1000)))
-    warnings = looked_at(read_native(source, chart))["warnings"]
+    warnings = inspect_reading(read_native(source, chart))["warnings"]
     assert warnings == [
         "cannot be processed yet: channel vertical_specific_force (s/vertical_specific_forcex): "
         "mean is 1, expected about 9.8 m/s^2; looks like g, multiply by 9.80665"
@@ -56,6 +58,6 @@ def test_what_cannot_be_processed_is_a_warning_with_the_native_name(
 
 def test_a_single_sample_has_no_rate(put: Put, make_stream) -> None:
     source = put(make_stream("s", {"height": [0.3]}, ticks=[5]))
-    report = looked_at(read_native(source))
+    report = inspect_reading(read_native(source))
     text = json.dumps(plain(report, "report"), allow_nan=False)
     assert json.loads(text)["channels"][0]["rate_hz"] is None

@@ -45,7 +45,10 @@ def refused(kind: type[FloatrefError], *args) -> str:
     [
         (ChannelEntry("lasre", "height", unit="mm"), "'lasre' is not in the file; did you mean"),
         (ChannelEntry("laser", "height"), "s/laser as height: the file gives no unit"),
-        (ChannelEntry("laser", "height", unit="deg"), "s/laser as height: unit 'deg' is none of"),
+        (
+            ChannelEntry("laser", "height", unit="deg"),
+            "s/laser as height: unit 'deg' is not a unit of",
+        ),
         (
             ChannelEntry("laser", "distance", unit="m", wrap=2, track="left"),
             "s/laser as left.distance: wrap is 2, but a sample is 300; correct wrap",
@@ -152,5 +155,5 @@ def test_streams_of_one_absolute_clock_keep_their_distance_in_time(put: Put, mak
 
 def test_a_file_without_streams_is_refused(put: Put) -> None:
     assert "it has no columns" in refused(InputError, put(), chart())
-    assert "none of its channels has one of our names" in refused(InputError, put())
+    assert "no channel of it has a name of floatref's" in refused(InputError, put())
     assert NativeFile(()).streams == ()

@@ -1,4 +1,4 @@
-"""What files are processed with, where nothing else is said of one; checked before any work."""
+"""The default options of files, checked before any work."""
 
 import os
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ class Defaults:
 
 
 def checked(options: Defaults) -> ChannelMap | None:
-    """Return the channel map of ``options``, None if there is none.
+    """Return the channel map of ``options``, None without a map.
 
     Raises InputError for a pipeline, adapter, setting, map or segment that no file can be
     processed with.
@@ -44,7 +44,7 @@ def checked(options: Defaults) -> ChannelMap | None:
 
 
 def files_of(chart: ChannelMap | None) -> frozenset[str]:
-    """Return the files that ``chart`` is, or names, resolved: they belong to other sources."""
+    """Return the resolved paths of ``chart`` and of its files: they belong to other sources."""
     if chart is None:
         return frozenset()
     entries = (chart.source, *chart.files.values())

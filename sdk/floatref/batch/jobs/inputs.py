@@ -15,7 +15,7 @@ from floatref.batch.jobs.recognition import (
     is_recording,
     kind_of_folder,
     size_of,
-    walked,
+    walk,
 )
 from floatref.batch.jobs.source_names import name_below, unique_names
 from floatref.engine.formats import find_readers
@@ -26,10 +26,10 @@ from floatref.mapping.channel_map.entries import ChannelMap
 
 
 def matching(text: str) -> tuple[Path, list[Path]]:
-    """Return the folder before the first sign of a pattern, and what matches ``text``, sorted.
+    """Return the folder before the first pattern character, and the sorted matches of ``text``.
 
-    What is hidden below that folder matches only a pattern that names hidden things. Raises
-    InputError for a pattern that is none.
+    Hidden files below that folder match only a pattern that names hidden files. Raises InputError
+    for an invalid pattern.
     """
     parts = Path(text).parts
     first = next(at for at, part in enumerate(parts) if has_magic(part))
@@ -37,7 +37,7 @@ def matching(text: str) -> tuple[Path, list[Path]]:
     try:
         found = sorted(base.glob("/".join(rest)))
     except (ValueError, NotImplementedError) as error:
-        raise InputError(f"{text}: no pattern ({error}); write ** as a name of its own") from error
+        raise InputError(f"{text}: bad pattern ({error}); write ** as a name of its own") from error
     if any(_hidden(rest)):
         return base, found
     return base, [path for path in found if not any(_hidden(path.relative_to(base).parts))]
@@ -52,7 +52,7 @@ __all__ = ["Defaults", "Found", "find_jobs"]
 
 @dataclass(frozen=True)
 class Found:
-    """The jobs in the order in which they were found, and what in folders was no recording."""
+    """The jobs in the order in which they were found, and the skipped files of folders."""
 
     jobs: tuple[Job, ...]
     passed_over: tuple[Path, ...]
@@ -61,9 +61,9 @@ class Found:
 def find_jobs(given: Sequence[str], out: Path, defaults: Defaults) -> Found:
     """Return a job for each source in ``given``: recordings, folders, patterns and manifests.
 
-    What is named is a source even if it cannot be read; a folder is searched for recordings and
-    native files. The map of ``defaults`` is for native files: recording directories need none.
-    Raises InputError where ``given`` names what is not there, where nothing is found, and for
+    A named file is a source even if it cannot be read; a folder is searched for recordings and
+    native files. The map of ``defaults`` is for native files: recording directories need no map.
+    Raises InputError for a name in ``given`` that does not exist, if nothing is found, and for
     options that no file can be processed with.
     """
     search = _Search(Path(out).absolute(), defaults)
@@ -80,7 +80,7 @@ class _Source:
 
 
 class _Search:
-    """The sources found so far, by what they really are."""
+    """The sources found so far, by their resolved paths."""
 
     def __init__(self, out: Path, defaults: Defaults) -> None:
         self._out, self._defaults = out, defaults
@@ -155,7 +155,7 @@ class _Search:
             return 0
         chart, beside, count = self._chart(options), self._beside(options), 0
         file_adapter = options.adapter or (chart.source.adapter if chart else None)
-        for path, kind in walked(folder, self._real_out, options.adapter, file_adapter):
+        for path, kind in walk(folder, self._real_out, options.adapter, file_adapter):
             if os.path.realpath(path) in beside:
                 continue
             if kind is Kind.SOURCE:
@@ -203,6 +203,6 @@ class _Search:
 
 
 def _check_kind(path: Path) -> None:
-    """Refuse a pipe or a device, which would be waited for, or have no end."""
+    """Refuse a pipe or a device, which may block, or have no end."""
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise InputError(f"{path}: is a device or pipe; name files and folders")

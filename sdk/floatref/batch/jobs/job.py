@@ -11,7 +11,7 @@ PROFILES, RECORDS = "profiles", "records"
 
 @dataclass(frozen=True)
 class Job:
-    """What one task is given: paths are absolute, so that workers find them from anywhere.
+    """Input of one task: paths are absolute, so that workers find them from anywhere.
 
     Attributes:
         source: the recording directory or native file.
@@ -42,5 +42,5 @@ class Job:
 
     @property
     def record(self) -> Path:
-        """Where the JSON file is written that says how it went."""
+        """Where the JSON file with the result is written."""
         return self.out / RECORDS / f"{self.name}.json"

@@ -16,9 +16,9 @@ COLUMNS = ("file", "adapter", "map", "pipeline", "settings")
 COMMENT = "#"
 DELIMITERS = ",;\t"
 HEAD = 1 << 16
-"""Bytes in which a manifest is recognised."""
+"""Bytes from which a manifest is recognised."""
 TRIED = 20
-"""Lines of which one has to be a file that is there, or none would be missing."""
+"""First lines of a list, at least one of which must name an existing file."""
 LARGEST_BYTES = 1 << 28
 
 Line = tuple[int, str]
@@ -33,7 +33,7 @@ class Entry:
 
 
 def is_manifest(path: Path) -> bool:
-    """Tell whether the file ``path`` is a manifest; one that cannot be read is none.
+    """Tell whether the file ``path`` is a manifest; an unreadable file is not.
 
     Its first line that is neither empty nor a comment heads a column `file`, or one of the first
     lines is a path, from the folder of the manifest, that exists.
@@ -52,10 +52,10 @@ def is_manifest(path: Path) -> bool:
 
 
 def read_manifest(path: Path, options: Defaults) -> tuple[Entry, ...]:
-    """Return what the manifest ``path`` names, with ``options`` where it does not say otherwise.
+    """Return the files of the manifest ``path``, with ``options`` as defaults.
 
-    Raises InputError with one line naming the manifest, the line and the value for columns that
-    there are not, lines without a file, and what no file can be processed with.
+    Raises InputError with one line naming the manifest, the line and the value for unknown columns,
+    lines without a file, and options that no file can be processed with.
     """
     with opened(path) as stream:
         content = stream.read(LARGEST_BYTES + 1)
@@ -104,7 +104,7 @@ class _Reading:
 
     def _path(self, text: str) -> Path:
         if "\0" in text:
-            raise InputError(f"{text!a}: no possible file name; correct it")
+            raise InputError(f"{text!a}: not a valid file name; correct it")
         return self._folder / text
 
 
@@ -113,7 +113,7 @@ def _lines(text: str) -> Iterator[Line]:
     for number, line in enumerate(text.split("\n"), 1):
         plain = line.strip()
         if plain and not plain.startswith(COMMENT):
-            # A last column may be empty, and the tab before it is what says so.
+            # A last column may be empty; the tab before it marks it.
             yield number, line.strip(" \r")
 
 
@@ -131,14 +131,14 @@ def _check_columns(columns: Sequence[str]) -> None:
         if name not in COLUMNS:
             raise InputError(f"column {name!r}: unknown; there are {', '.join(COLUMNS)}")
         if columns.count(name) > 1:
-            raise InputError(f"column {name}: there {columns.count(name)} times; keep one")
+            raise InputError(f"column {name}: given {columns.count(name)} times; keep one")
 
 
 def _row(columns: Sequence[str], text: str, header: str) -> dict[str, str]:
     try:
         values = [value.strip() for value in _fields(text, header)]
     except csv.Error as error:
-        raise InputError(f"no line of a CSV ({error}); correct it there") from error
+        raise InputError(f"not a valid line of a CSV ({error}); correct it there") from error
     if len(values) > len(columns):
         raise InputError(
             f"{len(values)} values in {len(columns)} columns; quote a name with commas"

@@ -25,18 +25,18 @@ SUFFIXES = frozenset(
     )
     for name in names
 )
-"""Suffixes of recordings: with one a file counts even if its first bytes are damaged.
+"""Suffixes of recordings: such a file counts even if its first bytes are corrupt.
 
-Those that programs give to much else, such as .log, .bin and .txt, are not among them.
+Suffixes that many other files have, such as .log, .bin and .txt, are not included.
 """
 MARKS = (".lock", "batch.json")
-"""Files of which the output of a batch has one from its first moment to its last."""
+"""The output of a batch always contains at least one of these files."""
 PARQUET = b"PAR1"
 LARGEST_FOOTER = 1 << 22
 
 
 class Kind(Enum):
-    """What is done with a thing in a tree."""
+    """What is done with an entry of a folder tree."""
 
     SOURCE = "source"
     FOLDER = "folder"
@@ -44,7 +44,7 @@ class Kind(Enum):
 
 
 def kind_of_folder(path: Path, adapter: str | None) -> Kind:
-    """Return what the folder ``path`` is; ``adapter`` alone is to read sources, unless None."""
+    """Return the kind of the folder ``path``; unless None, ``adapter`` alone reads sources."""
     if found := find_readers(path):
         wanted = adapter is None or adapter in (reader.name for reader in found)
         return Kind.SOURCE if wanted else Kind.OTHER
@@ -53,10 +53,10 @@ def kind_of_folder(path: Path, adapter: str | None) -> Kind:
 
 
 def kind_of_file(path: Path, adapter: str | None) -> Kind:
-    """Return what the file ``path`` is; ``adapter`` alone is to read sources, unless None."""
+    """Return the kind of the file ``path``; unless None, ``adapter`` alone reads sources."""
     suffix = path.suffix.lower()
     if not path.is_file():
-        # A link that leads nowhere may have been a recording; a pipe would be waited for.
+        # A broken link may have been a recording; reading a pipe may block.
         return Kind.SOURCE if suffix in SUFFIXES and not path.exists() else Kind.OTHER
     if is_profile(path) or (suffix in TABLES and is_manifest(path)):
         return Kind.OTHER
@@ -81,14 +81,14 @@ def is_inside(path: Path) -> bool:
 
 
 def is_output(path: Path) -> bool:
-    """Tell whether the folder ``path`` is what a batch writes or has written."""
+    """Tell whether the folder ``path`` is the output of a batch."""
     if not ((path / PROFILES).is_dir() and (path / RECORDS).is_dir()):
         return False
     return any((path / name).is_file() for name in MARKS)
 
 
 def is_profile(path: Path) -> bool:
-    """Tell from its ends whether the file ``path`` is a profile as floatref writes it."""
+    """Tell from its first and last bytes whether ``path`` is a profile written by floatref."""
     try:
         suffix = path.suffix.lower()
         if suffix == ".csv":
@@ -111,15 +111,15 @@ def _footer(path: Path) -> bytes:
         return stream.read(size)
 
 
-def walked(
+def walk(
     folder: Path, out: str, adapter: str | None, file_adapter: str | None
 ) -> Iterator[tuple[Path, Kind]]:
-    """Yield every source below ``folder``, and every other thing that is passed over.
+    """Yield every source below ``folder``, and every other file, which is skipped.
 
-    ``adapter`` alone is to read folders, and ``file_adapter`` files, unless None. Nothing is
-    looked for in ``out``, a resolved path. Raises InputError for a folder that cannot be listed.
+    Unless None, ``adapter`` alone reads folders, and ``file_adapter`` files. The resolved path
+    ``out`` is not searched. Raises InputError for a folder that cannot be listed.
     """
-    waiting = _listed(folder)
+    waiting = _list(folder)
     while waiting:
         entry = waiting.pop()
         path = Path(entry.path)
@@ -130,7 +130,7 @@ def walked(
         elif os.path.realpath(path) != out:
             kind = kind_of_folder(path, adapter)
             if kind is Kind.FOLDER:
-                waiting += _listed(path)
+                waiting += _list(path)
             else:
                 yield path, kind
 
@@ -149,7 +149,7 @@ def size_of(path: Path) -> int:
         return 0
 
 
-def _listed(folder: Path) -> list[os.DirEntry[str]]:
+def _list(folder: Path) -> list[os.DirEntry[str]]:
     """Return what is in ``folder``, the first by name last: it is taken from the end."""
     try:
         with os.scandir(folder) as entries:

@@ -1,7 +1,7 @@
 """Names of sources in the output: one each, safe as a path, and the same from run to run.
 
 A name becomes a folder below ``profiles`` and a file below ``records``, so that neither may lie
-inside another's, on a disk that does not tell capitals apart either.
+inside another's, also on a disk that does not distinguish capitals.
 """
 
 import os
@@ -13,11 +13,11 @@ from hashlib import sha256
 from pathlib import Path, PurePosixPath
 
 UNSAFE = re.compile(r'[<>:"|?*\\/]|^\.|[. ]$')
-"""What a part of a name may not hold: some systems or shares refuse it, or take it away."""
+"""Characters that some systems or shares refuse or remove in a part of a name."""
 LONGEST = 200
-"""Bytes of a part; what is added to it has to fit into the 255 that disks allow."""
+"""Bytes of a part; with a tag it must fit into the 255 that disks allow."""
 DIGITS = (8, 16, 32, 64)
-"""How much of a hash tells names apart; more where that is a name already."""
+"""Digits of a hash that distinguish names; more where that name already exists."""
 RECORD = ".json"
 
 
@@ -30,33 +30,34 @@ def name_below(path: Path, base: Path) -> str:
 
 
 def unique_names(names: Sequence[str], sources: Sequence[Path]) -> tuple[str, ...]:
-    """Return ``names``, with a hash of the path of its source in each that meets another.
+    """Return ``names``, with a hash of the path of its source in each that collides.
 
-    ``sources`` are as many, absolute and different. The order does not matter.
+    ``sources`` has the same length; its paths are absolute and different. The order does not
+    matter.
     """
     found = list(names)
     for digits in DIGITS:
         for index in _meeting(found):
-            found[index] = _marked(names[index], sources[index], digits)
+            found[index] = _mark(names[index], sources[index], digits)
     return tuple(found)
 
 
 def _safe(part: str) -> str:
-    """Return ``part`` without what is no letter of a file name, hides it, or leads elsewhere."""
+    """Return ``part`` without characters that are unsafe, hide the file, or change the folder."""
     plain = "".join(c if c.isprintable() else "_" for c in part)
     plain = UNSAFE.sub("_", plain) or "_"
     if len(plain.encode()) <= LONGEST:
         return plain
-    return _tagged(plain, _digest(part)[: DIGITS[0]])
+    return _tag(plain, _digest(part)[: DIGITS[0]])
 
 
-def _marked(name: str, source: Path, digits: int) -> str:
+def _mark(name: str, source: Path, digits: int) -> str:
     place = PurePosixPath(name)
     tag = _digest(os.fsdecode(os.path.realpath(source)))[:digits]
-    return str(place.with_name(_tagged(place.name, tag)))
+    return str(place.with_name(_tag(place.name, tag)))
 
 
-def _tagged(part: str, tag: str) -> str:
+def _tag(part: str, tag: str) -> str:
     """Return ``part`` with ``tag`` before its suffix, shortened where it is too long."""
     place = PurePosixPath(part)
     suffix = place.suffix if len(place.suffix.encode()) <= 20 else ""
@@ -69,8 +70,8 @@ def _digest(text: str) -> str:
 
 
 def _meeting(names: Sequence[str]) -> list[int]:
-    """Return which of ``names`` are one, or lie inside another's profile or record."""
-    keys = [tuple(_folded(name).split("/")) for name in names]
+    """Return which of ``names`` are equal, or lie inside another's profile or record."""
+    keys = [tuple(_fold(name).split("/")) for name in names]
     counts = Counter(keys)
     folders = {key[:end] for key in counts for end in range(1, len(key))}
     return [
@@ -80,6 +81,6 @@ def _meeting(names: Sequence[str]) -> list[int]:
     ]
 
 
-def _folded(name: str) -> str:
-    """Return ``name`` as a disk may compare it, that tells neither case nor accents' spelling."""
+def _fold(name: str) -> str:
+    """Return ``name`` as a disk compares it that ignores case and the encoding of accents."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name).casefold())

@@ -1,1 +1,1 @@
-"""What came of it: records, rows and the summary."""
+"""The results: records, rows and the summary."""

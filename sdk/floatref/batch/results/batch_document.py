@@ -1,4 +1,4 @@
-"""What batch.json says of a command: its options, counts, and what the work has cost."""
+"""The content of batch.json: the options of a command, counts, and its effort."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -16,15 +16,15 @@ FORMAT = "floatref-batch/1"
 SCHEMA = "floatref-batch-1"
 FILE = "batch.json"
 USED = ("numpy", "numba", "scipy", "dask", "distributed", "pyarrow")
-"""Distributions whose versions are told."""
+"""Distributions whose versions are recorded."""
 
 PER_KM = ("cpu_s", "bytes_in", "bytes_out")
-"""What is also given for each kilometre of profile."""
+"""Sums that are also given per kilometre of profile."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """What was asked for: ``given`` are the inputs as typed, ``options`` the other ones by name."""
+    """The command line: ``given`` are the inputs as typed, ``options`` the other ones by name."""
 
     given: Sequence[str]
     options: Mapping[str, Any]
@@ -32,7 +32,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Finished:
-    """How long a command took, with how many workers, and what it left alone."""
+    """Duration of a command, its number of workers, and the files that it skipped."""
 
     wall_s: float
     workers: int

@@ -11,11 +11,11 @@ from floatref.batch.jobs.job import PROFILES, RECORDS, Job
 from floatref.errors import InputError
 
 LOCK, WORKING = ".lock", ".working"
-"""Locked by the command as long as it runs, and by every task as long as it works."""
+"""Locked by the command while it runs, and by every task while it works."""
 
 OURS = frozenset({PROFILES, RECORDS, LOCK, WORKING, "summary.csv", "summary.parquet", "batch.json"})
 BESIDE = ".floatref-*"
-"""What is being written has such a name until it is complete."""
+"""Pattern of the names of incomplete files."""
 
 
 @contextmanager
@@ -23,11 +23,11 @@ def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None
     """Make folder ``out`` ready for this command alone; leave nothing if no task began in it.
 
     Raises InputError for a folder with content unless ``resume``, for one that no batch has
-    written, while another command works in it, and if tasks of a killed command still do after
-    ``patience_s`` seconds.
+    written, while another command works in it, and if tasks of a killed command still work there
+    after ``patience_s`` seconds.
     """
     made = _made(out, resume)
-    with _locked(out / LOCK) as alone:
+    with _lock(out / LOCK) as alone:
         if not alone:
             raise InputError(f"{out}: another batch works there; wait for it or choose another")
         try:
@@ -43,12 +43,12 @@ def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None
 @contextmanager
 def working(out: Path) -> Iterator[None]:
     """Mark, for other commands, that a task works in ``out``; many may do so at once."""
-    with _locked(out / WORKING, shared=True):
+    with _lock(out / WORKING, shared=True):
         yield
 
 
 def sweep(out: Path) -> None:
-    """Remove what tasks that were killed have left half-written in ``out``."""
+    """Remove incomplete files of killed tasks from ``out``."""
     for place in (out, out / PROFILES, out / RECORDS):
         for path in place.glob(BESIDE) if place == out else list(place.rglob(BESIDE)):
             if path.is_dir() and not path.is_symlink():
@@ -58,7 +58,7 @@ def sweep(out: Path) -> None:
 
 
 def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
-    """Return the names of records in ``out`` that none of ``jobs`` has."""
+    """Return the names of records in ``out`` that belong to no job of ``jobs``."""
     given = {job.name for job in jobs}
     records = out / RECORDS
     found = (path.relative_to(records).as_posix() for path in records.rglob("*.json"))
@@ -66,7 +66,7 @@ def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
 
 
 def _made(out: Path, resume: bool) -> bool:
-    """Make ``out`` if it is missing, and tell whether that was so."""
+    """Make ``out`` if it is missing, and return whether it was."""
     with suppress(FileExistsError):
         try:
             out.mkdir()
@@ -89,7 +89,7 @@ def _wait_for_tasks(out: Path, patience_s: float) -> None:
     """Wait until no task of a command that was killed works in ``out`` any more."""
     end = monotonic() + patience_s
     while True:
-        with _locked(out / WORKING) as idle:
+        with _lock(out / WORKING) as idle:
             if idle:
                 return
         if monotonic() > end:
@@ -101,10 +101,10 @@ def _wait_for_tasks(out: Path, patience_s: float) -> None:
 
 
 @contextmanager
-def _locked(path: Path, shared: bool = False) -> Iterator[bool]:
+def _lock(path: Path, shared: bool = False) -> Iterator[bool]:
     """Lock the file ``path`` if it is free, and yield whether it was.
 
-    A lock ends with its process, however that ends. Where the file system has no locks, every
+    A lock ends with its process in any case. Where the file system has no locks, every
     file is free.
     """
     try:

@@ -12,11 +12,11 @@ from floatref.values.scanning import chunks
 
 LATITUDE, LONGITUDE, QUALITY = "gnss_latitude", "gnss_longitude", "gnss_quality"
 LONGEST_GAP_S = 5.0
-"""Between fixes farther apart nothing is known of the way."""
+"""Longest time in s between fixes over which the position is interpolated."""
 NEAR_M = 0.5
-"""So near to a fix the fix itself will do."""
+"""Distance in m from a fix within which the fix itself is used."""
 OFTEN_S = 0.05
-"""Fixes that come more often are thinned out."""
+"""Least time in s between fixes; more frequent ones are skipped."""
 
 
 def is_located(recording: Recording) -> bool:
@@ -31,9 +31,9 @@ def places(
     """Return latitudes and longitudes in degrees, shape (n,), where the encoder has ``distance_m``.
 
     It is the place where that distance is first reached. Between fixes position goes with the
-    distance, so that a vehicle which brakes or stands is where it is; before the first and after
-    the last fix it goes on for as long as one fix is from the next. NaN where fixes are more than
-    5 s apart, or where there are none.
+    distance, so that braking or a stop causes no error; before the first and after the last fix it
+    is extrapolated over one interval between fixes. NaN where fixes are more than 5 s apart, or
+    missing.
     """
     encoder, quality = (recording.find(name, track) for name in (DISTANCE, QUALITY))
     unknown = np.full(distance_m.size, np.nan)
@@ -47,13 +47,13 @@ def places(
     known = ~np.isnan(latitude + longitude)
     return (
         np.where(known, np.degrees(latitude), np.nan),
-        np.where(known, np.degrees(_turned(longitude)), np.nan),
+        np.where(known, np.degrees(_wrap(longitude)), np.nan),
     )
 
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """How far the encoder has been at increasing times in s, in m; it leads from first to last."""
+    """The largest distance of the encoder until each time in s, in m."""
 
     times_s: FloatArray
     far_m: FloatArray
@@ -72,7 +72,7 @@ class _Way:
 
 @dataclass(frozen=True, eq=False)
 class _Fixes:
-    """The known samples of an angle in rad, and how far the encoder has been at each, in m.
+    """The known samples of an angle in rad, and the encoder's distance at each, in m.
 
     Of several at one distance the first is kept; ``gap_s`` is the time in s since the fix before
     it, kept or not.
@@ -107,7 +107,7 @@ def _known(channel: Channel) -> IndexArray:
 
 
 def _is_good(quality: Channel | None, times: FloatArray) -> BoolArray:
-    """Return at which ``times`` the receiver did not say that it has no fix."""
+    """Return at which ``times`` the receiver did not report a missing fix."""
     if quality is None:
         return np.ones(times.size, np.bool_)
     at = np.searchsorted(quality.times_s, times, side="right") - 1
@@ -115,7 +115,7 @@ def _is_good(quality: Channel | None, times: FloatArray) -> BoolArray:
 
 
 def _angles(fixes: _Fixes, wanted: FloatArray) -> FloatArray:
-    """Return the angle in rad at the distances ``wanted``, NaN where the fixes do not tell."""
+    """Return the angle in rad at the distances ``wanted``, NaN where it is unknown."""
     angles, far = fixes.angle, fixes.far_m
     if far.size < 2:
         return np.full(wanted.size, np.nan)
@@ -129,6 +129,6 @@ def _angles(fixes: _Fixes, wanted: FloatArray) -> FloatArray:
     return np.where(np.abs(wanted - reached) <= NEAR_M, angle, np.nan)
 
 
-def _turned(longitude: FloatArray) -> FloatArray:
-    """Return ``longitude`` in rad as one from -pi up to pi."""
+def _wrap(longitude: FloatArray) -> FloatArray:
+    """Return ``longitude`` in rad within -pi to pi."""
     return np.mod(longitude + np.pi, 2.0 * np.pi) - np.pi

@@ -1,4 +1,4 @@
-"""How one file went: its rows of the summary, and what tells whether it has to be done again."""
+"""Result of one file: its rows of the summary, and the data to decide if it must be redone."""
 
 import json
 import os
@@ -47,7 +47,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Effort:
-    """What a file has cost: seconds, seconds of processor time, bytes in and out, peak memory."""
+    """Cost of a file: seconds, seconds of processor time, bytes in and out, peak memory."""
 
     seconds: float = 0.0
     cpu_s: float = 0.0
@@ -59,21 +59,21 @@ class Effort:
 
 @dataclass(frozen=True)
 class Record:
-    """How one file went; ``error`` is empty if it went well.
+    """Result of one file; ``error`` is empty after success.
 
     Attributes:
         name, source: as in the job.
-        error: one line that says why there is no profile.
+        error: one line with the reason why there is no profile.
         rows: of the summary; empty after an error.
         warnings: of reading and processing, one line each.
-        remarks: what could not be measured of the profile, one line each.
-        key: ``asked``, what the profile depends on beside its inputs; ``segment_m``; after success
+        remarks: measures of the profile that failed, one line each.
+        key: ``asked``, what the profile depends on besides its inputs; ``segment_m``; after success
             also the ``settings`` of the profile, the ``adapter`` that read it, and ``located``,
             whether the recording tells where it was.
         inputs: SHA-256 of every file that was read, by its absolute path.
         outputs: SHA-256 of every file of the profile, by its name.
-        effort: what it has cost.
-        skipped: it was done before, and is as it was; never written to disk.
+        effort: its cost.
+        skipped: it was done before and is unchanged; never written to disk.
     """
 
     name: str
@@ -154,7 +154,7 @@ def _row(entry: Mapping[str, Any]) -> Row:
 
 
 def _known(entry: Mapping[str, Any], kind: type[Row] | type[Effort]) -> dict[str, Any]:
-    """Return what in ``entry`` is a field of ``kind``, numbers that are no counts as floats."""
+    """Return the fields of ``kind`` in ``entry``, with floats for all numbers but counts."""
     found = {f.name: (entry[f.name], f.type) for f in fields(kind)}
     return {
         name: float(value) if kind is float and value is not None else value
@@ -163,15 +163,15 @@ def _known(entry: Mapping[str, Any], kind: type[Row] | type[Effort]) -> dict[str
 
 
 class Returned:
-    """Records in a file that has no name, by the names of their jobs."""
+    """Records in a temporary file without a name, by the names of their jobs."""
 
     def __init__(self, stream: IO[bytes], out: Path) -> None:
-        """Keep them in ``stream``, an empty file to write and read on the disk of ``out``."""
+        """Store them in ``stream``, an empty file to write and read on the disk of ``out``."""
         self._stream, self._out = stream, out
         self._places: dict[str, tuple[int, int]] = {}
 
     def add(self, record: Record) -> None:
-        """Keep ``record``, of which ``skipped`` is forgotten; InputError if there is no space."""
+        """Store ``record`` without ``skipped``; InputError if there is no space."""
         content = zlib.compress(json.dumps(as_document(record)).encode("ascii"), level=1)
         with _space(self._out):
             self._places[record.name] = (self._stream.seek(0, os.SEEK_END), len(content))
@@ -188,7 +188,7 @@ class Returned:
 
 @contextmanager
 def returned_records(out: Path) -> Iterator[Returned]:
-    """Yield a place for records on the disk of the folder ``out``, of which nothing is left.
+    """Yield a temporary store for records on the disk of the folder ``out``.
 
     Raises InputError if it cannot be made.
     """
@@ -197,7 +197,7 @@ def returned_records(out: Path) -> Iterator[Returned]:
     try:
         yield Returned(stream, out)
     finally:
-        # What there was no space for would be refused once more.
+        # Writing the rest would fail again for lack of space.
         with suppress(OSError):
             stream.close()
 

@@ -18,11 +18,11 @@ from floatref.values.recording import Recording
 def measured(
     profile: Profile, segment_m: float | None, recording: Recording | None = None
 ) -> tuple[tuple[Row, ...], tuple[str, ...]]:
-    """Return the rows of ``profile``, cut every ``segment_m``, and what could not be measured.
+    """Return the rows of ``profile``, cut every ``segment_m``, and the measures that failed.
 
-    None for the whole profile as one segment; places are those of ``recording``, if it tells
-    them. The IRI is that of `floatref iri --segment`. Raises InputError for a segment that is
-    not above zero.
+    None for the whole profile as one segment; positions are those of ``recording``, if it has any.
+    The IRI is that of `floatref iri --segment`. Raises InputError for a segment that is not above
+    zero.
     """
     settings = IriSettings(segment_m=segment_m)
     edges, remarks = _edges(profile, segment_m)
@@ -44,7 +44,7 @@ def measured(
 
 
 def _edges(profile: Profile, segment_m: float | None) -> tuple[IndexArray, list[str]]:
-    """Return the first interval of every segment and the end, and what is wrong with them."""
+    """Return the first interval of every segment and the end, and remarks on them."""
     count = profile.tracks[0].elevation.size - 1
     whole = np.array([0, count], dtype=np.int64)
     if count == 0:
@@ -81,7 +81,7 @@ def _rows(
         longitude,
         np.asarray(indices),
         np.asarray(means),
-        _flagged(track, edges) * profile.interval_m,
+        _find_flagged(track, edges) * profile.interval_m,
     )
     values = zip(*(column.tolist() for column in columns), strict=True)
     return [Row(track.name, segment, *row) for segment, row in enumerate(values)]
@@ -95,7 +95,7 @@ def _places(
     return places(recording, track, starts)
 
 
-def _flagged(track: ProfileTrack, edges: IndexArray) -> IndexArray:
+def _find_flagged(track: ProfileTrack, edges: IndexArray) -> IndexArray:
     """Return the points of every segment that are not valid; the end belongs to the last one."""
     before = np.concatenate(([0], np.cumsum(~track.valid)))
     ends = edges.copy()

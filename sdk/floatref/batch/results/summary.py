@@ -40,17 +40,16 @@ COLUMNS: Mapping[str, type] = {
     "outputs": str,
     "profile": str,
 }
-"""Columns and their types; what is not known is null, and empty in CSV."""
+"""Columns and their types; an unknown value is null, and empty in CSV."""
 TOGETHER = 4096
-"""Rows that are held at a time, one row group of Parquet."""
+"""Rows in memory at a time, one row group of Parquet."""
 
 
 def write_summary(records: Iterable[Record], out: Path) -> None:
     """Write `summary.csv` and `summary.parquet` of ``records`` into the folder ``out``.
 
-    A file that failed is one row with its error. Both are complete or not at all, and rows go
-    through in bounded memory. Raises InputError where pyarrow is missing, or if they cannot be
-    written.
+    A file that failed is one row with its error. Both files are written completely or not at all,
+    in bounded memory. Raises InputError where pyarrow is missing, or if they cannot be written.
     """
     pa, parquet = _arrow()
     kinds = {str: pa.string(), int: pa.int64(), float: pa.float64()}
@@ -81,7 +80,7 @@ def _arrow() -> tuple[Any, Any]:
 
 
 def _lines(record: Record) -> Iterator[dict[str, Any]]:
-    """Yield the rows of ``record`` by column; None is not known."""
+    """Yield the rows of ``record`` by column; None stands for unknown."""
     same = {name: _writable(value) for name, value in _common(record).items()}
     if not record.rows:
         yield {**dict.fromkeys(COLUMNS), **same}
@@ -120,7 +119,7 @@ def _writable(text: str) -> str:
 
 
 def read_columns(out: Path, names: Sequence[str]) -> dict[str, list[Any]]:
-    """Return the columns ``names`` of the summary in the folder ``out``; None is not known."""
+    """Return the columns ``names`` of the summary in the folder ``out``; None is unknown."""
     from pyarrow import parquet
 
     table = parquet.read_table(out / PARQUET, columns=list(names))

@@ -1,4 +1,4 @@
-"""What is counted while files are processed: files, bytes, kilometres, time left, the roughest."""
+"""Counts while files are processed: files, bytes, kilometres, remaining time, the roughest."""
 
 import heapq
 from collections.abc import Sequence
@@ -9,9 +9,9 @@ from floatref.batch.jobs.job import Job
 from floatref.batch.results.record import Effort, Record, Row
 
 ROUGHEST = 5
-"""Rows that are kept of all those with the largest IRI."""
+"""Number of rows with the largest IRI that are stored."""
 OPENING = 16 << 20
-"""Bytes of a recording that take about as long as it takes to open a file at all."""
+"""Bytes of a recording that take about as long to read as opening a file takes."""
 
 
 @dataclass
@@ -21,8 +21,8 @@ class Tally:
     Attributes:
         files: how many there are in all.
         size_bytes: of all of them.
-        done: files with a profile, those among them that were done before included.
-        skipped: files that were done before and are as they were.
+        done: files with a profile, including those that were done before.
+        skipped: files that were done before and are unchanged.
         failed: name and reason of every file without a profile.
         warnings: lines of warnings of all files.
         length_m: of all profiles; ``new_m`` of those that this command has made.
@@ -73,7 +73,7 @@ class Tally:
 
     @property
     def processed(self) -> int:
-        """Files that this command has worked at, well or not."""
+        """Files that this command has processed, with or without success."""
         return self.seen - self.skipped
 
     @property
@@ -90,7 +90,7 @@ class Tally:
         return _ratio(3.6 * self.new_m, now_s - self.began_s)
 
     def left_s(self, now_s: float) -> float:
-        """Return how long the rest will take at the rate until now; NaN if unknown."""
+        """Return the remaining time in s at the rate until now; NaN if unknown."""
         worked = self._weight_done - self._weight_skipped
         return _ratio((now_s - self.began_s) * (self._weight_of_all - self._weight_done), worked)
 
@@ -99,7 +99,7 @@ class Tally:
         return self.size_bytes + OPENING * self.files
 
     def _keep_roughest(self, record: Record) -> None:
-        """Keep the largest IRI; what is left of a profile behind its last segment is none."""
+        """Keep the rows of largest IRI; the rest behind the last whole segment does not count."""
         half_m = max((row.length_m for row in record.rows), default=0.0) / 2
         whole = [row for row in record.rows if row.length_m >= half_m]
         rows = [(r.iri_m_per_km, record.name, r) for r in whole if not isnan(r.iri_m_per_km)]
@@ -118,7 +118,7 @@ def total(one: Effort, other: Effort) -> Effort:
 
 
 def _weight(size_bytes: int) -> int:
-    """Return what a file counts for: its bytes, and what it costs whatever they are."""
+    """Return the weight of a file: its bytes, plus the constant effort per file."""
     return size_bytes + OPENING
 
 

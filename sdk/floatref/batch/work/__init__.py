@@ -1,1 +1,1 @@
-"""Jobs on a cluster: each file processed once, whatever happens to workers."""
+"""Jobs on a cluster: each file processed once, even if workers die."""

@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from distributed import Client
 
 ANSWER_S = 10.0
-"""Until then a scheduler has to answer."""
+"""Longest time in s until a scheduler answers."""
 
 WORKERS_S = 30.0
-"""Until then a cluster has to have its first worker."""
+"""Longest time in s until a cluster has its first worker."""
 
 LOCAL = {
-    # One file per worker and no other waiting there: who dies with a worker has killed it.
+    # One file per worker and no other waiting there: the file of a dead worker is the cause.
     "distributed.scheduler.worker-saturation": 1.0,
-    # A file that has ended two workers is tried alone, which then tells.
+    # A file that has ended two workers is tried alone, which shows the cause.
     "distributed.scheduler.allowed-failures": 1,
-    # A worker that reads or compiles for minutes is silent, and well.
+    # A worker that reads or compiles for minutes does not answer, but works.
     "distributed.scheduler.worker-ttl": "24 hours",
     "distributed.worker.multiprocessing-method": "spawn",
     # Nothing of ours can be spilled; a paused worker would wait for ever.
@@ -40,7 +40,7 @@ LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
 
 def check_installed() -> None:
-    """Raise InputError now if a batch would lack a package later."""
+    """Raise InputError now if a package for a batch is missing."""
     try:
         import dask  # noqa: F401
         import distributed  # noqa: F401
@@ -57,7 +57,7 @@ def connect(out: Path, jobs: int | None = None, address: str | None = None) -> I
 
     Without both there is one process for each processor. Raises InputError if no scheduler
     answers, if it has no workers, if one of them has another version of floatref, or does not
-    see the folder ``out``. The local processes end with the context, whatever ends that.
+    see the folder ``out``. The local processes end with the context.
     """
     check_installed()
     with ExitStack() as stack:
@@ -69,7 +69,7 @@ def connect(out: Path, jobs: int | None = None, address: str | None = None) -> I
 
 
 def count_workers(client: "Client") -> int:
-    """Return how many workers there are; 0 if nobody tells."""
+    """Return the number of workers; 0 if the scheduler does not answer."""
     try:
         return len(client.nthreads())
     except (OSError, RuntimeError, TimeoutError):
@@ -78,7 +78,7 @@ def count_workers(client: "Client") -> int:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep logs and warnings of the cluster off the terminal; what matters we say ourselves."""
+    """Suppress logs and warnings of the cluster; floatref prints its own messages."""
     import distributed  # noqa: F401  # It sets levels of its own when it is imported.
 
     for name in LOGGERS:
@@ -95,7 +95,7 @@ def _local(jobs: int | None) -> Iterator["Client"]:
     from distributed import Client, LocalCluster
 
     with ExitStack() as stack:
-        # What a worker that is killed leaves of temporary files goes with the command.
+        # Temporary files of a killed worker are removed with the command.
         scratch = stack.enter_context(
             TemporaryDirectory(prefix="floatref-batch-", ignore_cleanup_errors=True)
         )
@@ -147,7 +147,7 @@ def _check_workers(client: "Client", out: Path) -> None:
 
 
 def _answer_of_scheduler(client: "Client") -> Any:
-    """Return what the scheduler says; it has to unpack the work before it can pass it on."""
+    """Return the scheduler's answer; it must unpack the work before it can pass it on."""
     try:
         return client.run_on_scheduler(_hello)
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Jobs on a cluster: one task each, the largest first, and one record for each, come what may."""
+"""Jobs on a cluster: one task each, the largest first, and always one record for each."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from distributed import Client, Future
 
 Task = Callable[[Job, bool], Record]
-"""What is done with one file, given whether what is done already is to be kept."""
+"""Processing of one file, given whether an existing result is to be reused."""
 
 KILLED = (
     "the worker ended {} times while it processed this file alone (out of memory?); give workers "
@@ -30,8 +30,8 @@ def run_jobs(
 ) -> Iterator[tuple[Job, Record]]:
     """Yield every one of ``jobs`` exactly once with its record, as they are done.
 
-    A file whose worker died is tried on other workers, and at last alone, so that it is not
-    blamed for another's doing. ``task`` is `floatref.batch.work.task.run_job` unless given.
+    A file whose worker died is tried on other workers, and at last alone, so that it does not fail
+    through another file. ``task`` is `floatref.batch.work.task.run_job` unless given.
     """
     chosen = task or _run_job
     ordered = sorted(jobs, key=lambda job: -job.size_bytes)
@@ -53,7 +53,7 @@ def _run_job(job: Job, resume: bool) -> Record:
     return run_job(job, resume)
 
 
-def _marked(job: Job, resume: bool, task: Task) -> Record:
+def _mark(job: Job, resume: bool, task: Task) -> Record:
     """Do one task on a worker, and let other commands know that it is being done."""
     with working(job.out):
         return task(job, resume)
@@ -67,8 +67,8 @@ def _done(
 
     run = token_hex(8)
     keys = {f"floatref-{run}-{index:09d}": job for index, job in enumerate(jobs)}
-    # In one graph, which the scheduler hands out bit by bit and in this order.
-    futures = client.map(_marked, jobs, key=list(keys), pure=False, resume=resume, task=task)
+    # In one graph, which the scheduler hands out piece by piece and in this order.
+    futures = client.map(_mark, jobs, key=list(keys), pure=False, resume=resume, task=task)
     waiting = as_completed(futures)
     del futures
     for future in waiting:
@@ -82,38 +82,38 @@ def _worker_died(future: "Future[Record]") -> bool:
 
 
 def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
-    """Return what the task returned, or a record of why it returned nothing."""
-    # What a worker did and took with it is done once more, and waited for here.
+    """Return the record of the task, or a record of the reason why there is no result."""
+    # A result that was lost with its worker is calculated again, and waited for here.
     with suppress(Exception):
         return future.result()
     if _worker_died(future):
-        return _given_up(job, KILLED.format(future.exception().args[2] + 1))
+        return _give_up(job, KILLED.format(future.exception().args[2] + 1))
     if future.status == "error":
         error = future.exception()
-        return _failed(job, f"{type(error).__name__}: {error}")
-    return _written(job, resume) or _failed(job, LOST)
+        return _fail(job, f"{type(error).__name__}: {error}")
+    return _read_written(job, resume) or _fail(job, LOST)
 
 
-def _written(job: Job, resume: bool) -> Record | None:
-    """Return what a task has written of ``job`` and nobody passed on; None if that is nothing."""
+def _read_written(job: Job, resume: bool) -> Record | None:
+    """Return the record that a task has written for ``job`` but not returned, or None."""
     from floatref.batch.work.task import kept
 
     found = kept(job)
     return found and replace(found, skipped=resume)
 
 
-def _given_up(job: Job, reason: str) -> Record:
-    """Return the record of a file that no task could write one of, and leave it in its place."""
+def _give_up(job: Job, reason: str) -> Record:
+    """Return and write the record of a file for which no task could write a record."""
     from floatref.batch.results.record import write_record
 
-    record = _failed(job, reason)
+    record = _fail(job, reason)
     rmtree(job.profile, ignore_errors=True)
     with suppress(FloatrefError, OSError):
         write_record(record, job.record)
     return record
 
 
-def _failed(job: Job, reason: str) -> Record:
+def _fail(job: Job, reason: str) -> Record:
     from floatref.batch.work.task import failed
 
     return failed(job, " ".join(reason.split()))

@@ -18,7 +18,7 @@ from floatref.errors import FloatrefError, one_line
 from floatref.files import fingerprint_native, read_profile, write_profile
 from floatref.files.atomic import SAMPLE_SUFFIXES
 from floatref.files.profile_directory import DOCUMENT
-from floatref.mapping.sources import profiled, recording_of
+from floatref.mapping.sources import make_profile, recording_of
 from floatref.values.recording import Recording
 
 
@@ -42,7 +42,7 @@ class Watch:
 
 
 def peak_bytes() -> int:
-    """Return the largest resident memory of this process until now; 0 where nobody counts it."""
+    """Return the largest resident memory of this process until now; 0 where it is not counted."""
     if sys.platform == "win32":
         return 0
     import resource
@@ -66,19 +66,19 @@ def _bytes(paths: Iterable[Path]) -> int:
 
 
 def run_job(job: Job, resume: bool = False) -> Record:
-    """Return how ``job`` went; its profile and its record are written.
+    """Return the record of ``job``; its profile and its record are written.
 
-    With ``resume`` nothing is processed if what is there was made of the same bytes in the same
-    way; rows are measured anew for segments of another length. Never raises an Exception: whatever
-    goes wrong is the record's error, and the profile of an earlier run goes.
+    With ``resume`` nothing is processed if the existing profile was made of the same bytes in the
+    same way; rows are measured again for segments of another length. Never raises an Exception: any
+    error is stored in the record, and the profile of an earlier run is removed.
     """
     with _reports_apart():
         old = kept(job) if resume else None
-        return _worked(job) if old is None else old
+        return _work(job) if old is None else old
 
 
 def failed(job: Job, reason: str) -> Record:
-    """Return the record of ``job`` that says why it has no profile."""
+    """Return the record of ``job`` with the reason why it has no profile."""
     return Record(job.name, str(job.source), error=one_line(reason), key=_key(job))
 
 
@@ -88,7 +88,7 @@ def _key(job: Job) -> dict[str, object]:
 
 @contextmanager
 def _reports_apart() -> Iterator[None]:
-    """Keep what plug-ins say of one file out of the warnings of the next."""
+    """Keep the warnings of plug-ins on one file out of the warnings of the next."""
     reports = plugins().reports
     count = len(reports)
     try:
@@ -98,21 +98,21 @@ def _reports_apart() -> Iterator[None]:
 
 
 def kept(job: Job) -> Record | None:
-    """Return what was done of ``job`` if it still holds; None if it has to be done again."""
+    """Return the existing record of ``job`` if it is still valid; None if it must be redone."""
     try:
         old = read_record(job.record)
         if not holds(old, job):
             return None
         if old.key["segment_m"] != job.segment_m:
-            old = _measured_anew(old, job)
+            old = _measure_again(old, job)
             write_record(old, job.record)
     except Exception:
-        # Whatever is the matter with the old files, new ones replace them.
+        # New files replace the old ones, whatever their fault is.
         return None
     return replace(old, skipped=True)
 
 
-def _measured_anew(old: Record, job: Job) -> Record:
+def _measure_again(old: Record, job: Job) -> Record:
     """Return ``old`` with the rows of its profile for segments of another length."""
     rows, remarks = measured(
         read_profile(job.profile), job.segment_m, _recording(job) if old.key["located"] else None
@@ -125,7 +125,7 @@ def _recording(job: Job) -> Recording:
     return recording_of(job.source, job.adapter, job.channel_map).recording
 
 
-def _worked(job: Job) -> Record:
+def _work(job: Job) -> Record:
     watch = Watch()
     try:
         record = watch.told(_made(job), job)
@@ -139,10 +139,10 @@ def _worked(job: Job) -> Record:
 
 
 def _made(job: Job) -> Record:
-    """Write the profile of ``job``; return its record, effort apart."""
+    """Write the profile of ``job``; return its record without the effort."""
     before = stamps_of(job)
     read = recording_of(job.source, job.adapter, job.channel_map)
-    result = profiled(read, job.pipeline, job.settings)
+    result = make_profile(read, job.pipeline, job.settings)
     profile = result.profile
     rows, remarks = measured(profile, job.segment_m, read.recording)
     check_unchanged(before, read.inputs)
@@ -180,14 +180,14 @@ def _reason(error: Exception) -> str:
 
 
 def _make_room(profile: Path) -> None:
-    """Make the folder around ``profile``, and remove what is left of an older one."""
+    """Make the folder around ``profile``, and remove the remains of an older one."""
     make_folder_of(profile)
     if not (profile / DOCUMENT).exists():
         _remove(profile)
 
 
 def _remove(profile: Path) -> None:
-    """Remove the files of a profile directory, first the one without which it is none."""
+    """Remove the files of a profile directory, its mandatory file first."""
     with suppress(OSError):
         (profile / DOCUMENT).unlink(missing_ok=True)
         for path in profile.iterdir():

@@ -1,4 +1,4 @@
-"""Whether what a file gave the last time is what it would give now."""
+"""Whether the previous result of a file is still valid."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
@@ -19,7 +19,7 @@ from floatref.mapping.channel_map.map_document import read_map
 from floatref.version import __version__
 
 LIBRARIES = ("numpy", "numba", "scipy")
-"""Another version of these may round otherwise."""
+"""Libraries whose other versions may round differently."""
 
 
 def versions() -> dict[str, str]:
@@ -28,7 +28,7 @@ def versions() -> dict[str, str]:
 
 
 def asked(job: Job) -> dict[str, Any]:
-    """Return what the profile of ``job`` depends on beside the content of its inputs."""
+    """Return all that the profile of ``job`` depends on besides the content of its inputs."""
     described: dict[str, Any] = plain(
         {
             "source": str(job.source.resolve()),
@@ -36,7 +36,7 @@ def asked(job: Job) -> dict[str, Any]:
             "map": None if job.channel_map is None else str(job.channel_map),
             "pipeline": job.pipeline,
             "settings": job.settings,
-            "resolved": _resolved(job),
+            "resolved": _resolve(job),
             "versions": versions(),
         },
         "job",
@@ -45,9 +45,9 @@ def asked(job: Job) -> dict[str, Any]:
 
 
 def holds(record: Record, job: Job) -> bool:
-    """Return whether ``record`` and the profile that it tells of are those of ``job``, unchanged.
+    """Return whether ``record`` and its profile are those of ``job``, unchanged.
 
-    The length of segments may differ. What failed is never said to hold.
+    The length of segments may differ. A failed record is never valid.
     """
     if record.error or not record.outputs or record.key.get("asked") != asked(job):
         return False
@@ -56,8 +56,8 @@ def holds(record: Record, job: Job) -> bool:
     return _are(outputs) and _are(inputs) and _has_no_more(job.source, inputs)
 
 
-def _resolved(job: Job) -> dict[str, Any]:
-    """Return all settings before the recording decides any; none if they cannot be used."""
+def _resolve(job: Job) -> dict[str, Any]:
+    """Return all settings before the recording decides any; empty if they cannot be used."""
     try:
         return dict(plugins().pipeline(job.pipeline).resolve(job.settings))
     except FloatrefError:
@@ -79,11 +79,11 @@ def _has_no_more(source: Path, inputs: Mapping[Path, str]) -> bool:
 
 
 Stamps = Mapping[str, tuple[int, ...]]
-"""Size, time of the last change and number of files on their disk, by what they really are."""
+"""Size, time of the last change and number of files on their disk, by resolved path."""
 
 
 def stamps_of(job: Job) -> Stamps:
-    """Return the stamps of what ``job`` may read; InputError for a map that cannot be used."""
+    """Return the stamps of the files of ``job``; InputError for a map that cannot be used."""
     return {os.path.realpath(path): found for path in _read_by(job) if (found := _stamp(path))}
 
 
@@ -105,7 +105,7 @@ def _read_by(job: Job) -> Iterator[str | os.PathLike[str]]:
 
 
 def _stamp(path: str | os.PathLike[str]) -> tuple[int, ...]:
-    """Return the stamp of the file ``path``, empty if there is none."""
+    """Return the stamp of the file ``path``, empty if it does not exist."""
     try:
         found = os.stat(path)
     except OSError:

@@ -1,4 +1,4 @@
-"""An end to waiting for workers that do not come back."""
+"""A limit on the time without any worker."""
 
 import os
 import sys
@@ -14,15 +14,15 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE_S = 600.0
-"""For so long a cluster may be without a worker."""
+"""Longest time in s that a cluster may be without a worker."""
 
 OFTEN_S = 5.0
-"""From one look at the workers to the next."""
+"""Time in s between two checks of the workers."""
 
 
 @contextmanager
 def patient(client: "Client", patience_s: float = PATIENCE_S) -> Iterator[None]:
-    """Drop all that ``client`` waits for once there was no worker for ``patience_s`` seconds."""
+    """Cancel all tasks of ``client`` once there was no worker for ``patience_s`` seconds."""
     over = Event()
     watch = Thread(target=_watch, args=(client, patience_s, over.wait), daemon=True)
     watch.start()
@@ -43,7 +43,7 @@ def _watch(client: "Client", patience_s: float, over: Callable[[float], bool]) -
 
 
 def drop_all(client: "Client") -> None:
-    """Cancel every task of ``client``; who waits for one is told so."""
+    """Cancel every task of ``client``; waiting for one then raises an error."""
     from distributed import Future
 
     with suppress(OSError, RuntimeError, TimeoutError):
@@ -56,10 +56,10 @@ OUTPUTS = (1, 2)
 
 @contextmanager
 def silence() -> Iterator[TextIO]:
-    """Send what is printed inside nowhere, and yield a stream that still reaches standard error.
+    """Discard all output printed inside, and yield a stream that still reaches standard error.
 
-    Processes that are started inside are silent for all of their lives, as are libraries that
-    write through the file descriptors.
+    Processes that are started inside print nothing until they end, as do libraries that write
+    through the file descriptors.
     """
     sys.stdout.flush()
     sys.stderr.flush()

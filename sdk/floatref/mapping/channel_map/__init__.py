@@ -1,1 +1,1 @@
-"""The channel map: what in a native file is which channel, in which unit."""
+"""The channel map: which column of a native file is which channel, in which unit."""

@@ -1,4 +1,4 @@
-"""The entries of a channel map that say how clocks are aligned, checked."""
+"""The entries of a channel map for the alignment of clocks, checked."""
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -22,10 +22,10 @@ NEEDS = {
 
 
 def clocks_of(entries: Sequence[Mapping[str, Any]]) -> tuple[ClockEntry, ...]:
-    """Return the clocks that ``entries``, which obey the schema, describe.
+    """Return the clocks that ``entries``, valid by the schema, describe.
 
-    Raises InputError for a clock that is given twice or says nothing, and for keys that its way
-    of aligning does not use, or needs.
+    Raises InputError for a clock that is given twice or has no content, and for keys that its way
+    of aligning does not use, or needs and lacks.
     """
     found: dict[tuple[str, str | None], ClockEntry] = {}
     for entry in entries:
@@ -54,7 +54,7 @@ def _clock(entry: Mapping[str, Any]) -> ClockEntry:
     if "start_s" in given and rate is None:
         raise InputError("start_s is given; write rate_hz as well, or leave it out")
     if align is None and rate is None:
-        raise InputError('says nothing; write align, such as align = "offset", or rate_hz')
+        raise InputError('has no content; write align, such as align = "offset", or rate_hz')
     if align == "pulses" and not {"pulses", "base_pulses"} <= given.keys():
         raise InputError(
             "align by pulses needs pulses and base_pulses, the channels that hold them"

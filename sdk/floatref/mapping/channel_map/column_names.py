@@ -11,7 +11,7 @@ from floatref.values.native import Column, NativeFile, Stream
 
 Place = tuple[Stream, Column]
 MOST = 4096
-"""Names that are compared with one that is not there; comparing takes its time."""
+"""Most names that are compared with a missing one, to bound the time."""
 
 
 def full_name(stream: Stream, column: Column) -> str:
@@ -23,7 +23,7 @@ def find(native: NativeFile, name: str) -> Place:
     """Return the stream and the column that ``name`` means.
 
     ``name`` is "stream/column", or the column's own name if one stream alone has it. Raises
-    InputError if none or several have it, and for a column that holds no numbers.
+    InputError if no stream or several have it, and for a column that holds no numbers.
     """
     places = [(stream, column) for stream in native.streams for column in stream.columns]
     found = [place for place in places if full_name(*place) == name]
@@ -43,7 +43,7 @@ def find(native: NativeFile, name: str) -> Place:
 
 
 def similar(name: str, names: Sequence[str], more: Sequence[str] = ()) -> str:
-    """Return which of ``names``, or ``more``, is like ``name``, else what there is; "" for none."""
+    """Return a name of ``names``, or ``more``, that is like ``name``, else a list or ""."""
     for known in (names, more):
         near = get_close_matches(name, known[:MOST], n=1)
         if near:
@@ -59,7 +59,7 @@ def _hint(name: str, places: Sequence[Place]) -> str:
 
 
 def _faults(native: NativeFile) -> str:
-    """Return what was lost of the file, which may be why a name is not there."""
+    """Return the warnings of the file, which may explain a missing name."""
     return f" (of the file: {'; '.join(map(one_line, native.told[:3]))})" if native.told else ""
 
 
@@ -73,27 +73,27 @@ LONGEST_TRACK = 48
 def map_of_ours(native: NativeFile) -> ChannelMap:
     """Return the map of ``native``, whose columns are `<channel>` or `<track>.<channel>`.
 
-    A column without a unit is in that of the channel. Raises InputError if none has such a
+    A column without a unit is in that of the channel. Raises InputError if no column has such a
     name, and if two mean the same.
     """
     channels = tuple(_entries(native))
     if not channels:
         raise InputError(
-            "none of its channels has one of our names; draft a channel map with "
+            "no channel of it has a name of floatref's; draft a channel map with "
             "`floatref channels FILE --draft-map`, complete it, and give it with --map"
         )
     seen: set[tuple[str, str | None]] = set()
     for entry in channels:
         if (entry.channel, entry.track) in seen:
             raise InputError(
-                f"{entry.native}: its channel is there twice; say in a map which counts"
+                f"{entry.native}: its channel is there twice; choose one of them in a map"
             )
         seen.add((entry.channel, entry.track))
     return ChannelMap(channels)
 
 
 def channel_of(column: Column) -> tuple[str, str | None] | None:
-    """Return the channel and the track that the name of ``column`` says, None if it says none."""
+    """Return channel and track from the name of ``column``, None for any other name."""
     track, _, channel = column.name.rpartition(".")
     if channel not in CHANNELS or not column.numeric or column.name.startswith("."):
         return None

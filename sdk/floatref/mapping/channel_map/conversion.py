@@ -15,7 +15,7 @@ DISTANCE = "distance"
 class Conversion:
     """Turns successive samples of one native column into those of our channel.
 
-    ``told`` has one line for each thing about units and samples that a user should know.
+    ``told`` has one warning for each fault of units and samples.
     """
 
     def __init__(self, entry: ChannelEntry, column: Column) -> None:
@@ -33,7 +33,7 @@ class Conversion:
 
     @property
     def unit(self) -> str:
-        """The unit that native samples, once scaled, are taken to be in."""
+        """The unit of native samples after scaling."""
         return self._column.unit if self.entry.unit is None else self.entry.unit
 
     def __call__(self, values: FloatArray, times_s: FloatArray) -> FloatArray:
@@ -67,7 +67,7 @@ class Conversion:
         return np.where(wild, np.nan, values) if wild.any() else values
 
     def finish(self) -> None:
-        """Tell what the samples amounted to."""
+        """Add the warnings about the samples."""
         if self._infinite:
             self.told.append(f"{self._infinite} samples are infinite; taken as missing")
         if self.integrates:
@@ -85,7 +85,7 @@ class Conversion:
         return found
 
     def _compare(self, stated: Unit, given: str) -> None:
-        """Hold the stated unit against the file's own, where samples are not scaled first."""
+        """Compare the stated unit with the file's own, where samples are not scaled first."""
         own = known_unit(given)
         if given == "" or own is None or own == stated or self.entry.scale != 1:
             return
@@ -102,7 +102,7 @@ class Conversion:
         advice = f"expected one of {wanted}"
         if unit.si == "1":
             advice = f'give scale, how many {wanted} one is, and unit = "{wanted}"'
-        raise InputError(f"unit {self.unit!r} is none of {self.entry.channel}; {advice}")
+        raise InputError(f"unit {self.unit!r} is not a unit of {self.entry.channel}; {advice}")
 
 
 class _Counter:
@@ -128,7 +128,7 @@ class _Counter:
 
 
 class _Travelled:
-    """The distance that a speed amounts to, by the trapezoidal rule; gaps are bridged by it."""
+    """The distance by integrating a speed with the trapezoidal rule, which bridges gaps."""
 
     def __init__(self) -> None:
         self._speed, self._time, self._distance = np.nan, np.nan, 0.0

@@ -1,4 +1,4 @@
-"""What a channel map says, checked and with defaults."""
+"""The entries of a channel map, checked and with defaults."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -25,9 +25,8 @@ class ChannelEntry:
     """Which native channel becomes which of ours, and how.
 
     A sample in SI units is sign · unit · (scale · native + offset), taken ``delay_s`` before its
-    time stamp. ``wrap`` is where a counter starts again; ``missing`` are values that say that
-    nothing was measured. Empty rows of a ``sparse`` column are no samples; None leaves that to
-    the channel.
+    time stamp. ``wrap`` is where a counter starts again; ``missing`` are values that mark a missing
+    sample. Empty rows of a ``sparse`` column are no samples; with None the channel decides.
     """
 
     native: str
@@ -45,7 +44,7 @@ class ChannelEntry:
 
     @property
     def skips_empty_rows(self) -> bool:
-        """Whether empty rows are no samples: readings of GNSS come when they come."""
+        """Whether empty rows are no samples: readings of GNSS come at uneven times."""
         return self.channel.startswith("gnss_") if self.sparse is None else self.sparse
 
 

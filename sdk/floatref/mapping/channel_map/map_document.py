@@ -35,7 +35,7 @@ def quantity_of(channel: str, axis: str | None) -> tuple[str, int]:
 
     ``channel`` is one of ours, `specific_force` or `angular_rate`; ``axis`` such as "z" or "-z"
     is the body axis (X forward, Y left, Z up) that the sensor's own axis points along. Raises
-    InputError for unknown names, an axis that is missing, and one that the channel is not along.
+    InputError for unknown names, an axis that is missing, and an axis that is not the channel's.
     """
     sign = -1 if axis is not None and axis.startswith("-") else 1
     along = None if axis is None else axis.lstrip("+-")
@@ -47,7 +47,7 @@ def quantity_of(channel: str, axis: str | None) -> tuple[str, int]:
     if along is None:
         return channel, sign
     if channel not in AXES:
-        raise InputError(f"axis is {axis}, but {channel} has none; leave it out")
+        raise InputError(f"axis is {axis}, but {channel} has no axis; remove it")
     if AXES[channel] != along:
         raise InputError(f"axis is {axis}, but {channel} is along {AXES[channel]}; correct one")
     return channel, sign
@@ -60,9 +60,9 @@ SCHEMA = "floatref-map-1"
 def read_map(path: Path) -> ChannelMap:
     """Return the channel map in the TOML file ``path``.
 
-    Raises InputError with one line naming the file, the entry and the value for text that is
-    no TOML, keys and values that the format does not have, files outside the map's folder,
-    two entries for one channel, and names of files that are not there.
+    Raises InputError with one line naming the file, the entry and the value for text that is not
+    TOML, keys and values that the format does not have, files outside the map's folder, two entries
+    for one channel, and names of files that are not there.
     """
     path = Path(path)
     document = read_toml(path, "channel map")
@@ -99,17 +99,17 @@ def _files(document: Mapping[str, Any], place: Path) -> dict[str, FileEntry]:
 def _file(entry: Mapping[str, Any], place: Path) -> FileEntry:
     options = dict(entry.get("options", {}))
     if "dbc" in options:
-        raise InputError("options: dbc is no option; write it beside them, as a file of the map's")
+        raise InputError("options: dbc is not an option; write it beside options")
     if "dbc" in entry:
-        options["dbc"] = str(_inside(entry["dbc"], place))
-    path = _inside(entry["path"], place) if "path" in entry else Path()
+        options["dbc"] = str(_resolve_inside(entry["dbc"], place))
+    path = _resolve_inside(entry["path"], place) if "path" in entry else Path()
     return FileEntry(path, entry.get("adapter"), options)
 
 
-def _inside(name: str, place: Path) -> Path:
+def _resolve_inside(name: str, place: Path) -> Path:
     """Return the file ``name`` beside the map ``place``; InputError if it leaves that folder."""
     said = f"path {shown(name)}"
-    # A map is to mean the same on every system, and be refused for the same on all.
+    # A map has the same meaning and the same errors on every system.
     if "\\" in name or re.match(r"/|[A-Za-z]:", name):
         raise InputError(f"{said}: give it relative to the map's folder, with / in between")
     try:
@@ -150,5 +150,5 @@ def _check_channels(channels: tuple[ChannelEntry, ...]) -> None:
 
 def _check_file(name: str, files: Mapping[str, FileEntry]) -> None:
     if name != SOURCE and name not in files:
-        there = ", ".join(map(_plain, files)) or "none"
+        there = ", ".join(map(_plain, files)) or "it has no files"
         raise InputError(f"file {shown(name)}: not in the map's files ({there}); add it there")

@@ -1,4 +1,4 @@
-"""Units held against the data: what no vehicle does is in another unit, or has another meaning."""
+"""Units checked against the data: a sample that no vehicle reaches is in another unit."""
 
 from collections.abc import Mapping
 from math import pi
@@ -15,7 +15,7 @@ TOLERANCES: Mapping[str, float] = {
     "sprung_specific_force": 2.0,
     "equipment_specific_force": 2.0,
 }
-"""How far the mean may be from g, in m/s²: a sensor for the 50 g of a wheel has a larger bias."""
+"""Largest distance of the mean from g, in m/s²: a sensor for the 50 g of a wheel has more bias."""
 MEANINGS = (
     (1.0, 0.5, "it looks like g, so state unit = 'g'"),
     (
@@ -28,14 +28,14 @@ MEANINGS = (
     (-STANDARD_GRAVITY, 5.0, "its axis points down, so state sign = -1"),
     (32.174, 5.0, "it looks like ft/s^2, so state unit = 'ft/s^2'"),
 )
-"""Mean that is none of an accelerometer at rest, how near it has to be, and what to do."""
+"""A mean that an accelerometer at rest cannot have, its tolerance in m/s², and the remedy."""
 
 
 def check_gravity(channel: str, mean: float) -> None:
     """Raise InputError if ``channel`` has to be about 9.8 m/s² and its ``mean`` is not.
 
-    The mean over a drive is that at rest: what is left of the motion is the change of velocity
-    over the time it took. NaN, the mean of no samples, passes.
+    The mean over a drive is that at rest, except for the change of velocity divided by the
+    duration. NaN, the mean of no samples, passes.
     """
     if not abs(mean - STANDARD_GRAVITY) > TOLERANCES.get(channel, float("inf")):
         return
@@ -45,14 +45,14 @@ def check_gravity(channel: str, mean: float) -> None:
 
 
 SAMPLED = 1 << 16
-"""Samples of a channel that are looked at for its usual size."""
+"""Samples of a channel from which its median size is calculated."""
 
 
 class Limit(NamedTuple):
-    """No sample is beyond ``most``, nor is the median size beyond ``usual``; what may explain it.
+    """Largest size of a sample, ``most``, and of the median, ``usual``, and the likely cause.
 
-    ``other`` is a unit in which it would be, and how many of it one SI unit is; ``cure`` is what
-    to do if it is not.
+    ``other`` is the likely unit of the file, with its number per SI unit; ``cure`` is the remedy in
+    all other cases.
     """
 
     most: float
@@ -102,7 +102,7 @@ LIMITS: Mapping[str, Limit] = {
     "pitch_acceleration": ANGULAR,
     "roll_acceleration": ANGULAR,
 }
-"""Those of channels that the processing does not look at itself."""
+"""Limits of the channels that the processing itself does not check."""
 
 
 def check_limits(channel: Channel) -> None:
@@ -113,18 +113,18 @@ def check_limits(channel: Channel) -> None:
     summary = Summary.of(channel.values)
     size = max(summary.greatest, -summary.least)
     if size > limit.most:
-        raise InputError(_said("a sample", size, channel.unit, limit))
+        raise InputError(_describe("a sample", size, channel.unit, limit))
     few = abs(every(max(1, channel.values.size // SAMPLED), channel.values))
     few = few[few == few]
     if few.size:
         few.sort()
         usual = float(few[few.size // 2])
         if usual > limit.usual:
-            raise InputError(_said("the median size", usual, channel.unit, limit))
+            raise InputError(_describe("the median size", usual, channel.unit, limit))
     check_gravity(channel.id.name, summary.mean)
 
 
-def _said(what: str, size: float, unit: str, limit: Limit) -> str:
+def _describe(what: str, size: float, unit: str, limit: Limit) -> str:
     said = "" if unit == "1" else f" {unit}"
     line = f"{what} is {size:.4g}{said}, which no vehicle reaches"
     if limit.per_unit == 1:

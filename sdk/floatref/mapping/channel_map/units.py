@@ -1,4 +1,4 @@
-"""Units as files write them, and how they become the SI units of our channels."""
+"""Units as files write them, and their factors to the SI units of our channels."""
 
 from collections.abc import Mapping
 from difflib import get_close_matches
@@ -98,7 +98,7 @@ CASED = {"nm", "kn"}
 def known_unit(text: str) -> Unit | None:
     """Return the unit that a file or a map writes as ``text``, None if it is not known.
 
-    Case is told apart only where it matters: `Mg` is a thousandth of g, but `Nm` is no length.
+    Case matters only for some spellings: `Mg` is a thousandth of g, but `Nm` is not a length.
     """
     plain = text.strip().strip("[]()").strip().replace(" ", "")
     small = plain.lower()

@@ -13,9 +13,9 @@ from floatref.mapping.clocks.clock_keys import (
     ClockKey,
     Key,
     absolute,
-    beginning_told,
     clock_key,
     name_clock,
+    warn_of_beginning,
 )
 from floatref.mapping.clocks.columns import Taken
 from floatref.mapping.clocks.epochs import between_epochs, since_zero
@@ -30,9 +30,9 @@ from floatref.measures.clocks.clock_alignment import (
 from floatref.values.native import Epoch, NativeFile, Stream
 
 Token = ChannelEntry | str
-"""What a column was taken for: an entry of the map, or an alignment, by its own name."""
+"""Purpose of a column: an entry of the map, or an alignment, by its own name."""
 Places = Mapping[tuple[Key, Token], int]
-"""Where in what was taken of a stream the samples for a token are."""
+"""Index of the column of a stream that was read for a token."""
 OWN, BASE = ("pulses",), ("base_pulses", "base_time", "base_pps")
 
 
@@ -93,7 +93,7 @@ class _Aligning:
             entry, clock = self._entry(key), clock_key(key, stream)
             report, told = (
                 None,
-                beginning_told(key, stream.stream) if self._unsaid(key, entry) else (),
+                warn_of_beginning(key, stream.stream) if self._has_no_entry(key, entry) else (),
             )
             if (clock, entry) not in known:
                 with naming(f"clock of {name_clock(key)}"):
@@ -106,8 +106,8 @@ class _Aligning:
             )
         return found
 
-    def _unsaid(self, key: Key, entry: ClockEntry | None) -> bool:
-        """Tell whether ``key`` is beside the base, on its clock, without a word in the map."""
+    def _has_no_entry(self, key: Key, entry: ClockEntry | None) -> bool:
+        """Tell whether ``key`` is on the clock of the base and has no entry in the map."""
         same = clock_key(key, self._taken[key]) == clock_key(self._base, self._taken[self._base])
         return entry is None and same and key != self._base
 
@@ -177,7 +177,7 @@ class _Aligning:
         return Timed(taken.columns[at], Aligned(taken, self._start(place), None, self._spool))
 
     def _check_clock(self, place: Key, name: str, of: Key | None) -> None:
-        """Refuse pulses and readings that are not on the clock which they are to align."""
+        """Refuse pulses and readings that are not on the clock that they align."""
         owner = self._base if of is None else of
         fits = clock_key(place, self._taken[place]) == clock_key(owner, self._taken[owner])
         if of is None and (not fits or self._entry(place) is not None):
@@ -187,7 +187,7 @@ class _Aligning:
 
 
 def _no_surer(alignment: Alignment, step_s: float) -> Alignment:
-    """Return ``alignment`` with a drift no surer than edges between samples ``step_s`` apart are.
+    """Return ``alignment`` with at least the drift's uncertainty of edges ``step_s`` apart.
 
     An edge lies anywhere within its step, and the pulses anywhere between the first and the last.
     """

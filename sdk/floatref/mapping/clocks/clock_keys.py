@@ -1,4 +1,4 @@
-"""Which clock a stream is on, as far as its file says."""
+"""The clock of a stream, as far as its file gives it."""
 
 from floatref.mapping.channel_map.entries import SOURCE
 from floatref.mapping.clocks.columns import UNKNOWN, Taken
@@ -18,28 +18,28 @@ def clock_key(key: Key, taken: Taken) -> ClockKey:
 
 
 def absolute(clock: ClockKey) -> bool:
-    """Tell whether ``clock`` knows the time of day."""
+    """Tell whether ``clock`` has the time of day."""
     return clock[2] is not Epoch.LOCAL
 
 
 def name_clock(key: Key) -> str:
-    """Return the stream ``key`` as an error text names it."""
+    """Return the name of the stream ``key`` in messages."""
     file = "the source" if key[0] == SOURCE else key[0]
     return f"{file}, {key[1]}" if key[1] else file
 
 
-def unstarted(stream: Stream) -> bool:
+def has_no_start(stream: Stream) -> bool:
     """Tell whether the file of ``stream`` counts it from zero by a rate."""
     clock = stream.clock
     begun = clock.first_tick or clock.origin_ns or clock.name
     return clock.rate is not None and not begun and clock.epoch is Epoch.LOCAL
 
 
-def beginning_told(key: Key, stream: Stream) -> tuple[str, ...]:
-    """Return a line on the stream ``key`` if it is taken to begin with the accelerometer's."""
-    if not unstarted(stream):
+def warn_of_beginning(key: Key, stream: Stream) -> tuple[str, ...]:
+    """Return a warning on the stream ``key`` if it is taken to begin with the accelerometer's."""
+    if not has_no_start(stream):
         return ()
     return (
         f"clock of {name_clock(key)}: counted from zero by its rate; taken to begin with the "
-        'accelerometer, on its clock; if so, say align = "offset" for this stream under [[clocks]]',
+        'accelerometer, on its clock; if so, write align = "offset" for it under [[clocks]]',
     )

@@ -9,16 +9,16 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ClockEntry
 from floatref.mapping.clocks.row_times import Timing
-from floatref.mapping.clocks.stamps import leap_told, uniform_clock
+from floatref.mapping.clocks.stamps import uniform_clock, warn_of_leap
 from floatref.mapping.spool import Spool
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.native import Rows, Stream
 from floatref.values.scanning import chunks
 
 UNKNOWN = "unknown"
-"""Name of the clock of a stream whose file says nothing about time."""
+"""Name of the clock of a stream whose file gives no time."""
 TOO_COARSE = 0.5
-"""Part of all rows that may repeat the time of the one before."""
+"""Largest share of rows that repeat the time of the row before."""
 
 Convert = Callable[[FloatArray, FloatArray], FloatArray]
 """From native samples and their times in s to samples in SI units."""
@@ -33,7 +33,7 @@ class Shown:
         self._progress, self._total, self._before = progress, max(total, 1), 0
 
     def of(self, count: int) -> Progress | None:
-        """Return what the next stream, of ``count`` rows, is to call."""
+        """Return the callback for the next stream, of ``count`` rows."""
         before, self._before = self._before, self._before + count
         progress = self._progress
         if progress is None:
@@ -72,11 +72,11 @@ def take(
     stated: ClockEntry | None = None,
     progress: Progress | None = None,
 ) -> Taken:
-    """Return what ``wanted`` of ``stream``, kept in ``spool``.
+    """Return the ``wanted`` columns of ``stream``, stored in ``spool``.
 
     The rate of ``stated``, if it has one, replaces the stream's own clock from its first row on.
-    Raises InputError for a stream without a clock or rows, one whose time goes back or stands
-    still, and if the disk has no room; ValueError for rows that do not fit together.
+    Raises InputError for a stream without a clock or rows, one whose time goes back or does not
+    advance, and if the disk has no room; ValueError for rows that do not fit together.
     """
     own = stated is None or stated.rate is None
     if own and stream.clock.name == UNKNOWN:
@@ -108,7 +108,7 @@ class _Taking:
         columns = [column.finish() for column in self._columns]
         rate, start, times = self._timing.rate, self._timing.start_s, None
         if self._times is not None:
-            rate, first_s, times, columns = self._settled(self._times.finish(), columns, told)
+            rate, first_s, times, columns = self._settle(self._times.finish(), columns, told)
             start += Fraction(first_s)
         return Taken(self._stream, tuple(columns), start, rate, times, tuple(told))
 
@@ -124,14 +124,14 @@ class _Taking:
         if self._times is not None:
             self._times.append(times)
 
-    def _settled(
+    def _settle(
         self, times: FloatArray, columns: list[FloatArray], told: list[str]
     ) -> tuple[Fraction | None, float, FloatArray | None, list[FloatArray]]:
         """Return rate and start of a uniform clock; else the stamps, each time once."""
         clock = uniform_clock(times, self._timing.unit_s)
         if clock is not None:
             return clock.rate, clock.start_s, None, columns
-        leap = leap_told(times)
+        leap = warn_of_leap(times)
         told += [] if leap is None else [leap]
         kept = _first_of_each(times)
         repeated = int(kept.size - kept.sum())
@@ -142,7 +142,7 @@ class _Taking:
                 f"stream {self._stream.name!r}: {repeated} of {kept.size} rows repeat the time of "
                 "the one before; record finer time stamps, or state rate_hz under [[clocks]]"
             )
-        told.append(f"{repeated} rows repeat the time of another; the first of each is kept")
+        told.append(f"{repeated} rows repeat the time of another; only the first of each is used")
         thin = [self._spool.thinned(values, kept) for values in (times, *columns)]
         return None, 0.0, thin[0], thin[1:]
 

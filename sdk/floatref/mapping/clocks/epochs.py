@@ -6,7 +6,7 @@ from floatref.measures.clocks.gnss_time import (
     GPS_EPOCH_UNIX_S,
     gps_minus_utc_at_gps_s,
     gps_minus_utc_s,
-    leap_seconds_told,
+    warn_of_leap_seconds,
 )
 from floatref.values.arrays import FloatArray
 from floatref.values.native import Epoch
@@ -18,14 +18,14 @@ Moment = tuple[Fraction, Epoch]
 
 
 def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]]:
-    """Return how many s ``own`` is after ``base``, and what there is to say about it.
+    """Return by how many s ``own`` is after ``base``, and warnings.
 
-    A time of an unknown day is of the day that brings both nearest. Raises InputError for UTC
+    A time of an unknown day is put on the day nearest to the other. Raises InputError for UTC
     before GPS time began, where both are needed.
     """
     if own[1] is base[1]:
         return own[0] - base[0], (
-            "aligned by the absolute times of both clocks, as right as both were set",
+            "aligned by the absolute times of both clocks, as exactly as both were set",
         )
     if Epoch.DAY in (own[1], base[1]):
         apart = _unix(own) % DAY_S - _unix(base) % DAY_S
@@ -33,7 +33,7 @@ def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]
         return apart, ("aligned by the time of day, taken to be of the same day",)
     utc = float(own[0] if own[1] is Epoch.UTC else base[0])
     line = f"aligned by UTC and GPS time, {gps_minus_utc_s(utc)} leap seconds apart"
-    doubt = leap_seconds_told(utc)
+    doubt = warn_of_leap_seconds(utc)
     return _unix(own) - _unix(base), (line,) if doubt is None else (line, doubt)
 
 
@@ -53,7 +53,7 @@ RECENT_UNIX_S = 1.7e9
 def since_zero(
     readings: FloatArray, zero_s: float, epoch: Epoch
 ) -> tuple[FloatArray, tuple[str, ...]]:
-    """Return ``readings`` in s after ``zero_s`` of ``epoch``, and what they are taken for.
+    """Return ``readings`` in s after ``zero_s`` of ``epoch``, and how they are interpreted.
 
     They may count from the epoch, the week or the day. Where the receiver's own time is UTC,
     readings beyond a day can only be GPS time, which is leap seconds ahead of it.
@@ -66,11 +66,11 @@ def since_zero(
     if epoch is Epoch.GPS:
         return readings + _turns(zero_s - first, WEEK_S) - zero_s, ()
     if first <= DAY_S:
-        said = "base_time is taken for s of the day in UTC, as the receiver's own time is"
+        said = "base_time is read as s of the day in UTC, like the receiver's own time"
         return readings + _turns(zero_s - first, DAY_S) - zero_s, (said,)
     leaps = gps_minus_utc_s(zero_s if epoch is Epoch.UTC else RECENT_UNIX_S)
     in_utc = readings + GPS_EPOCH_UNIX_S - leaps
-    said = f"base_time is taken for GPS time, {leaps} s ahead of the receiver's own, which is UTC"
+    said = f"base_time is read as GPS time, {leaps} s ahead of the receiver's own, which is UTC"
     period = DAY_S if epoch is Epoch.DAY else WEEK_S
     return in_utc + _turns(zero_s - float(in_utc[0]), period) - zero_s, (said,)
 

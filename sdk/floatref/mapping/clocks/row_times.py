@@ -1,4 +1,4 @@
-"""When the rows of a stream were taken: by its rate, by its ticks, or by what a map states."""
+"""The times of the rows of a stream: by its rate, by its ticks, or by a channel map."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -15,8 +15,8 @@ from floatref.values.native import Epoch, Rows, Stream, Ticks
 class Timing:
     """The times of successive rows of ``stream``.
 
-    ``rate`` in Hz counts them, from the first tick or from ``start_s`` on; None reads their
-    ticks. ``rows`` is how many were kept, ``start_s`` when the first was taken, after the zero of
+    ``rate`` in Hz counts them, from the first tick or from ``start_s`` on; None reads their ticks.
+    ``rows`` is the number of rows used, ``start_s`` the time of the first in s after the zero of
     the stream's epoch.
     """
 
@@ -32,16 +32,16 @@ class Timing:
             self._start = Fraction(start_s)
 
     def __call__(self, rows: Rows) -> tuple[FloatArray, BoolArray | None]:
-        """Return the times of the rows that are kept, in s after the first, and which those are.
+        """Return the times of the rows that are used, in s after the first, and these rows.
 
-        None if all are. Raises InputError for a time that no clock has, ValueError for ticks that
-        are no numbers.
+        None stands for all rows. Raises InputError for a time that no clock has, ValueError for
+        ticks that are not numbers.
         """
         ticks = None if rows.ticks is None else as_ticks(np.asarray(rows.ticks))
         if self.rate is not None:
             times, kept = self._counted(rows, ticks), None
         elif ticks is None:
-            raise InputError(f"stream {self._stream.name!r} has no time; its adapter gives none")
+            raise InputError(f"stream {self._stream.name!r} has no time from its adapter")
         else:
             kept = self._advancing(ticks)
             times = self._since_first(ticks[kept])
@@ -57,21 +57,21 @@ class Timing:
 
     @property
     def unit_s(self) -> float:
-        """The unit in s that time stamps are rounded to; floats tell none."""
+        """The unit in s that time stamps are rounded to; unknown for floats."""
         return 0.0 if isinstance(self._first, float) else float(self._clock.tick_s)
 
     def told(self) -> Iterator[str]:
-        """Yield what there is to say of the rows; InputError if they are none, or go back."""
+        """Yield warnings about the rows; InputError for no rows, or times that go back."""
         seen = self.rows + self._advancing.back + self._advancing.untimed
         if not seen:
             raise InputError(f"stream {self._stream.name!r} holds no rows; copy the complete file")
         if not self.rows:
             raise InputError(
-                f"stream {self._stream.name!r}: none of its {seen} rows has a time; state rate_hz "
+                f"stream {self._stream.name!r}: all {seen} rows have no time; state rate_hz "
                 "for it under [[clocks]] in the map"
             )
         if seen < self._stream.count:
-            yield f"says {self._stream.count} rows and holds {seen}; the file is truncated"
+            yield f"has {seen} of {self._stream.count} rows; the file is truncated"
         yield from self._advancing.told()
 
     def _counted(self, rows: Rows, ticks: Ticks | None) -> FloatArray:

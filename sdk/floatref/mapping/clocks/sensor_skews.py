@@ -1,4 +1,4 @@
-"""Whether laser and accelerometer of each wheel path are on time and at one with each other."""
+"""Skew and gain between laser and accelerometer of each wheel path."""
 
 from collections.abc import Iterator, Mapping
 from math import isnan
@@ -19,7 +19,7 @@ def skews_of(recording: Recording) -> tuple[tuple[Mapping[str, Any], ...], tuple
         skew = sensor_skew(force, height, distance)
         reports.append(_report(track, skew))
         warnings.append(skew_warning(skew, force, height))
-        # A skew is told of sensors alone that see the same motion.
+        # A skew is reported only for sensors that measure the same motion.
         if distance is not None and isnan(skew.sigma_s):
             warnings.append(gain_warning(sensor_gain(force, height, distance), height))
     return tuple(reports), tuple(line for line in warnings if line is not None)

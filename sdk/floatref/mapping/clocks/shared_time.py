@@ -1,6 +1,6 @@
 """Channels of several devices, each started and stopped for itself, cut to the time they share.
 
-Within one clock nothing is cut: there a channel that ends early is one that was lost.
+Within one clock nothing is cut: there the samples behind an early end were lost.
 """
 
 from collections.abc import Hashable, Sequence
@@ -25,10 +25,10 @@ class Span(NamedTuple):
 def cut_to_shared(
     channels: Sequence[Channel], clocks: Sequence[Hashable], base: int
 ) -> tuple[tuple[Channel, ...], tuple[str, ...]]:
-    """Return ``channels``, those of the vehicle cut to what all its clocks share, and what to tell.
+    """Return ``channels``, those of the vehicle cut to the time its clocks share, and warnings.
 
-    ``clocks`` says by channel which clock it came from, ``base`` which channel is that of the
-    time base. Times that differ by less than what a recording may lack stay. Raises InputError for
+    ``clocks`` has the clock of every channel, ``base`` is the channel of the time base. Times that
+    differ by less than the missing time that a recording allows are not cut. Raises InputError for
     a channel that shares no time with the base.
     """
     spans = [Span(*channel.span_s) for channel in channels]
@@ -38,14 +38,14 @@ def cut_to_shared(
     of = {clocks[k] for k in vehicle}
     if len(of) < 2:
         return tuple(channels), ()
-    whole = [_united([spans[k] for k in vehicle if clocks[k] == clock]) for clock in of]
+    whole = [_unite([spans[k] for k in vehicle if clocks[k] == clock]) for clock in of]
     shared = Span(max(s.begin for s in whole), min(s.end for s in whole))
     if shared.begin > shared.end:
         raise InputError(
             "the channels of its clocks share no time; look at each with fewer of them mapped, "
             "and correct under [[clocks]] how they are aligned"
         )
-    widest = _united(whole)
+    widest = _unite(whole)
     if _near(shared, widest):
         return tuple(channels), ()
     cut = [_cut(c, shared) if k in vehicle else c for k, c in enumerate(channels)]
@@ -66,7 +66,7 @@ def _check(channel: Channel, span: Span, base: Channel, time: Span) -> None:
     )
 
 
-def _united(spans: Sequence[Span]) -> Span:
+def _unite(spans: Sequence[Span]) -> Span:
     return Span(min(s.begin for s in spans), max(s.end for s in spans))
 
 

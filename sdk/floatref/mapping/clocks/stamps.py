@@ -1,4 +1,4 @@
-"""Time stamps of a stream: which are kept, and the uniform clock that they were rounded from."""
+"""Time stamps of a stream: which are used, and the uniform clock that they were rounded from."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -13,19 +13,19 @@ from floatref.values.native import Ticks
 from floatref.values.scanning import chunks, longest_step
 
 MOST_DIGITS = 12
-"""Significant digits of a rate or a step that is looked for."""
+"""Significant digits of a rate or a step that are tried."""
 TURNS_BACK = 0.01
-"""Part of all rows whose time may lie before that of an earlier one."""
+"""Largest share of rows whose time lies before that of an earlier row."""
 FEW = 3
-"""So many may in any case."""
+"""Number of such rows that are always accepted."""
 LEAP_S = 3600.0
-"""A step beyond this, in s, is a clock that was set."""
+"""Longest step in s; a longer one means that the clock was set."""
 
 
 def as_ticks(ticks: NDArray[Any]) -> Ticks:
     """Return ``ticks``, shape (n,), as int64 or float64; ValueError if they are neither."""
     if ticks.ndim != 1:
-        raise ValueError(f"ticks of shape {ticks.shape} do not fit, which are one for each row")
+        raise ValueError(f"ticks of shape {ticks.shape} do not fit; give one for each row")
     if ticks.dtype.kind == "f":
         return ticks.astype(np.float64, copy=False)
     if ticks.dtype.kind not in "iu" or (ticks.dtype.kind == "u" and (ticks >= 1 << 63).any()):
@@ -80,8 +80,8 @@ class Advancing:
         self.untimed += int((~known).sum())
 
 
-def leap_told(times_s: FloatArray) -> str | None:
-    """Return a line on the longest step of ``times_s``, shape (N,), if no run pauses so long."""
+def warn_of_leap(times_s: FloatArray) -> str | None:
+    """Return a warning if the longest step of ``times_s``, shape (N,), is longer than a pause."""
     if times_s.size < 2:
         return None
     row, step_s = longest_step(times_s)
@@ -94,14 +94,14 @@ def leap_told(times_s: FloatArray) -> str | None:
 
 
 def uniform_clock(times_s: FloatArray, unit_s: float) -> UniformClock | None:
-    """Return the uniform clock that ``times_s`` in s, shape (n,), rounded to ``unit_s``, are of.
+    """Return the uniform clock of ``times_s`` in s, shape (n,), which are rounded to ``unit_s``.
 
     The stamps do not decrease. None if there is no such clock.
 
     A constant rate within one unit of every stamp is a uniform clock: the line through the first
-    and the last stamp of one is never farther off. Of all such rates the roundest, in Hz or as
-    a step in s, is taken. None are stamps that leave one out, by their longest step; where the
-    step is nearly the unit, rounding looks the same.
+    and the last stamp of such a clock is never farther off. Of all such rates the roundest, in Hz
+    or as a step in s, is taken. The result is None for stamps with a missing one, by their longest
+    step; where the step is nearly the unit, rounding looks the same.
     """
     step = float(times_s[-1] - times_s[0]) / max(times_s.size - 1, 1)
     # float64 rounds each stamp, and a sum of steps once more.
@@ -124,8 +124,8 @@ def _candidates(step: float) -> Iterator[float]:
 
 
 def _broken(times_s: FloatArray, step: float, unit: float) -> bool:
-    """Tell whether stamps repeat or leave one out, which rounding cannot explain."""
-    # Several samples within one unit of the last decimal have equal stamps; others have not.
+    """Tell whether stamps repeat or miss one in a way that rounding cannot explain."""
+    # Only samples within one unit of the last decimal have equal stamps.
     if step < 0.99 * unit:
         return False
     for _, part in chunks(times_s, overlap=1):

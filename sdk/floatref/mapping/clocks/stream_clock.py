@@ -22,8 +22,8 @@ from floatref.values.scanning import CHUNK, chunks
 class Aligned:
     """A stream whose first row was taken ``start_s`` after the zero of its own clock.
 
-    ``alignment`` leads to base time, None if the clock is the base clock. ``report`` is what
-    there is to say of the alignment, None for the base; ``told`` has lines for its user.
+    ``alignment`` leads to base time, None if the clock is the base clock. ``report`` describes the
+    alignment, None for the base; ``told`` has warnings.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Aligned:
         return self._clocks[delay_s]
 
     def sparse(self, values: FloatArray, clock: Clock) -> tuple[FloatArray, Clock]:
-        """Return the samples of ``values``, shape (N,), that are there, and their own clock."""
+        """Return the samples of ``values``, shape (N,), without missing ones, and their clock."""
         if not any(np.isnan(part).any() for _, part in chunks(values)):
             return values, clock
         found, times = self._spool.column(), self._spool.column()
@@ -73,7 +73,7 @@ class Aligned:
         return found.finish(), StampedClock(stamps) if even is None else even
 
     def own_times(self, first: int = 0, count: int | None = None) -> FloatArray:
-        """Return when rows from ``first`` on were taken, in s after the zero of the own clock."""
+        """Return the times of rows from ``first`` on, in s after the zero of the own clock."""
         taken = self._taken
         if taken.rate is not None:
             size = taken.columns[0].size - first if count is None else count
@@ -108,7 +108,7 @@ class Aligned:
 
 
 def alignment_report(key: Key, entry: ClockEntry | None, alignment: Alignment) -> Mapping[str, Any]:
-    """Return what there is to keep of the alignment of the stream ``key`` by ``entry``."""
+    """Return the report of the alignment of the stream ``key`` by ``entry``."""
     return {
         "file": key[0],
         "stream": key[1],
@@ -123,7 +123,7 @@ def alignment_report(key: Key, entry: ClockEntry | None, alignment: Alignment) -
 
 @dataclass(frozen=True, eq=False)
 class Timed:
-    """Samples ``values``, shape (N,), of a stream whose own clock is known; looked at in pieces."""
+    """Samples ``values``, shape (N,), of a stream with a known clock; read in pieces."""
 
     values: FloatArray
     stream: Aligned
@@ -136,7 +136,7 @@ class Timed:
         return (end - begin) / max(last, 1)
 
     def pulses(self) -> FloatArray:
-        """Return the times of the pulses in s on the own clock; InputError if there are none."""
+        """Return the times of the pulses in s on the own clock; InputError without pulses."""
         rate, start = self.stream.rate, self.stream.start_s
         if rate is not None:
             return pulse_times_at_rate(self.values, float(rate), start)

@@ -1,4 +1,4 @@
-"""A channel map to begin with: what can be guessed is filled in, all else stands as a comment."""
+"""A channel map to begin with: guesses are filled in, everything else is a comment."""
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
@@ -11,7 +11,7 @@ from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import ChannelEntry
 from floatref.mapping.channel_map.map_document import FORMAT
 from floatref.mapping.channel_map.units import MPS, known_unit
-from floatref.mapping.clocks.clock_keys import unstarted
+from floatref.mapping.clocks.clock_keys import has_no_start
 from floatref.mapping.clocks.columns import UNKNOWN
 from floatref.mapping.draft.guesses import Candidate, Guess, candidates
 from floatref.values.channels import CHANNELS
@@ -34,11 +34,11 @@ SIGNS = {
     "pitch_angle": "against rest, nose down positive",
     "roll_angle": "against rest, left side up positive",
 }
-"""What is easily the other way round."""
+"""Sign conventions that are easily reversed."""
 EITHER = {"height": "; to the axle it is suspension_deflection"}
-"""What a channel that is not sure may be instead."""
+"""Alternative channel of an uncertain one."""
 NOSE_DOWN = ("gnss_pitch", "pitch_rate", "pitch_angle", "pitch_acceleration")
-"""What is the other way round where an adapter's note says so."""
+"""Channels that are reversed if an adapter's note gives the other sign."""
 VEHICLE = """
 # [setup.vehicle]  # for an estimate of the road from the response
 # model = "quarter-car"  # the corner that is measured
@@ -52,13 +52,13 @@ VEHICLE = """
 
 
 def remark(found: Guess) -> str:
-    """Return the comment behind the channel of an entry, "" for none."""
+    """Return the comment behind the channel of an entry, "" if it has no comment."""
     either = "" if found.sure else EITHER.get(found.channel, "")
     return f"  # {SIGNS[found.channel]}{either}" if found.channel in SIGNS else ""
 
 
 def turned(found: Guess, note: str) -> bool:
-    """Tell whether the ``note`` of an adapter says that ``found`` is the other way round."""
+    """Tell whether ``found`` has the other sign by the ``note`` of an adapter."""
     return found.channel in NOSE_DOWN and "nose up positive" in note
 
 
@@ -76,8 +76,8 @@ LONGEST_TEXT = 256
 def draft_map(native: NativeFile, source: Path, adapter: str, dbc: str | None = None) -> str:
     """Return the text of a channel map for ``native``, read from ``source`` with ``adapter``.
 
-    Entries that nothing but a name speaks for, a second one for the same channel, and columns
-    that are unlike any channel are comments.
+    Entries guessed from a name alone, a second one for the same channel, and columns that are
+    unlike any channel are comments.
     """
     used: set[str] = set()
     known = candidates(native)
@@ -101,7 +101,7 @@ def _head(source: Path, adapter: str, dbc: str | None) -> Iterator[str]:
 
 
 def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
-    """State what is missing of the clocks of the streams that are ``used``."""
+    """Write the missing clock entries of the streams that are ``used``."""
     for stream in native.streams:
         if stream.clock.name == UNKNOWN:
             mark = "" if stream.name in used else "# "
@@ -111,10 +111,10 @@ def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:
     timed = [s for s in native.streams if s.clock.name != UNKNOWN]
     names = {(s.clock.name, s.clock.epoch) for s in timed}
     if len(names) > 1 or any(epoch is Epoch.GPS for _, epoch in names):
-        yield "\n# Clocks other than the accelerometer's need a word on how they are aligned:"
-    elif sum(map(unstarted, timed)) > 1:
+        yield "\n# Clocks other than the accelerometer's need an entry with their alignment:"
+    elif sum(map(has_no_start, timed)) > 1:
         yield "\n# Streams are counted from zero, each by its rate. One that began later, or that"
-        yield "# has a clock other than the accelerometer's, needs a word on how it is aligned:"
+        yield "# has a clock other than the accelerometer's, needs an entry with its alignment:"
     else:
         return
     yield '# [[clocks]]\n# stream = "…"\n# align = "offset"  # or "pulses" or "gnss"'
@@ -138,7 +138,7 @@ def _entries(native: NativeFile, known: Sequence[Candidate], used: set[str]) -> 
 
 
 def _lesser(known: Sequence[Candidate], column: Column, found: Guess) -> bool:
-    """Tell whether the file has something better than ``column`` for its channel.
+    """Tell whether the file has a better column than ``column`` for its channel.
 
     A height over the ellipsoid rather than over a geoid model, whose steps no road has; a length
     rather than a speed, which has to be integrated.
@@ -160,7 +160,7 @@ def _ellipsoidal(column: Column) -> bool:
 
 
 def _maps(native: NativeFile, stream: Stream, column: Column, found: Guess) -> bool:
-    """Tell whether the entry for ``column`` can be read as it stands, and means that column."""
+    """Tell whether the entry for ``column`` can be read unchanged, and means that column."""
     name, unit = full_name(stream, column), _unit(column, found)
     if not all(map(_writable, (name, unit, stream.name))):
         return False
@@ -192,7 +192,7 @@ def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
         lines.append("sign = -1")
     if found.track is not None:
         lines.append(f"track = {_text(found.track)}")
-    doubt = "" if column.unit.strip() else "  # the file gives none: check it"
+    doubt = "" if column.unit.strip() else "  # not given by the file: check it"
     if column.unit.strip() and known_unit(column.unit) is None:
         doubt = "  # not known: state another, with a scale"
     if _si(column) == "1" != CHANNELS[found.channel].unit:
@@ -215,17 +215,17 @@ def _text(text: str) -> str:
     quoted = json.dumps(text, ensure_ascii=False)
     dotted = text.count(".") >= MOST_PARTS
     return "".join(
-        c if c.isprintable() and not (dotted and c == ".") else _escaped(c) for c in quoted
+        c if c.isprintable() and not (dotted and c == ".") else _escape(c) for c in quoted
     )
 
 
-def _escaped(character: str) -> str:
-    """Return ``character`` as TOML escapes it; a lone surrogate, which TOML has not, as U+FFFD."""
+def _escape(character: str) -> str:
+    """Return ``character`` as TOML escapes it; a lone surrogate, which TOML forbids, as U+FFFD."""
     code = ord(character)
     return f"\\U{0xFFFD if 0xD800 <= code <= 0xDFFF else code:08X}"
 
 
 def _comment(text: str) -> str:
-    """Return ``text`` as it may stand in a comment: printable, on one line and not too dotted."""
+    """Return ``text`` for a comment: printable, on one line and without a row of dots."""
     plain = one_line(text[:200])
     return plain.replace(".", "·") if plain.count(".") >= MOST_PARTS else plain

@@ -1,4 +1,4 @@
-"""What a native channel may be, from its name and its unit."""
+"""Guesses of the channel of a native column, from its name and its unit."""
 
 import re
 from typing import NamedTuple
@@ -17,7 +17,7 @@ GNSS = (
 PLACE = r"\blat(itude)?\b|\blong?(itude)?\b|\balt(itude)?\b"
 """Words for a place, if the unit is that of an angle or a length."""
 ABOUT = r"geoid|undulation|std|stdev|sigma|\bsd\b|variance|accuracy|dop\b|\bage\b|temp"
-"""Words for what is known about a channel, rather than the channel."""
+"""Words for properties of a channel, rather than the channel."""
 TURNING = r"gyr|rate|omega"
 """Words for an angular rate where there is no unit."""
 EITHER = r"\bride\b|\blevel"
@@ -49,7 +49,7 @@ QUANTITIES = (
 
 
 class Guess(NamedTuple):
-    """A channel and a wheel path, and whether the unit speaks for it, too."""
+    """A channel and a wheel path, and whether the unit confirms it."""
 
     channel: str
     track: str | None
@@ -57,7 +57,7 @@ class Guess(NamedTuple):
 
 
 def guess(stream: str, column: Column) -> Guess | None:
-    """Return what ``column`` of ``stream`` may be, None if nothing speaks for a channel."""
+    """Return the guess for ``column`` of ``stream``, None without evidence for a channel."""
     if not column.numeric:
         return None
     ours, receiver = channel_of(column), bool(re.search(GNSS, words_of(stream)))
@@ -97,7 +97,7 @@ WHEELS = ("unsprung_", "suspension_")
 
 
 class Candidate(NamedTuple):
-    """A column and what it may be."""
+    """A column and its guess."""
 
     stream: Stream
     column: Column
@@ -105,7 +105,7 @@ class Candidate(NamedTuple):
 
 
 def candidates(native: NativeFile) -> tuple[Candidate, ...]:
-    """Return every column of ``native`` in order, with what it may be.
+    """Return every column of ``native`` in order, with its guess.
 
     Where wheels are measured and no height is, the accelerometer of the body is that of a sprung
     mass, not of a profiler; a rear axle that is the only one has the channels of that.

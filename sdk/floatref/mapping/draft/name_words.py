@@ -1,4 +1,4 @@
-"""The words of a native name, and the wheel path that they say."""
+"""The words of a native name, and the wheel path in them."""
 
 import re
 
@@ -9,11 +9,11 @@ TRACKS = {
 }
 """Words for the wheel paths; a corner of the vehicle is on one, too."""
 AXIS = r"\b(a|w|acc(el)?|gyro?|om(ega)?)?"
-"""What may stand before the letter of an axis, in one word with it."""
+"""Prefixes of the letter of an axis, in one word with it."""
 LONGITUDINAL = rf"\blong|{AXIS}x\b|fwd|forward|surge"
 LATERAL = rf"\blat(eral)?\b|{AXIS}y\b|sway"
 CORNER = r"\b(FL|FR|RL|RR)(?=[A-Z][a-z])"
-"""A corner of the vehicle before a word, as in FLAcc."""
+"""A corner of the vehicle as prefix, as in FLAcc."""
 
 
 def words_of(name: str) -> str:
@@ -24,5 +24,5 @@ def words_of(name: str) -> str:
 
 
 def track_of(words: str) -> str | None:
-    """Return the wheel path that ``words`` say, None if they say none."""
+    """Return the wheel path named in ``words``, None if they name no wheel path."""
     return next((name for name, pattern in TRACKS.items() if re.search(pattern, words)), None)

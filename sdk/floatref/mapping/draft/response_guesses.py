@@ -1,4 +1,4 @@
-"""What a native channel of the vehicle's response may be: wheels, body and what is between."""
+"""Guesses of native channels of the vehicle's response: wheels, body and suspension."""
 
 import re
 from collections.abc import Callable
@@ -18,15 +18,15 @@ PLACES = (
 )
 """Where a sensor is, and words for it, the more particular first."""
 MASSES = {"wheel": "unsprung", "body": "sprung"}
-"""How channels of a place are called, where it is not by the place itself."""
+"""Names of the channels of a place, where they differ from the place."""
 REAR = r"\brear|\b(rl|rr|lr|hl|hr|ra)\b|hinten|hinter"
 SPRING = (
     r"\bsusp(?!ect)|\blvdt|potentiometer|string ?pot|draw ?wire|jounce|federweg|wheel ?travel"
     r"|\b(damper|shock|strut|spring) ?(travel|stroke|pos|disp|defl|length)"
 )
-"""Words for what is between body and wheel."""
+"""Words for the suspension, between body and wheel."""
 PATH = r"travel|stroke|pos|disp|defl|^ *(fl|fr|rl|rr)? *$"
-"""Words for how far it moved, where the stream alone says what."""
+"""Words for its travel, where the name of the stream alone says what moves."""
 ACCELERATION = rf"acc|beschl|vibr|{AXIS}z\b"
 HEAVE = rf"(?<!laser )disp|heave|{AXIS}z\b"
 """Words for a displacement; that of a laser is a range."""
@@ -39,7 +39,7 @@ TURNS = (
 
 
 class Response(NamedTuple):
-    """A channel, None if the column is of a wheel and no channel; whether it may be another."""
+    """A channel, None for a column of a wheel without a channel; and whether it is doubtful."""
 
     channel: str | None
     doubtful: bool = False
@@ -62,10 +62,10 @@ class _Clues(NamedTuple):
 
 
 def response(stream: str, words: str, si: str | None) -> Response | None:
-    """Return what the ``words`` of a column say of the response, None if nothing.
+    """Return the channel of the response that the ``words`` of a column mean, None if unknown.
 
-    ``stream`` has the words of the stream, which count where the column's own say no place; ``si``
-    is the SI unit, None if there is none.
+    ``stream`` has the words of the stream, which count where the column's own words name no place;
+    ``si`` is the SI unit, None if it is unknown.
     """
     clues = _Clues(stream, words, _place(words) or _place(stream), si is not None)
     for unit, rule in RULES:
@@ -93,7 +93,7 @@ def _turning(clues: _Clues) -> Response | None:
 
 
 def _force(clues: _Clues) -> Response | None:
-    """Return which accelerometer it is; that of the body is left to those of a profiler."""
+    """Return the accelerometer; that of the body is guessed with those of a profiler."""
     if clues.place == "body" or not (clues.unit or clues.say(ACCELERATION)):
         return None
     if clues.place is None:
@@ -126,7 +126,7 @@ def _displacement(clues: _Clues) -> Response | None:
 
 
 def _angle(clues: _Clues) -> Response | None:
-    """Return an angle of the body; of an attitude, which has the road in it, in doubt."""
+    """Return an angle of the body; doubtful for an attitude, which contains the road."""
     for freedom, _, angle in TURNS:
         if clues.say(angle):
             return Response(f"{freedom}_angle", doubtful=clues.place not in ("body", "sprung"))
@@ -141,4 +141,4 @@ RULES: tuple[tuple[str, Callable[[_Clues], Response | None]], ...] = (
     ("m", _displacement),
     ("rad", _angle),
 )
-"""The SI unit that a rule is for, in the order in which they are tried without a unit."""
+"""Rules by SI unit, in the order in which they are tried without a unit."""

@@ -1,4 +1,4 @@
-"""The noise of one channel at rest: the stretch of it that is sound, and what that amounts to."""
+"""The noise of one channel at rest: its sound stretch, and the coefficients of its noise there."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ UNEVEN = 0.25
 
 @dataclass(frozen=True)
 class Stretch:
-    """``count`` samples from ``first`` on, ``interval_s`` apart, with none missing between.
+    """``count`` samples from ``first`` on, ``interval_s`` apart, without a missing sample.
 
     ``left_out`` samples of the channel are not in it. A reading is repeated in ``held`` samples on
     average, 1 for a sensor as fast as its channel, and in ``longest_held`` at most.
@@ -58,9 +58,9 @@ def channel_noise(
     """Return the noise of ``channel`` over its longest stretch without gaps.
 
     The curve (6.53) is fitted to the cluster times in ``between_s``, in s; by default to all but
-    the shortest ones of a band-limited sensor. ``progress`` is told the share that is done. Raises
-    InputError naming the channel if it has no stretch of 64 samples at even times, never changes,
-    or has fewer than 8 cluster times in ``between_s``.
+    the shortest ones of a band-limited sensor. ``progress`` is called with the share that is done.
+    Raises InputError naming the channel if it has no stretch of 64 samples at even times, never
+    changes, or has fewer than 8 cluster times in ``between_s``.
     """
     stretch = sound_stretch(channel)
     values = channel.values[stretch.first : stretch.first + stretch.count]
@@ -113,7 +113,7 @@ def sound_stretch(channel: Channel) -> Stretch:
 
 
 def _broken(channel: Channel) -> Iterator[IndexArray]:
-    """Yield the samples that the next one does not follow as it should."""
+    """Yield the samples after which the next one is missing or comes at an uneven time."""
     for first, chunk in chunks(channel.values, overlap=1):
         known = ~np.isnan(chunk)
         yield first + np.flatnonzero(~(known[:-1] & known[1:]))

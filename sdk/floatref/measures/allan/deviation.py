@@ -21,14 +21,14 @@ PER_DECADE = 20
 LONGEST_SHARE = 3
 """The longest cluster is this part of the signal: beyond, hardly any two can be compared."""
 FEWEST = 64
-"""A signal of fewer samples has no Allan deviation worth the name."""
+"""Fewest samples of a signal that has an Allan deviation."""
 CLEARLY, CLEAR_OF_PEAK = 2.0, 5.0
-"""A peak that a band limit makes is followed by a fall by this factor, and seen for so many times
-as long."""
+"""Factor by which the deviation falls behind a peak that a band limit makes, and factor of time for
+which the peak is searched."""
 GREATEST = 1e100
-"""Samples beyond this are no measurement, and their squares no numbers."""
+"""Largest size of a sample; beyond it the squares overflow."""
 MOST_SUMS = 1 << 26
-"""Sums that are held (0.5 GiB); of a longer signal only every second one, every third, …"""
+"""Most sums in memory (0.5 GiB); of a longer signal only every second sum, every third, …"""
 BLOCK = 1 << 16
 """Differences handled together: they stay in the cache."""
 
@@ -54,10 +54,10 @@ class AllanDeviation:
 
     @property
     def settled_s(self) -> float:
-        """Cluster time in s from which on a band limit of the sensor is not seen; 0 if none is.
+        """Cluster time in s from which on no band limit of the sensor shows; 0 without a limit.
 
-        A sensor that is filtered, or slower than its channel, has samples that are alike: at first
-        its deviation rises. It falls again, unlike that of a bias that walks.
+        A sensor that is filtered, or slower than its channel, has correlated samples: at first its
+        deviation rises. It falls again, unlike that of a bias that walks.
         """
         falls = np.flatnonzero(np.diff(self.deviation) < 0)
         peak = int(falls[0]) if falls.size else self.clusters.size
@@ -78,8 +78,8 @@ def allan_deviation(
     """Return the overlapping Allan deviation (6.49) to (6.52) of ``values``, shape (N,).
 
     They are ``interval_s`` apart, in any unit. Cluster times are spread evenly on a logarithmic
-    scale up to a third of the signal. ``progress`` is told the share that is done, from 0 to 1.
-    Raises InputError for an interval that is not above zero, fewer than 64 samples, NaN,
+    scale up to a third of the signal. ``progress`` is called with the share that is done, from 0 to
+    1. Raises InputError for an interval that is not above zero, fewer than 64 samples, NaN,
     infinities and magnitudes beyond 1e100, and samples that are all the same.
     """
     summary = _summary(values, interval_s)
@@ -102,7 +102,7 @@ def cluster_sizes(count: int) -> IndexArray:
 
 
 def _summary(values: FloatArray, interval_s: float) -> Summary:
-    """Return what ``values`` amount to; InputError unless they have an Allan deviation."""
+    """Return the summary of ``values``; InputError unless they have an Allan deviation."""
     if not (np.isfinite(interval_s) and interval_s > 0):
         raise InputError(f"interval is {interval_s} s; it must be above zero")
     if values.ndim != 1 or values.size < FEWEST:
@@ -145,7 +145,7 @@ def _mean_square(sums: FloatArray, size: int) -> float:
     for first in range(0, places, BLOCK):
         count = min(BLOCK, places - first)
         begin, middle, end = (sums[first + k * size :][:count] for k in range(3))
-        # Each difference is small beside the sums, so that little is lost to rounding.
+        # Each difference is small beside the sums, so that the rounding error is small.
         np.subtract(end, middle, out=ahead[:count])
         np.subtract(middle, begin, out=behind[:count])
         ahead[:count] -= behind[:count]

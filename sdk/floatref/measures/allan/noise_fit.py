@@ -12,17 +12,17 @@ from floatref.values.arrays import FloatArray
 MODEL_ERROR = 0.05
 """No sensor follows (6.53) better than to this share of the variance, however long the signal."""
 CONFIDENCE = 3.0
-"""A term stays if without it the data would be off by so many standard deviations."""
+"""Standard deviations by which the data must contradict the curve without a term to keep it."""
 LIMIT = 2.0
-"""A term that is left out may be as large as so many standard deviations allow."""
+"""Standard deviations of the upper limit of a term that was removed."""
 FEWEST_TIMES = 8
 """Cluster times that a fit takes."""
 SURE = 30.0
-"""Where the deviation has fewer degrees of freedom, nothing is said of how well it fits."""
+"""Fewest degrees of freedom of a deviation whose misfit is reported."""
 ROUNDS = 40
 CONVERGED = 1e-10
 LEAST = 1e-3
-"""While fitting, the curve counts as no lower than this share of what was measured."""
+"""Lowest value of the curve while it is fitted, as a share of the measured variance."""
 
 
 class NoiseCoefficients(NamedTuple):
@@ -90,8 +90,8 @@ def fit_noise(allan: AllanDeviation, confidence: float = CONFIDENCE) -> NoiseFit
     """Return the curve (6.53) through ``allan`` by non-negative least squares.
 
     Every Allan variance counts by its relative uncertainty, which depends on its degrees of
-    freedom. Of all terms the one that the data support least is left out, then the next, until
-    what is left stands out by ``confidence`` standard deviations; 0 keeps all. Raises InputError
+    freedom. The term that the data support least is removed, then the next, until each remaining
+    term is supported by ``confidence`` standard deviations; 0 keeps all terms. Raises InputError
     for fewer than 8 cluster times or a deviation that is not above zero.
     """
     if allan.clusters.size < FEWEST_TIMES:
@@ -166,25 +166,25 @@ class _Curve:
         return spread
 
     def limit(self, squares: FloatArray, terms: list[int], term: int) -> float:
-        """Return how large ``term``, which was left out, may be; NaN if it was not."""
+        """Return the upper limit of ``term``, which was removed; NaN for a term of the fit."""
         if term in terms:
             return float("nan")
-        estimate, spread = self._added(squares, terms, term)
+        estimate, spread = self._add_term(squares, terms, term)
         return float(np.sqrt(max(estimate, 0.0) + LIMIT * spread))
 
     def _without(self, term: int, terms: list[int]) -> float:
         """Return by how many standard deviations the data contradict a curve without ``term``."""
         rest = [t for t in terms if t != term]
-        estimate, spread = self._added(self.fitted(rest), rest, term)
+        estimate, spread = self._add_term(self.fitted(rest), rest, term)
         return estimate / spread
 
-    def _added(self, squares: FloatArray, terms: list[int], term: int) -> tuple[float, float]:
-        """Return the square of ``term`` beside a fit of ``terms``, and how it scatters around 0."""
+    def _add_term(self, squares: FloatArray, terms: list[int], term: int) -> tuple[float, float]:
+        """Return the square of ``term`` fitted with ``terms``, and its standard deviation at 0."""
         solver = self._solver(squares, [*terms, term])
         return float(solver[-1] @ self.variance), float(self._spread(solver, squares)[-1])
 
     def _solver(self, squares: FloatArray, terms: list[int]) -> FloatArray:
-        """Return the matrix, shape (terms, n), that makes squared coefficients of variances."""
+        """Return the matrix, shape (terms, n), from variances to squared coefficients."""
         weights = self._weights(squares)
         columns = self.columns[:, terms] * np.sqrt(weights)[:, None]
         size = np.sqrt(np.sum(columns**2, axis=0))
@@ -192,7 +192,7 @@ class _Curve:
         return inverse * np.sqrt(weights)
 
     def _spread(self, solver: FloatArray, squares: FloatArray) -> FloatArray:
-        """Return the standard deviations of what ``solver`` makes of the variances."""
+        """Return the standard deviations of the squared coefficients that ``solver`` gives."""
         noise = solver @ self.scatter.root(squares)
         missed = MODEL_ERROR * solver * self._curve(squares)
         spread: FloatArray = np.sqrt(

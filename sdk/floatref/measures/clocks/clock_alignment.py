@@ -15,11 +15,11 @@ from floatref.measures.clocks.pulse_matching import match_pulses
 from floatref.values.arrays import FloatArray
 
 FAR_S = 30.0
-"""So far beyond the first and the last pulse nothing more is said."""
+"""Time in s beyond the first and the last pulse from which a warning is given."""
 STRANGE_DRIFT = 5e-4
-"""No clock of a recorder runs so wrong."""
+"""Largest drift of a recorder's clock, as a ratio."""
 PPS_SHARE = 0.5
-"""Of pulses per second so many come a second apart."""
+"""Least share of pulses per second that are a whole second apart."""
 LONGEST_PPS_S = 1e6
 """Pulses per second are matched over this time at most."""
 
@@ -31,14 +31,14 @@ class Alignment:
     Attributes:
         offset_s: base time at the zero of the own clock, on the straight line.
         drift: the ratio of base to own time, less 1.
-        drift_sigma: its standard deviation; NaN where nothing tells it.
-        residual_s: root mean square of what the line leaves, in s; NaN where nothing tells it.
+        drift_sigma: its standard deviation; NaN where it is unknown.
+        residual_s: root mean square of the residuals, in s; NaN where it is unknown.
         pairs: how many pulses or readings the line goes through.
-        dropped: how many belonged to none or were far off.
-        told: lines for the person who runs it.
+        dropped: how many had no partner or were outliers.
+        told: warnings, one line each.
         about_s: an own time and the base time at that moment, on the line.
         between_s: own times of the first and the last pulse or reading.
-        late_s: base times may be late by up to so much for a reason that no pulse shows.
+        late_s: largest delay of base times in s that the pulses cannot show.
         knots_s: own and base times between which the alignment is linear, if drift is not constant.
     """
 
@@ -56,7 +56,7 @@ class Alignment:
 
     @classmethod
     def stated(cls, offset_s: float, drift: float = 0.0) -> "Alignment":
-        """Return the alignment that someone states; InputError unless it can be one."""
+        """Return the alignment stated by the user; InputError unless it is finite."""
         if not (np.isfinite(offset_s) and abs(drift) < 0.1):
             raise InputError(f"offset {offset_s} s with a drift of {drift}; state finite ones")
         return cls(offset_s, drift, about_s=(0.0, offset_s))
@@ -104,7 +104,7 @@ class Alignment:
             return None
         sides = [f"{x:.4g} s {w}" for x, w in ((before, "before"), (after, "behind")) if x > FAR_S]
         unsure = max(before, after) * self.drift_sigma
-        by = f", where it is sure to {1e3 * unsure:.2g} ms by its drift" if unsure > 0 else ""
+        by = f", to ± {1e3 * unsure:.2g} ms by its drift (1 σ)" if unsure > 0 else ""
         return f"the alignment is extrapolated to {' and '.join(sides)} the common pulses{by}"
 
     def _straight(self, own: FloatArray) -> FloatArray:
@@ -115,7 +115,7 @@ class Alignment:
 def align_by_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> Alignment:
     """Return the alignment by pulses that both clocks have timed, at ``own_s`` and ``base_s``.
 
-    Either may lack pulses and have false ones. ``near_s`` is about what base time less own time
+    Pulses of either may be missing or false. ``near_s`` is about what base time less own time
     is, to within 0.4 of a period where the pulses are periodic. One common pulse gives the offset
     alone. Where the drift is not constant the alignment is linear between the pulses. Raises
     InputError if the trains are empty, have nothing in common, or fit equally well in two places.
@@ -125,11 +125,11 @@ def align_by_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) 
     matched = match_pulses(own, base, near_s)
     at, to = own[matched.own], base[matched.base]
     line = clock_line(at, to)
-    return _aligned(line, at, to, own.size - int(line.kept.sum()), matched.told)
+    return _align(line, at, to, own.size - int(line.kept.sum()), matched.told)
 
 
 def align_by_pps(pulses_s: FloatArray, near_s: float) -> Alignment:
-    """Return how the clock that timed a receiver's pulses per second becomes GNSS time.
+    """Return the alignment to GNSS time of the clock that timed a receiver's pulses per second.
 
     ``pulses_s`` increase, in s of that clock; each is a whole GNSS second. ``near_s`` is about
     what GNSS time less the clock's time is when the pulses begin, to within 0.4 s. Raises
@@ -152,19 +152,19 @@ def align_by_pps(pulses_s: FloatArray, near_s: float) -> Alignment:
 
 
 def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
-    """Return how GNSS time becomes base time, from readings of it that the base clock stamped.
+    """Return the alignment of GNSS time to base time, from readings that the base clock stamped.
 
-    ``gnss_s``, shape (n,), is the GNSS time in s that was shown at ``base_s``: held between
-    updates, NaN where there was none, of a day or of a week, which may roll over. The first
-    sample of every new reading counts, and of those the earliest: what delayed the others is no
-    time. A delay that all share remains, up to ``late_s``. Raises InputError unless there are two
-    readings or more that go on as time does. Source: section 4.4.
+    ``gnss_s``, shape (n,), is the GNSS time in s of the day or of the week that was read at
+    ``base_s``: repeated between updates, NaN where it is missing. It may roll over. The first
+    sample of every new reading counts, and of these the least delayed ones determine the line. A
+    delay that all readings share remains, up to ``late_s``. Raises InputError unless two readings
+    or more advance as time does. Source: section 4.4.
     """
     edges = reading_edges(base_s, gnss_s)
     rough = clock_line(edges.gnss_s, edges.base_s)
     at, to = edges.gnss_s[rough.kept], edges.base_s[rough.kept]
     if at.size < 2:
-        raise InputError("fewer than two readings of GNSS time go on as time does; check its unit")
+        raise InputError("fewer than two readings of GNSS time advance with time; check its unit")
     base, drift = lower_line(at, to)
     middle = float(at.mean())
     told = (
@@ -185,10 +185,10 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
     )
 
 
-def _aligned(
+def _align(
     line: ClockLine, own: FloatArray, base: FloatArray, dropped: int, told: tuple[str, ...]
 ) -> Alignment:
-    """Return the alignment of a fit through the kept ones of ``own`` and ``base``."""
+    """Return the alignment by a line through the accepted pairs of ``own`` and ``base``."""
     at, to = own[line.kept], base[line.kept]
     lines = list(told)
     if at.size < 3 and abs(line.drift) > STRANGE_DRIFT:
@@ -198,8 +198,8 @@ def _aligned(
     bent = curve(line, at, to)
     if bent is not None:
         lines.append(
-            f"the drift is not constant: a straight line leaves {1e3 * line.residual_s:.3g} ms, "
-            "so the alignment is linear between the pulses"
+            "the drift is not constant: a straight line has residuals of "
+            f"{1e3 * line.residual_s:.3g} ms, so the alignment is linear between the pulses"
         )
     return Alignment(
         line.base_s - line.own_s * (1 + line.drift),

@@ -1,4 +1,4 @@
-"""The line between two clocks, through times that both have told."""
+"""The line between two clocks, through moments that both have timed."""
 
 from typing import NamedTuple
 
@@ -8,31 +8,31 @@ from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
 
 LOCAL = 9
-"""Pulses in a row that tell what the clocks do there; one that is far from it is no pulse."""
+"""Pulses in a row whose median gives the local offset; a pulse far from it is false."""
 SIDE = 4
-"""Pulses on one side that tell how it goes on, where drift or time itself leaps."""
+"""Pulses on one side that give the local line, where drift or time itself leaps."""
 OUTLIER = 6.0
-"""How many standard deviations are far."""
+"""Standard deviations from which on a pulse is far from the line."""
 LEAST_OFF_S = 2e-6
-"""And what is never far, in s."""
+"""Distance in s up to which a pulse is never far."""
 CURVED_S = 1e-4
-"""Drift is not constant if a straight line leaves so much that is no jitter, in s."""
+"""Residual in s beyond jitter from which on drift is not constant."""
 QUIET_S = 5e-5
-"""Knots are means of so many pulses that they jitter by no more than this, in s."""
+"""Largest jitter of a knot in s; a knot is the mean of enough pulses for it."""
 SURE = 3.0
-"""A curve has to stand out by so many standard deviations."""
+"""Standard deviations by which a curve must differ from the line."""
 ROUNDS = 3
 
 
 class ClockLine(NamedTuple):
-    """base − ``base_s`` = (1 + ``drift``)·(own − ``own_s``), the fit's figures, and what it kept.
+    """base − ``base_s`` = (1 + ``drift``)·(own − ``own_s``), its accuracy and accepted pairs.
 
     Args:
         own_s: a time of the own clock within its pulses, in s.
         base_s: the time of the base clock at that moment, in s.
         drift: of the own clock against the base clock, as a ratio.
-        drift_sigma: its standard deviation; NaN if no residual tells it.
-        residual_s: root mean square of what the line leaves, in s; NaN for a single pair.
+        drift_sigma: its standard deviation; NaN for fewer than three pairs.
+        residual_s: root mean square of the residuals, in s; NaN for a single pair.
         kept: which pairs it goes through, shape (pairs,).
     """
 
@@ -45,10 +45,10 @@ class ClockLine(NamedTuple):
 
 
 def clock_line(own_s: FloatArray, base_s: FloatArray) -> ClockLine:
-    """Return the line of least squares through the pairs, shape (n,), n > 0, but for outliers.
+    """Return the line of least squares through the pairs, shape (n,), n > 0, without outliers.
 
-    A pair counts unless it is far from its neighbours, and from where those on either side lead.
-    Both times increase.
+    A pair is an outlier if it is far from its neighbours and from the lines through those before
+    and those behind it. Both times increase.
     """
     kept = np.ones(own_s.size, dtype=np.bool_)
     line = _least_squares(own_s, base_s, kept)
@@ -64,7 +64,7 @@ def clock_line(own_s: FloatArray, base_s: FloatArray) -> ClockLine:
 
 
 def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray | None:
-    """Return base times at ``own_s`` on a curve, if ``line`` leaves more than jitter, else None."""
+    """Return base times at ``own_s`` on a curve, or None if ``line`` has only jitter left."""
     rest = _residual(line, own_s, base_s)
     if rest.size < LOCAL:
         return None
@@ -73,7 +73,7 @@ def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray 
     if all_of_it - jitter <= max(CURVED_S**2, SURE * all_of_it / rest.size**0.5):
         return None
     half = min(int(_jitter(own_s, rest) / QUIET_S**2 / 2 + 0.5), rest.size // 6)
-    bent = _smoothed(own_s, rest, half)
+    bent = _smooth(own_s, rest, half)
     found = line.base_s + (own_s - line.own_s) * (1 + line.drift) + bent
     return found if (np.diff(found) > 0).all() else None
 
@@ -81,8 +81,8 @@ def curve(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatArray 
 def lower_line(own_s: FloatArray, base_s: FloatArray) -> tuple[float, float]:
     """Return base time and drift at the mean of ``own_s`` on the line below all pairs.
 
-    Of all lines that no pair lies below it is the nearest to them: the side of their convex hull
-    under their middle. It needs two pairs or more.
+    No pair lies below it, and of all such lines it is the nearest to the pairs: the side of their
+    convex hull under their middle. It needs two pairs or more.
     """
     middle = float(np.mean(own_s))
     hull: list[int] = []
@@ -123,16 +123,16 @@ def _residual(line: ClockLine, own_s: FloatArray, base_s: FloatArray) -> FloatAr
 
 
 def _spread(off: FloatArray) -> float:
-    """Return the standard deviation that the smaller four fifths of ``off`` tell."""
+    """Return the standard deviation estimated from the smaller four fifths of ``off``."""
     some = np.sort(off)[: max(1, off.size * 4 // 5)]
     return max(1.4826 * float(np.median(off)), 1.5 * float(np.sqrt(np.mean(some**2))))
 
 
 def _local(own_s: FloatArray, rest: FloatArray, kept: BoolArray) -> FloatArray:
-    """Return what the neighbours that are kept say about ``rest``, everywhere.
+    """Return ``rest`` at every pair as estimated from its accepted neighbours.
 
-    On the line between the median of those before and the median of those behind: a slope is not
-    off, and one that is off moves nothing.
+    The estimate is on the line between the median of those before and the median of those behind: a
+    slope does not bias it, and one outlier does not move it.
     """
     at, some = own_s[kept], rest[kept]
     if some.size < LOCAL:
@@ -174,7 +174,7 @@ def _jitter(own_s: FloatArray, rest: FloatArray) -> float:
     return float(np.median(off**2 / (1.0 + share**2 + (1.0 - share) ** 2))) / 0.455
 
 
-def _smoothed(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:
+def _smooth(own_s: FloatArray, rest: FloatArray, half: int) -> FloatArray:
     """Return ``rest`` on straight lines through ``half`` neighbours on either side."""
     found = rest.copy()
     for k in range(rest.size) if half else ():

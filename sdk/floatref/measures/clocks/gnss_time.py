@@ -12,7 +12,7 @@ from floatref.values.scanning import chunks
 
 DAY_S, WEEK_S = 86400.0, 604800.0
 ASTRAY_S = 1.0
-"""A reading that is so far from what most tell is none, beside what drift explains."""
+"""Distance in s from the majority, beyond drift, from which on a reading is wrong."""
 DRIFT = 1e-3
 
 
@@ -21,9 +21,9 @@ class ReadingEdges(NamedTuple):
 
     Args:
         base_s: base time of the first sample of each, shape (n,), in s.
-        gnss_s: what it read, shape (n,), in s, going on over midnight and the end of a week.
-        update_s: the usual time between two, with that between two samples, in s.
-        dropped: readings that do not go on as time does.
+        gnss_s: the readings, shape (n,), in s, continuous over midnight and the end of a week.
+        update_s: the usual time between two readings plus that between two samples, in s.
+        dropped: number of readings that do not advance as time does.
     """
 
     base_s: FloatArray
@@ -47,7 +47,7 @@ def reading_edges(base_s: FloatArray, gnss_s: FloatArray) -> ReadingEdges:
             f"GNSS time takes {at.size} new value(s) in {base_s.size} samples; two or more are "
             "needed, so check the channel"
         )
-    read = _unrolled(at, read)
+    read = _unroll(at, read)
     shift = read - at
     usual = float(np.median(shift))
     sound = np.abs(shift - usual) <= ASTRAY_S + DRIFT * float(np.ptp(at))
@@ -78,7 +78,7 @@ def _changes(base_s: FloatArray, gnss_s: FloatArray) -> tuple[FloatArray, FloatA
     return np.concatenate(times)[1:], np.concatenate(values)[1:], float(np.median(steps))
 
 
-def _unrolled(at: FloatArray, read: FloatArray) -> FloatArray:
+def _unroll(at: FloatArray, read: FloatArray) -> FloatArray:
     """Return the readings with a day or a week added wherever they roll over."""
     steps = np.diff(read) - np.diff(at)
     near = ASTRAY_S + DRIFT * np.abs(np.diff(at))
@@ -96,7 +96,7 @@ FIRST_DAYS = (
 )
 """The first day after each leap second, UTC."""
 KNOWN_UNTIL = "2026-06-28"
-"""The list says so far that there are no others."""
+"""Last day that the list of leap seconds covers."""
 
 
 def _unix_s(day: str) -> int:
@@ -138,8 +138,8 @@ def utc_from_gps_s(gps_s: float) -> float:
     return gps_s - gps_minus_utc_at_gps_s(gps_s) + GPS_EPOCH_UNIX_S
 
 
-def leap_seconds_told(utc_unix_s: float) -> str | None:
-    """Return a line if ``utc_unix_s`` is later than the list of leap seconds reaches."""
+def warn_of_leap_seconds(utc_unix_s: float) -> str | None:
+    """Return a warning if ``utc_unix_s`` is later than the end of the list of leap seconds."""
     if not utc_unix_s > _unix_s(KNOWN_UNTIL):
         return None
     day = f"{np.datetime64(int(utc_unix_s), 's')}"[:10]

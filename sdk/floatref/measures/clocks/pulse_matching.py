@@ -1,7 +1,8 @@
-"""Which pulse of one train is which of another, each timed by a clock of its own (4.4).
+"""Matching the pulses of two trains, each timed by a clock of its own (4.4).
 
-Either train may lack pulses, have false ones, begin earlier and end later. The pattern of the
-intervals around a few pulses tells where they belong; from there the trains are followed both ways.
+Pulses of either train may be missing or false, and a train may begin earlier and end later. The
+pattern of the intervals around a few pulses locates them in the other train; from there the trains
+are followed both ways.
 """
 
 from bisect import bisect_left
@@ -13,25 +14,25 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, IndexArray
 
 FASTEST_DRIFT = 3e-4
-"""Clocks may run so differently; 200 ppm and some room."""
+"""Largest drift between two clocks, as a ratio; 200 ppm and a margin."""
 JITTER_SHARE, MOST_JITTER_S = 0.05, 0.02
-"""A pulse may be off by this share of the usual interval, and by no more than this time."""
+"""Largest error of a pulse as a share of the usual interval, and in s."""
 ANCHORS, NEIGHBOURS = 12, 24
-"""Pulses that are looked for, and how many on either side of each have to fit."""
+"""Number of anchor pulses, and of neighbours on either side of each that have to fit."""
 GOOD = 0.6
-"""A place that fits so well against the best one may be the right one as well."""
+"""Fit of a place relative to the best one, above which the two are ambiguous."""
 FEW, LEAST_FIT = 10, 0.2
-"""Of so many pulses or more, so large a share does not fit by chance."""
+"""Least number of pulses, and least share of them that fit, for a fit that is not by chance."""
 LEAST_SHARE = 0.35
-"""Of the pulses that both trains should have so many are found in both."""
+"""Least share of the pulses in the common time that are found in both trains."""
 IN_A_ROW = 12
-"""So many pulses in a row that fit none, and the clocks have parted there."""
+"""Unmatched pulses in a row from which on the clocks are taken to have jumped there."""
 UNSURE = 0.4
-"""A shift that is farther from what was stated than this share of a period is none."""
+"""Largest distance of a shift from the stated one, as a share of a period."""
 FOLLOWED = 7
-"""Pulses whose median says where the next one is."""
+"""Pulses whose median predicts the next one."""
 HELD = 1 << 20
-"""Differences that are looked at together."""
+"""Differences calculated together."""
 
 
 class Matching(NamedTuple):
@@ -43,10 +44,10 @@ class Matching(NamedTuple):
 
 
 def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> Matching:
-    """Return which pulses at ``own_s`` are which at ``base_s``, both increasing, in s.
+    """Return the matching of the pulses at ``own_s`` and at ``base_s``, both increasing, in s.
 
-    ``near_s`` is about what base time less own time is when both begin; it decides where the
-    trains repeat themselves, which is told. Raises InputError if the trains have nothing in
+    ``near_s`` is about what base time less own time is when both begin; it decides between shifts
+    where the trains are periodic, with a warning. Raises InputError if the trains have nothing in
     common, or if two shifts lie equally near.
     """
     own, base = _train(own_s, "this clock"), _train(base_s, "the base clock")
@@ -54,10 +55,10 @@ def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> 
     places = _places(own, base, jitter)
     chosen, told = _nearest(base[places.base] - own[places.own], places.own, near_s, 3 * jitter)
     anchor, at = int(places.own[chosen]), int(places.base[chosen])
-    pairs = _followed(own, base, anchor, at, jitter)
+    pairs = _follow_both_ways(own, base, anchor, at, jitter)
     _check_share(own, base, pairs)
     mine, others = np.array(pairs, np.int64).T
-    return Matching(mine, others, (*told, *_parted(own, base, mine, others)))
+    return Matching(mine, others, (*told, *_warn_of_jump(own, base, mine, others)))
 
 
 def _train(times_s: FloatArray, whose: str) -> FloatArray:
@@ -79,7 +80,7 @@ def _anchors(count: int) -> IndexArray:
 
 
 def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
-    """Return pairs that fit well: the first few pulses of ``own`` that do, and where they may be.
+    """Return pairs that fit well: the first few such pulses of ``own``, and their possible places.
 
     Later ones would fit as well, at a shift that drift has changed.
     """
@@ -101,9 +102,9 @@ def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
 
 
 def _fits(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -> tuple[FloatArray, int]:
-    """Return which share of the pulses around ``anchor`` fits if it is each pulse of ``base``.
+    """Return the share of pulses around ``anchor`` that fit if it is each pulse of ``base``.
 
-    And how many there are around it, itself among them.
+    Also return the number of pulses around it, itself included.
     """
     around = own[max(anchor - NEIGHBOURS, 0) : anchor + NEIGHBOURS + 1] - own[anchor]
     allowed = jitter + FASTEST_DRIFT * np.abs(around)
@@ -121,10 +122,10 @@ def _fits(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -> tupl
 def _nearest(
     shifts: FloatArray, pulses: IndexArray, near_s: float, alike_s: float
 ) -> tuple[int, tuple[str, ...]]:
-    """Return which of the ``shifts`` in s lies nearest to ``near_s``, and what is to be told.
+    """Return which of the ``shifts`` in s lies nearest to ``near_s``, and warnings.
 
-    ``pulses`` are those that the shifts are of: two shifts of one pulse are two places, unless
-    they differ by less than ``alike_s``.
+    ``pulses`` are the pulses of the shifts: two shifts of one pulse are two places, unless they
+    differ by less than ``alike_s``.
     """
     chosen = int(np.argmin(np.abs(shifts - near_s)))
     first = float(shifts[chosen])
@@ -146,7 +147,7 @@ def _nearest(
     )
 
 
-def _followed(
+def _follow_both_ways(
     own: FloatArray, base: FloatArray, anchor: int, at: int, jitter: float
 ) -> list[tuple[int, int]]:
     """Return the pairs of indices in order, followed from one pair both ways."""
@@ -182,19 +183,19 @@ def _at(times: list[float], near: float, first: int) -> int:
 
 
 def _check_share(own: FloatArray, base: FloatArray, pairs: list[tuple[int, int]]) -> None:
-    """Refuse trains of which too few pulses are the same where both have some."""
+    """Refuse trains with too few matched pulses in their common time."""
     shift = base[pairs[0][1]] - own[pairs[0][0]]
     begin, end = max(own[0] + shift, base[0]), min(own[-1] + shift, base[-1])
     there = min(np.count_nonzero((x >= begin) & (x <= end)) for x in (own + shift, base))
     if len(pairs) < LEAST_SHARE * there:
-        found = f"only {len(pairs)} of {there} that both should have are the same"
+        found = f"only {len(pairs)} of {there} pulses in their common time match"
         raise InputError(_nothing(own, base, found))
 
 
-def _parted(
+def _warn_of_jump(
     own: FloatArray, base: FloatArray, mine: IndexArray, others: IndexArray
 ) -> tuple[str, ...]:
-    """Return a line if many pulses in a row fit none where both trains have some."""
+    """Return a warning if many pulses in a row have no match in the common time of both trains."""
     before, behind = base[others[0]] - own[mine[0]], base[others[-1]] - own[mine[-1]]
     begin, end = max(own[0], base[0] - before), min(own[-1], base[-1] - behind)
     at = np.concatenate([[begin], own[mine], [end]])
@@ -204,13 +205,13 @@ def _parted(
     if lonely[k] <= IN_A_ROW:
         return ()
     return (
-        f"{lonely[k]} pulses in a row, from {at[k]:.6g} to {at[k + 1]:.6g} s of this clock, fit "
-        "none of the base clock: one of the clocks was set, or pulses are false",
+        f"{lonely[k]} pulses in a row, from {at[k]:.6g} to {at[k + 1]:.6g} s of this clock, have "
+        "no match on the base clock: one of the clocks was set, or pulses are false",
     )
 
 
 def _nothing(own: FloatArray, base: FloatArray, found: str) -> str:
     return (
-        f"{own.size} pulses of this clock and {base.size} of the base clock do not belong "
-        f"together: {found}; check the channels, or state an offset"
+        f"{own.size} pulses of this clock and {base.size} of the base clock do not match"
+        f": {found}; check the channels, or state an offset"
     )

@@ -1,4 +1,4 @@
-"""Pulses of a common signal, as each clock saw them: the times of their leading edges (4.4)."""
+"""Pulses of a common signal, as each clock timed them: the times of their leading edges (4.4)."""
 
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
@@ -12,21 +12,21 @@ from floatref.values.clock import UniformClock
 from floatref.values.scanning import CHUNK, chunks
 
 BINS = 4096
-"""Between the lowest and the highest sample, to find the levels."""
+"""Bins between the lowest and the highest sample, to find the levels."""
 CLEAR = 8.0
-"""A sample that is so many standard deviations of the noise from the idle level is no noise."""
+"""Standard deviations of the noise from the idle level up to which a sample may be noise."""
 LEAST_SHARE = 0.02
-"""Nor may it be nearer than this share of the range."""
+"""Least distance of a pulse from the idle level, as a share of the range."""
 HYSTERESIS = 0.15
 """Share of the pulse's height on either side of the middle that belongs to neither level."""
 EVEN = 0.4
-"""From this share of the time on neither level is the rarer: the pulses rise."""
+"""Share of the time from which on neither level is the rarer one: then the pulses rise."""
 RINGING = 0.02
 """An edge that follows a pulse within this share of the usual interval is its ringing."""
 USUAL = 0.1
 """Shorter intervals than the usual one last this share of the time: ringing lasts less."""
 MOST_EDGES = 1_000_000
-"""More are no common pulses."""
+"""Most edges of a signal of pulses."""
 
 _SOUGHT = "pulses that rise from one level to another, or fall if the signal is mostly high"
 
@@ -41,10 +41,10 @@ class PulseLevels(NamedTuple):
 def pulse_times(times_s: FloatArray, values: FloatArray) -> FloatArray:
     """Return the times in s of the leading edges in ``values``, taken at ``times_s``.
 
-    Both of shape (n,), read a piece at a time, NaN = missing. An edge lies where the signal
-    crosses the middle of its two levels, linear between samples. The level that the signal has for
-    more of the time is that of rest, so that the pulses of an active-low signal fall. Ringing
-    makes no further edge, and an edge inside a gap is left out. Raises InputError without pulses.
+    Both of shape (n,), read a piece at a time, NaN = missing. An edge lies where the signal crosses
+    the middle of its two levels, linear between samples. The level that the signal has for more of
+    the time is that of rest, so that the pulses of an active-low signal fall. Ringing makes no
+    further edge, and an edge inside a gap is not returned. Raises InputError without pulses.
     """
     times = np.asarray(times_s, dtype=np.float64)
     if times.shape != values.shape:
@@ -64,8 +64,8 @@ def pulse_times_at_rate(values: FloatArray, rate_hz: float, start_s: float = 0.0
 def pulse_times_by(values: FloatArray, times: Callable[[int, int], FloatArray]) -> FloatArray:
     """Return the times in s of the leading edges in ``values``, of shape (n,).
 
-    ``times(first, count)`` returns when ``count`` samples from ``first`` on were taken, in s; it
-    is asked at the edges alone. As `pulse_times` otherwise.
+    ``times(first, count)`` returns the times of ``count`` samples from ``first`` on, in s; it is
+    called at the edges alone. As `pulse_times` otherwise.
     """
     idle, pulse = pulse_levels(values)
     found, rest = [], []
@@ -79,9 +79,9 @@ def pulse_times_by(values: FloatArray, times: Callable[[int, int], FloatArray]) 
             raise InputError(f"more than {MOST_EDGES} edges; looked for {_SOUGHT}")
     if not found:
         raise InputError(
-            f"no edge from {idle:.6g} to {pulse:.6g} is there whole; looked for {_SOUGHT}"
+            f"no edge from {idle:.6g} to {pulse:.6g} is complete; looked for {_SOUGHT}"
         )
-    return _without_ringing(np.array(found), np.array(rest))
+    return _drop_ringing(np.array(found), np.array(rest))
 
 
 def pulse_levels(values: FloatArray) -> PulseLevels:
@@ -125,7 +125,7 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
         if known.size > 1:
             steps.append(float(np.median(np.abs(np.diff(known)))))
     if not highest > lowest:
-        found = f"all samples are {lowest:g}" if highest == lowest else "no sample is there"
+        found = f"all samples are {lowest:g}" if highest == lowest else "all samples are missing"
         raise InputError(f"{found}; looked for {_SOUGHT}")
     # The median step of white noise is 0.954 of its standard deviation.
     return float(lowest), float(highest), float(np.median(steps or [0.0])) / 0.954
@@ -134,7 +134,7 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
 def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[tuple[int, int]]:
     """Yield the sample before every crossing of the middle on the way to a pulse.
 
-    And the last one of the pulse before, -1 for none.
+    Also yield the last sample of the pulse before, -1 for the first pulse.
     """
     carried, before = np.empty(0), -1
     for first, chunk in chunks(values):
@@ -162,7 +162,7 @@ def _sides(shown: FloatArray) -> NDArray[np.int8]:
     return side
 
 
-def _without_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
+def _drop_ringing(times_s: FloatArray, rest_s: FloatArray) -> FloatArray:
     """Return the edges but for those before which the signal rested for too short a time."""
     if times_s.size < 3:
         return times_s

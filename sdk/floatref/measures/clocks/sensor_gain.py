@@ -1,8 +1,8 @@
-"""How many times a height moves as its accelerometer says: 1, unless unit, scale or sign is wrong.
+"""Gain of a height against its accelerometer: 1, unless unit, scale or sign is wrong.
 
 A vehicle that has stopped still swings on its springs, and over a road that does not move the
-height is the body's own motion: its ratio to the twice integrated acceleration is a number that
-no road has a part in.
+height is the body's own motion: its ratio to the twice integrated acceleration does not depend on
+the road.
 """
 
 from collections.abc import Iterator
@@ -16,24 +16,24 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
 
 WINDOW_S, STANDS_S = 1.5, 0.7
-"""A window, and the least of one."""
+"""Length of a window in s, and the least length of one."""
 STANDS_M = 0.002
-"""A vehicle that moves by less in `STANDS_S` stands."""
+"""Travel in m during `STANDS_S` below which a vehicle is stationary."""
 LEAST_COHERENCE = 0.99
 LEAST_MOTION_M = 2e-4
-"""Motion that the accelerometer has to feel."""
+"""Least motion by the accelerometer in m."""
 LARGEST_SKEW_S = 0.02
-"""With a greater one an axle that hops has the other sign."""
+"""Largest skew in s: with a greater one an axle that hops has the other sign."""
 SLOWEST_HZ = 100.0
 STRANGE = 0.25
-"""A gain that is off by more is no tolerance of a sensor."""
+"""Largest deviation of a gain from 1 by the tolerances of sensors."""
 
 
 def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
-    """Return how many times ``height`` moves as the vertical ``force`` says; NaN if that is open.
+    """Return the gain of ``height`` against the vertical ``force``; NaN if it is unknown.
 
-    Windows of a second and a half count where the vehicle stands by its ``distance`` and both
-    sensors see one motion. Of them the one with the most motion tells; a negative gain is a height
+    Windows of 1.5 s count where the vehicle is stationary by its ``distance`` and both sensors
+    measure one motion. The window with the most motion gives the gain; a negative gain is a height
     of the wrong sign.
     """
     begin = max(force.span_s[0], height.span_s[0])
@@ -46,20 +46,20 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
         return np.nan
     force_series, height_series = on_grid(force, grid), on_grid(height, grid)
     for sign in (1.0, -1.0):
-        told = [w for w in _windows(force_series, sign * height_series, stands) if _tells(w)]
+        told = [w for w in _windows(force_series, sign * height_series, stands) if _is_usable(w)]
         if told:
             return sign * max(told, key=lambda window: window.motion_m / window.gain).gain
     return np.nan
 
 
 def gain_warning(gain: float, height: Channel) -> str | None:
-    """Return a line that says what may be wrong if ``height`` has a strange ``gain``, else None."""
+    """Return a warning with the probable cause if ``height`` has a strange ``gain``, else None."""
     if not abs(gain - 1.0) > STRANGE:
         return None
     wrong = "sign" if gain < 0 else "unit or scale, or the accelerometer's,"
     return (
-        f"channel {height.id}: moves {gain:.3g} times as the accelerometer says, where the "
-        f"vehicle stands and swings; its {wrong} is wrong, so correct it in the map"
+        f"channel {height.id}: moves {gain:.3g} times as far as the accelerometer, where the "
+        f"stationary vehicle swings; its {wrong} is wrong, so correct it in the map"
     )
 
 
@@ -72,7 +72,7 @@ def _windows(force: FloatArray, height: FloatArray, stands: BoolArray) -> Iterat
                 yield window
 
 
-def _tells(window: SkewWindow) -> bool:
+def _is_usable(window: SkewWindow) -> bool:
     moves = window.motion_m >= LEAST_MOTION_M * window.gain
     one = 1.0 - window.rest**2 >= LEAST_COHERENCE
     return moves and one and abs(window.skew_s) <= LARGEST_SKEW_S

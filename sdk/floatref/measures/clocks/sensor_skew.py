@@ -1,8 +1,8 @@
 """The skew of a height sensor against its accelerometer, from stretches where the body alone moves.
 
-A standing vehicle that still swings, and a bounce test, show both sensors the same motion. On a
-moving vehicle the road drives both, and the phase between them is the suspension's: such stretches
-give nothing, however coherent they look.
+During the swing of a stationary vehicle and in a bounce test both sensors measure the same motion.
+On a moving vehicle the road drives both, and the phase between them is the suspension's: such
+stretches are not used, however coherent they are.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,33 +17,33 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
 
 WINDOW_S = 1.5
-"""Longer ones, and the noise of the integrated acceleration counts; shorter ones, no swing."""
+"""Length of a window in s; a longer one has integrated noise, a shorter one no whole swing."""
 STANDS_M, STANDS_S = 0.002, 0.75
-"""A vehicle that moves by less in so long stands; a shorter window tells nothing."""
+"""Travel in m and time in s below which a vehicle is stationary; the least window in s."""
 LEAST_COHERENCE, GAIN_OFF = 0.95, 0.05
-"""What a window of a standing vehicle has to show."""
+"""Requirements on a window of a stationary vehicle."""
 BOUNCE_COHERENCE, BOUNCE_OFF = 0.9999, 0.03
-"""What a window has to show where the distance says that the vehicle moves, or nothing."""
+"""Requirements on a window where the vehicle moves by its distance, or has no distance."""
 FEWEST_BOUNCES = 2
-"""So many such windows have to follow one another."""
+"""Least number of such windows in a row."""
 LEAST_MOTION_M = 2e-5
 SLOWEST_HZ, SHORTEST_S = 100.0, 2.0
 LARGEST_SIGMA_S = 5e-4
-"""A skew that is known no better is not told."""
+"""Largest standard deviation of a skew that is reported, in s."""
 WORTH_S, CERTAIN = 5e-4, 3.0
-"""A warning is given for more than this, and than so many standard deviations."""
+"""Skew in s, and in standard deviations, above which a warning is given."""
 
 
 @dataclass(frozen=True)
 class Skew:
-    """By how much the height's samples are later than the accelerometer's, or why that is open.
+    """By how much the height's samples are later than the accelerometer's, or why that is unknown.
 
     Attributes:
-        skew_s: in s; NaN if it is open.
+        skew_s: in s; NaN if it is unknown.
         sigma_s: its standard deviation in s; NaN if nothing was found.
-        seconds: how long the stretches are that tell it, in s.
+        seconds: length of the stretches that it is estimated from, in s.
         coherence: of height and twice integrated acceleration in them.
-        reason: one line that says why the skew is open; "" if it is not.
+        reason: one line that says why the skew is unknown; "" if it is known.
     """
 
     skew_s: float
@@ -54,7 +54,7 @@ class Skew:
 
     @classmethod
     def none(cls, reason: str, sigma_s: float = np.nan) -> "Skew":
-        """Return a skew that is open."""
+        """Return an unknown skew."""
         return cls(np.nan, sigma_s, reason=reason)
 
     @property
@@ -64,11 +64,11 @@ class Skew:
 
 
 def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None) -> Skew:
-    """Return by how much ``height`` is later than the vertical ``force``, where that shows.
+    """Return by how much ``height`` is later than the vertical ``force``, if it can be estimated.
 
-    Windows of a second and a half count where the vehicle stands by its ``distance``, or, whatever
-    the distance, where height and acceleration agree as in a bounce test alone. Channels may have
-    any clocks above 100 Hz and gaps; memory grows by 10 kB for each second.
+    Windows of 1.5 s count where the vehicle is stationary by its ``distance``, or where height and
+    acceleration agree as they do only in a bounce test. Channels may have any clocks above 100 Hz,
+    and gaps; memory grows by 10 kB for each second.
     """
     slow = next((c for c in (force, height) if c.mean_rate_hz < SLOWEST_HZ), None)
     if slow is not None:
@@ -84,11 +84,11 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
     stands = np.zeros(grid.size, dtype=np.bool_)
     if distance is not None:
         stands = standing(distance, grid, STANDS_M, STANDS_S)
-    return _judged([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
+    return _combine([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 
 def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
-    """Return a line that says how to take out a skew above 0.5 ms that is certain, else None."""
+    """Return a warning with the remedy for a significant skew above 0.5 ms, else None."""
     size = abs(skew.skew_s)
     if not (skew.known and size > WORTH_S and size > CERTAIN * skew.sigma_s):
         return None
@@ -109,7 +109,7 @@ class _Stretch:
     def skew(self) -> tuple[float, float]:
         """Return the skew of the stretch and its standard deviation, in s.
 
-        What is wrong in one window is wrong in the next: nothing averages out.
+        Errors of successive windows are equal: averaging does not reduce them.
         """
         sigmas = np.array([w.sigma_s(self.gain) for w in self.windows])
         weights = 1.0 / np.square(sigmas)
@@ -120,7 +120,7 @@ class _Stretch:
 
 
 def _at_stops(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[_Stretch]:
-    """Return the stretches of a standing vehicle that tell something."""
+    """Return the usable stretches of a stationary vehicle."""
     found = []
     for first, end in stretches(stands):
         windows = _windows(force, height, first, end)
@@ -148,7 +148,7 @@ def _in_bounces(force: FloatArray, height: FloatArray, stands: BoolArray) -> lis
 def _windows(
     force: FloatArray, height: FloatArray, first: int, end: int
 ) -> Iterable[SkewWindow | None]:
-    """Yield what equal windows of about `WINDOW_S` from ``first`` to ``end`` tell."""
+    """Yield the results of equal windows of about `WINDOW_S` from ``first`` to ``end``."""
     many = max(1, round((end - first) * STEP_S / WINDOW_S))
     edges = np.linspace(first, end, many + 1).astype(int).tolist()
     for a, b in pairwise(edges):
@@ -156,13 +156,13 @@ def _windows(
 
 
 def _is_one(window: SkewWindow, coherence: float, off: float) -> bool:
-    """Return whether both sensors saw one motion, and enough of it."""
+    """Return whether both sensors measured one motion, and enough of it."""
     agrees = 1.0 - window.rest**2 >= coherence and abs(window.gain - 1.0) <= off
     return agrees and window.motion_m >= LEAST_MOTION_M
 
 
-def _judged(found: list[_Stretch]) -> Skew:
-    """Return what all stretches tell together."""
+def _combine(found: list[_Stretch]) -> Skew:
+    """Return the skew estimated from all stretches together."""
     if not found:
         return Skew.none(
             "no moment in which the body alone moves: neither a stop after which it still swings "
@@ -171,14 +171,14 @@ def _judged(found: list[_Stretch]) -> Skew:
     skews, sigmas = np.array([s.skew() for s in found]).T
     weights = 1.0 / np.square(sigmas)
     skew = float(weights @ skews / weights.sum())
-    # Stretches that disagree know less than they say.
+    # Stretches that disagree are less certain than each alone suggests.
     excess = float(weights @ np.square(skews - skew)) / max(skews.size - 1, 1)
     sigma = float((max(1.0, excess) / weights.sum()) ** 0.5)
     windows = [w for s in found for w in s.windows]
     if sigma > LARGEST_SIGMA_S:
         return Skew.none(
-            f"{WINDOW_S * len(windows):.3g} s in which the body alone moves tell it to "
-            f"{1e3 * sigma:.2g} ms only; a bounce test tells it to 0.05 ms",
+            f"{WINDOW_S * len(windows):.3g} s in which the body alone moves give it to "
+            f"{1e3 * sigma:.2g} ms only; a bounce test gives it to 0.05 ms",
             sigma,
         )
     power = np.array([w.motion_m**2 for w in windows])

@@ -1,4 +1,4 @@
-"""Channels of different clocks on one grid of 200 Hz, delayed alike: not at all."""
+"""Channels of different clocks on one grid of 200 Hz, without any delay."""
 
 from collections.abc import Iterator
 
@@ -11,15 +11,15 @@ from floatref.values.recording import Channel
 RATE_HZ = 200
 STEP_S = 1.0 / RATE_HZ
 CELLS = 5
-"""Samples are averaged over so many cells to a step, with the mean of their times."""
+"""Cells per step over which samples are averaged, with the mean of their times."""
 HALF = 4
-"""Every point is a straight line through the samples of so many steps on either side."""
+"""Steps on either side whose samples the straight line of a point goes through."""
 BLOCK = 30 * RATE_HZ
-"""Points that are made together."""
+"""Points calculated together."""
 FILLED = 0.7
-"""A point needs such a share of the samples that should be there."""
+"""Least share of the expected samples that a point needs."""
 LOPSIDED = 0.1
-"""And the middle of their times within this share of the steps on either side."""
+"""Largest distance of the middle of their times from the point, as a share of the steps."""
 
 
 def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
@@ -33,14 +33,15 @@ def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
     for first in range(0, grid_s.size, BLOCK):
         points = grid_s[first : first + BLOCK]
         times, values = _between(channel, points[0] - HALF * STEP_S, points[-1] + HALF * STEP_S)
-        found[first : first + BLOCK] = _smoothed(times, values, points, fewest)
+        found[first : first + BLOCK] = _smooth(times, values, points, fewest)
     return found
 
 
 def standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: float) -> BoolArray:
     """Return at which points of ``grid_s`` the vehicle moves by less than ``most_m``.
 
-    Over ``over_s`` from there on, or up to there. Where ``distance`` is missing it moves.
+    The travel is over ``over_s`` behind or before the point. Where ``distance`` is missing the
+    vehicle is taken to move.
     """
     places = np.full(grid_s.size, np.nan)
     for first in range(0, grid_s.size, BLOCK):
@@ -52,7 +53,7 @@ def standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: float
             places[first : first + BLOCK] = there
     ahead = round(over_s * RATE_HZ)
     stays = np.abs(places[ahead:] - places[:-ahead]) < most_m
-    # Every point from which it stays, and all that it stays until.
+    # Every point from which on it is stationary, and all points until the end of that time.
     edges = np.zeros(grid_s.size + 1, np.int64)
     edges[: stays.size] += stays
     edges[ahead + 1 : ahead + 1 + stays.size] -= stays
@@ -81,9 +82,7 @@ def _between(channel: Channel, begin_s: float, end_s: float) -> tuple[FloatArray
     return times, values
 
 
-def _smoothed(
-    times: FloatArray, values: FloatArray, points: FloatArray, fewest: float
-) -> FloatArray:
+def _smooth(times: FloatArray, values: FloatArray, points: FloatArray, fewest: float) -> FloatArray:
     """Return straight lines through the samples around each of ``points``; NaN for too few."""
     known = ~np.isnan(values)
     width = (points.size - 1 + 2 * HALF) * CELLS + 1

@@ -1,8 +1,8 @@
 """How late a height is in one short window in which the body alone moves.
 
-There height and twice integrated acceleration are one signal, but for what integration leaves
-open: h(t) = g·z(t − τ) + parabola. By least squares τ is the slope of the phase of their cross
-spectrum against frequency, every frequency weighted by how fast the body moves at it. A taper
+There height and twice integrated acceleration are one signal, except for the constants of
+integration: h(t) = g·z(t − τ) + parabola. By least squares τ is the slope of the phase of their
+cross spectrum against frequency, every frequency weighted by how fast the body moves at it. A taper
 weighs the middle of the window most: the jolt at which a stop begins moves more than the body.
 Acceleration and height must not be tapered before the integration, or a swing that decays shifts.
 """
@@ -15,15 +15,15 @@ from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S
 from floatref.values.arrays import FloatArray
 
 LARGEST = 10
-"""Skews are looked for up to so many steps of the grid either way: 50 ms."""
+"""Largest skew in steps of the grid either way: 50 ms."""
 ROUNDS = 6
 LEAST_ALIKE = 0.8
-"""Correlation at the best whole step; half a step off costs 0.05 of it at 20 Hz."""
+"""Least correlation at the best whole step; half a step lowers it by 0.05 at 20 Hz."""
 
 
 @dataclass(frozen=True)
 class SkewWindow:
-    """What one window tells.
+    """The result of one window.
 
     Attributes:
         first: its first point on the grid.
@@ -44,16 +44,16 @@ class SkewWindow:
     def sigma_s(self, gain: float = 1.0) -> float:
         """Return the standard deviation of the skew, in s, if ``gain`` is the sensors' own.
 
-        What is not explained may be a quarter of a period off as well as in phase, and a road or a
-        tilt under the swing repeats with it: nothing of it is taken to average out.
+        The unexplained motion may be a quarter of a period off as well as in phase, and a road or a
+        tilt under the swing repeats with it: averaging is not taken to reduce it.
         """
         return float(np.hypot(self.gain - gain, self.rest)) / self.omega
 
 
 def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -> SkewWindow | None:
-    """Return what ``count`` points from ``first`` on tell.
+    """Return the result of ``count`` points from ``first`` on.
 
-    None if samples are missing, and where the two are unlike each other at any skew.
+    None if samples are missing, and where the two do not correlate at any skew.
 
     ``force`` in m/s² and ``height`` in m, on one grid of `RATE_HZ`.
     """
@@ -88,7 +88,7 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
 
 
 class _Body:
-    """Velocity and place of the body by integration, over a window and what lies beside it."""
+    """Velocity and place of the body by integration, over a window and its surroundings."""
 
     def __init__(self, acceleration: FloatArray, count: int) -> None:
         self.count = count
@@ -100,7 +100,7 @@ class _Body:
         self.taper = np.sin(np.pi * (np.arange(count) + 0.5) / count)
 
     def bare(self, series: FloatArray) -> FloatArray:
-        """Return ``series`` without the parabola that integration leaves open, tapered."""
+        """Return ``series`` tapered, without the parabola of the constants of integration."""
         return np.asarray(self.taper * (series - self.open @ (self.open.T @ series)))
 
     def roughly(self, y: FloatArray) -> tuple[float, float]:

@@ -1,7 +1,7 @@
 """Agreement of two signals: cross correlation over a range of offsets (2.1.5.1).
 
 Mean and standard deviation are those of the overlap at each offset, so a shifted copy of a
-signal scores 1 whatever lies beyond the overlap.
+signal scores 1 for any values beyond the overlap.
 """
 
 import math
@@ -48,7 +48,7 @@ def cross_correlation(
     for signals of unequal length, with NaN, or shorter than four times the largest offset.
     Source: (2.12) to (2.16), (2.14) with the factor 1/N that it needs.
     """
-    p, q = _checked(p, q)
+    p, q = _check_signals(p, q)
     if not 0.0 <= max_offset_m < math.inf:
         raise InputError(f"the largest offset is {max_offset_m} m; give 0 m or more")
     # A grid of 5.08 mm must reach 1.016 m as its 200th lag, whatever the rounding.
@@ -66,7 +66,7 @@ def cross_correlation(
     return Agreement(rho * gamma, rho, gamma, float(lags[best]) * interval_m)
 
 
-def _checked(p: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _check_signals(p: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return both signals as float64; InputError unless finite and of equal length."""
     p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
     if p.ndim != 1 or p.shape != q.shape:
@@ -97,8 +97,8 @@ def _correlate(p: FloatArray, q: FloatArray, largest: int) -> _Overlap:
 def _lagged_products(p: FloatArray, q: FloatArray, largest: int) -> FloatArray:
     """Return Σ p(k)·q(k + i) over the overlap for lags i from −``largest`` to ``largest``.
 
-    The transform is only ``largest`` points longer than the signals: what wraps around lands
-    on lags that are not asked for.
+    The transform is only ``largest`` points longer than the signals: the wrapped part falls on lags
+    that are not needed.
     """
     from scipy.fft import irfft, next_fast_len, rfft
 
@@ -155,7 +155,7 @@ def on_common_grid(reference: Profile, profile: Profile) -> tuple[Profile, Profi
     cut = slice(int(inside[0]), int(inside[-1]) + 1)
     start = reference.start_m + cut.start * reference.interval_m
     kept = tuple(_cut(track, cut) for track in reference.tracks)
-    moved = tuple(_interpolated(track, index[cut]) for track in profile.tracks)
+    moved = tuple(_interpolate(track, index[cut]) for track in profile.tracks)
     return (
         replace(reference, tracks=kept, start_m=start),
         replace(profile, tracks=moved, start_m=start, interval_m=reference.interval_m),
@@ -186,7 +186,7 @@ def _cut(track: ProfileTrack, stretch: slice) -> ProfileTrack:
     return ProfileTrack.of(track.name, track.elevation[stretch], track.valid[stretch], sigma)
 
 
-def _interpolated(track: ProfileTrack, index: FloatArray) -> ProfileTrack:
+def _interpolate(track: ProfileTrack, index: FloatArray) -> ProfileTrack:
     """Return ``track`` at the fractional points ``index``."""
     low = np.floor(index).astype(np.int64)
     fraction = index - low

@@ -20,10 +20,10 @@ def check_heights(elevation: FloatArray) -> None:
         )
 
 
-def checked_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
+def check_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     """Return ``elevation`` in m as float64; InputError unless it and ``interval_m`` are usable.
 
-    Needs one dimension, no infinities, at least one finite point, none beyond 1000 km, and a
+    Needs one dimension, no infinities, at least one finite point, no point beyond 1000 km, and a
     positive interval.
     """
     if not (np.isfinite(interval_m) and interval_m > 0):
@@ -36,7 +36,7 @@ def checked_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     if np.isinf(values).any():
         raise InputError("elevation is infinite in places; mark missing points as NaN")
     if np.isnan(values).all():
-        raise InputError(f"none of the {values.size} elevations is finite; nothing was measured")
+        raise InputError(f"0 of {values.size} elevations are finite; give a measured profile")
     check_heights(values)
     return values
 

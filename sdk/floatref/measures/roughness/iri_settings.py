@@ -8,9 +8,9 @@ import numpy as np
 from floatref.errors import InputError
 
 LONGEST_INTERVAL_M = 2.0
-"""At wider intervals a profile no longer holds what moves the car."""
+"""Longest interval in m: a coarser profile has lost wavelengths that move the car."""
 MOST_INTERVALS = 1e12
-"""No profile has more."""
+"""Most points of a profile."""
 
 
 def intervals_in(length_m: float, interval_m: float) -> int:
@@ -22,7 +22,7 @@ def intervals_in(length_m: float, interval_m: float) -> int:
 class IriSettings:
     """How the IRI is calculated (Karamihas 2021, 2.1.1).
 
-    ``moving_average_m`` is the base length of the tyre envelope in m, 0 for none;
+    ``moving_average_m`` is the base length of the tyre envelope in m, 0 for no envelope;
     ``start_length_m`` the length in m whose mean slope the car starts at, so that it starts at
     rest; ``speed_kmh`` the simulated speed in km/h; ``segment_m`` the length in m of the
     segments that the output is cut into, None for the whole profile as one.

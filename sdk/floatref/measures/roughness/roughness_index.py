@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.kernels.compiling import compiled
-from floatref.measures.roughness.gaps import bridged, checked_elevation, measured_stretch
+from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH
 from floatref.values.arrays import FloatArray
@@ -179,7 +179,7 @@ class _Run:
     @classmethod
     def of(cls, elevation: FloatArray, interval_m: float, settings: IriSettings) -> "_Run":
         """Return the pass over ``elevation``; InputError unless it is longer than the start."""
-        values = checked_elevation(elevation, interval_m)
+        values = check_elevation(elevation, interval_m)
         window, start = settings.window(interval_m), settings.start_count(interval_m)
         stretch = measured_stretch(values)
         measured = bridged(values[stretch])

@@ -1,4 +1,4 @@
-"""Filters that bring out the content to compare, and the agreement in a band (2.1.5.2)."""
+"""Filters for the content to compare, and the agreement in a band (2.1.5.2)."""
 
 import math
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ from floatref.kernels.state_variable import (
     low_pass_2,
 )
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.gaps import bridged, checked_elevation, measured_stretch
+from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
 
@@ -85,11 +85,11 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     """Return HPF_B3x2 of ``elevation``, −3 dB at ``wavelength_m``, without phase shift.
 
     Elevation counts from the first measured point, as a floating reference height does, so the
-    datum has no part in the filter's run-in. Same length; NaN before the first and after the
-    last measured point and, after the bridge has been filtered, in gaps again. Raises InputError
-    for a wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
+    datum does not change the filter's run-in. Same length; NaN before the first and after the last
+    measured point and, after the bridge has been filtered, in gaps again. Raises InputError for a
+    wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
-    values = checked_elevation(elevation, interval_m)
+    values = check_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
@@ -105,21 +105,21 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
 
     The slope less its mean is continued at both ends by its mirror image, as far as the band's
     longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
-    without elevation are refused. The low-pass is left out where its cut-off is not above two
-    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one
-    whose long end is not above two intervals. Source: 2.1.5.2.
+    without elevation are refused. The low-pass is not applied where its cut-off is not above two
+    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one whose
+    long end is not above two intervals. Source: 2.1.5.2.
     """
     if band not in WAVEBANDS:
         raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
     limits = WAVEBANDS[band]
     _check_cutoff(limits.long_m, interval_m)
-    values = checked_elevation(elevation, interval_m)
+    values = check_elevation(elevation, interval_m)
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
     slope = np.diff(bridged(values)) / interval_m
     margin = math.ceil(limits.long_m / interval_m)
     continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
-    return _band_passed(continued, interval_m, limits)[margin : margin + slope.size]
+    return _pass_band(continued, interval_m, limits)[margin : margin + slope.size]
 
 
 def agreement(
@@ -136,7 +136,7 @@ def agreement(
     offset above zero says that ``q`` lies farther along. Raises InputError where the two share
     no stretch, as `cross_correlation` and the filters do. Source: 2.1.5.
     """
-    p, q = checked_elevation(p, interval_m), checked_elevation(q, interval_m)
+    p, q = check_elevation(p, interval_m), check_elevation(q, interval_m)
     if p.shape != q.shape:
         raise InputError(f"profiles of {p.size} and {q.size} points; cut them to the same points")
     common = _common_stretch(p, q)
@@ -144,7 +144,7 @@ def agreement(
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
-def _band_passed(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
+def _pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
     passed = high_pass_b3x2(slope, interval_m, limits.long_m)
     if limits.short_m <= 2 * interval_m:

@@ -9,13 +9,13 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 ALL = 1 << 62
-"""More samples than any run has."""
+"""A number of samples above that of any run."""
 
 
 class Advance(Stage):
     """Gives ``channel`` of every track earlier by ``delay_s``, to the nearest sample.
 
-    So a converter does that waits until the filter before it has caught up. The last sample is
+    A converter that waits for the delayed output of its filter does the same. The last sample is
     repeated at the end, and missing ones are flagged.
     """
 
@@ -39,23 +39,23 @@ class Advance(Stage):
         return header
 
     def advance(self, block: Block) -> Block:
-        """Return the samples whose channel has come."""
+        """Return the samples whose channel is known."""
         waiting: Block | None = self.memory["waiting"]
         wide = block if waiting is None else join_blocks((waiting, block))
         ready = max(0, len(wide) - self._samples)
         self.memory["waiting"] = wide.part(ready, len(wide))
-        return self._shifted(wide, ready)
+        return self._shift(wide, ready)
 
     def close(self) -> tuple[Block, ...]:
-        """Return those that waited, the channel as it was at the end."""
+        """Return the samples held back, with the last value of the channel."""
         waiting: Block | None = self.memory["waiting"]
         if waiting is None or len(waiting) == 0:
             return ()
         last = waiting.part(len(waiting) - 1, len(waiting))
         wide = join_blocks((waiting, *[last] * self._samples))
-        return (self._shifted(wide, len(waiting)),)
+        return (self._shift(wide, len(waiting)),)
 
-    def _shifted(self, wide: Block, ready: int) -> Block:
+    def _shift(self, wide: Block, ready: int) -> Block:
         begin, end = self._samples, self._samples + ready
         values, flags = {}, {}
         for channel in self._late:

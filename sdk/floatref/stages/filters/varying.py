@@ -47,13 +47,13 @@ class VaryingHighPass(Stage):
         c = tangents(block[ChannelId(CUTOFF)], self._step, self.name)
         for track, memory in self.memory.items():
             channel = ChannelId(self.channel, track)
-            values[channel] = self._filtered(block[channel], c, memory)
+            values[channel] = self._filter(block[channel], c, memory)
             marks = flags_of(block, channel, ChannelId(CUTOFF))
             if marks is not None:
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _filtered(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+    def _filter(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
         y = np.empty(x.size)
         kernel = getattr(self._kernels(), f"high_pass_{self.orders}")
         kernel(x, y, c, *memory, self.direction is Direction.BACKWARD)
@@ -140,8 +140,8 @@ class StateHighPassB3S1R(VaryingHighPass):
 class StateHighPassB3S2R(StateHighPassB3S1R):
     """HPF_B3S2R in state-variable form: bp' = w hp, lp' = w bp, hp = x - bp - lp.
 
-    Unlike (A.10) with coefficients that vary it does not swell where the cut-off falls, as it
-    does on the way back from a stop. It removes content below the cut-off from every point.
+    Unlike (A.10) with varying coefficients, its output does not grow where the cut-off falls, as on
+    the way back from a stop. It removes content below the cut-off from every point.
     """
 
     orders = "2"

@@ -1,4 +1,4 @@
-"""Q of (12) of Zhu: what moves a model beside the forces of its tyres, in one step."""
+"""Q of (12) of Zhu: disturbances of a model besides the forces of its tyres, in one step."""
 
 from collections.abc import Mapping
 from math import ceil, isfinite, log2, pi
@@ -23,9 +23,9 @@ def disturbance_of(
     """Return Q, shape (2n, 2n), of white forces on freedoms, exact over ``step_s``.
 
     ``densities`` has the force on each freedom by name, in N/√Hz, or N·m/√Hz for an angle; white
-    noise of density S has the standard deviation S·√f when sampled at f. Freedoms without one have
-    none. Raises InputError for an unknown freedom, a density that is negative or not finite, or a
-    step that is not above zero.
+    noise of density S has the standard deviation S·√f when sampled at f. The others have no force.
+    Raises InputError for an unknown freedom, a density that is negative or not finite, or a step
+    that is not above zero.
     """
     discretized(model, step_s)
     size = len(model.freedoms)
@@ -44,7 +44,7 @@ def disturbance_of(
     intensity = np.zeros_like(a)
     intensity[size:, size:] = accelerated * squares @ accelerated.T
     both = step_s * scale[:, None] * intensity * scale
-    covariance = _gathered(step_s * scale[:, None] * a / scale, both) / scale / scale[:, None]
+    covariance = _gather(step_s * scale[:, None] * a / scale, both) / scale / scale[:, None]
     return np.asarray(0.5 * (covariance + covariance.T))
 
 
@@ -55,13 +55,14 @@ def hold_error_of(
     road_class: str,
     hold: Hold = Hold.ZERO_ORDER,
 ) -> FloatArray:
-    """Return Q, shape (2n, 2n), of what forces do between samples that ``hold`` leaves out.
+    """Return Q, shape (2n, 2n), of the change of forces between samples that ``hold`` neglects.
 
     The road is white in its rate, (15) of Zhu without n1, with the geometric mean of class
     ``road_class`` of ISO 8608, "A" to "H", at a speed in m/s. To first order in the step: a force
-    that walks errs from one that stays by a ramp, and a third of the ramp's square for the bridge
-    between its ends; from one that is linear by the bridge alone. Each tyre errs by itself.
-    Raises InputError for an unknown class, or a speed or step that is not above zero.
+    of random walk differs from a constant one by a ramp, and a third of the ramp's square for the
+    bridge between its ends; from one that is linear by the bridge alone. The errors of the tyres
+    are independent. Raises InputError for an unknown class, or a speed or step that is not above
+    zero.
     """
     if len(road_class) != 1 or road_class not in CLASSES:
         raise InputError(f"ISO 8608 class {road_class}: unknown; choose one of A to H")
@@ -79,12 +80,12 @@ def hold_error_of(
     return np.asarray(share * rate * (ramp * (springs + dampers)) @ ramp.T)
 
 
-def _gathered(rate: FloatArray, intensity: FloatArray) -> FloatArray:
+def _gather(rate: FloatArray, intensity: FloatArray) -> FloatArray:
     """Return ∫ exp(rate·t)·intensity·exp(rateᵀ·t) dt from 0 to 1, all of shape (s, s)."""
     from scipy.linalg import expm
 
     # Van Loan: the exponential of [[-A, W], [0, Aᵀ]] has Q behind its lower right part. It holds
-    # what decays backwards, too: in parts of the step that is no more than e.
+    # parts that decay backwards, too: in parts of the step they are at most e.
     halvings = max(0, ceil(log2(np.linalg.norm(rate, 1))))
     block = np.block([[-rate, intensity], [np.zeros_like(rate), rate.T]])
     whole, size = expm(block / 2**halvings), len(rate)

@@ -1,4 +1,4 @@
-"""What an estimator tells of the road under a model's tyres and of the model's states."""
+"""An estimate of the road under a model's tyres and of the model's states."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from floatref.values.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Road and states at N samples, for p tyres and n freedoms; NaN where nothing is known.
+    """Road and states at N samples, for p tyres and n freedoms; NaN where it is unknown.
 
     Attributes:
         road: height under each tyre, shape (N, p), in m.

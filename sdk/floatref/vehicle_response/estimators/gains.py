@@ -12,7 +12,7 @@ from floatref.vehicle_response.models.model import VehicleModel
 from floatref.vehicle_response.models.outputs import Kind, Reading, output_matrices
 
 POSITION_HZ, RATE_HZ = 10.0, 2.0
-"""By default, below which frequency a height follows its sensor, and a velocity the height's.
+"""Default frequencies in Hz below which a height follows its sensor, and a velocity the height's.
 
 Lower ones let noise and bias of accelerometers through, higher ones the noise of displacements;
 for noise of 10 µm and 0.02 m/s² at 128 Hz, the sum is flat around these.
@@ -27,11 +27,11 @@ def default_gains(
 ) -> FloatArray:
     """Return g1 to g2k for k measured displacements, shape (2k,), in 1/s and 1/s².
 
-    At a wheel they are a complementary filter of measured displacement and acceleration with
-    two real poles: below ``position_hz`` its height is the measured one, above it comes from the
-    acceleration; so does its velocity above ``rate_hz``. At another freedom the model takes the
-    place of the acceleration. Such gains make every model stable whose freedoms are all measured.
-    Raises InputError for frequencies that are not above zero.
+    At a wheel they are a complementary filter of measured displacement and acceleration with two
+    real poles: below ``position_hz`` its height is the measured one, above it comes from the
+    acceleration; so does its velocity above ``rate_hz``. At another freedom the model replaces the
+    acceleration. Such gains make every model stable whose freedoms are all measured. Raises
+    InputError for frequencies that are not above zero.
     """
     for name, hertz in (("position_hz", position_hz), ("rate_hz", rate_hz)):
         if not (isfinite(hertz) and hertz > 0):
@@ -43,7 +43,7 @@ def default_gains(
 
 
 def output_matrix(model: VehicleModel, measured: Sequence[Reading]) -> FloatArray:
-    """Return C' of y = C'x, shape (k, 2n); InputError for what is no displacement, or none."""
+    """Return C' of y = C'x, shape (k, 2n); InputError unless all are displacements."""
     if not measured:
         raise InputError(
             f"model {model.name}: the observer measures no displacement; give one of every freedom"
@@ -60,8 +60,9 @@ def output_matrix(model: VehicleModel, measured: Sequence[Reading]) -> FloatArra
 def gain_matrix(model: VehicleModel, measured: Sequence[Reading], gains: ArrayLike) -> FloatArray:
     """Return G, shape (2n, k), of ``gains`` in that shape, or of g1 to g2k as (19) counts them.
 
-    g1 to gk correct, each by the displacement of one reading, the freedom of that reading; gk+1
-    to g2k correct its velocity. Raises InputError for another shape, and for what is no number.
+    g1 to gk correct, each by the displacement of one reading, the freedom of that reading; gk+1 to
+    g2k correct its velocity. Raises InputError for another shape, and for values that are not
+    finite.
     """
     given, k, n = np.asarray(gains, dtype=np.float64), len(measured), len(model.freedoms)
     if given.shape not in ((2 * k,), (2 * n, k)):
@@ -70,7 +71,7 @@ def gain_matrix(model: VehicleModel, measured: Sequence[Reading], gains: ArrayLi
             f"of {n} freedoms need ({2 * k},) or ({2 * n}, {k})"
         )
     if not np.isfinite(given).all():
-        raise InputError(f"model {model.name}: a gain is no finite number; give one for each")
+        raise InputError(f"model {model.name}: a gain is not a finite number; give one for each")
     if given.ndim == 2:
         return given.copy()
     matrix = np.zeros((2 * n, k))
@@ -81,9 +82,9 @@ def gain_matrix(model: VehicleModel, measured: Sequence[Reading], gains: ArrayLi
 
 
 SLOWEST_PER_S = 1e-3
-"""An error that decays more slowly, with a time constant beyond a quarter of an hour, stays."""
+"""Least decay rate in 1/s; an error with a time constant beyond a quarter of an hour stays."""
 TIME_CONSTANTS = 10.0
-"""After so many of the slowest eigenvalue an error has decayed: to a two-thousandth, even at a
+"""Time constants of the slowest eigenvalue until an error has decayed: to 1/2000, even at a
 double pole."""
 
 
@@ -101,22 +102,22 @@ def decay_rate(
     if -worst.real >= SLOWEST_PER_S:
         return -worst.real
     n = len(model.freedoms)
-    share = _moved(error, worst, n) * _moved(error.T, worst, n)
+    share = _measure_motion(error, worst, n) * _measure_motion(error.T, worst, n)
     freedom = model.freedoms[int(np.argmax(share))].name
     if freedom in [reading.freedom for reading in measured]:
         advice = _gain_to_raise(model, freedom, measured, outputs, error)
     else:
-        advice = "neither springs nor a reading hold it: measure its displacement"
+        advice = "neither a spring nor a reading limits it: measure its displacement"
     raise InputError(
-        f"model {model.name}: the observer's error does not decay, eigenvalue {_printed(worst)} "
+        f"model {model.name}: the observer's error does not decay, eigenvalue {_format(worst)} "
         f"1/s in the motion of the {freedom}; {advice}"
     )
 
 
-def _moved(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
+def _measure_motion(matrix: FloatArray, eigenvalue: complex, n: int) -> FloatArray:
     """Return how much each freedom moves in the eigenvectors of ``eigenvalue``, shape (n,).
 
-    Times the same of the transposed matrix, that leaves those freedoms out which others move,
+    It is multiplied by the same of the transposed matrix, which removes freedoms moved by others,
     and the units of angles and heights.
     """
     values, vectors = np.linalg.eig(matrix)
@@ -132,7 +133,7 @@ def _gain_to_raise(
     outputs: FloatArray,
     error: FloatArray,
 ) -> str:
-    """Return which of g1 to g2k, more by its default, leaves least of what does not decay.
+    """Return which of g1 to g2k, raised by its default, reduces the lasting error most.
 
     Of equals, one of ``freedom``.
     """
@@ -152,7 +153,7 @@ def _gain_to_raise(
     )
 
 
-def _printed(value: complex) -> str:
+def _format(value: complex) -> str:
     imaginary = f" ± {abs(value.imag):.3g}j" if abs(value.imag) > SLOWEST_PER_S else ""
-    # Rounding leaves next to nothing of a zero; adding one takes its sign.
+    # Rounding may give a negative zero; adding zero removes its sign.
     return f"{round(value.real, 3) + 0.0:.3g}{imaginary}"

@@ -1,4 +1,4 @@
-"""Whether readings tell the forces of the tyres and the states, and which sensor is missing."""
+"""Whether readings determine the forces of the tyres and the states; which sensor is missing."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -13,9 +13,9 @@ from floatref.vehicle_response.models.outputs import Kind, Reading, output_matri
 from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized
 
 NOTHING = 1e-9
-"""Singular value, of a matrix with rows and columns of about 1, that is rounding."""
+"""Singular value of a matrix with rows and columns of about 1 that counts as rounding."""
 CIRCLE = 1e-6
-"""What is nearer to 1 than this neither grows nor fades in a drive, and may be an exact 1."""
+"""Distance from 1 within which a zero neither grows nor decays in a drive, and may be exactly 1."""
 ROUNDS = 20
 
 Matrix = NDArray[Any]
@@ -24,10 +24,10 @@ Matrix = NDArray[Any]
 def null_space(matrix: Matrix) -> Matrix:
     """Return the directions that ``matrix`` takes to zero, as columns, shape (columns, nullity).
 
-    Rows and columns are brought to about 1 before, so that units decide nothing; the columns
-    returned are those of the matrix as given.
+    Rows and columns are scaled to about 1 before, so that units have no influence; the columns
+    returned are those of the given matrix.
     """
-    balanced, scale = _balanced(matrix)
+    balanced, scale = _balance(matrix)
     _, sizes, rows = np.linalg.svd(balanced)
     rank = int(np.sum(sizes > NOTHING))
     return np.asarray(scale[:, None] * rows[rank:].conj().T)
@@ -39,7 +39,7 @@ def lasting_motions(
     """Return the invariant zeros λ of (A_c, B_c, G, J) on or outside the unit circle.
 
     For such λ there are a state x and forces F with A_c·x + B_c·F = λ·x and G·x + J·F = 0: a
-    motion that goes as λᵏ, stays or grows, and that no reading tells. With each λ come its
+    motion that goes as λᵏ, stays or grows, and that no reading shows. With each λ come its
     (x, F) as columns, shape (2n + p, k). For J of full column rank the zeros are among the
     eigenvalues of A_c - B_c·J⁺·G; 1 is tried besides, since a multiple one is computed inexactly.
     J is that of the hold, `Discrete.feedthrough`.
@@ -67,8 +67,8 @@ def _pencil(system: Discrete, output: FloatArray, direct: FloatArray, z: complex
     return np.vstack([above, np.hstack([output, direct])])
 
 
-def _balanced(matrix: Matrix) -> tuple[Matrix, FloatArray]:
-    """Return ``matrix`` with rows and columns of length 1, about, and the scale of columns."""
+def _balance(matrix: Matrix) -> tuple[Matrix, FloatArray]:
+    """Return ``matrix`` with rows and columns of length about 1, and the scale of columns."""
     balanced, scale = np.array(matrix), np.ones(matrix.shape[1])
     for _ in range(ROUNDS):
         balanced = balanced / _lengths(balanced, 1)[:, None]
@@ -83,7 +83,7 @@ def _lengths(matrix: Matrix, axis: int) -> FloatArray:
 
 
 SHARE = 1e-6
-"""Part of the largest component of a direction that counts as none."""
+"""Share of the largest component of a direction below which a component counts as zero."""
 
 
 def check_readings(
@@ -92,15 +92,15 @@ def check_readings(
     step_s: float,
     hold: Hold = Hold.ZERO_ORDER,
 ) -> None:
-    """Raise InputError, saying what is missing, unless ``readings`` tell forces and states.
+    """Raise InputError, naming the missing sensor, unless ``readings`` give forces and states.
 
     Needed are J of (11) of Zhu of full column rank, for step (a), and no invariant zero on or
     outside the unit circle: else an error of the estimated road stays, or grows. ``step_s`` is
     the time between samples, in s.
 
     J is that of forces that stay, for either hold. With forces that change linearly a displacement
-    tells something of them, too, about step²/(6·m) in m/N: its noise would come out 6·m/step²
-    times larger in force.
+    depends on them, too, by about step²/(6·m) in m/N: its noise would be 6·m/step² times larger in
+    force.
     """
     _check_felt(model, unfelt_tyres(model, readings))
     _check_heights(model, missing_displacements(model, readings))
@@ -111,12 +111,12 @@ def check_readings(
         moving = " and the ".join(_moving(model, [motion for _, motion in motions]))
         raise InputError(
             f"model {model.name}: with steps of {step_s:g} s the readings leave a motion of the "
-            f"{moving} untold that does not fade; add a reading of it, or shorten the step"
+            f"{moving} unknown that does not decay; add a reading of it, or shorten the step"
         )
 
 
 def unfelt_tyres(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:
-    """Return the freedoms whose tyre's force cannot be told: those that lower the rank of J."""
+    """Return the freedoms whose tyre's force is unknown: those that lower the rank of J."""
     _, direct = output_matrices(model, readings)
     largest = np.abs(null_space(direct)).max(axis=1, initial=0.0)
     untold = np.flatnonzero(largest > SHARE * largest.max())
@@ -124,11 +124,11 @@ def unfelt_tyres(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str,
 
 
 def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:
-    """Return the freedoms whose displacements would tell what stands still unseen.
+    """Return the freedoms whose displacements would show the unseen states at rest.
 
-    At rest K·q = S·F, and accelerations and velocities are zero: only displacements, the rows
-    S_d of (10) of Zhu, tell such q and F. What they leave is an invariant zero at 1, of which
-    accelerations, integrated twice, drift away. The wheels come first, then what else helps.
+    At rest K·q = S·F, and accelerations and velocities are zero: only displacements, the rows S_d
+    of (10) of Zhu, show such q and F. Without them there is an invariant zero at 1, where twice
+    integrated accelerations drift. The wheels come first, then the other useful freedoms.
     """
     wheels = [tyre.freedom for tyre in model.tyres]
     others = sorted((f for f in model.freedoms if f.name not in wheels), key=lambda f: f.angular)
@@ -146,7 +146,7 @@ def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> t
 def unseen_freedoms(
     model: VehicleModel, readings: Sequence[Reading], step_s: float
 ) -> tuple[str, ...]:
-    """Return the freedoms that move in what no reading tells, were the forces known.
+    """Return the freedoms that move in motions that no reading shows if the forces are known.
 
     Empty if (A_c, G) is observable.
     """
@@ -175,8 +175,8 @@ def _check_felt(model: VehicleModel, unfelt: tuple[str, ...]) -> None:
     if unfelt:
         sensors = " and the ".join(f"acceleration of the {name}" for name in unfelt)
         raise InputError(
-            f"model {model.name}: no reading feels at once the force of the tyre of the "
-            f"{' and of the '.join(unfelt)}: J lacks full column rank; add the {sensors}"
+            f"model {model.name}: no reading responds at once to the force of the tyre of the "
+            f"{' and of the '.join(unfelt)}: J has not full column rank; add the {sensors}"
         )
 
 
@@ -184,6 +184,6 @@ def _check_heights(model: VehicleModel, missing: tuple[str, ...]) -> None:
     if missing:
         sensors = " and the ".join(f"displacement of the {name}" for name in missing)
         raise InputError(
-            f"model {model.name}: the readings do not tell all heights and angles at rest, so "
+            f"model {model.name}: the readings do not determine all heights and angles at rest, so "
             f"the estimate would drift; add the {sensors}"
         )

@@ -27,7 +27,7 @@ from floatref.vehicle_response.models.outputs import Reading
 from floatref.vehicle_response.models.state_space import Sampled, sampled, stationary_sigma
 
 DEGREES = 1, 2, 3
-"""Of the polynomial between two samples. At 10 Hz and 128 samples a second, straight lines lose
+"""Degree of the polynomial between two samples. At 10 Hz and 128 samples a second, lines lose
 two hundredths of an acceleration, and cubics two thousandths."""
 
 
@@ -35,8 +35,8 @@ two hundredths of an acceleration, and cubics two thousandths."""
 class UnknownInputObserver:
     """The observer of one model, its gains and its sensors; made by `of`.
 
-    Road and standard deviations are NaN, and the states not vouched for, until `settling_s` has
-    passed since the start and since the last absent value.
+    Road and standard deviations are NaN, and the states not valid, until `settling_s` has passed
+    since the start and since the last absent value.
 
     Attributes:
         model: n freedoms on p tyres.
@@ -71,7 +71,7 @@ class UnknownInputObserver:
         ``acceleration_sigma`` is that of one sample of a wheel's acceleration, in m/s². Between
         two samples the inputs are the polynomial of ``degree`` through the newest. Raises
         InputError for gains or readings that do not let the error decay, see `decay_rate`, for
-        wrong shapes, for numbers that are none, and for models as in `observer_equations`.
+        wrong shapes, for values that are not finite, and for models as in `observer_equations`.
         """
         _check_positive(model, "step_s", step_s)
         _check_positive(model, "acceleration_sigma", acceleration_sigma)
@@ -107,7 +107,7 @@ class UnknownInputObserver:
         """Return road and states of N samples: y, shape (N, k), and z'', shape (N, p), in m/s².
 
         Accelerations are those of the wheels in the order of the model's tyres, without gravity.
-        NaN is absent. Raises InputError for other shapes.
+        NaN marks a missing value. Raises InputError for other shapes.
         """
         return self.advance(self.begin(), displacements, wheel_accelerations)
 

@@ -67,7 +67,7 @@ def wheel_equations(model: VehicleModel) -> tuple[FloatArray, FloatArray]:
         if wheels.count(wheel) > 1 or np.count_nonzero(row) > 1:
             raise InputError(
                 f"model {model.name}: the {tyre.freedom} has more than one tyre, or shares its "
-                "mass with another freedom, so its acceleration tells no road; give it a "
+                "mass with another freedom, so its acceleration does not give the road; give it a "
                 "coordinate and a mass of its own"
             )
     return np.hstack([model.stiffness[wheels], model.damping[wheels]]), rows.sum(axis=1)

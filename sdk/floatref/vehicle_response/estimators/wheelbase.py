@@ -13,9 +13,9 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, IndexArray
 
 POINTS = 6
-"""A value between samples is that of the polynomial through so many around it."""
+"""Number of samples around a value that its interpolating polynomial goes through."""
 EVEN = 1e-6
-"""Part of the step by which steps of a distance may differ."""
+"""Share of the step by which steps of a distance may differ."""
 
 
 def joined(
@@ -28,7 +28,7 @@ def joined(
 
     Args:
         roads: for every tyre the elevation under it in m, when the model's own point is at
-            ``distance_m``; NaN where there is none.
+            ``distance_m``; NaN where it is missing.
         sigmas: their standard deviations, in m.
         x_m: position of every tyre ahead of the model's own point, in m.
         distance_m: of the model's own point, in even steps, shape (n,).
@@ -36,7 +36,7 @@ def joined(
     Returns:
         Elevation at ``distance_m`` and its standard deviation, each of shape (n,). Weights are one
         over the variances; the standard deviation is the weighted mean of those joined, since a
-        drift is common to all tyres. NaN where no tyre tells.
+        drift is common to all tyres. NaN where no tyre gives a value.
 
     Raises:
         InputError: If lengths differ, a position is not finite, or the steps are not even and
@@ -54,7 +54,7 @@ def joined(
     over, spread = np.zeros(distance.size), np.zeros(distance.size)
     weights = np.zeros(distance.size)
     for road, sigma, ahead in zip(roads, sigmas, x_m, strict=True):
-        height, deviation, weight = _told(road, sigma, ahead / step, distance.size)
+        height, deviation, weight = _read_earlier(road, sigma, ahead / step, distance.size)
         over += weight * height
         spread += weight * deviation
         weights += weight
@@ -62,16 +62,16 @@ def joined(
     return over / total, spread / total
 
 
-def joined_at_speed(
+def join_at_speed(
     roads: Sequence[ArrayLike],
     sigmas: Sequence[ArrayLike],
     x_m: Sequence[float],
     speed_m_per_s: float,
     step_s: float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return as `joined`, for samples ``step_s`` apart at constant ``speed_m_per_s``.
+    """Return the same as `joined`, for samples ``step_s`` apart at constant ``speed_m_per_s``.
 
-    The delay of (8) of Zhu, the wheelbase over the speed, need be no whole number of samples.
+    The delay of (8) of Zhu, the wheelbase over the speed, can be any number of samples.
     Raises InputError as `joined`, and for a speed or a step that is not above zero.
     """
     for name, value, unit in (("speed", speed_m_per_s, "m/s"), ("time step", step_s, "s")):
@@ -97,11 +97,11 @@ def shifted(values: ArrayLike, samples: float) -> FloatArray:
         )
     whole = round(samples)
     if abs(samples - whole) < EVEN:
-        return _moved(series, whole)
+        return _move(series, whole)
     whole = floor(samples)
     nodes = np.arange(POINTS) - (POINTS // 2 - 1)
     weights = _weights(nodes, samples - whole)
-    moved = [_moved(series, whole + int(node)) for node in nodes]
+    moved = [_move(series, whole + int(node)) for node in nodes]
     return np.asarray(weights @ np.stack(moved))
 
 
@@ -112,7 +112,7 @@ def _weights(nodes: IndexArray, at: float) -> FloatArray:
     return np.asarray(factors.prod(axis=1))
 
 
-def _moved(series: FloatArray, by: int) -> FloatArray:
+def _move(series: FloatArray, by: int) -> FloatArray:
     """Return ``series`` as it is ``by`` whole samples later, NaN beyond its ends."""
     result = np.full(series.size, np.nan)
     begin, end = max(0, -by), min(series.size, series.size - by)
@@ -121,7 +121,7 @@ def _moved(series: FloatArray, by: int) -> FloatArray:
     return result
 
 
-def _told(
+def _read_earlier(
     road: ArrayLike, sigma: ArrayLike, samples: float, size: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return elevation, sigma and weight ``samples`` earlier; all are zero where unknown."""
@@ -133,9 +133,9 @@ def _told(
         )
     if (deviation <= 0).any():
         raise InputError(f"a sigma of {np.nanmin(deviation):g} m; give numbers above zero, or NaN")
-    # What is under a tyre x ahead of the point is under the point x later.
+    # The road under a tyre x ahead of the point is under the point x later.
     height = shifted(height, -samples)
-    deviation = np.maximum(_moved(deviation, floor(-samples)), _moved(deviation, ceil(-samples)))
+    deviation = np.maximum(_move(deviation, floor(-samples)), _move(deviation, ceil(-samples)))
     known = np.isfinite(height) & np.isfinite(deviation)
     weight = known / np.where(known, deviation, 1.0) ** 2
     return np.where(known, height, 0.0), np.where(known, deviation, 0.0), weight

@@ -1,4 +1,4 @@
-"""Models put together from masses, tyres, springs and dampers.
+"""Models assembled from masses, tyres, springs and dampers.
 
 A spring k whose length changes by r·q adds k·r·rᵀ to K, a damper likewise to C: both are symmetric
 and store or take energy, whatever the numbers.
@@ -92,7 +92,7 @@ def check_parameters(
     not_below_zero: Collection[str] = (),
     any_sign: Collection[str] = (),
 ) -> None:
-    """Raise InputError unless ``values`` are finite and above zero, but for those named."""
+    """Raise InputError unless ``values`` are finite and, except for those named, above zero."""
     for name, value in values.items():
         if name in any_sign:
             right, wanted = True, "a finite number"
@@ -110,7 +110,7 @@ def check_parameters(
 def check_inertia(model: str, name: str, inertia: float, mass: float, reach_m: float) -> None:
     """Raise InputError if a body of ``mass`` in kg cannot have ``inertia`` in kg·m².
 
-    Were all of it as far as ``reach_m``, in m, from its centre, it would be mass·reach².
+    With all of the mass at ``reach_m``, in m, from its centre, it would be mass·reach².
     """
     most = mass * reach_m**2
     if inertia > most:

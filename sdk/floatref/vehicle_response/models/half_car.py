@@ -17,7 +17,7 @@ HALF_CAR = "half-car-with-equipment"
 class HalfCar:
     """Parameters of a body with equipment on a rear and a front axle; defaults of Table 1 of Zhu.
 
-    The table prints the damping as 0.79 and 0.0012 N·s/m, which is next to none: it is read as 790
+    The table prints the damping as 0.79 and 0.0012 N·s/m, which is almost zero: it is read as 790
     and 1200 N·s/m.
 
     Attributes:
@@ -51,7 +51,7 @@ class HalfCar:
     eccentricity_m: float = 1.5
 
     def __post_init__(self) -> None:
-        """Refuse what is no vehicle; InputError names parameter, value and unit."""
+        """Refuse impossible parameters; InputError names parameter, value and unit."""
         check_parameters(HALF_CAR, asdict(self), any_sign=("eccentricity_m",))
         check_inertia(HALF_CAR, "pitch_kg_m2", self.pitch_kg_m2, self.body_kg, self.wheelbase_m)
 
@@ -64,7 +64,7 @@ class HalfCar:
         """Return the model of (2) to (6) of Zhu: q = (y1, y2, y3, y4, θ), F of rear and front tyre.
 
         θ is positive with the nose up, against the pitch of a recording. C has +2·c4 for the
-        rear wheel, as (4) of Zhu has it and (7) has not.
+        rear wheel, as in (4) of Zhu and unlike (7).
         """
         masses = [
             (Freedom("equipment", "y1", "equipment"), self.equipment_kg),

@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 
 ASYMMETRIC = 1e-9
-"""Of the largest element, what may differ from symmetry, or lie below zero: rounding."""
+"""Rounding error of symmetry and of eigenvalues, as a share of the largest element."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Freedom:
         quantity: how its channels begin: "sprung", "unsprung", "pitch".
         angular: whether it is an angle in rad, else a height in m.
         sign: of the recording's channel for a positive coordinate, 1 or -1.
-        track: wheel path that its channels belong to; "" is that which is estimated, or none.
+        track: wheel path that its channels belong to; "" is the estimated one, or no wheel path.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Tyre:
         stiffness: in N/m.
         damping: in N·s/m.
         x_m: position ahead of the model's own point, in m.
-        track: wheel path of the road under it; "" is that which is estimated.
+        track: wheel path of the road under it; "" is the estimated one.
     """
 
     freedom: str
@@ -76,7 +76,7 @@ class VehicleModel:
     stiffness: FloatArray
 
     def __post_init__(self) -> None:
-        """Refuse what is no vehicle; InputError names matrix, value and what to do."""
+        """Refuse an impossible vehicle; InputError names matrix, value and remedy."""
         self._check_names()
         for name in ("mass", "damping", "stiffness"):
             matrix = np.asarray(getattr(self, name), dtype=np.float64)
@@ -98,7 +98,7 @@ class VehicleModel:
         return matrix
 
     def index(self, freedom: str) -> int:
-        """Return the place of ``freedom``, by name, in q; InputError if there is none."""
+        """Return the place of ``freedom``, by name, in q; InputError if it does not exist."""
         names = [f.name for f in self.freedoms]
         if freedom not in names:
             known = ", ".join(names)
@@ -113,12 +113,12 @@ class VehicleModel:
                 f"{size} freedoms need ({size}, {size})"
             )
         if not np.isfinite(matrix).all():
-            raise InputError(f"model {self.name}: {name} holds what is no finite number; check it")
+            raise InputError(f"model {self.name}: {name} has a value that is not finite; check it")
 
     def _check_symmetry(self, name: str, matrix: FloatArray) -> None:
         if float(np.abs(matrix - matrix.T).max()) > ASYMMETRIC * float(np.abs(matrix).max()):
             raise InputError(
-                f"model {self.name}: {name} is not symmetric, so it would make energy; "
+                f"model {self.name}: {name} is not symmetric, so it would generate energy; "
                 "check its signs"
             )
 
@@ -127,7 +127,7 @@ class VehicleModel:
         if not names or not self.tyres or len(set(names)) != len(names):
             raise InputError(
                 f"model {self.name}: {len(self.tyres)} tyres and the freedoms "
-                f"{', '.join(names) or 'none'}; give a tyre or more, and every freedom a name of "
+                f"{', '.join(names) or '-'}; give a tyre or more, and every freedom a name of "
                 "its own"
             )
 
@@ -150,14 +150,14 @@ class VehicleModel:
             )
 
     def _check_energy(self, name: str) -> None:
-        """Raise InputError if the matrix without the tyres' part gives energy: no vehicle does."""
+        """Raise InputError if the matrix without the tyres' part generates energy."""
         matrix, tyres = getattr(self, name), [getattr(tyre, name) for tyre in self.tyres]
         rest = matrix - self.selection * tyres @ self.selection.T
         least = float(np.linalg.eigvalsh(rest)[0])
         if least < -ASYMMETRIC * float(np.abs(matrix).max()):
             raise InputError(
                 f"model {self.name}: {name} without the tyres has the eigenvalue {least:.3g}, so "
-                "it would make energy; check its signs, and that it holds the tyres' part"
+                "it would generate energy; check its signs, and that it includes the tyres' part"
             )
 
 

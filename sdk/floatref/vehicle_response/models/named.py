@@ -44,7 +44,7 @@ def parameters_of(vehicle: VehicleSetup) -> ParameterSet:
         if name not in names:
             raise InputError(f"model {vehicle.model}: no parameter {name!r}{_hint(name, names)}")
     missing = [n for n in names if n not in vehicle.parameters and n not in MAY_BE_LEFT_OUT]
-    # A few numbers of one vehicle among those of another would be no vehicle.
+    # A mixture of the parameters of two vehicles is not a vehicle.
     if missing and (vehicle.parameters or parameters is QuarterCar):
         raise InputError(
             f"model {vehicle.model}: {', '.join(missing)} missing; give every parameter"

@@ -1,4 +1,4 @@
-"""What is measured of a model: accelerations, velocities, displacements of its freedoms."""
+"""Measurements of a model: accelerations, velocities, displacements of its freedoms."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from floatref.vehicle_response.models.state_space import state_space
 
 
 class Kind(Enum):
-    """The derivative of a coordinate that a sensor tells: the rows of S_d, S_v, S_a (10) of Zhu."""
+    """The measured derivative of a coordinate: the rows of S_d, S_v, S_a (10) of Zhu."""
 
     DISPLACEMENT = 0
     VELOCITY = 1
@@ -29,8 +29,8 @@ class Reading:
         kind: which derivative.
         freedom: name of the coordinate.
         sigma: standard deviation of one sample, in the unit of the signal.
-        minus: name of a coordinate whose derivative is taken off, as of a suspension deflection;
-            "" is none.
+        minus: name of a coordinate whose derivative is subtracted, for a suspension deflection;
+            "" for no coordinate.
     """
 
     kind: Kind
@@ -39,11 +39,11 @@ class Reading:
     minus: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse a standard deviation that is none, and what is measured against itself."""
+        """Refuse a standard deviation not above zero, and a freedom measured against itself."""
         if not (isfinite(self.sigma) and self.sigma > 0):
             raise InputError(f"{self}: sigma is {self.sigma:g}; give a number above zero")
         if self.minus == self.freedom:
-            raise InputError(f"{self}: a freedom against itself tells nothing; name another")
+            raise InputError(f"{self}: a freedom against itself measures nothing; name another")
 
     def __str__(self) -> str:
         """Return it in words, as in "acceleration of the front wheel"."""

@@ -29,7 +29,7 @@ class QuarterCar:
     tyre_ns_per_m: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no vehicle; InputError names parameter, value and unit."""
+        """Refuse impossible parameters; InputError names parameter, value and unit."""
         check_parameters(QUARTER_CAR, asdict(self), not_below_zero=("tyre_ns_per_m",))
 
     def model(self, track: str = "") -> VehicleModel:

@@ -13,10 +13,10 @@ from floatref.vehicle_response.models.model import VehicleModel
 
 
 class Hold(Enum):
-    """What the tyre forces do between two samples."""
+    """The tyre forces between two samples."""
 
     ZERO_ORDER = 0
-    """They stay as they were at the first of them, as in (12) of Zhu."""
+    """They are constant at the value of the first sample, as in (12) of Zhu."""
     FIRST_ORDER = 1
     """They change linearly."""
 
@@ -70,7 +70,7 @@ def discretized(model: VehicleModel, step_s: float, hold: Hold = Hold.ZERO_ORDER
 
     The exponential of the matrix that the forces and their slope are added to serves a singular
     K too, for which [A_c - I]·A⁻¹·B of (12) of Zhu does not exist. Raises InputError for a step
-    that is no finite number above zero.
+    that is not a finite number above zero.
     """
     if not (isfinite(step_s) and step_s > 0):
         raise InputError(
@@ -83,7 +83,7 @@ def discretized(model: VehicleModel, step_s: float, hold: Hold = Hold.ZERO_ORDER
 
 
 def _responses(model: VehicleModel, step_s: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return A_c and what forces of 1 N, and from 0 to 1 N, have done after one step."""
+    """Return A_c and the response after one step to forces of 1 N, and from 0 to 1 N."""
     from scipy.linalg import expm
 
     a, b = state_space(model)
@@ -157,7 +157,7 @@ def stationary_sigma(
 
 
 def _derivatives(degree: int) -> FloatArray:
-    """Return what makes derivatives at a step's begin of values at its end and before."""
+    """Return the matrix from values at a step's end and before to derivatives at its begin."""
     places = 1.0 - np.arange(degree + 1)
     powers = [places**order / factorial(order) for order in range(degree + 1)]
     return np.linalg.inv(np.stack(powers, axis=1))

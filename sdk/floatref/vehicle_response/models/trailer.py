@@ -57,7 +57,7 @@ class Trailer:
     axle_m: float = 0.6
 
     def __post_init__(self) -> None:
-        """Refuse what is no vehicle; InputError names parameter, value and unit."""
+        """Refuse impossible parameters; InputError names parameter, value and unit."""
         check_parameters(TRAILER, asdict(self), MAY_BE_ZERO, any_sign=("axle_m",))
         breadth = 2.0 * self.half_track_m
         check_inertia(TRAILER, "roll_kg_m2", self.roll_kg_m2, self.chassis_kg, breadth)
@@ -96,4 +96,4 @@ class Trailer:
 
 
 IMINE_TRAILER = Trailer()
-"""Round numbers of ours for the trailer of Imine et al., which prints none."""
+"""Round numbers of ours for the trailer of Imine et al., who print no numbers."""

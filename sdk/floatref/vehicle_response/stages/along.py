@@ -1,4 +1,4 @@
-"""Along the road: from where the wheel is to where the laser would be."""
+"""Along the road: from the place of the wheel to that of the laser."""
 
 from collections.abc import Mapping
 from math import floor
@@ -14,23 +14,23 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 EXACT = 1e-6
-"""A shift is a whole number of intervals if it is one by this share of an interval."""
+"""Tolerance, in intervals, within which a shift is a whole number of intervals."""
 
 
 class ShiftAlong(Stage):
-    """Gives channels further on by their own shift in m, linear between points.
+    """Shifts channels forward by their own shift in m, linear between points.
 
-    What a wheel at x_w feels at the encoder distance s is the road at s + x_w - x_l of an axis on
-    which a sensor at x_l tells the road at s. Where no wheel has been there is no value: it is NaN,
-    flagged as missing. A value is missing where one of its two points is, and has the flags of
-    all points from there to its new place: the encoder is believed on the way. Blocks wait for a
-    shift backwards.
+    A wheel at x_w is at the encoder distance s on the road at s + x_w - x_l of an axis on which a
+    sensor at x_l measures the road at s. Where no wheel has been the value is NaN, flagged as
+    missing. A value is missing where one of its two points is missing, and has the flags of all
+    points from there to its new place, since its distance depends on the encoder there. Blocks wait
+    for a shift backwards.
     """
 
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=1 << 62)
 
     def __init__(self, shifts_m: Mapping[ChannelId, float]) -> None:
-        """Shift each channel of ``shifts_m`` by so much, ahead if above zero."""
+        """Shift each channel by its value in ``shifts_m``, forward if above zero."""
         super().__init__()
         self.shifts_m = dict(shifts_m)
         self._points: dict[ChannelId, tuple[int, float]] = {}
@@ -59,7 +59,7 @@ class ShiftAlong(Stage):
         return self._until(wide, wide.first + len(wide) - self._ahead)
 
     def close(self) -> tuple[Block, ...]:
-        """Return what waited; no wheel has been beyond the end."""
+        """Return the points held back; no wheel has been beyond the end."""
         waiting: Block | None = self.memory["waiting"]
         return () if waiting is None else (self._until(waiting, waiting.first + len(waiting)),)
 
@@ -68,8 +68,10 @@ class ShiftAlong(Stage):
         places = np.arange(first, max(first, end))
         values, flags = {}, {}
         for channel, (points, part) in self._points.items():
-            values[channel], own = _taken(wide, channel, places - points, part)
-            flags[channel] = own | _passed(flags_of(wide, channel), places - wide.first, points)
+            values[channel], own = _take(wide, channel, places - points, part)
+            flags[channel] = own | _gather_passed(
+                flags_of(wide, channel), places - wide.first, points
+            )
         self.memory["next"] = first + places.size
         keep = max(0, min(self.memory["next"] - self._behind - wide.first, len(wide)))
         self.memory["waiting"] = wide.part(keep, len(wide))
@@ -87,7 +89,7 @@ def _split(shift: float) -> tuple[int, float]:
     return whole, part if part > EXACT else 0.0
 
 
-def _taken(
+def _take(
     wide: Block, channel: ChannelId, places: IndexArray, part: float
 ) -> tuple[FloatArray, FlagArray]:
     """Return values and flags between each of ``places`` and ``part`` before it."""
@@ -100,7 +102,7 @@ def _taken(
     return (1.0 - part) * near + part * far, near_marks | far_marks
 
 
-def _passed(marks: FlagArray | None, places: IndexArray, points: int) -> FlagArray:
+def _gather_passed(marks: FlagArray | None, places: IndexArray, points: int) -> FlagArray:
     """Return the flags between each of ``places`` and ``points`` before it, both included."""
     if marks is None or not marks.any() or not places.size:
         return np.zeros(places.size, np.uint8)

@@ -16,9 +16,9 @@ from floatref.values.channels import ChannelId
 from floatref.vehicle_response.stages.lower_rate import Resampling, Waiting
 
 LINEAR = DISTANCE, TRAVEL_SPEED, CUTOFF
-"""Channels that are linear between samples: what steers the stages must not swing."""
+"""Channels that are linear between samples: the controls of stages must not overshoot."""
 LONG = 1 << 62
-"""More samples than any run has: the windows of a low rate are long."""
+"""A number of samples above that of any run: the windows of a low rate are long."""
 
 
 class ToRate(Stage):
@@ -26,9 +26,9 @@ class ToRate(Stage):
 
     Channels of a wheel path are resampled by a windowed sinc without delay, with their first and
     last sample repeated beyond the ends; `distance`, `travel_speed` and `high_pass_cutoff` are
-    linear. An output has the flags of all samples less than one new step away; what a flagged
-    sample was off by reaches as far as the window. Output 0 lies at the first sample, the last one
-    at the last sample or less than a new step beyond.
+    linear. An output has the flags of all samples less than one new step away; the error of a
+    flagged sample reaches as far as the window. Output 0 lies at the first sample, the last one at
+    the last sample or less than a new step beyond.
     """
 
     declared: ClassVar[Declared] = Declared(shift_invariant=False, delay=LONG)
@@ -76,7 +76,7 @@ class ToRate(Stage):
         return (self._at_the_end(self._out(waiting, found)),)
 
     def _at_the_end(self, block: Block) -> Block:
-        """Return the last block, its last distance that which the encoder has told by then."""
+        """Return the last block, its last distance that of the encoder until then."""
         end = {c: x.copy() for c, x in block.values.items() if c.name == DISTANCE and x.size}
         for distance in end.values():
             distance[-1] = max(distance[-1], self.end_m)
@@ -96,21 +96,21 @@ class ToRate(Stage):
         }
 
     def _out(self, wide: Block, found: dict[ChannelId, FloatArray]) -> Block:
-        """Return ``found`` with the linear channels and all flags, and let go of what is done."""
+        """Return ``found`` with the linear channels and all flags; drop the input that is done."""
         first, ratio = self.memory["next"], self._resampling.ratio
         size = next(iter(found.values())).size
         at = np.arange(first, first + size) * ratio - (wide.first - self.memory["begun"])
         place = np.arange(len(wide))
         linear = {c: np.interp(at, place, x) for c, x in wide.values.items() if c.name in LINEAR}
-        flags = {c: _gathered(f, at, ratio) for c, f in wide.flags.items()}
+        flags = {c: _gather(f, at, ratio) for c, f in wide.flags.items()}
         self.memory["next"] = first + size
         done = ceil((first + size - 1) * ratio) - (wide.first - self.memory["begun"]) - 1
         self.memory["waiting"] = _bare(wide).part(max(0, min(done, len(wide) - 1)), len(wide))
         return Block(first, {**found, **linear}, flags=flags)
 
 
-def _gathered(flags: FlagArray, at: FloatArray, ratio: float) -> FlagArray:
-    """Return what flags there are less than ``ratio`` samples from each of ``at``."""
+def _gather(flags: FlagArray, at: FloatArray, ratio: float) -> FlagArray:
+    """Return the flags less than ``ratio`` samples from each of ``at``."""
     low = np.clip(np.floor(at - ratio).astype(np.int64) + 1, 0, flags.size)
     high = np.clip(np.ceil(at + ratio).astype(np.int64), low, flags.size)
     pairs = np.stack([low, high], axis=1).reshape(-1)

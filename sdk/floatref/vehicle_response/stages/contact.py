@@ -1,4 +1,4 @@
-"""What a tyre levels over its contact, given back as far as it can be."""
+"""Restores the short waves that a tyre averages over its contact."""
 
 from typing import Any, ClassVar
 
@@ -13,12 +13,12 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 FULL, NONE = 0.5, 0.8
-"""Wave numbers, in cycles per contact length, up to which all that is levelled is given back, and
-from which on nothing is: beyond, the mean over the contact leaves little but noise."""
+"""Wave numbers, in cycles per contact length, up to which waves are restored in full, and
+from which on they are not: beyond, the mean over the contact is mostly noise."""
 REACH = 8.0
-"""Contact lengths to either side that a point's correction is made of."""
+"""Contact lengths to either side that a point's correction is calculated from."""
 SHAPE = 5.0
-"""Of the Kaiser window."""
+"""Parameter of the Kaiser window."""
 
 
 class RestoreContact(Stage):
@@ -26,13 +26,13 @@ class RestoreContact(Stage):
 
     In full up to half a cycle per L, a gain of 1/0.64, and less and less up to 0.8. The filter is
     symmetrical, so it shifts no wave; blocks wait for the points that it needs. A point with a
-    missing one within eight contact lengths is left as it is.
+    missing one within eight contact lengths is not changed.
     """
 
     declared: ClassVar[Declared] = Declared(delay=1 << 62)
 
     def __init__(self, contact_m: float) -> None:
-        """Restore what was levelled over ``contact_m``; InputError unless it is above zero."""
+        """Restore waves averaged over ``contact_m``; InputError unless it is above zero."""
         super().__init__()
         if not (np.isfinite(contact_m) and contact_m > 0):
             raise InputError(
@@ -62,12 +62,12 @@ class RestoreContact(Stage):
         return self._until(wide, wide.first + len(wide) - self._taps.size + 1)
 
     def close(self) -> tuple[Block, ...]:
-        """Return what waited; beyond the end nothing is known."""
+        """Return the points held back; beyond the end nothing is known."""
         waiting: Block | None = self.memory["waiting"]
         return () if waiting is None else (self._until(waiting, waiting.first + len(waiting)),)
 
     def _until(self, wide: Block, end: int) -> Block:
-        """Return the points up to ``end`` and keep what those behind them need."""
+        """Return the points up to ``end`` and store the points that later ones need."""
         first, reach = self.memory["next"], self._taps.size - 1
         end = max(first, end)
         low, high = first - wide.first, end - wide.first
@@ -80,13 +80,13 @@ class RestoreContact(Stage):
         return wide.part(low, high).setting(values)
 
     def _change(self, x: FloatArray, low: int, high: int) -> FloatArray:
-        """Return what is to be added at ``low`` to ``high - 1``; beyond ``x`` nothing is known."""
+        """Return the correction at ``low`` to ``high - 1``; beyond ``x`` nothing is known."""
         reach = self._taps.size - 1
         padded = np.full(high - low + 2 * reach, np.nan)
         begin, end = max(low - reach, 0), min(high + reach, x.size)
         at = begin - low + reach
         padded[at : at + end - begin] = x[begin:end]
-        # One tap after the other: the same sum whatever the length of a block.
+        # One tap after the other: the same sum for any length of a block.
         change: FloatArray = self._taps[0] * padded[reach : reach + high - low]
         for lag, tap in enumerate(self._taps[1:], start=1):
             before = padded[reach - lag : reach - lag + high - low]
@@ -103,7 +103,7 @@ def _sound(block: Block, channel: ChannelId) -> FloatArray:
 
 
 def correction(contact_m: float, interval_m: float) -> FloatArray:
-    """Return one half, the middle first, of the filter that makes what is to be added.
+    """Return one half, the middle first, of the filter that gives the correction.
 
     The inverse transform of its gain, windowed; a constant is left as it is.
     """

@@ -1,4 +1,4 @@
-"""Whether a suspension's deflection is what the heights of body and wheel say it is."""
+"""Whether a suspension's deflection agrees with the heights of body and wheel."""
 
 from typing import ClassVar
 
@@ -11,18 +11,18 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 LAG_S = 0.05
-"""Bends over twice so long are compared: they hold the swings of body and wheel. What a tilt under
-brakes leaves after two integrations is next to straight meanwhile."""
+"""Half the time in s over which bends are compared: they contain the swings of body and
+wheel. The error of a tilt under brakes, integrated twice, is almost straight in that time."""
 LEAST_R, LEAST_SLOPE, MOST_SLOPE = 0.7, 0.6, 1.6
-"""Sensors of one suspension agree better, and so in scale; errors of tens of percent are told."""
+"""Least agreement, by correlation and by scale; a warning is given below it."""
 LOUD = 3.0
-"""Bends smaller than so many times the deflection's noise tell nothing."""
+"""Least size of a bend that counts, as a multiple of the deflection's noise."""
 FEWEST = 200
-"""Nor do fewer of them."""
+"""Least number of bends."""
 
 
 class CompareTravel(Stage):
-    """Passes all on, and tells where `suspension_deflection` is not body minus wheel height.
+    """Passes all channels on, and warns if `suspension_deflection` is not body minus wheel height.
 
     The heights are ``body`` and ``wheel``, in m, as integrated or measured; second differences of
     both sides over 0.05 s are compared by their correlation and by the slope of the line of least
@@ -66,8 +66,8 @@ class CompareTravel(Stage):
         return block
 
     def told(self) -> tuple[str, ...]:
-        """Return a line for every wheel path whose sensors do not agree."""
-        lines = (self._told(track, *sums) for track, (_, sums) in self.memory.items())
+        """Return a warning for every wheel path whose sensors do not agree."""
+        lines = (self._warn(track, *sums) for track, (_, sums) in self.memory.items())
         return tuple(line for line in lines if line)
 
     def _sides(self, block: Block, track: str) -> FloatArray:
@@ -77,7 +77,7 @@ class CompareTravel(Stage):
         marks = flags_of(block, deflection, body, wheel)
         return sides if marks is None else np.where(marks != 0, np.nan, sides)
 
-    def _told(self, track: str, count: float, xx: float, xy: float, yy: float) -> str:
+    def _warn(self, track: str, count: float, xx: float, xy: float, yy: float) -> str:
         loud = (LOUD * self.sigma_m) ** 2 * count
         if count < FEWEST or xx == 0.0 or yy < loud:
             return ""

@@ -1,4 +1,4 @@
-"""Noise taken out of a channel by singular spectrum analysis, as in section 5 of Zhu.
+"""Noise removed from a channel by singular spectrum analysis, as in section 5 of Zhu.
 
 The channel is laid out in lagged windows of L samples; of the principal components of these, some
 are kept, and the windows are laid back over each other: the form of Broomhead and King, in which
@@ -20,7 +20,7 @@ from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
 
-def denoised(
+def remove_noise(
     samples: ArrayLike,
     window: int,
     *,
@@ -30,27 +30,27 @@ def denoised(
 ) -> FloatArray:
     """Return ``samples``, shape (N,), without the components of the least variance.
 
-    This is how section 5 of Zhu takes noise off measured signals. ``window`` is L in samples, from
-    2 to N/2. What is kept is told in one of three ways: the number of ``components``, their least
-    ``share`` of the mean square, above 0 and up to 1, or the standard deviation of white ``noise``,
-    in the unit of the samples, above whose variance they stand. Memory is that of a few copies of
-    the samples. Raises InputError for a missing (NaN) sample, another shape or window, or unless
-    one of the three is given and in its range.
+    So section 5 of Zhu removes noise from measured signals. ``window`` is L in samples, from 2 to
+    N/2. Give one of three criteria: the number of ``components``, their least ``share`` of the mean
+    square, above 0 and up to 1, or the standard deviation of white ``noise``, in the unit of the
+    samples, whose variance they exceed. Memory is that of a few copies of the samples. Raises
+    InputError for a missing (NaN) sample, another shape or window, or unless one of the three is
+    given and in its range.
     """
-    channel = _checked(samples, window)
+    channel = _check(samples, window)
     variances, vectors = singular_spectrum(channel, window)
-    kept = _kept(variances, channel.size - window + 1, components, share, noise)
-    return reconstructed(channel, vectors[:, :kept])
+    kept = _count_components(variances, channel.size - window + 1, components, share, noise)
+    return reconstruct(channel, vectors[:, :kept])
 
 
 def singular_spectrum(samples: ArrayLike, window: int) -> tuple[FloatArray, FloatArray]:
     """Return variances (L,), from the largest, and vectors (L, L) in columns, of lagged windows.
 
-    The mean is not taken off. Raises InputError as `denoised` does.
+    The mean is not subtracted. Raises InputError as `remove_noise` does.
     """
     import scipy.linalg
 
-    channel = _checked(samples, window)
+    channel = _check(samples, window)
     rows = channel.size - window + 1
     lagged = np.lib.stride_tricks.sliding_window_view(channel, rows)
     covariance = np.zeros((window, window))
@@ -65,16 +65,16 @@ def singular_spectrum(samples: ArrayLike, window: int) -> tuple[FloatArray, Floa
     return np.maximum(variances[::-1], 0.0) / rows, np.ascontiguousarray(vectors[:, ::-1])
 
 
-def reconstructed(samples: ArrayLike, vectors: FloatArray) -> FloatArray:
+def reconstruct(samples: ArrayLike, vectors: FloatArray) -> FloatArray:
     """Return the part of ``samples`` (N,) that lies along orthonormal ``vectors`` (L, r).
 
     Every window is projected, and each sample is the mean over the windows that hold it. Raises
-    InputError as `denoised` does.
+    InputError as `remove_noise` does.
     """
     from scipy.signal import oaconvolve
 
     window = vectors.shape[0]
-    channel = _checked(samples, window)
+    channel = _check(samples, window)
     total = np.zeros(channel.size)
     for vector in vectors.T:
         component = oaconvolve(channel, vector[::-1], mode="valid")
@@ -84,16 +84,16 @@ def reconstructed(samples: ArrayLike, vectors: FloatArray) -> FloatArray:
     return np.asarray(total / holding)
 
 
-def _kept(
+def _count_components(
     variances: FloatArray,
     rows: int,
     components: int | None,
     share: float | None,
     noise: float | None,
 ) -> int:
-    """Return how many components stay."""
+    """Return the number of components that are used."""
     if [components, share, noise].count(None) != 2:
-        raise InputError("denoising: give one of components, share and noise, not two and not none")
+        raise InputError("denoising: give exactly one of components, share and noise")
     if components is not None:
         if not 1 <= components <= variances.size:
             raise InputError(f"denoising: {components} components; give 1 to {variances.size}")
@@ -107,14 +107,14 @@ def _kept(
 
 
 def _above(variances: FloatArray, rows: int, noise: float | None) -> int:
-    """Return how many variances are more than those of white noise in so many windows."""
+    """Return how many variances exceed those of white noise in ``rows`` windows."""
     if noise is None or not (isfinite(noise) and noise >= 0):
         raise InputError(f"denoising: the noise is {noise}; give its standard deviation")
     size = variances.size
     return int(np.count_nonzero(variances > noise**2 * (1 + sqrt(2 * size * log(size) / rows))))
 
 
-def _checked(samples: ArrayLike, window: int) -> FloatArray:
+def _check(samples: ArrayLike, window: int) -> FloatArray:
     channel = np.asarray(samples, dtype=np.float64)
     if channel.ndim != 1:
         raise InputError(f"denoising: samples of the shape {channel.shape}; give one channel")
@@ -179,5 +179,7 @@ class Denoise(Stage):
                 flags[channel] = marks
             if window >= 2:
                 kept = min(self.components, window)
-                values[channel] = denoised(np.nan_to_num(whole[channel]), window, components=kept)
+                values[channel] = remove_noise(
+                    np.nan_to_num(whole[channel]), window, components=kept
+                )
         return (whole.setting(values, flags),)

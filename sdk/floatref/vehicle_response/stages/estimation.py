@@ -19,7 +19,7 @@ from floatref.vehicle_response.stages.estimators import Group
 from floatref.vehicle_response.stages.joining import elevation_under, sigma_under
 
 LOCAL_S = 0.5
-"""The mean square of the tyre's deflection is that of so long before: some periods of the wheel."""
+"""Time constant in s of the mean square of the tyre's deflection: some periods of the wheel."""
 
 
 def drift_sigma(density: float, cutoff_hz: ArrayLike) -> FloatArray:
@@ -36,7 +36,7 @@ def drift_sigma(density: float, cutoff_hz: ArrayLike) -> FloatArray:
 class LocalSquare:
     """The mean square of a signal over about `LOCAL_S` before each sample, at least its own square.
 
-    An exponential mean: what comes next does not change it, so that a bump counts as it begins.
+    It is an exponential mean of the past alone, so that a bump counts as it begins.
     """
 
     def __init__(self, step_s: float) -> None:
@@ -66,7 +66,7 @@ class EstimateRoad(Stage):
     ``parameter_sigma`` times the root mean square of the tyre's deflection (`LocalSquare`), since
     the road is the wheel's height, which needs no parameter, plus that deflection, the force on
     the tyre over its stiffness. Where too few readings are there both are NaN. An estimate is
-    flagged as its readings are, and what a missing one was off by decays in the estimator.
+    flagged as its readings are, and the error of a missing one decays in the estimator.
     """
 
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False)
@@ -112,7 +112,7 @@ class EstimateRoad(Stage):
                     elevation_under(own_number): estimate.road[:, k].copy(),
                     sigma_under(own_number): sigma,
                 }
-                own = _told(marks, sigma)
+                own = _mark_unknown(marks, sigma)
                 for name, x in found.items():
                     values[ChannelId(name, track)] = x
                     if own is not None:
@@ -137,8 +137,8 @@ class EstimateRoad(Stage):
         return np.where(np.isnan(road), np.nan, np.sqrt(own))
 
 
-def _told(marks: FlagArray | None, sigma: FloatArray) -> FlagArray | None:
-    """Return ``marks`` with what is unknown as missing, None if there is nothing to tell."""
+def _mark_unknown(marks: FlagArray | None, sigma: FloatArray) -> FlagArray | None:
+    """Return ``marks`` with unknown samples as missing, None without any flag."""
     unknown = np.isnan(sigma)
     if not unknown.any():
         return marks

@@ -1,4 +1,4 @@
-"""The estimators of the road behind one form: readings in, road and states out."""
+"""The estimators of the road with one interface: readings in, road and states out."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -58,7 +58,7 @@ class WithPlaces:
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """One model under an estimator: what goes in, and where the road under its tyres belongs.
+    """One model under an estimator: its inputs, and the wheel paths of its tyres.
 
     Attributes:
         model: the vehicle.

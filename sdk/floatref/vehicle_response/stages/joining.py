@@ -57,7 +57,7 @@ class JoinTyres(Stage):
         """Join the estimates of every wheel path."""
         values, flags = {}, {}
         for track, numbers in self.tyres.items():
-            elevation, sigma, marks = _joined([_found(block, track, k) for k in numbers])
+            elevation, sigma, marks = _join([_found(block, track, k) for k in numbers])
             target = ChannelId(ELEVATION, track)
             values[target], values[ChannelId(SIGMA, track)] = elevation, sigma
             if marks.any():
@@ -77,7 +77,7 @@ def _found(block: Block, track: str, number: int) -> Found:
     return block[elevation], block[sigma], blank if marks is None else marks
 
 
-def _joined(found: Sequence[Found]) -> Found:
+def _join(found: Sequence[Found]) -> Found:
     """Return the mean by variance, the least 1-σ, and the flags of all."""
     elevations = np.stack([elevation for elevation, _, _ in found])
     sigmas = np.stack([sigma for _, sigma, _ in found])

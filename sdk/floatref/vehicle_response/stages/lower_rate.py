@@ -1,6 +1,6 @@
 """A channel at a lower rate: a windowed sinc without delay, for the rate that follows the speed.
 
-Section 4.3 of Zhu ties the rate of the filter to the speed while sensors keep theirs.
+Section 4.3 of Zhu ties the rate of the filter to the speed while sensors keep a constant rate.
 """
 
 from dataclasses import dataclass, field
@@ -28,8 +28,8 @@ def interpolate(
     """Write the signal at the places ``(begin + k)·ratio``, counted in input samples.
 
     ``samples`` begins at the input sample ``first``. ``half`` is the weight at evenly spaced
-    distances from 0 to ``reach`` input samples; between them it is linear. Weights are brought to
-    the sum 1. What reaches beyond ``samples``, or to a missing (NaN) one, is NaN.
+    distances from 0 to ``reach`` input samples; between them it is linear. Weights are scaled to
+    the sum 1. An output that needs values beyond ``samples``, or a missing (NaN) one, is NaN.
     """
     spread = (half.size - 1) / reach
     for k in range(found.size):
@@ -52,19 +52,19 @@ def interpolate(
 FLAT, STOPPED = 0.8, 1.0
 """Ends of the pass-band and of the transition, of half the new rate."""
 ATTENUATION_DB = 75.0
-"""What the window is laid out for; the stop-band of a sinc cut off by it is at least 60 dB down."""
+"""Design attenuation of the window; the stop-band of a sinc under it is at least 60 dB down."""
 TABLE = 512
 """Entries of the weight per period of the new rate; between them it is linear."""
 
 
 @dataclass
 class Waiting:
-    """What a run of `Resampling` keeps between its parts.
+    """Memory of a run of `Resampling` between its parts.
 
     Attributes:
-        samples: the last of the input that outputs to come still need.
+        samples: the last input samples, which later outputs need.
         first: place of the first of them in the input.
-        ready: outputs that are out.
+        ready: number of outputs returned.
     """
 
     samples: FloatArray = field(default_factory=lambda: np.zeros(0))
@@ -78,7 +78,7 @@ class Resampling:
 
     The pass-band is flat to 0.8 of half the new rate, and what lies above half the new rate is
     at least 60 dB down. There is no delay. Outputs whose window holds a missing sample or reaches
-    beyond the ends, `reach_s` on either side, are NaN. Equal rates leave all as it is.
+    beyond the ends, `reach_s` on either side, are NaN. With equal rates nothing changes.
 
     Attributes:
         from_hz: rate of the input.
@@ -89,7 +89,7 @@ class Resampling:
     to_hz: float
 
     def __post_init__(self) -> None:
-        """Refuse rates that are none, and a rate that is raised."""
+        """Refuse rates that are not positive, and a higher output rate."""
         for rate in (self.from_hz, self.to_hz):
             if not (isfinite(rate) and rate > 0):
                 raise InputError(f"resampling: a rate is {rate:g} Hz; give one above zero")
@@ -111,7 +111,7 @@ class Resampling:
         return float((ATTENUATION_DB - 7.95) / (2 * 2.285 * width) / self.to_hz)
 
     def resampled(self, samples: ArrayLike) -> FloatArray:
-        """Return all of ``samples`` at the new rate: from the first to the last that has a place.
+        """Return all of ``samples`` at the new rate: from the first to the last sample within it.
 
         Raises InputError unless ``samples`` has one dimension.
         """
@@ -137,7 +137,7 @@ class Resampling:
         return found
 
     def finish(self, memory: Waiting) -> FloatArray:
-        """Return the outputs that were waiting for more input: NaN where that is missing."""
+        """Return the outputs held back for more input: NaN where that is missing."""
         return self._until(memory, floor((memory.first + memory.samples.size - 1) / self.ratio) + 1)
 
     @property
@@ -145,7 +145,7 @@ class Resampling:
         return self.reach_s * self.from_hz
 
     def _until(self, memory: Waiting, end: int) -> FloatArray:
-        """Return the outputs from those that are out up to ``end``, and count them as out."""
+        """Return the outputs from the last one returned up to ``end``, and count them."""
         found = np.empty(max(0, end - memory.ready))
         if self.ratio == 1.0:
             begin = memory.ready - memory.first

@@ -86,16 +86,16 @@ def test_what_a_manifest_is(tmp_path: Path, content: bytes, expected: bool) -> N
     ("text", "said"),
     [
         ("file,colour\na,b\n", r"list.csv: column 'colour': unknown; there are file, adapter"),
-        ("file,map,map\n", r"list.csv: column map: there 2 times"),
+        ("file,map,map\n", r"list.csv: column map: given 2 times"),
         ("file,adapter\na,csv\n\n,csv\n", r"list.csv: line 4: no file; name one"),
         ("file,adapter\na,csv,more\n", r"line 2: 3 values in 2 columns"),
-        ('file,adapter\n"a,csv\n', r"line 2: no line of a CSV"),
+        ('file,adapter\n"a,csv\n', r"line 2: not a valid line of a CSV"),
         ("file,adapter\na,nobody\n", r"line 2: adapter nobody: unknown; there are"),
         ("file,pipeline\na,nothing\n", r"line 2: pipeline nothing: unknown; there are"),
         ("file,map\na,no.toml\n", r"line 2: .*no.toml: No such file"),
         ("file,settings\na,no.json\n", r"line 2: .*no.json: No such file"),
         ("file,settings\na,list.csv\n", r"line 2: .*list.csv: "),
-        ("file,map\na,b\0\n", r"line 2: .*no possible file name"),
+        ("file,map\na,b\0\n", r"line 2: .*not a valid file name"),
     ],
 )
 def test_every_mistake_is_one_line(tmp_path: Path, text: str, said: str) -> None:

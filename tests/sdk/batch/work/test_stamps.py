@@ -20,7 +20,7 @@ ALL = [(kind, name) for kind, names in READ.items() for name in names]
 
 def changing(monkeypatch: pytest.MonkeyPatch, path: Path) -> None:
     """Let ``path`` be written anew, to the same length, once it was read."""
-    real = task.profiled
+    real = task.make_profile
 
     def then_changed(*arguments: Any) -> Any:
         content = path.read_bytes()
@@ -28,7 +28,7 @@ def changing(monkeypatch: pytest.MonkeyPatch, path: Path) -> None:
         os.utime(path, ns=(1, 1))
         return real(*arguments)
 
-    monkeypatch.setattr(task, "profiled", then_changed)
+    monkeypatch.setattr(task, "make_profile", then_changed)
 
 
 @pytest.mark.slow

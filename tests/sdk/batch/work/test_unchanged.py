@@ -18,13 +18,13 @@ class Counted:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.count = 0
-        original = task.profiled
+        original = task.make_profile
 
-        def profiled(*args: Any) -> Any:
+        def make_profile(*args: Any) -> Any:
             self.count += 1
             return original(*args)
 
-        monkeypatch.setattr(task, "profiled", profiled)
+        monkeypatch.setattr(task, "make_profile", make_profile)
 
 
 @pytest.fixture

@@ -179,9 +179,9 @@ def test_the_drift_walks_for_all_of_the_time_between_two_heights(stretch):
     at, _, _, _, drifted = scheduled(Plan(), stretch)
     heights = np.isin(at, stretch.taken) & ~stretch.standing[at]
     elapsed = np.diff(at[heights], prepend=0) * STEP
-    walked = drifted[heights]
-    renewed = walked >= 100.0**2
-    np.testing.assert_allclose(walked[~renewed], NOISE.gnss_height_walk**2 * elapsed[~renewed])
+    walk = drifted[heights]
+    renewed = walk >= 100.0**2
+    np.testing.assert_allclose(walk[~renewed], NOISE.gnss_height_walk**2 * elapsed[~renewed])
     assert not drifted[~heights].any()
     assert (elapsed[renewed] > PATIENCE * STEP).all()
 

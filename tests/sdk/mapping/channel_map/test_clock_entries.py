@@ -48,7 +48,7 @@ def test_what_is_no_rate_is_refused(save: Save, refusal: Refusal, given: str) ->
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
-        ([], "says nothing; write align"),
+        ([], "has no content; write align"),
         (["offset_s = 1"], 'offset_s is given; write align = "offset" or'),
         (["rate_hz = 5", "offset_s = 1"], "offset_s is given; write align"),
         (["drift_ppm = 1"], 'drift_ppm is given; write align = "offset"'),

@@ -45,13 +45,13 @@ def test_a_channel_without_a_unit_may_have_none_in_the_file(given_: str) -> None
     [
         ("height", "m", "deg", "the map says m, the file deg; correct the map, or scale"),
         ("distance", "m", "km/h", "the map says m, the file km/h"),
-        ("height", "g", "", "unit 'g' is none of height; expected one of m"),
-        ("pitch_rate", "deg", "", "unit 'deg' is none of pitch_rate; expected one of rad/s"),
-        ("height", "km/h", "", "is none of height"),
+        ("height", "g", "", "unit 'g' is not a unit of height; expected one of m"),
+        ("pitch_rate", "deg", "", "unit 'deg' is not a unit of pitch_rate; expected one of rad/s"),
+        ("height", "km/h", "", "is not a unit of height"),
         ("distance", None, "counts", 'give scale, how many m one is, and unit = "m"'),
         ("height", None, "volts", "unit 'volts': unknown"),
         ("height", "volts", "", "unit 'volts': unknown"),
-        ("gnss_quality", "m", "", "is none of gnss_quality"),
+        ("gnss_quality", "m", "", "is not a unit of gnss_quality"),
     ],
 )
 def test_units_that_cannot_be_are_refused(

@@ -77,7 +77,7 @@ def test_a_file_of_other_names_is_told_how_to_go_on() -> None:
 
 def test_two_of_one_channel_are_refused() -> None:
     both = NativeFile(file(Column("height"), name="a").streams + file(Column("height")).streams)
-    with pytest.raises(InputError, match="height: its channel is there twice; say in a map"):
+    with pytest.raises(InputError, match="height: its channel is there twice; choose one"):
         map_of_ours(both)
 
 

@@ -35,7 +35,7 @@ def test_without_an_axis_a_channel_is_itself(channel: str) -> None:
 @pytest.mark.parametrize("channel", [c for c in CHANNELS if c not in {*ALONG.values(), *UPRIGHT}])
 @pytest.mark.parametrize("axis", ["x", "-z"])
 def test_a_channel_that_is_along_no_axis_has_none(channel: str, axis: str) -> None:
-    with pytest.raises(InputError, match=f"axis is {axis}, but {channel} has none; leave it out"):
+    with pytest.raises(InputError, match=f"axis is {axis}, but {channel} has no axis; remove it"):
         quantity_of(channel, axis)
 
 

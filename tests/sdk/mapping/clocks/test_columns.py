@@ -103,7 +103,7 @@ def test_repeated_stamps_keep_the_first_of_each(reading: Make, taken: Make) -> N
     ticks[50] = 49
     found = taken(reading(ticks, [49, 50]), columns=2)
     assert [c.tolist() for c in found.columns] == [np.delete(np.arange(100.0), 50).tolist()] * 2
-    assert found.told == ("1 rows repeat the time of another; the first of each is kept",)
+    assert found.told == ("1 rows repeat the time of another; only the first of each is used",)
 
 
 def test_a_clock_that_stands_still_is_refused(reading: Make, taken: Make) -> None:
@@ -115,7 +115,7 @@ def test_a_clock_that_stands_still_is_refused(reading: Make, taken: Make) -> Non
 @pytest.mark.parametrize("more", [1, 10**6])
 def test_a_stream_that_ends_early_is_told(more: int, reading: Make, taken: Make) -> None:
     lines = taken(reading(np.arange(100), count=100 + more)).told
-    assert lines == (f"says {100 + more} rows and holds 100; the file is truncated",)
+    assert lines == (f"has 100 of {100 + more} rows; the file is truncated",)
     uniform = reading(None, size=100, count=100 + more, rate=Fraction(10))
     assert taken(uniform).told == lines
 

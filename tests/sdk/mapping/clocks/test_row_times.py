@@ -25,9 +25,9 @@ def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row(reading: Make, take
 
 
 def test_a_stream_without_any_time_says_so(reading: Make, taken: Make) -> None:
-    with pytest.raises(InputError, match="none of its 5 rows has a time; state rate_hz"):
+    with pytest.raises(InputError, match="all 5 rows have no time; state rate_hz"):
         taken(reading(np.full(5, np.nan)))
-    with pytest.raises(InputError, match="its adapter gives none"):
+    with pytest.raises(InputError, match="has no time from its adapter"):
         taken(reading(None, size=5))
     with pytest.raises(InputError, match="has no time; state rate_hz for it under"):
         taken(reading(None, size=5, name=UNKNOWN))

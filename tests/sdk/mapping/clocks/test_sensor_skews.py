@@ -80,4 +80,4 @@ def test_a_height_that_moves_otherwise_than_the_accelerometer_is_told(
     read: Callable[[str, float], Reading], stated: str, said: str
 ) -> None:
     (line,) = read(stated, 0.0).told
-    assert line.startswith(f"channel height: {said} as the accelerometer says")
+    assert line.startswith(f"channel height: {said} as far as the accelerometer")

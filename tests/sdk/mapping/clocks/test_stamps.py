@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.mapping.clocks.stamps import Advancing, as_ticks, leap_told, uniform_clock
+from floatref.mapping.clocks.stamps import Advancing, as_ticks, uniform_clock, warn_of_leap
 from floatref.values.clock import UniformClock
 from floatref.values.scanning import CHUNK
 
@@ -215,11 +215,11 @@ def test_one_wild_stamp_that_hides_all_the_rest_is_refused() -> None:
 @pytest.mark.parametrize(("step", "told"), [(3599, False), (3601, True), (1.7e9, True)])
 def test_a_clock_that_comes_to_another_epoch_is_told(step: float, told: bool) -> None:
     times = np.concatenate([np.arange(50.0), 49 + step + np.arange(50.0)])
-    line = leap_told(times)
+    line = warn_of_leap(times)
     assert (line is not None) == told
     if line is not None:
         assert line.startswith(f"no rows for {step:.6g} s after row 49; if the clock was set")
-    assert leap_told(times[:1]) is None
+    assert warn_of_leap(times[:1]) is None
 
 
 def test_rows_without_a_time_are_told() -> None:

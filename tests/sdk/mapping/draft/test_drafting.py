@@ -102,7 +102,7 @@ def test_what_is_sure_is_active_and_the_rest_is_there_to_be_completed() -> None:
     for line in (
         *('# native = "adc/Acc left 2"', '# native = "adc/Laser L"', '# native = "adc/Encoder"'),
         "# not mapped: adc/Temp, in degC (not used)",
-        '# unit = "m"  # the file gives none: check it',
+        '# unit = "m"  # not given by the file: check it',
     ):
         assert line in text.splitlines()
 

@@ -13,8 +13,8 @@ from floatref.measures.clocks.gnss_time import (
     gps_from_utc_s,
     gps_minus_utc_at_gps_s,
     gps_minus_utc_s,
-    leap_seconds_told,
     utc_from_gps_s,
+    warn_of_leap_seconds,
 )
 
 LIST = Path("/usr/share/zoneinfo/leap-seconds.list")
@@ -71,8 +71,8 @@ def test_utc_goes_on_but_for_the_leap_second_itself(gps: float, later: float) ->
 def test_days_go_up_and_the_list_is_told_when_it_is_old() -> None:
     assert list(gnss_time.FIRST_DAYS) == sorted(gnss_time.FIRST_DAYS)
     assert all(day.endswith(("-01-01", "-07-01")) for day in gnss_time.FIRST_DAYS)
-    assert leap_seconds_told(unix_s(2026, 6, 27)) is None
-    line = leap_seconds_told(unix_s(2031, 3, 4))
+    assert warn_of_leap_seconds(unix_s(2026, 6, 27)) is None
+    line = warn_of_leap_seconds(unix_s(2031, 3, 4))
     assert line is not None
     assert "until 2026-06-28" in line
     assert "2031-03-04" in line

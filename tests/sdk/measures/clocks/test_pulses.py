@@ -128,9 +128,9 @@ def test_the_size_of_the_pieces_changes_nothing(seed: int, chunk: int) -> None:
     ("values", "said"),
     [
         (np.full(100, 3.0), "all samples are 3"),
-        (np.full(100, np.nan), "no sample is there"),
+        (np.full(100, np.nan), "all samples are missing"),
         (np.random.default_rng(0).normal(size=5000), "around one level"),
-        (np.repeat([1.0, 0.0], [10, 500]), "is there whole"),
+        (np.repeat([1.0, 0.0], [10, 500]), "is complete"),
     ],
 )
 def test_without_pulses_it_says_what_was_looked_for(values: np.ndarray, said: str) -> None:

@@ -180,8 +180,8 @@ def test_input_is_not_changed_and_may_be_read_only() -> None:
     ("elevation", "interval", "text"),
     [
         (np.zeros(200), 0.05, "9.95 m of profile were measured; the car needs 11 m"),
-        (np.full(1000, np.nan), 0.05, "none of the 1000 elevations is finite"),
-        (np.zeros(0), 0.05, "none of the 0 elevations"),
+        (np.full(1000, np.nan), 0.05, "0 of 1000 elevations are finite"),
+        (np.zeros(0), 0.05, "0 of 0 elevations"),
         (np.full(1000, np.inf), 0.05, "infinite"),
         (np.zeros((1000, 2)), 0.05, "one wheel path at a time"),
         (np.zeros(1000), 0.0, "interval is 0"),

@@ -12,7 +12,7 @@ from floatref.vehicle_response import (
     Kind,
     Reading,
     discretized,
-    joined_at_speed,
+    join_at_speed,
     output_matrices,
     state_space,
 )
@@ -148,8 +148,8 @@ def test_the_rear_tyre_comes_as_much_later_as_in_the_reference():
     rear = section_2_vehicle.rear_road(front, step, speed)
     axles, known = [tyre.x_m for tyre in ZHU_HALF_CAR.model().tyres], np.ones(1000)
     untold = np.full(1000, np.nan)
-    by_rear, _ = joined_at_speed([rear, untold], [known, known], axles, speed, step)
-    by_front, _ = joined_at_speed([untold, front], [known, known], axles, speed, step)
+    by_rear, _ = join_at_speed([rear, untold], [known, known], axles, speed, step)
+    by_front, _ = join_at_speed([untold, front], [known, known], axles, speed, step)
     both = np.isfinite(by_rear) & np.isfinite(by_front)
     both[:200] = False
     assert both.sum() > 600

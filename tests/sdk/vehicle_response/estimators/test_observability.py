@@ -66,8 +66,8 @@ def test_the_drift_that_is_told_is_that_of_the_filter():
 def test_five_accelerations_drift_and_the_displacements_of_both_wheels_cure_it(hold):
     with pytest.raises(
         InputError,
-        match=r"half-car-with-equipment: the readings do not tell all heights and angles at rest, "
-        "so the estimate would drift; add the displacement of the rear wheel and the "
+        match=r"half-car-with-equipment: the readings do not determine all heights and angles at "
+        "rest, so the estimate would drift; add the displacement of the rear wheel and the "
         "displacement of the front wheel$",
     ):
         check_readings(HALF_CAR, FIVE, STEP, hold)
@@ -123,7 +123,7 @@ def test_an_undamped_motion_that_nothing_tells_is_named():
     horns = [Connection((1.0, -1.0, 0.0), 5e3), Connection((1.0, 0.0, -1.0), 5e3)]
     model = connected("cart", freedoms, [Tyre("wheel", 1e5, 50.0)], horns)
     readings = [Reading(k, "wheel", 1e-3) for k in (Kind.ACCELERATION, Kind.DISPLACEMENT)]
-    with pytest.raises(InputError, match="motion of the one horn and the other horn untold"):
+    with pytest.raises(InputError, match="motion of the one horn and the other horn unknown"):
         check_readings(model, readings, STEP)
     check_readings(model, [*readings, Reading(Kind.VELOCITY, "one horn", 1e-3)], STEP)
 

@@ -214,7 +214,7 @@ REFUSED = {
     "acceleration_sigma is -1;": {"acceleration_sigma": -1.0},
     "degree is 4;": {"degree": 4},
     r"\(3,\); 2 measured displacements of 2 freedoms need \(4,\) or": {"gains": np.ones(3)},
-    "a gain is no finite number": {"gains": [1.0, np.nan, 1.0, 1.0]},
+    "a gain is not a finite number": {"gains": [1.0, np.nan, 1.0, 1.0]},
 }
 
 

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import joined, joined_at_speed, shifted
+from floatref.vehicle_response import join_at_speed, joined, shifted
 
 SEEDS = st.integers(0, 2**32 - 1)
 laws = settings(deadline=None, max_examples=25)
@@ -88,7 +88,7 @@ def test_at_constant_speed_the_rear_tyre_comes_by_the_delay_later(speed):
     delay = (AXLES[1] - AXLES[0]) / speed
     rear = road_at(speed * (step * np.arange(COUNT) - delay))
     sigmas = [np.full(COUNT, 1e-3)] * 2
-    found, _ = joined_at_speed([rear, front], sigmas, AXLES, speed, step)
+    found, _ = join_at_speed([rear, front], sigmas, AXLES, speed, step)
     point = road_at(speed * (step * np.arange(COUNT) - AXLES[1] / speed))
     np.testing.assert_allclose(found[150:-150], point[150:-150], atol=2e-6)
 
@@ -109,7 +109,7 @@ def test_what_cannot_be_joined_is_refused(changed, message):
     kept = {"roads": [np.ones(9)] * 2, "sigmas": [np.ones(9)] * 2, "speed": 10.0, "step": 0.01}
     given_ = {**kept, **changed}
     with pytest.raises(InputError, match=message):
-        joined_at_speed(given_["roads"], given_["sigmas"], AXLES, given_["speed"], given_["step"])
+        join_at_speed(given_["roads"], given_["sigmas"], AXLES, given_["speed"], given_["step"])
 
 
 def test_distances_have_even_steps():

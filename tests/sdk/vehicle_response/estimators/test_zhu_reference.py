@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.vehicle_response import Freedom, Hold, Kind, Reading, Tyre
 from floatref.vehicle_response.estimators.joint_filter import JointInputState
 from floatref.vehicle_response.models.connections import Connection, connected
-from floatref.vehicle_response.stages.denoising import denoised
+from floatref.vehicle_response.stages.denoising import remove_noise
 from floatref_reference.zhu_2021.section_3_discretization import first_order_system, system
 from floatref_reference.zhu_2021.section_3_joint_estimation import joint_input_state
 from floatref_reference.zhu_2021.section_3_state_space import output_matrices, state_space
@@ -116,7 +116,7 @@ def test_denoising_keeps_the_same_components(seed, size, window, keep):
     values = np.append(np.linalg.svd(trajectory, compute_uv=False) ** 2, 0.0)
     # Which of two equal components comes first is rounding.
     assume(keep == window or values[keep - 1] - values[keep] > 1e-3 * values[0])
-    found, expected = denoised(samples, window, components=keep), denoise(samples, window, keep)
+    found, expected = remove_noise(samples, window, components=keep), denoise(samples, window, keep)
     assert np.abs(found - expected).max() <= LITERAL * np.abs(expected).max()
 
 

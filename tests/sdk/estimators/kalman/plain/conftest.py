@@ -82,8 +82,8 @@ class Ten:
             self.P[LEAN, LEAN] = self.noise.lean_rad**2
         self.origin = self.origin if self.standing[k] else None
         if k in self.readings and not self.standing[k]:
-            walked = self.noise.gnss_height_walk**2 * (k - self.heard) * self.drive.dt
-            self.P[DRIFT, DRIFT] += walked if self.captured is None else DATUM_M**2
+            walk = self.noise.gnss_height_walk**2 * (k - self.heard) * self.drive.dt
+            self.P[DRIFT, DRIFT] += walk if self.captured is None else DATUM_M**2
             self.heard, self.captured = k, None
         return J
 
