@@ -62,7 +62,7 @@ def certify(
     sections = tuple(
         replace(
             _section(section, references[section.reference], sources, limits, steps),
-            reference_said=read[section.reference].said,
+            reference_notes=read[section.reference].notes,
         )
         for section in plan.sections
     )
@@ -125,19 +125,19 @@ def _section(
 
 def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
     if source.profile is None:
-        return Run(name, str(path), source.said, None, source.error)
+        return Run(name, str(path), source.notes, None, source.error)
     try:
         placement = place(truth, source.profile)
         profile = placed(source.profile, placement)
     except InputError as error:
-        return Run(name, str(path), source.said, None, f"{path}: {error}")
-    return Run(name, str(path), (*source.said, *placement.said), profile)
+        return Run(name, str(path), source.notes, None, f"{path}: {error}")
+    return Run(name, str(path), (*source.notes, *placement.notes), profile)
 
 
 def _stationary(
     name: str, plan: StationaryPlan, source: Converted, limits: CertificationLimits
 ) -> StationarySheet:
-    return stationary_sheet(name, plan, source.profile, limits, source.said, source.error)
+    return stationary_sheet(name, plan, source.profile, limits, source.notes, source.error)
 
 
 def _check_apart(section: SectionPlan) -> None:
@@ -159,7 +159,7 @@ def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:
     """Raise InputError with the first reason if no run of any section can be read."""
     runs = [sources[run] for section in plan.sections for run in section.runs]
     if all(run.profile is None for run in runs):
-        what = f"none of the {len(runs)} runs" if len(runs) > 1 else "the only run"
+        what = f"not one of the {len(runs)} runs" if len(runs) > 1 else "the only run"
         verb = "can be used, first" if len(runs) > 1 else "cannot be used:"
         raise InputError(f"{what} {verb} {runs[0].error}")
 

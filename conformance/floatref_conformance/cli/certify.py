@@ -86,7 +86,7 @@ def certify(
     RUN is a profile of any format, a recording, which is processed on the way, a directory of
     them, or a pattern. Runs that start elsewhere, go the other way or are in other units are
     recognised. --max-distance-error, --max-height-error and --max-iri-bias also take the word
-    none: then the error is told and not judged.
+    none: then the error is reported and not judged.
 
     Exit code 0: PASS; 1: FAIL; 2: wrong usage, or a reference or runs that cannot be used; 3: the
     suite itself is at fault, no worksheet; 4: INCOMPLETE, such as too few runs.

@@ -35,7 +35,7 @@ NO_LIMIT = "none"
 
 
 class Limit(NumberType):
-    """A number from 0 to ``most``; with ``optional`` also the word none, for no limit."""
+    """A number from 0 to ``most``; with ``optional`` also `NO_LIMIT`."""
 
     name = "limit"
 
@@ -47,7 +47,7 @@ class Limit(NumberType):
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float | str:
-        """Return the number, or none as it is."""
+        """Return the number, or `NO_LIMIT` unchanged."""
         if self._optional and value == NO_LIMIT:
             return NO_LIMIT
         try:
@@ -61,7 +61,7 @@ class Limit(NumberType):
 
 
 def limits_with(device_class: DeviceClass, given: dict[str, Any]) -> CertificationLimits:
-    """Return the limits of ``device_class`` with those ``given`` in place; none stands for None."""
+    """Return the limits of ``device_class``, replaced by those ``given``; `NO_LIMIT` is None."""
     known = {field.name for field in fields(CertificationLimits)}
     changes: dict[str, Any] = {
         name: None if value == NO_LIMIT else value

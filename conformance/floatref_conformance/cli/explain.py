@@ -37,7 +37,7 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
 
 
 def _drawn(check: Check) -> list[str]:
-    """Return the drawing of the first case; a check may have none."""
+    """Return the drawing of the first case; empty for a check without cases."""
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return []

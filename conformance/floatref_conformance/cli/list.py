@@ -16,9 +16,9 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 
 PLAIN_WIDTH = 100
-"""Columns where nobody says how wide the output is."""
+"""Columns where the width of the output is unknown."""
 NARROWEST = 30
-"""Columns left for what is said, however narrow the terminal."""
+"""Columns for the text of an entry in the narrowest terminal."""
 MOST_SPARED = 3
 """Checks named that a device may pass, in place of those that must fail it."""
 

@@ -24,7 +24,7 @@ def names() -> tuple[str, ...]:
 
 
 def read(name: str) -> dict[str, Any]:
-    """Return the JSON document of vector ``name``; InputError if there is none."""
+    """Return the JSON document of vector ``name``; InputError if it is unknown."""
     document: dict[str, Any] = json.loads(_file(name).read_text(encoding="utf-8"))
     return document
 

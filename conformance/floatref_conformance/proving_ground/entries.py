@@ -57,7 +57,7 @@ def use(entry: Path) -> bool:
 
 
 def is_intact(entry: Path) -> bool:
-    """Return whether an entry exists and none of its files has changed."""
+    """Return whether an entry exists and its files are unchanged."""
     try:
         listed = json.loads((entry / CHECKSUMS).read_text(encoding="ascii"))
         return bool(listed) and listed == _checksums(entry)
@@ -112,7 +112,7 @@ def _checksums(entry: Path) -> dict[str, int]:
 
 
 def _files(entry: Path) -> Iterator[Path]:
-    """Yield every file of an entry; one that has vanished has none."""
+    """Yield every file of an entry; nothing if the entry has vanished."""
     for folder, _, names in os.walk(entry):
         yield from (Path(folder, name) for name in names)
 
@@ -126,7 +126,7 @@ def _crc(path: Path) -> int:
 
 
 def _size(entry: Path) -> int:
-    """Return the bytes of an entry's files; one that has vanished has none."""
+    """Return the size of an entry's files in bytes; 0 if the entry has vanished."""
     total = 0
     for path in _files(entry):
         with suppress(OSError):

@@ -64,15 +64,15 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Scenario:
-    """One recording to be simulated; InputError for values that make none.
+    """One recording to be simulated; InputError for values out of range.
 
     Attributes:
         seed: draws the road and every sensor's errors.
-        road_seed: draws the road in its place, so that other errors meet the same road; -1: none.
+        road_seed: draws the road in its place, so that other errors meet the same road; -1: off.
         road: one of `ROADS`: flat, a measured profile, sine waves, of Sayers' spectrum, or of an
             ISO 8608 class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
-        bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
+        bump_mm, bump_at_m: height of a 3-m bump, 0 for no bump, and where its middle lies.
         vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
         manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
         speed_kmh: initial speed; simulated speed of a stationary test.
@@ -165,7 +165,7 @@ class Scenario:
 
 
 def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
-    """Return the scenario of a published run or `ref_72`; InputError if there is none."""
+    """Return the scenario of a published run or `ref_72`; InputError if it is unknown."""
     if name not in RUNS:
         near = get_close_matches(name, RUNS, n=1)
         hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(RUNS)}"

@@ -181,7 +181,7 @@ def _output(result: RunResult) -> str:
     lines = [wording.verdict_line(result), *wording.not_run_lines(result)]
     for check in result.checks:
         if check.worst is not None:
-            reached = check.class_reached or "none"
+            reached = check.class_reached or "no class"
             lines.append(
                 f"{check.id}: {check.outcome}, class reached {reached}, {check.cases} cases, "
                 f"{_worst(check, check.worst, result.device_class)}"

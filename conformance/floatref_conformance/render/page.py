@@ -33,7 +33,7 @@ class Asked:
 
 
 def asked(check: Check, anchor: str) -> Asked:
-    """Return what is said of ``check``, with the drawing of its first case."""
+    """Return the explanation of ``check``, with the drawing of its first case."""
     return Asked(
         anchor=anchor,
         id=check.id,
@@ -42,7 +42,7 @@ def asked(check: Check, anchor: str) -> Asked:
         derivation=check.derivation,
         floor=check.floor,
         limits=tuple(
-            (quantity, tuple(str(limits.get(c, "none")) for c in DeviceClass))
+            (quantity, tuple(str(limits.get(c, "no limit")) for c in DeviceClass))
             for quantity, limits in check.limits.items()
         ),
         drawing=_drawing(check, anchor),
@@ -157,7 +157,7 @@ def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
     device = result.device
     return (
         ("Class judged", result.device_class.value),
-        ("Class reached", result.class_reached or "none"),
+        ("Class reached", result.class_reached or "no class"),
         ("Edition", EDITION),
         ("Effort", result.effort),
         ("Seed", str(result.seed)),
@@ -175,7 +175,7 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
         word=wording.outcome_in_words(check),
         judged=check.outcome not in wording.UNJUDGED,
         reason=check.reason or "not run",
-        class_reached=check.class_reached or "none",
+        class_reached=check.class_reached or "no class",
         cases=check.cases,
     )
     worst = check.worst
@@ -184,7 +184,7 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
     unlimited = wording.nothing_limited(check, device_class)
     if unlimited:
         flagged = (wording.flagged(check),) if check.flagged_m else ()
-        return replace(row, value="none", notes=(unlimited, *flagged))
+        return replace(row, value="no limit", notes=(unlimited, *flagged))
     ratio = worst.ratio(device_class)
     return replace(
         row,

@@ -60,7 +60,7 @@ class Shade:
 
 @dataclass(frozen=True)
 class Mark:
-    """A vertical line through all panels, with a word at its top."""
+    """A vertical line through all panels, with a label at its top."""
 
     at: float
     label: str
@@ -138,7 +138,7 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
 def _line(line: Line, across: Scale, up: Scale) -> str:
     """Return the path of ``line``; a point between two missing ones is a dot.
 
-    A dot has a length, for a square one of none is left out in print.
+    A dot has a length: printers leave out a square dot of length 0.
     """
     inside = (line.x >= across.low) & (line.x <= across.high)
     inside &= (line.y >= up.low) & (line.y <= up.high)

@@ -111,7 +111,7 @@ class TerminalRenderer:
 
 
 def result_lines(result: RunResult) -> list[str]:
-    """Return what is said of ``result`` below the table: every check, the verdict, what to do."""
+    """Return the lines about ``result`` below the table: every check, the verdict, what to do."""
     lines: list[str] = []
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
@@ -155,7 +155,7 @@ def _table(result: RunResult) -> Table:
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
             word = Text(wording.outcome_in_words(check), COLOURS.get(check.outcome, "yellow"))
-            cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
+            cells = [check.class_reached or "no class", str(check.cases), *_numbers(check, result)]
             table.add_row(Text(check.id), word, *map(Text, cells))
     return table
 
@@ -163,10 +163,10 @@ def _table(result: RunResult) -> Table:
 def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
     worst, device_class = check.worst, result.device_class
     if worst is None or wording.nothing_limited(check, device_class):
-        return ("none", "", "") if worst else ("", "", "")
+        return ("no limit", "", "") if worst else ("", "", "")
     left = wording.margin(worst, device_class)
     return (
         wording.quantity(worst.value, worst.unit),
         wording.limit_in_words(worst, device_class),
-        "none" if left is None else f"{left:.0%}",
+        "no limit" if left is None else f"{left:.0%}",
     )

@@ -91,4 +91,4 @@ def _counted(number: int, name: str) -> str:
 
 
 def _value(value: float | None) -> str:
-    return "none" if value is None else f"{value:.2f}"
+    return "no value" if value is None else f"{value:.2f}"

@@ -23,7 +23,7 @@ def offered_pipelines() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class TableSettings:
-    """The numbers that make a table again; InputError for values that make none.
+    """The numbers that make a table again; InputError for values out of range.
 
     Attributes:
         seed: all roads and sensor errors are drawn from it.

@@ -18,7 +18,7 @@ LEAST_MISSING_M = 1.0
 DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0
 """Errors that count where a worksheet sets no limits."""
 LEAST_EXPLAINED = 0.1
-"""What is within the limits is told only of a run below the limits, if it explains so much."""
+"""An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
 CERTAIN = 3.0
 """Differences between waves count beyond so many sigma."""
@@ -131,7 +131,7 @@ def _amount(gain: float) -> str:
 
 
 def _noise(score: float, lost: float) -> list[Cause]:
-    """Return the cause of what is lost still; none if that is little."""
+    """Return the cause of the loss that remains; empty if it is small."""
     explains = _share(1.0 - score, lost)
     if not explains >= LEAST_EXPLAINED:
         return []

@@ -98,7 +98,7 @@ def _compared(expected: Profile, found: Profile, name: str, outside: int) -> Com
 
 
 def _pair(first: Profile, second: Profile, name: str) -> float:
-    """Return the correlation of wheel path ``name`` of two runs; NaN if there is none."""
+    """Return the correlation of wheel path ``name`` of two runs; NaN if it is undefined."""
     try:
         p, q = on_common_grid(_alone(first, name), _alone(second, name))
         z = p.tracks[0].elevation, q.tracks[0].elevation

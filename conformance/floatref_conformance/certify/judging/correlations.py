@@ -24,7 +24,7 @@ def outliers(pairs: FloatArray, limit: float) -> tuple[list[int], float]:
 
     One bad run takes part in all others' pairs, whose averages fall with its own; so the worst is
     left out until the rest agrees. Empty, and NaN, if half of the runs or more would have to go,
-    or none has to. ``pairs`` has shape (runs, runs), NaN where there is none.
+    or no run has to. ``pairs`` has shape (runs, runs), NaN where there is no value.
     """
     kept = np.flatnonzero(~np.isnan(with_others(pairs))).tolist()
     gone: list[int] = []
@@ -121,7 +121,7 @@ def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits)
 
 
 def mean(values: Sequence[float]) -> float:
-    """Return the mean, whatever the order of ``values``; NaN of none."""
+    """Return the mean, the same in any order of ``values``; NaN if empty."""
     return fsum(values) / len(values) if values else nan
 
 

@@ -24,7 +24,7 @@ neither is a hole. What is beyond is road that nobody measured, bridged by a str
 """
 RUNS = "AASHTO R 56-14: ten repeated runs at each test section"
 COVERAGE = "ours: a run holds elevations for all but 2 % of the section, at each wheel path"
-FLAGGED = "ours: what a run flags as not valid is compared like the rest, and told"
+FLAGGED = "ours: what a run flags as not valid is compared like the rest, and reported"
 
 
 def judge_section(
@@ -51,7 +51,7 @@ def judge_section(
 
 
 def verdict_of(criteria: Iterable[Criterion]) -> Verdict:
-    """Return FAIL if one failed, INCOMPLETE if one is missing or none was judged, else PASS.
+    """Return FAIL if one failed, INCOMPLETE if one is missing or not any was judged, else PASS.
 
     ``criteria`` are all of a worksheet: its own, its sections' and its stationary tests'.
     """

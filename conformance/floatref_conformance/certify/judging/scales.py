@@ -1,4 +1,4 @@
-"""Scale of distance and of heights, told from the profiles and from readings of known lengths."""
+"""Scale of distance and of heights, measured by the profiles and by readings of known lengths."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ from floatref_conformance.certify.judging.reasons import (
 from floatref_conformance.certify.plan.plan_document import DistancePlan
 
 DISTANCE = (
-    "AASHTO R 56-14: distance within 0.15 %; ours: told from the section's profiles, and every "
-    "run is held to it"
+    "AASHTO R 56-14: distance within 0.15 %; ours: measured by the section's profiles, and "
+    "every run is held to it"
 )
 READINGS = (
     "AASHTO R 56-14: distance over a path of known length within 0.15 %; ours: every reading is "
@@ -27,12 +27,12 @@ READINGS = (
 )
 HEIGHT = (
     "ours, from the block check of AASHTO R 57-14, 0.01 in on a block of 1 in: 1 % of the "
-    "heights, told from the section's profiles, every run held to it"
+    "heights, measured by the section's profiles, every run held to it"
 )
 
 
 FINEST = 0.001
-"""Percent; a smaller doubt is told as this one."""
+"""Percent; a smaller uncertainty is given as this one."""
 
 
 @dataclass(frozen=True)
@@ -150,9 +150,9 @@ def _judged(
         judged = untold
     reason = joined(
         f"beyond the limit: {listed([str(one) for one in beyond])}" if beyond else "",
-        f"not told to {bound:g} %: {listed([str(o) for o in vague if o not in beyond])}"
+        f"not known to {bound:g} %: {listed([str(o) for o in vague if o not in beyond])}"
         if any(o not in beyond for o in vague)
         else "",
-        "" if told else "no run tells it",
+        "" if told else "no run measures it",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "%", False, judged, track, reason)

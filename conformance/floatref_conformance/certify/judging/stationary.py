@@ -36,30 +36,30 @@ def stationary_sheet(
     plan: StationaryPlan,
     profile: Profile | None,
     limits: CertificationLimits,
-    said: Sequence[str] = (),
+    notes: Sequence[str] = (),
     error: str = "",
 ) -> StationarySheet:
     """Return the sheet of test ``id_``, ``quiescent`` or ``bounce``.
 
     Without ``profile`` the test counts as missing, for the reason in ``error``; so does a profile
     that cannot be judged: too short, or with a point without elevation in what counts. Raises
-    InputError for a stretch that is none.
+    InputError for an invalid stretch.
     """
     limit = limits.quiescent_m_per_km if id_ == "quiescent" else limits.bounce_m_per_km
     if plan.stretch_m is not None:
         _check_stretch(id_, plan.stretch_m)
     if profile is None:
-        return _missing(id_, plan, said, limit, error or "no profile", None)
+        return _missing(id_, plan, notes, limit, error or "no profile", None)
     try:
         start, end = _stretch(profile, plan.stretch_m)
         found = {track.name: _iri(profile, track.name, start, end) for track in profile.tracks}
     except InputError as refused:
-        return _missing(id_, plan, said, limit, str(refused), profile)
+        return _missing(id_, plan, notes, limit, str(refused), profile)
     criteria = tuple(
         _criterion(id_, value, limit, judged_by(value, limit, value > limit), name, "")
         for name, value in found.items()
     )
-    told = (*said, *_flags(profile, start, end))
+    told = (*notes, *_flags(profile, start, end))
     return StationarySheet(id_, str(plan.source), start, end, found, told, criteria, profile)
 
 
@@ -111,7 +111,7 @@ def _iri(profile: Profile, name: str, start: float, end: float) -> float:
 
 
 def _flags(profile: Profile, start: float, end: float) -> list[str]:
-    """Return what is said of the points that a wheel path flags in what counts."""
+    """Return one line per wheel path that flags points of the stretch that counts."""
     told = []
     for track in profile.tracks:
         doubted = np.count_nonzero(~track.valid[points(profile, start, end)])
@@ -124,7 +124,7 @@ def _flags(profile: Profile, start: float, end: float) -> list[str]:
 def _missing(
     id_: str,
     plan: StationaryPlan,
-    said: Sequence[str],
+    notes: Sequence[str],
     limit: float,
     reason: str,
     profile: Profile | None,
@@ -133,7 +133,7 @@ def _missing(
     start, end = plan.stretch_m or (nan, nan)
     criterion = _criterion(id_, nan, limit, Judged.MISSING, "", reason)
     return StationarySheet(
-        id_, str(plan.source), start, end, {}, tuple(said), (criterion,), profile
+        id_, str(plan.source), start, end, {}, tuple(notes), (criterion,), profile
     )
 
 

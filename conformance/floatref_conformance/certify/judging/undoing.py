@@ -25,7 +25,7 @@ class Compared:
     run: FloatArray
 
     def correlation(self) -> float:
-        """Return the cross correlation as `floatref compare` gives it, NaN if there is none."""
+        """Return the cross correlation as `floatref compare` gives it, NaN if it is undefined."""
         try:
             return agreement(
                 self.reference, self.run, self.interval_m, "iri", MAX_OFFSET_M

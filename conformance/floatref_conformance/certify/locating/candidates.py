@@ -61,7 +61,7 @@ def _windowed_energy(values: FloatArray, size: int) -> FloatArray:
 
 
 def _normalised(products: FloatArray, energies: FloatArray) -> FloatArray:
-    """Return ``products`` over the root of ``energies``, 0 where there is next to none."""
+    """Return ``products`` over the root of ``energies``, 0 where there is next to no energy."""
     least = 1e-6 * float(energies.max(initial=0.0))
     shaped = energies > least
     out = np.zeros(products.size)

@@ -19,7 +19,7 @@ BLOCKS = 12
 UNDERSTATED = 1.12
 """By so much the scatter of so few blocks, with weights of their own making, is too small."""
 ROBUST = 2.0
-"""A window with so many times the usual rest counts less from there on."""
+"""A window counts less if its residual is larger than this many times the usual one."""
 ITERATIONS = 8
 
 

@@ -41,7 +41,7 @@ class Find:
 
 
 def pieces_of(reference: Profile) -> list[Piece]:
-    """Return the pieces of ``reference`` to search for, the first first; none if it is flat."""
+    """Return the pieces of ``reference`` in the order of search; empty if it is flat."""
     slopes = [slope_of(t, reference.start_m, reference.interval_m) for t in reference.tracks]
     shaped = [s for s in slopes if s is not None and s.energy() > 0]
     if len(shaped) < len(slopes) or not shaped:
@@ -90,7 +90,7 @@ def _oddity(interval_m: float) -> float:
 
 
 def _slopes_in(run: Profile, factor: float) -> tuple[Slope, ...]:
-    """Return the slopes of ``run``, a unit of whose axis has ``factor`` m; none if it is absurd."""
+    """Return the slopes of ``run``, its axis in units of ``factor`` m; empty for an absurd factor."""
     interval = run.interval_m * factor
     if not FINEST_M <= interval <= COARSEST_M or run.length_m * factor < SHORTEST_M:
         return ()
@@ -115,7 +115,7 @@ def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
 
 
 def _other_places(found: Sequence[Candidate]) -> int:
-    """Return at how many places but the first's ``found`` lie; a neighbouring scale is none."""
+    """Return the number of places of ``found`` beside the first; a near scale is no other place."""
     places: list[float] = []
     for c in found:
         if all(abs(c.run_m - place) > APART_M for place in places):

@@ -1,4 +1,4 @@
-"""Scale of distance and of heights of a run against the reference, told from the section alone."""
+"""Scale of distance and of heights of a run against the reference, from the section alone."""
 
 import math
 from dataclasses import dataclass, field, replace
@@ -15,7 +15,7 @@ from floatref_conformance.certify.locating.spectra import Surface, Windows, wind
 
 WINDOW_M, LONG_WINDOW_M = 12.8, 38.4
 LONGEST_M, SHORTEST_M = 6.5, 0.4
-"""Waves by which gain and lag are told: above, the filters of profilers; below, footprints."""
+"""Waves by which gain and lag are estimated: above, the filters of profilers; below, footprints."""
 LONG_WAVES_M = 25.0, 8.0
 POINTS_PER_WAVE = 5
 """Of the coarser profile in the shortest wave that counts."""
@@ -30,7 +30,7 @@ FARTHEST = 0.07
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """How a wheel path of a run lies on the reference; NaN where that could not be told.
+    """How a wheel path of a run lies on the reference; NaN where that is unknown.
 
     Attributes:
         distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
@@ -72,9 +72,9 @@ def fit(reference: Profile, run: Profile, track: str) -> Fit:
     """Return how the wheel path ``track`` of ``run`` lies on ``reference``, both in m.
 
     Lag and gain come from windows of 12.8 m in waves of 0.4 to 6.5 m. A gain that is less for the
-    shorter waves is that of a footprint or a filter; the scale of heights is what is left of it at
-    the longest. 1-sigma is told by leaving out stretches of the section. Raises InputError where
-    one of the two has no such track.
+    shorter waves is that of a footprint or a filter; the scale of heights is what remains of it at
+    the longest. 1-sigma is estimated by leaving out stretches of the section. Raises InputError
+    where one of the two has no such track.
     """
     p = replace(reference, tracks=(reference.track(track),))
     q = replace(run, tracks=(run.track(track),))

@@ -117,7 +117,7 @@ def _within(rest: FloatArray, used: BoolArray) -> BoolArray:
 def gain(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> float:
     """Return the slope of the regression of ``run`` on ``reference``, one being laid on the other.
 
-    Windows that disagree have no part in it. NaN where none agrees.
+    Windows that disagree are left out. NaN if no window agrees.
     """
     agreeing = window_lags(reference, run, line, sign).correlation >= AGREES
     counted = np.repeat(agreeing, round(WINDOW_M / STEP_M))[: reference.values.size]

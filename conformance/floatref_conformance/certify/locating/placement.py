@@ -23,7 +23,7 @@ class Placement:
     Attributes:
         found: whether the reference's road was found in the run at all.
         correlation: of slope in the waveband of 1.6 to 8 m, at the best place that was found.
-        said: all of it in sentences; empty for a run that lies right.
+        notes: all of it in sentences; empty for a run that lies right.
         tracks: wheel path of the reference → that of the run; without those that it lacks.
         reversed: whether the run's axis points against the reference's.
         inverted: whether its heights are upside down; they stay so, for that is a fault.
@@ -37,7 +37,7 @@ class Placement:
 
     found: bool
     correlation: float
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     tracks: Mapping[str, str] = field(default_factory=dict)
     reversed: bool = False
     inverted: bool = False
@@ -97,8 +97,8 @@ COVERED_M = 0.5
 
 
 def worded(reference: Profile, run: Profile, placement: Placement) -> Placement:
-    """Return ``placement`` with all that was found out about it said."""
-    return replace(placement, said=tuple(_sentences(reference, run, placement)))
+    """Return ``placement`` with its sentences."""
+    return replace(placement, notes=tuple(_sentences(reference, run, placement)))
 
 
 def not_found(best: Find | None, shaped: bool) -> tuple[str, ...]:

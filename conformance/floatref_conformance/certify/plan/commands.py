@@ -1,4 +1,4 @@
-"""The floatref command as a program of its own, a few at a time, none of which outlives us."""
+"""The floatref command as a program of its own, a few at a time; all end with this process."""
 
 import os
 import subprocess

@@ -32,22 +32,22 @@ class Converted:
 
     Attributes:
         profile: None if it could not be read.
-        said: how it was made, and warnings.
-        error: in one line, with the path, why there is none; empty otherwise.
+        notes: how it was made, and warnings.
+        error: in one line, with the path, why there is no profile; empty otherwise.
     """
 
     profile: Profile | None
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     error: str = ""
 
 
 def converted(
     paths: Sequence[Path], processing: Processing, told: Callable[[Path], None]
 ) -> Mapping[Path, Converted]:
-    """Return the profile of every path of ``paths``, or why there is none.
+    """Return the profile of every path of ``paths``, or why it has no profile.
 
-    ``told`` hears of each that is done. Temporary files and commands are gone at the end, whatever
-    happens.
+    ``told`` is called with each path once it is read. Temporary files and commands are always
+    gone at the end.
     """
     with (
         tempfile.TemporaryDirectory(prefix="floatref-certify-") as folder,
@@ -89,8 +89,8 @@ def _processed(
         both = f"no profile ({bare[0]}), and no recording ({bare[-1]})"
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)
-    said = (f"processed by {report['pipeline']}", *report["warnings"])
-    return Converted(_kept(read_profile(out), path), said)
+    notes = (f"processed by {report['pipeline']}", *report["warnings"])
+    return Converted(_kept(read_profile(out), path), notes)
 
 
 def _options(processing: Processing) -> list[str]:

@@ -94,7 +94,7 @@ def _is_file(path: Path) -> bool:
 
 
 def _bare(name: str) -> str:
-    """Return ``name`` without its suffix; what starts with a digit, as in stop_0.20g, is none."""
+    """Return ``name`` without its suffix; .20g of stop_0.20g is no suffix: a digit."""
     stem, dot, suffix = name.rpartition(".")
     return stem if dot and stem and suffix[:1].isalpha() else name
 

@@ -66,7 +66,7 @@ def _heads(n: int, width: float, height: float) -> str:
 
 def _cell(value: float, limit: float, x: float, y: float, width: float, height: float) -> str:
     place = f'x="{px(x + 1)}" y="{px(y + 1)}" width="{px(width - 2)}" height="{px(height - 2)}"'
-    kind = "none" if isnan(value) else "low" if value < limit else "high"
+    kind = "missing" if isnan(value) else "low" if value < limit else "high"
     cell = f'<rect class="heat {kind}" {place} fill-opacity="{_depth(value, limit):.2f}"/>'
     if width < NARROWEST:
         return cell

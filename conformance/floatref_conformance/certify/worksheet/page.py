@@ -135,7 +135,7 @@ def _facts(worksheet: Worksheet) -> Pairs:
         ("Class", worksheet.device_class.value),
         ("Sections", f"{len(worksheet.sections)}, {round(length, 1):.10g} m together"),
         ("Runs", f"{len(runs)}, {sum(not run.error for run in runs)} of them used"),
-        ("Stationary tests", tests or "none"),
+        ("Stationary tests", tests or "not tested"),
     )
 
 
@@ -180,7 +180,7 @@ def _note(number: int, run: RunSheet) -> RunNote:
 
 
 def _test(sheet: StationarySheet, anchor: str) -> SectionPart:
-    note = RunNote(1, sheet.id, sheet.source, "", sheet.said)
+    note = RunNote(1, sheet.id, sheet.source, "", sheet.notes)
     return SectionPart(
         anchor,
         f"Test {sheet.id}",
@@ -226,6 +226,6 @@ def write_page(worksheet: Worksheet, path: Path) -> None:
 def as_html(worksheet: Worksheet) -> str:
     """Return the page that shows ``worksheet``.
 
-    Whatever a file said is text in it, never markup, and nothing in it leads to another file.
+    All text from a file is escaped, and the page has no link to another file.
     """
     return filled(TEMPLATE, __package__, page=page_of(worksheet))

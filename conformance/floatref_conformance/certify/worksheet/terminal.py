@@ -99,7 +99,7 @@ def _print_stationary(sheet: StationarySheet, console: Console) -> None:
     _say(console, "")
     _say(console, f"Test {sheet.id}: {wording.what_counts(sheet)}")
     _print_criteria("Criteria", sheet.criteria, console)
-    for line in sheet.said:
+    for line in sheet.notes:
         _say(console, f"  {line}")
 
 

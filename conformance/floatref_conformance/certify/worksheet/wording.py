@@ -1,4 +1,4 @@
-"""What is said of a certification in words and marks, the same in the terminal and on the page."""
+"""A certification in words and marks, the same in the terminal and on the page."""
 
 from collections.abc import Mapping, Sequence
 from math import isnan
@@ -78,9 +78,9 @@ def clauses_of(worksheet: Worksheet) -> tuple[tuple[str, str], ...]:
 
 
 def limit_in_words(criterion: Criterion) -> str:
-    """Return what the value has to reach or to stay within; that there is nothing such."""
+    """Return the limit of the value with its sign; "no limit" without one."""
     if criterion.limit is None:
-        return "none"
+        return "no limit"
     sign = "±" if criterion.id in SIGNED else "≥" if criterion.at_least else "≤"
     return f"{sign} {criterion.limit:.6g} {criterion.unit}".strip()
 
@@ -139,12 +139,12 @@ def cause_in_words(cause: Cause) -> str:
 
 
 def run_lines(run: RunSheet) -> tuple[str, ...]:
-    """Return what is said of a run: its fault, what was done to it, why it does not agree."""
+    """Return the lines about a run: its fault, what was done to it, why it does not agree."""
     fault = (f"not used: {run.error}",) if run.error else ()
     causes = tuple(
         f"{track.track}: {cause_in_words(cause)}" for track in run.tracks for cause in track.causes
     )
-    return (*fault, *run.said, *causes)
+    return (*fault, *run.notes, *causes)
 
 
 def tracks_of(section: SectionSheet) -> tuple[str, ...]:
@@ -159,8 +159,8 @@ def where(section: SectionSheet) -> str:
 
 
 def reference_lines(section: SectionSheet) -> tuple[str, ...]:
-    """Return what is said of the reference of ``section``."""
-    return tuple(f"the reference: {line}" for line in section.reference_said)
+    """Return the lines about the reference of ``section``."""
+    return tuple(f"the reference: {line}" for line in section.reference_notes)
 
 
 def what_counts(sheet: StationarySheet) -> str:

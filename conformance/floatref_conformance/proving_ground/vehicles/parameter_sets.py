@@ -114,7 +114,7 @@ LINEAR_MODELS: Mapping[str, PlainModel] = MappingProxyType(
 
 
 def vehicle_called(name: str) -> Suspended:
-    """Return the parameter set ``name``, a vehicle's or a model's; InputError if there is none."""
+    """Return the parameter set ``name``, a vehicle's or a model's; InputError if unknown."""
     known: dict[str, Suspended] = {**VEHICLES, **LINEAR_MODELS}
     if name in known:
         return known[name]

@@ -42,7 +42,7 @@ STOP_ROADS = tuple(
 
 @dataclass(frozen=True)
 class StopSettings:
-    """The numbers that make a table of drawn stops again; InputError for values that make none.
+    """The numbers that make a table of drawn stops again; InputError for values out of range.
 
     Attributes:
         seed: all drives, roads and sensor errors are drawn from it.

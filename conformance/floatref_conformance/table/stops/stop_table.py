@@ -79,7 +79,7 @@ class StopSummary:
             the two values next to it.
         iri_error_median_percent, iri_error_largest_percent: of the magnitudes of the errors.
         within_two_sigma_percent, within_two_sigma_true_distance_percent: of the shares of points
-            of each wheel path, as in `StopScores`; None where no sigma is told.
+            of each wheel path, as in `StopScores`; None without sigma.
     """
 
     wheel_paths: int
@@ -93,7 +93,7 @@ class StopSummary:
 
 
 def summary(paths: Sequence[WheelPath]) -> StopSummary:
-    """Return the summary of ``paths``; InputError for none."""
+    """Return the summary of ``paths``; InputError if empty."""
     if not paths:
         raise InputError("no wheel path to sum up; make at least one drive")
     scores = [path.scores for path in paths]
@@ -112,7 +112,7 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
 
 
 def _ends(values: Sequence[float | None]) -> Ends | None:
-    """Return the ends of the values that there are; None for none."""
+    """Return the ends of the values that are not None; None without such values."""
     told = [value for value in values if value is not None]
     if not told:
         return None
@@ -184,7 +184,7 @@ def _finite(figures: dict[str, Any]) -> dict[str, Any]:
 
 
 def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = None) -> StopTable:
-    """Return the table of ``settings``; ``watch`` is told of every drive before it starts.
+    """Return the table of ``settings``; ``watch`` is called before every drive.
 
     Raises SuiteError for a pipeline that fails or leaves out points that count.
     """

@@ -241,7 +241,7 @@ def _keep_inputs(u: Inputs, i: int, memory: np.record) -> None:
 
 @compiled
 def _begin_sub_block(x: FloatArray, memory: np.record) -> None:
-    """Let the transition be I, and the sums be none."""
+    """Set the transition to I and the sums to 0."""
     t = memory.transition
     t.height_pitch, t.height_roll, t.height_roll_bias, t.height_pitch_bias = 0.0, 0.0, 0.0, 0.0
     t.velocity_pitch, t.velocity_roll = 0.0, 0.0
@@ -456,7 +456,7 @@ def _believed(
 
 @compiled
 def _other(mark: int) -> int:
-    """Return the state that an observation of ``mark`` begins anew, 0 if there is none."""
+    """Return the state that an observation of ``mark`` begins anew; 0 for any other mark."""
     if mark & RENEW:
         return OFFSET
     return LEAN if mark & FORGET else 0

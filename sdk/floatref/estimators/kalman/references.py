@@ -90,7 +90,7 @@ class References:
         sub_block, step: samples of a sub-block, and the time of one in s.
         start_m: the filter's first height.
         arm_m: how far the antenna is above the reference point.
-        datum: what GNSS heights are told from, in m; the first decides it.
+        datum: height from which GNSS heights are measured, in m; the first reading sets it.
         latest, heard: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
         origin: what the height sensor read where the stop began, in m; NaN while moving.

@@ -151,7 +151,7 @@ class TrackFilter:
         return height, nodes.filled(forward.run(model, u, schedule, self.state, out))
 
     def end(self) -> Nodes:
-        """Return a node at the sample advanced to last, or none if it is one already."""
+        """Return a node at the sample advanced to last, empty if it is one already."""
         from floatref.estimators.kalman import forward
 
         nodes = Nodes.room(NODES, 1, 0)

@@ -65,7 +65,7 @@ class Held:
         return self.first + int(self.values.shape[1])
 
     def add(self, *rows: FloatArray) -> None:
-        """Add columns whose rows are told in one or more arrays."""
+        """Add columns; their rows come in one or more arrays."""
         self.values = np.concatenate((self.values, np.vstack(rows)), axis=1)
 
     def take(self, count: int) -> FloatArray:
@@ -84,7 +84,7 @@ class LocalLines:
     """Values of lines that fit best nearby, by least squares with Gaussian weights.
 
     The line of a place is that of ``weights.size - 1`` places to either side, as far as they are
-    known; none across ``patience`` silent ones in a row. Two rows go together.
+    known. No line reaches across ``patience`` unknown places in a row. Two rows go together.
     """
 
     weights: FloatArray

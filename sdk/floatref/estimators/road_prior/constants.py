@@ -9,7 +9,7 @@ from floatref.estimators.models.road_prior_values import ROAD, SLOPE, Model
 from floatref.values.arrays import FloatArray
 
 LEAST_MEMORY_M = 32.0
-"""One second difference over the longer distance; a mean of less is none."""
+"""One second difference over the longer distance; over less there is no mean."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Leaps of the height sensor while the vehicle stands: what they are flagged and told as."""
+"""Leaps of the height sensor at standstill: the lines they flag and their warnings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple

@@ -135,7 +135,7 @@ class RoadPriorSmoother(Stage):
         return tuple(map(self._doubted, backlog.come_out()))
 
     def learned(self) -> Mapping[str, float]:
-        """Return what all wheel paths have told of lean and tilt, see `pooled`."""
+        """Return the estimate of lean and tilt from all wheel paths, see `pooled`."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
         return pooled([b for each in filters.values() for b in each.told()], self.constants)
 
@@ -216,7 +216,7 @@ class RoadPriorSmoother(Stage):
         return ends
 
     def _travel(self, places: FloatArray) -> FloatArray:
-        """Return the travel to each node, going on as before where the encoder tells none."""
+        """Return the travel to each node, at the last speed where the encoder gives no reading."""
         travel = np.maximum(np.diff(places, prepend=self.memory["travelled"]), 0.0)
         known = np.append(self.memory["pace"], travel)
         latest = np.maximum.accumulate(np.where(np.isnan(known), 0, np.arange(known.size)))

@@ -161,7 +161,7 @@ class RoadSpectrum:
         return cls(interval_s, LEAST * usual, SPACING_M / constants.road_memory_m, memory, texture)
 
     def add(self, elevation_m: FloatArray, travel_m: FloatArray, changed: FloatArray) -> None:
-        """Take filtered elevation at the next nodes, NaN where there is none, and the travel.
+        """Take filtered elevation at the next nodes, NaN where it is missing, and the travel.
 
         Both have shape (nodes,); ``changed``, shape (2, nodes), is by how much the reading of a
         node has moved the height in m and turned the velocity in m/s.

@@ -47,7 +47,7 @@ class RoadTrack:
         spectrum: of the road that it has gone.
         bends: how far the road bends, in m, from which sample on.
         reading_m2: least variance of a reading of the height sensor, in m².
-        brakes: what has been told of lean and tilt.
+        brakes: estimates of lean and tilt, one per brake.
         leaps: of the height sensor at standstills.
     """
 
@@ -99,7 +99,7 @@ class RoadTrack:
         self.bends.append((sample, self.spectrum.bend_m))
 
     def told(self) -> list[Brake]:
-        """Return the brakes that have told of lean and tilt, with the one that has not ended."""
+        """Return the brakes with an estimate of lean and tilt, also the one not yet ended."""
         latest = Brake.of(self.state.x, self.state.p)
         news = latest.tells(np.array([self.model.lean_prior, self.model.tilt_prior]))
         return [*self.brakes, latest] if news else self.brakes
@@ -136,7 +136,7 @@ class RoadTrack:
         return found
 
     def end(self, at: int, travel_m: float) -> Nodes:
-        """Return a node at sample ``at``, the last, or none if it is one already."""
+        """Return a node at sample ``at``, the last; empty if it is one already."""
         from floatref.estimators.road_prior import forward
 
         known, memory = new_record(ENDS), self.state.memory

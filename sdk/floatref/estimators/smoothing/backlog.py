@@ -20,7 +20,7 @@ WAITING_S = 60.0
 """A segment waits so long, whatever the bound says: what changes since at the place where one part
 has come out and the next has not would be a step there."""
 STANDING = 5.0
-"""No segment waits longer than so many times the longest time: a vehicle may stand for hours."""
+"""Longest wait of a segment, in multiples of the longest time: a vehicle may stand for hours."""
 JOINT_M = 3e-4
 """1-σ of what may still change where a part that has waited so long ends."""
 TOLERANCE_M = 2e-6
@@ -93,7 +93,7 @@ class Backlog:
             yield block.setting(values)
 
     def next_sample(self, block: Block) -> int:
-        """Return where the next output begins: at ``block`` if none is kept."""
+        """Return where the next output begins: at ``block`` if no block is stored."""
         return (self.blocks[0] if self.blocks else block).first
 
     def _end_segment(self, sample: int) -> None:

@@ -41,7 +41,7 @@ class Line:
         segments: those that are complete.
         before, origin: last node of a complete segment, its sample and itself.
         behind: marks of closed segments that the filter still reaches.
-        told: correction in m at the last closed node, as it came out.
+        shift: correction in m at the last closed node, as given out.
         known_at, known: marks of closed segments that have not come out, and 1-σ in m there.
     """
 
@@ -53,7 +53,7 @@ class Line:
     before: int = -1
     origin: Nodes | None = None
     behind: Settled | None = None
-    told: float = 0.0
+    shift: float = 0.0
     known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
     known: FloatArray = field(default_factory=lambda: np.empty(0))
 
@@ -107,13 +107,13 @@ class Line:
         for segment, corrections, behind in found:
             start = segment.start(behind)
             if segment is self.segments[0] and self.behind is not None:
-                shift = self.told - float(start.far_height)
+                shift = self.shift - float(start.far_height)
             shift = segment.shift(start, corrections, shift, place)
             place = float(np.fmax(place, segment.marks.distance_m[-1]))
             low = bisect_right(firsts, segment.before + 1) - 1
             pieces = self.heights[low : bisect_right(firsts, segment.last)]
             segment.smooth(corrections, start, self.rule.step, pieces)
-            self.told = float(corrections["far_height"][-1])
+            self.shift = float(corrections["far_height"][-1])
 
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""

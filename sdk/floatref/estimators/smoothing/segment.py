@@ -101,7 +101,7 @@ class Marks:
 def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
     """Return the nodes that are far enough from those before, in time or travel, and the last.
 
-    Time that passes at a standstill is none: it could be an hour.
+    Time at a standstill does not count: it could be an hour.
     """
     apart = np.zeros(at.size)
     travel = distance_m[1:] - distance_m[:-1]
@@ -119,7 +119,7 @@ class Segment:
 
     Attributes:
         before: sample of the node before the first one; -1 before the run.
-        origin: that node alone, none before the run.
+        origin: that node alone; empty before the run.
         nodes: those after ``before``.
         marks: those of them that tell how covariances pass on.
     """

@@ -90,7 +90,7 @@ class JointInputState:
         ``disturbance`` is Q, of one step, and ``initial`` P of the first sample; both have the
         shape (2n, 2n), or (2n,) for a diagonal, in squares of m, rad, m/s and rad/s. With a
         ``hold`` of first order forces are linear between samples. Raises InputError for a step
-        that is not above zero, a covariance that is none, or readings that do not tell all forces
+        that is not above zero, an invalid covariance, or readings that do not determine all forces
         and states, naming what is missing.
         """
         check_readings(model, readings, step_s, hold)
@@ -129,8 +129,8 @@ class JointInputState:
             whole = zip(self.readings, array.T, strict=True)
             named = [str(r) for r, column in whole if not np.isfinite(column).any()]
             raise InputError(
-                f"model {self.model.name}: none of {array.shape[0]} samples has the readings that "
-                f"tell the forces of its tyres; missing throughout: {', '.join(named) or 'none'}"
+                f"model {self.model.name}: no sample of {array.shape[0]} has all readings that "
+                f"determine the forces of its tyres; missing throughout: {', '.join(named) or '-'}"
             )
         return found
 

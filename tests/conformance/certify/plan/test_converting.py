@@ -82,7 +82,7 @@ def test_a_profile_of_any_format_is_the_profile(
     found: Mapping[str, Converted], folder: Path, reference: Profile, name: str
 ) -> None:
     one = found[name]
-    assert (one.error, one.said) == ("", ())
+    assert (one.error, one.notes) == ("", ())
     assert one.profile is not None
     for track in reference.tracks:
         half_digit = 0.6e-7 if name == "made.erd" else 0.0
@@ -116,7 +116,7 @@ def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Conver
     assert one.profile.pipeline == "spatial-basic"
     assert one.profile.interval_m == 0.1
     assert one.profile.provenance["adapter"] == "recording"
-    assert one.said[0] == "processed by spatial-basic"
+    assert one.notes[0] == "processed by spatial-basic"
 
 
 def test_warnings_of_processing_are_told(
@@ -128,7 +128,7 @@ def test_warnings_of_processing_are_told(
 
     monkeypatch.setattr(Commands, "run", warned)
     (tmp_path / "drive").mkdir()
-    assert only(tmp_path / "drive").said == ("processed by any", "half of it", "is missing")
+    assert only(tmp_path / "drive").notes == ("processed by any", "half of it", "is missing")
 
 
 @pytest.mark.parametrize(
