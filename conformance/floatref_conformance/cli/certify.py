@@ -96,7 +96,7 @@ def certify(
     _check_pipeline(pipeline)
     _check_report(report)
     processing = Processing(pipeline, settings, adapter, channel_map)
-    worksheet = _followed(asked, processing, limits, DeviceClass(device_class))
+    worksheet = _certify_with_progress(asked, processing, limits, DeviceClass(device_class))
     if report is not None:
         _write(worksheet, report)
     _show(worksheet, as_json)
@@ -125,7 +125,7 @@ def _check_report(folder: Path | None) -> None:
     check_report(folder)
 
 
-def _followed(
+def _certify_with_progress(
     plan: Plan, processing: Processing, limits: "CertificationLimits", device_class: DeviceClass
 ) -> "Worksheet":
     """Return the worksheet; on a terminal a bar on standard error tells how far it is."""
@@ -133,12 +133,12 @@ def _followed(
     from rich.progress import Progress
 
     from floatref_conformance.certify.certifying import certify as certified
-    from floatref_conformance.cli.following import ended_like_an_interrupt
+    from floatref_conformance.cli.following import end_like_an_interrupt
 
     console = Console(stderr=True)
     shown = console.is_terminal
     with (
-        ended_like_an_interrupt(),
+        end_like_an_interrupt(),
         Progress(console=console, transient=True, disable=not shown) as bar,
     ):
         task = bar.add_task("", total=1.0)

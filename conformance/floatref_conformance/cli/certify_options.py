@@ -19,7 +19,7 @@ from floatref_conformance.certify.plan.plan_document import (
     read_plan,
     stretch_of,
 )
-from floatref_conformance.certify.plan.run_paths import existing, names_of, runs_of
+from floatref_conformance.certify.plan.run_paths import check_exists, names_of, runs_of
 from floatref_conformance.classes import DeviceClass
 
 if TYPE_CHECKING:
@@ -103,8 +103,8 @@ def stationary_of(text: str, name: str) -> StationaryPlan:
     """Return the test that ``text``, SRC or SRC@FROM:TO, stands for."""
     found = PART.fullmatch(text)
     if found is None or Path(text).exists():
-        return StationaryPlan(existing(text))
-    return StationaryPlan(existing(found[1]), _stretch(f"--{name} {text}", found[2], found[3]))
+        return StationaryPlan(check_exists(text))
+    return StationaryPlan(check_exists(found[1]), _stretch(f"--{name} {text}", found[2], found[3]))
 
 
 def _sections(
@@ -114,7 +114,7 @@ def _sections(
         raise InputError("no RUN given; name profiles or recordings, or a --plan")
     if reference is None:
         raise InputError("no --reference given; name the reference profile, or a --plan")
-    truth, found = existing(reference), runs_of(runs)
+    truth, found = check_exists(reference), runs_of(runs)
     if not sections:
         return (SectionPlan(names_of([truth])[0], truth, found),)
     parts = [_part(text) for text in sections]

@@ -68,7 +68,7 @@ def selftest(
     Exit code 0: all of it holds; 1: it does not; 2: wrong usage; 3: the suite itself is at fault.
     """
     wanted = Extent(seeds, false_alarms, limits, not ids if unique is None else unique, processes)
-    counts = _counted(ids, wanted)
+    counts = _count(ids, wanted)
     if as_json:
         click.echo(json.dumps(counts.to_dict(), indent=2))
     else:
@@ -79,7 +79,7 @@ def selftest(
     context.exit(DOES_NOT_HOLD if counts.complaints else 0)
 
 
-def _counted(ids: tuple[str, ...], extent: Extent) -> Counts:
+def _count(ids: tuple[str, ...], extent: Extent) -> Counts:
     """Return the counts; the progress is shown on standard error, if that is a terminal."""
     registry = load_registry()
     checks, _ = registry.select(ids)

@@ -37,7 +37,7 @@ def new_entry(entry: Path) -> Iterator[Path]:
     try:
         yield beside
         (beside / CHECKSUMS).write_text(json.dumps(_checksums(beside)), encoding="ascii")
-        while not (_renamed(beside, entry) or is_intact(entry)):
+        while not (_rename(beside, entry) or is_intact(entry)):
             remove(entry)
     finally:
         shutil.rmtree(beside, ignore_errors=True)
@@ -78,7 +78,7 @@ def remove(entry: Path) -> None:
 def prune(folder: Path) -> None:
     """Delete what processes that died left on its way in or out of ``folder``."""
     for path in folder.iterdir():
-        if path.name.startswith((NEW, OLD)) and _used_s(path) < time.time() - ABANDONED_S:
+        if path.name.startswith((NEW, OLD)) and _last_used_s(path) < time.time() - ABANDONED_S:
             shutil.rmtree(path, ignore_errors=True)
 
 
@@ -86,7 +86,7 @@ def shrink(folder: Path, kept: Path, largest_bytes: int) -> None:
     """Remove the least recently used entries, but never ``kept``, until the rest fits."""
     named = re.compile(f"[0-9a-f]{{{KEY_LENGTH}}}").fullmatch
     sizes = {path: _size(path) for path in folder.iterdir() if named(path.name)}
-    for path in sorted(sizes, key=_used_s):
+    for path in sorted(sizes, key=_last_used_s):
         if sum(sizes.values()) <= largest_bytes:
             return
         if path != kept:
@@ -94,7 +94,7 @@ def shrink(folder: Path, kept: Path, largest_bytes: int) -> None:
             del sizes[path]
 
 
-def _renamed(beside: Path, entry: Path) -> bool:
+def _rename(beside: Path, entry: Path) -> bool:
     """Give a new entry its name, unless there is one of that name."""
     try:
         os.rename(beside, entry)
@@ -134,7 +134,7 @@ def _size(entry: Path) -> int:
     return total
 
 
-def _used_s(path: Path) -> float:
+def _last_used_s(path: Path) -> float:
     """Return when ``path`` was last used, in s of the clock; 0 if it has vanished."""
     try:
         return path.stat().st_mtime

@@ -16,7 +16,7 @@ from floatref.errors import InputError
 from floatref.files import read_schema
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FORMAT = "floatref-scenario/1"
 STATIONARY = ("quiescent", "bounce")
@@ -131,11 +131,11 @@ class Scenario:
     def __post_init__(self) -> None:
         """Refuse wrong types, names and numbers; InputError names the field."""
         for field in fields(self):
-            value = _typed(field.name, getattr(self, field.name), field.default)
+            value = _in_type_of(field.name, getattr(self, field.name), field.default)
             object.__setattr__(self, field.name, value)
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
-        vehicle_called(self.vehicle)
+        find_vehicle(self.vehicle)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
 
@@ -197,7 +197,7 @@ def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
         raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
 
 
-def _typed(name: str, value: Any, default: Any) -> Any:
+def _in_type_of(name: str, value: Any, default: Any) -> Any:
     """Return ``value`` in the type of ``default``, or raise InputError naming the field."""
     if isinstance(default, tuple):
         return _track_names(value)

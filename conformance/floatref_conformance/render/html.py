@@ -9,7 +9,7 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.judge.events import Event, RunFinished, RunStarted
 from floatref_conformance.render.page import page_of
-from floatref_conformance.render.text import filled, needs_jinja
+from floatref_conformance.render.text import fill_template, needs_jinja
 
 NAME = "report.html"
 TEMPLATE = "report.html.j2"
@@ -51,4 +51,4 @@ def as_html(result: RunResult, checks: Sequence[Check] = ()) -> str:
 
     All text from a device or a file is escaped, and the page has no link to another file.
     """
-    return filled(TEMPLATE, page=page_of(result, checks))
+    return fill_template(TEMPLATE, page=page_of(result, checks))

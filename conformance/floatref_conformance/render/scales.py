@@ -72,7 +72,7 @@ def label(value: float) -> str:
     return "0" if float(text) == 0 else text.replace("-", "−")
 
 
-def decimated(values: FloatArray, most: int) -> list[NDArray[np.int64]]:
+def decimate(values: FloatArray, most: int) -> list[NDArray[np.int64]]:
     """Return indices that keep the envelope of ``values``, one array for each stroke of the pen.
 
     Of every stretch of equally many points the lowest and the highest are kept, ``most`` points

@@ -124,10 +124,10 @@ def result_lines(result: RunResult) -> list[str]:
 
 
 def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
-    said = [part for part in (check.reason, wording.measured(check, device_class)) if part]
+    said = [part for part in (check.reason, wording.describe_worst(check, device_class)) if part]
     lines = [f"{check.id}: {'; '.join(said)} [{check.clause}]"]
     if check.flagged_m:
-        lines.append(f"{check.id}: {wording.flagged(check)}")
+        lines.append(f"{check.id}: {wording.describe_flagged(check)}")
     if check.counterexample is not None:
         lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
     return lines
@@ -162,7 +162,7 @@ def _table(result: RunResult) -> Table:
 
 def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
     worst, device_class = check.worst, result.device_class
-    if worst is None or wording.nothing_limited(check, device_class):
+    if worst is None or wording.why_unlimited(check, device_class):
         return ("no limit", "", "") if worst else ("", "", "")
     left = wording.margin(worst, device_class)
     return (

@@ -58,19 +58,19 @@ def limit_in_words(worst: Measurement, device_class: DeviceClass) -> str:
     return quantity(worst.limits[device_class], worst.unit)
 
 
-def measured(check: CheckResult, device_class: DeviceClass) -> str:
+def describe_worst(check: CheckResult, device_class: DeviceClass) -> str:
     """Return what the worst value of a check is a value of, and in which case it was found.
 
-    Where `nothing_limited`, the reason in its place.
+    Where `why_unlimited`, the reason in its place.
     """
     worst = check.worst
-    if worst is None or nothing_limited(check, device_class):
-        return nothing_limited(check, device_class)
+    if worst is None or why_unlimited(check, device_class):
+        return why_unlimited(check, device_class)
     case = f", case {check.worst_case}" if check.worst_case else ""
     return f"worst is the {worst.quantity} of track {worst.track}{case}"
 
 
-def nothing_limited(check: CheckResult, device_class: DeviceClass) -> str:
+def why_unlimited(check: CheckResult, device_class: DeviceClass) -> str:
     """Return why ``device_class`` limits no value of a check; empty if it limits one.
 
     A class may limit valid points only, and the device may flag all points as invalid.
@@ -82,7 +82,7 @@ def nothing_limited(check: CheckResult, device_class: DeviceClass) -> str:
     return f"no value that class {device_class} limits was measured"
 
 
-def flagged(check: CheckResult) -> str:
+def describe_flagged(check: CheckResult) -> str:
     """Return how much of a profile was flagged invalid."""
     return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid"
 

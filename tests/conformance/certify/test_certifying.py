@@ -19,7 +19,7 @@ from floatref_conformance.certify import certifying
 from floatref_conformance.certify.certifying import certify
 from floatref_conformance.certify.judging.contents import Judged, RunSheet, Worksheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.plan.converting import converted
+from floatref_conformance.certify.plan.converting import convert_all
 from floatref_conformance.certify.plan.cutting import within
 from floatref_conformance.certify.plan.plan_document import (
     DistancePlan,
@@ -131,10 +131,10 @@ def test_what_was_said_of_a_reference_is_in_its_section(
     def with_warning(paths: Any, *rest: Any) -> Any:
         return {
             path: replace(one, notes=(f"warning of {path.name}",))
-            for path, one in converted(paths, *rest).items()
+            for path, one in convert_all(paths, *rest).items()
         }
 
-    monkeypatch.setattr(certifying, "converted", with_warning)
+    monkeypatch.setattr(certifying, "convert_all", with_warning)
     (sheet,) = certified(section(written, "run-1")).sections
     assert sheet.reference_notes == ("warning of reference",)
 

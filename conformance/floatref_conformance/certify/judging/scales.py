@@ -9,11 +9,11 @@ from floatref_conformance.certify.judging.contents import Criterion, Judged, Run
 from floatref_conformance.certify.judging.correlations import mean
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import (
-    joined,
-    judged_by,
-    listed,
+    join_reasons,
+    judge,
+    list_in_words,
     of_track,
-    reported,
+    report_value,
 )
 from floatref_conformance.certify.plan.plan_document import DistancePlan
 
@@ -83,9 +83,9 @@ def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tup
     told = [_best(run) for run in runs if run.tracks]
     found = [one.percent for one in told if not isnan(one.percent)]
     words = "distance", "error of distance, the largest of a run", DISTANCE
-    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
     title = "error of distance, mean of the runs"
-    return largest, reported("distance-mean", title, DISTANCE, mean(found), "%")
+    return largest, report_value("distance-mean", title, DISTANCE, mean(found), "%")
 
 
 def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
@@ -96,7 +96,7 @@ def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimit
     tracks = of_track(runs, name)
     told = [Told(run.name, track.height_percent, track.height_sigma) for run, track in tracks]
     words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
-    return _judged(words, told, limits.height_percent, name, Judged.REPORTED)
+    return _judge_largest(words, told, limits.height_percent, name, Judged.REPORTED)
 
 
 def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Criterion, ...]:
@@ -116,10 +116,10 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
         f"distance read for {plan.known_m:g} m, the largest error",
         READINGS,
     )
-    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
     title = f"distance read for {plan.known_m:g} m, mean error"
     average = mean([one.percent for one in told])
-    return largest, reported("distance-readings-mean", title, READINGS, average, "%")
+    return largest, report_value("distance-readings-mean", title, READINGS, average, "%")
 
 
 def _best(run: RunSheet) -> Told:
@@ -131,7 +131,7 @@ def _best(run: RunSheet) -> Told:
     return Told(run.name, track.distance_percent, track.distance_sigma)
 
 
-def _judged(
+def _judge_largest(
     words: tuple[str, str, str],
     told: Sequence[Told],
     limit: float | None,
@@ -145,12 +145,12 @@ def _judged(
     vague = [] if limit is None else [one for one in told if one.vague(bound)]
     counted = beyond or [one for one in known if one not in vague] or known
     value = max((one.percent for one in counted), key=abs, default=nan)
-    judged = judged_by(value, limit, bool(beyond))
+    judged = judge(value, limit, bool(beyond))
     if limit is not None and not beyond and len(vague) == len(told):
         judged = untold
-    reason = joined(
-        f"beyond the limit: {listed([str(one) for one in beyond])}" if beyond else "",
-        f"not known to {bound:g} %: {listed([str(o) for o in vague if o not in beyond])}"
+    reason = join_reasons(
+        f"beyond the limit: {list_in_words([str(one) for one in beyond])}" if beyond else "",
+        f"not known to {bound:g} %: {list_in_words([str(o) for o in vague if o not in beyond])}"
         if any(o not in beyond for o in vague)
         else "",
         "" if told else "no run measures it",

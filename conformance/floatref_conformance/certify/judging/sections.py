@@ -76,7 +76,7 @@ def section_sheet(
     order here.
     """
     truth_iri = _roughness(truth)
-    measured = _without_copies(truth, [_measured(truth, run) for run in sorted(runs, key=_place)])
+    measured = _without_copies(truth, [_measure(truth, run) for run in sorted(runs, key=_place)])
     pairs = correlate_pairs([m.run.profile for m in measured], list(truth_iri))
     others = {name: with_others(pairs[name]) for name in truth_iri}
     sheets = tuple(
@@ -115,7 +115,7 @@ def _place(run: Run) -> tuple[list[tuple[int, str]], str]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts], run.source
 
 
-def _measured(truth: Profile, run: Run) -> _Measured:
+def _measure(truth: Profile, run: Run) -> _Measured:
     """Return ``run`` cut to the section and compared; one that cannot be says why."""
     if run.profile is None:
         return _Measured(run, {})

@@ -15,7 +15,7 @@ from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import Criterion, Judged, StationarySheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.reasons import judged_by
+from floatref_conformance.certify.judging.reasons import judge
 from floatref_conformance.certify.plan.plan_document import StationaryPlan, Stretch
 from floatref_conformance.checks.stretches import END_M, points
 
@@ -56,7 +56,7 @@ def stationary_sheet(
     except InputError as refused:
         return _missing(id_, plan, notes, limit, str(refused), profile)
     criteria = tuple(
-        _criterion(id_, value, limit, judged_by(value, limit, value > limit), name, "")
+        _criterion(id_, value, limit, judge(value, limit, value > limit), name, "")
         for name, value in found.items()
     )
     told = (*notes, *_flags(profile, start, end))

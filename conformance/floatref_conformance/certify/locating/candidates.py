@@ -31,7 +31,7 @@ class Searched:
         return self._spectra[padded]
 
 
-def scores_of(templates: Sequence[FloatArray], searched: Searched) -> list[list[FloatArray]]:
+def score_places(templates: Sequence[FloatArray], searched: Searched) -> list[list[FloatArray]]:
     """Return the score of every template in every wheel path, by place.
 
     Place k has the template's last point on point k of the run; places run over its end.
@@ -46,7 +46,7 @@ def scores_of(templates: Sequence[FloatArray], searched: Searched) -> list[list[
         own = float(np.square(template).sum())
         rows.append(
             [
-                _normalised(irfft(spectrum * s, padded)[: count + size - 1], own * energy)
+                _normalise(irfft(spectrum * s, padded)[: count + size - 1], own * energy)
                 for s, energy in zip(searched.spectra(padded), energies, strict=True)
             ]
         )
@@ -60,7 +60,7 @@ def _windowed_energy(values: FloatArray, size: int) -> FloatArray:
     return np.asarray(padded[size:] - padded[: padded.size - size])
 
 
-def _normalised(products: FloatArray, energies: FloatArray) -> FloatArray:
+def _normalise(products: FloatArray, energies: FloatArray) -> FloatArray:
     """Return ``products`` over the root of ``energies``, 0 where there is next to no energy."""
     least = 1e-6 * float(energies.max(initial=0.0))
     shaped = energies > least
@@ -191,7 +191,7 @@ def _at_scale(
     for mirrored in mirrors:
         templates = [piece.template(i, scale, mirrored) for i in range(len(piece.slopes))]
         size = templates[0].size
-        scores = scores_of(templates, searched)
+        scores = score_places(templates, searched)
         for pairing in pairings(len(templates), len(run)):
             mean = _joint(scores, run, pairing)
             for index in _peaks(mean):

@@ -69,7 +69,7 @@ def estimate(windows: Windows) -> Estimate:
         gain = gain + normal.solution()
     lag = -2j * np.pi * windows.wave_number * model
     each = _normal(lag[None], rest, weights[:, None] / noise)
-    return _told(windows, gain, normal, each, weights)
+    return _summarise(windows, gain, normal, each, weights)
 
 
 def _footprint(smoothing: float, squares: FloatArray) -> FloatArray:
@@ -132,7 +132,7 @@ def _energy(spectra: Spectra) -> float:
     return max(float(np.median(np.square(np.abs(spectra)).sum(axis=1))), 1e-300)
 
 
-def _told(
+def _summarise(
     windows: Windows, gain: FloatArray, normal: _Normal, each: _Normal, weights: FloatArray
 ) -> Estimate:
     """Return the estimate of the solved normal equations."""

@@ -18,7 +18,7 @@ from floatref_conformance.certify.locating.candidates import (
     search,
 )
 from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS
-from floatref_conformance.certify.locating.slopes import Slope, aligned, slope_of
+from floatref_conformance.certify.locating.slopes import Slope, align, slope_of
 
 PIECE_M = 160.0
 """Length of the pieces of the reference that are searched for."""
@@ -46,7 +46,7 @@ def pieces_of(reference: Profile) -> list[Piece]:
     shaped = [s for s in slopes if s is not None and s.energy() > 0]
     if len(shaped) < len(slopes) or not shaped:
         return []
-    together = aligned(shaped)
+    together = align(shaped)
     start, end = together[0].start_m, together[0].end_m
     count = max(math.ceil((end - start) / PIECE_M), 1)
     length = (end - start) / count
@@ -80,7 +80,7 @@ def _trials(pieces: Sequence[Piece], run: Profile) -> Iterator[Find]:
     for unit, factor in likely:
         slopes = _slopes_in(run, factor)
         for piece in pieces if slopes else ():
-            yield from _tried(piece, slopes, unit)
+            yield from _try_piece(piece, slopes, unit)
 
 
 def _oddity(interval_m: float) -> float:
@@ -90,7 +90,7 @@ def _oddity(interval_m: float) -> float:
 
 
 def _slopes_in(run: Profile, factor: float) -> tuple[Slope, ...]:
-    """Return the slopes of ``run``, its axis in units of ``factor`` m; empty for an absurd factor."""
+    """Return the slopes of ``run``, one axis unit being ``factor`` m; empty if absurd."""
     interval = run.interval_m * factor
     if not FINEST_M <= interval <= COARSEST_M or run.length_m * factor < SHORTEST_M:
         return ()
@@ -101,10 +101,10 @@ def _slopes_in(run: Profile, factor: float) -> tuple[Slope, ...]:
     some = next(s for s in known if s is not None)
     nothing = np.zeros(some.values.size)
     blank = replace(some, values=nothing, measured=nothing > 0)
-    return aligned([s or blank for s in known])
+    return align([s or blank for s in known])
 
 
-def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
+def _try_piece(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
     """Yield the best place of ``piece``."""
     scales = scales_of(piece.end_m - piece.start_m)
     ways = 2 * len(pairings(len(piece.slopes), len(slopes))) * len(scales)

@@ -9,7 +9,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.certify.locating.estimates import Estimate, estimate, long_gain
 from floatref_conformance.certify.locating.finding import find_forward, pieces_of
-from floatref_conformance.certify.locating.lags import Line, followed
+from floatref_conformance.certify.locating.lags import Line, follow_line
 from floatref_conformance.certify.locating.slopes import slope_of
 from floatref_conformance.certify.locating.spectra import Surface, Windows, windows_of
 
@@ -89,7 +89,7 @@ def fit(reference: Profile, run: Profile, track: str) -> Fit:
         sign,
         max(SHORTEST_M, POINTS_PER_WAVE * max(p.interval_m, q.interval_m)),
     )
-    return _told(pair, line)
+    return _fit_windows(pair, line)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,10 +120,10 @@ def _first_line(reference: Profile, run: Profile) -> tuple[Line, float] | None:
     if found is None or abs(found.run_m - found.at_m) > 2.0 + FARTHEST * reference.length_m:
         return None
     sign = math.copysign(1.0, found.score)
-    return followed(p, q, Line(found.at_m, found.run_m, found.scale), sign), sign
+    return follow_line(p, q, Line(found.at_m, found.run_m, found.scale), sign), sign
 
 
-def _told(pair: _Pair, line: Line) -> Fit:
+def _fit_windows(pair: _Pair, line: Line) -> Fit:
     """Return what the windows tell, ``line`` being corrected by them until it stands."""
     last: tuple[Windows, Estimate] | None = None
     shortest = max(ROUGHLY_M, pair.shortest_m)
@@ -132,7 +132,7 @@ def _told(pair: _Pair, line: Line) -> Fit:
         if windows.at_m.size < LEAST_WINDOWS or windows.wave_number.size < LEAST_WAVES:
             return Fit(line=line, inverted=pair.sign < 0)
         told = estimate(windows)
-        line = _moved(line, told)
+        line = _correct_lag(line, told)
         last = windows, told
         shortest = max(pair.shortest_m, math.sqrt(abs(told.smoothing_m2) / STEEPEST))
     assert last is not None
@@ -156,7 +156,7 @@ def _told(pair: _Pair, line: Line) -> Fit:
     )
 
 
-def _moved(line: Line, told: Estimate) -> Line:
+def _correct_lag(line: Line, told: Estimate) -> Line:
     """Return ``line`` plus the straight line of lag that is left."""
     shift = told.shift_m + told.slope * (line.at_m - told.middle_m)
     return Line(line.at_m, line.run_m + shift, line.scale + told.slope)

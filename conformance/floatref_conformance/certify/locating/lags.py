@@ -43,7 +43,7 @@ class Lags:
     correlation: FloatArray
 
 
-def followed(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Line:
+def follow_line(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Line:
     """Return ``line`` corrected until it fits all of the section that the run covers.
 
     ``sign`` is -1 for heights upside down.
@@ -51,7 +51,7 @@ def followed(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Lin
     reach, length = STARTS_M, reference.end_m - reference.start_m
     while True:
         for _ in range(2):
-            line = _corrected(line, window_lags(reference, run, line, sign), reach)
+            line = _correct_line(line, window_lags(reference, run, line, sign), reach)
         if reach > length:
             return line
         reach *= 2.0
@@ -94,7 +94,7 @@ def _peaks(scores: FloatArray, shifts: FloatArray) -> tuple[FloatArray, FloatArr
     return shifts[top] + STEP_M * np.clip(slanted, -1.0, 1.0), here
 
 
-def _corrected(line: Line, lags: Lags, reach_m: float) -> Line:
+def _correct_line(line: Line, lags: Lags, reach_m: float) -> Line:
     """Return ``line`` plus the straight line through the lags within ``reach_m`` of its middle."""
     used = (np.abs(lags.at_m - line.at_m) <= reach_m) & (lags.correlation >= AGREES)
     if np.count_nonzero(used) < 3:

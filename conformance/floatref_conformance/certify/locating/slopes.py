@@ -96,14 +96,14 @@ def _on_steps(at: FloatArray, slope: FloatArray, known: BoolArray, clipped: bool
     return Slope(float(STEP_M * first), values, measured)
 
 
-def aligned(slopes: Sequence[Slope]) -> tuple[Slope, ...]:
+def align(slopes: Sequence[Slope]) -> tuple[Slope, ...]:
     """Return ``slopes`` from their first point to their last; 0 where a slope has no point."""
     start = min(s.start_m for s in slopes)
     end = max(s.end_m for s in slopes)
-    return tuple(_extended(s, start, end) for s in slopes)
+    return tuple(_extend(s, start, end) for s in slopes)
 
 
-def _extended(slope: Slope, start_m: float, end_m: float) -> Slope:
+def _extend(slope: Slope, start_m: float, end_m: float) -> Slope:
     """Return ``slope`` from ``start_m`` to ``end_m``."""
     before = round((slope.start_m - start_m) / STEP_M)
     after = round((end_m - slope.end_m) / STEP_M)

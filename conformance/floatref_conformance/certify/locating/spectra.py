@@ -56,12 +56,16 @@ class Surface:
         It is the difference of averages over `STEP_M` to both sides, the same for any interval.
         """
         places = [line.run_at(at_m + step) for step in (-STEP_M, 0.0, STEP_M)]
-        known = self._measured(places[0]) & self._measured(places[1]) & self._measured(places[2])
+        known = (
+            self._is_measured(places[0])
+            & self._is_measured(places[1])
+            & self._is_measured(places[2])
+        )
         areas = [np.asarray(self._integral(p)) for p in places]
         slope = (areas[2] - 2.0 * areas[1] + areas[0]) / (line.scale * STEP_M**2)
         return np.where(known, slope, 0.0), known
 
-    def _measured(self, places: FloatArray) -> BoolArray:
+    def _is_measured(self, places: FloatArray) -> BoolArray:
         """Return which ``places`` lie between measured points."""
         return np.asarray(np.interp(places, self._distance_m, self._known, 0.0, 0.0) > 0.999)
 

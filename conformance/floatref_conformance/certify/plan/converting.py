@@ -41,7 +41,7 @@ class Converted:
     error: str = ""
 
 
-def converted(
+def convert_all(
     paths: Sequence[Path], processing: Processing, told: Callable[[Path], None]
 ) -> Mapping[Path, Converted]:
     """Return the profile of every path of ``paths``, or why it has no profile.
@@ -55,7 +55,7 @@ def converted(
         Commands() as commands,
     ):
         work = {
-            pool.submit(_converted, path, processing, Path(folder, str(index)), commands): path
+            pool.submit(_convert, path, processing, Path(folder, str(index)), commands): path
             for index, path in enumerate(dict.fromkeys(paths))
         }
         for future in as_completed(work):
@@ -63,21 +63,21 @@ def converted(
         return {path: future.result() for future, path in work.items()}
 
 
-def _converted(path: Path, processing: Processing, out: Path, commands: Commands) -> Converted:
+def _convert(path: Path, processing: Processing, out: Path, commands: Commands) -> Converted:
     try:
         if _is_ours(path):
-            return Converted(_kept(read_profile(path), path))
+            return Converted(_load_apart(read_profile(path), path))
         no_profile = ""
         if not path.is_dir():
             no_profile = commands.run("convert", "--out", str(out), "--", str(path)).error
             if not no_profile:
-                return Converted(_kept(read_profile(out), path))
-        return _processed(path, processing, out, commands, no_profile)
+                return Converted(_load_apart(read_profile(out), path))
+        return _process(path, processing, out, commands, no_profile)
     except (FloatrefError, OSError, MemoryError) as error:
         return Converted(None, error=_naming(path, str(error) or type(error).__name__))
 
 
-def _processed(
+def _process(
     path: Path, processing: Processing, out: Path, commands: Commands, no_profile: str
 ) -> Converted:
     """Return what `floatref process` makes of ``path``, which for ``no_profile`` is no profile."""
@@ -90,7 +90,7 @@ def _processed(
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)
     notes = (f"processed by {report['pipeline']}", *report["warnings"])
-    return Converted(_kept(read_profile(out), path), notes)
+    return Converted(_load_apart(read_profile(out), path), notes)
 
 
 def _options(processing: Processing) -> list[str]:
@@ -113,7 +113,7 @@ def _is_ours(path: Path) -> bool:
     return b"distance_m" in (name.strip(b' "\r\n') for name in header.split(b","))
 
 
-def _kept(profile: Profile, source: Path) -> Profile:
+def _load_apart(profile: Profile, source: Path) -> Profile:
     """Return ``profile`` apart from its files, which go away, with the SHA-256 of ``source``.
 
     One that tells from which inputs it was made keeps what it tells.

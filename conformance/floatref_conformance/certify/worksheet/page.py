@@ -18,7 +18,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.figures import of_section, of_test
 from floatref_conformance.render.failures import Picture
-from floatref_conformance.render.text import filled, needs_jinja
+from floatref_conformance.render.text import fill_template, needs_jinja
 
 Pairs = tuple[tuple[str, str], ...]
 SIGNED_BY = ("Operator of the profiler", "Certified by", "Agency")
@@ -120,8 +120,8 @@ def page_of(worksheet: Worksheet) -> Page:
         heads=wording.FIGURES,
         limits=wording.limits_in_words(worksheet.limits),
         clauses=wording.clauses_of(worksheet),
-        settings=wording.listed(worksheet.settings),
-        versions=wording.listed(worksheet.versions),
+        settings=wording.list_pairs(worksheet.settings),
+        versions=wording.list_pairs(worksheet.versions),
         inputs=tuple(_inputs(worksheet)),
         signed_by=SIGNED_BY,
     )
@@ -228,4 +228,4 @@ def as_html(worksheet: Worksheet) -> str:
 
     All text from a file is escaped, and the page has no link to another file.
     """
-    return filled(TEMPLATE, __package__, page=page_of(worksheet))
+    return fill_template(TEMPLATE, __package__, page=page_of(worksheet))

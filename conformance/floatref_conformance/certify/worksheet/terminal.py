@@ -55,8 +55,8 @@ def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
     """Return limits, settings and versions in one line each, then where criteria come from."""
     told = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
-        ("Settings", wording.listed(worksheet.settings)),
-        ("Versions", wording.listed(worksheet.versions)),
+        ("Settings", wording.list_pairs(worksheet.settings)),
+        ("Versions", wording.list_pairs(worksheet.versions)),
     )
     lines = [
         f"{title}: {'; '.join(f'{name} {value}' for name, value in pairs)}."

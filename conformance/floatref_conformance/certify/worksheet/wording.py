@@ -63,7 +63,9 @@ def value_in_words(criterion: Criterion) -> str:
         return NOTHING
     if criterion.id == COUNTED:
         return f"{value:.0f}"
-    told = signed(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
+    told = (
+        with_sign(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
+    )
     return f"{told} {criterion.unit}".strip()
 
 
@@ -90,7 +92,7 @@ def number(value: float, digits: int) -> str:
     return NOTHING if isnan(value) else f"{value:.{digits}f}"
 
 
-def signed(value: float, digits: int) -> str:
+def with_sign(value: float, digits: int) -> str:
     """Return ``value`` with its sign and ``digits`` decimals."""
     return NOTHING if isnan(value) else f"{value:+.{digits}f}".replace("-", "−")
 
@@ -103,8 +105,8 @@ def correlation(value: float) -> str:
 def with_error(value: float, sigma: float, digits: int) -> str:
     """Return ``value`` with twice its standard deviation, both in per cent."""
     if isnan(value) or isnan(sigma):
-        return signed(value, digits)
-    return f"{signed(value, digits)} ± {2 * sigma:.{digits}f}"
+        return with_sign(value, digits)
+    return f"{with_sign(value, digits)} ± {2 * sigma:.{digits}f}"
 
 
 def figures(track: RunTrack) -> tuple[str, ...]:
@@ -113,7 +115,7 @@ def figures(track: RunTrack) -> tuple[str, ...]:
         number(track.accuracy, 4),
         number(track.with_others, 4),
         number(track.iri_m_per_km, 3),
-        signed(track.bias_percent, 2),
+        with_sign(track.bias_percent, 2),
         with_error(track.distance_percent, track.distance_sigma, 3),
         with_error(track.height_percent, track.height_sigma, 2),
         number(track.flagged_m, 1),
@@ -192,7 +194,7 @@ def _at_most(limit: float | None, unit: str) -> str:
     return "reported only" if limit is None else f"≤ {limit:g} {unit}"
 
 
-def listed(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
+def list_pairs(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
     """Return settings or versions as pairs of words; what is not set is left out."""
     return tuple((name, _plain(value)) for name, value in values.items() if value is not None)
 

@@ -194,17 +194,17 @@ def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = 
     paths: list[WheelPath] = []
     for name, scenario in settings.scenarios(processing.capabilities):
         watch(name)
-        paths += _driven(processing, name, scenario)
+        paths += _drive_all(processing, name, scenario)
     return StopTable(settings, tuple(paths))
 
 
-def _driven(processing: Processing, name: str, scenario: Scenario) -> list[WheelPath]:
+def _drive_all(processing: Processing, name: str, scenario: Scenario) -> list[WheelPath]:
     """Return every wheel path of one drive through every pipeline."""
-    driven = processing.driven(scenario, name)
+    driven = processing.drive(scenario, name)
     paths: list[WheelPath] = []
     for pipeline, profile in driven.profiles.items():
         try:
-            scores = stop_scores(driven.truth, driven.told_m, profile)
+            scores = stop_scores(driven.truth, driven.encoder_m, profile)
         except (DeviceError, InputError) as error:
             raise SuiteError(f"pipeline {pipeline}, {name}: {error}") from error
         paths += [WheelPath(pipeline, track, scenario, found) for track, found in scores.items()]

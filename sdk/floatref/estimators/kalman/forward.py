@@ -283,9 +283,9 @@ def _predict(model: Model, state: Filter, carried: FloatArray) -> None:
     t, span = memory.transition, memory.steps * model.step
     # Column by column A P, then row by row (A P) A'; the states from the biases on do not move.
     for j in range(STATES):
-        carried[0, j], carried[1, j], carried[2, j], carried[3, j] = _carried(t, span, p[j])
+        carried[0, j], carried[1, j], carried[2, j], carried[3, j] = _carry(t, span, p[j])
     for i in range(4):
-        p[i, 0], p[i, 1], p[i, 2], p[i, 3] = _carried(t, span, carried[i])
+        p[i, 0], p[i, 1], p[i, 2], p[i, 3] = _carry(t, span, carried[i])
         for j in range(4, STATES):
             p[i, j] = carried[i, j]
     _add_noise(model, state)
@@ -295,7 +295,7 @@ def _predict(model: Model, state: Filter, carried: FloatArray) -> None:
 
 
 @compiled
-def _carried(t: np.record, span: float, c: FloatArray) -> tuple[float, float, float, float]:
+def _carry(t: np.record, span: float, c: FloatArray) -> tuple[float, float, float, float]:
     """Return height, velocity, pitch and roll of A c; the other states stay as they are."""
     theta, phi, roll, pitch, lean = c[PITCH], c[ROLL], c[ROLL_BIAS], c[PITCH_BIAS], c[LEAN]
     rise = (
@@ -405,7 +405,7 @@ def _observe(
         innovation += base if kind == HEIGHT else 0.0
         for j in range(STATES):
             innovation -= h[kind, j] * (x[j] - prior[j])
-        if mark & TRUSTED or _believed(model, state, kind, innovation, variances[kind], work):
+        if mark & TRUSTED or _is_plausible(model, state, kind, innovation, variances[kind], work):
             _update(state, h[kind], innovation, variances[kind], work, updates[done])
             done += 1
     return done
@@ -432,7 +432,7 @@ def _base(mark: int, state: Filter, h: FloatArray, predicted: FloatArray) -> flo
 
 
 @compiled
-def _believed(
+def _is_plausible(
     model: Model, state: Filter, kind: int, innovation: float, variance: float, work: Work
 ) -> bool:
     """Return whether a reading may be right; heights that insist are another datum."""

@@ -7,7 +7,12 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.estimators.kalman.noise import Noise
-from floatref.estimators.kalman.observations import joined, marked, merged, observations_of
+from floatref.estimators.kalman.observations import (
+    join_observations,
+    mark_sample,
+    merge,
+    observations_of,
+)
 from floatref.estimators.models.kalman_values import (
     CAPTURE,
     FORGET,
@@ -115,7 +120,7 @@ class References:
         parts = []
         for part, standing in _runs(stretch, self.plan.reflects):
             parts.append(self._standing(part) if standing else self._moving(part))
-        found = parts[0] if len(parts) == 1 else joined(parts)
+        found = parts[0] if len(parts) == 1 else join_observations(parts)
         observed = np.flatnonzero(found.marks != FORGET)[-1:]
         if observed.size:
             self.last = int(found.at[observed[0]]), int(found.marks[observed[0]])
@@ -139,18 +144,18 @@ class References:
 
     def _moving(self, stretch: Stretch) -> Observations:
         self.origin = np.nan
-        observed = self._observed(stretch, heights=True)
+        observed = self._observe(stretch, heights=True)
         for sample in stretch.quiet.tolist():
-            observed = marked(observed, sample, FORGET)
+            observed = mark_sample(observed, sample, FORGET)
         return observed
 
     def _standing(self, stretch: Stretch) -> Observations:
         """Return the height sensor's readings in place of heights, the rest as ever."""
-        beside = self._observed(stretch, heights=False)
+        beside = self._observe(stretch, heights=False)
         beside.values[:, HEIGHT], beside.drifted[:] = np.nan, 0.0
-        return merged(beside, self._reflections(stretch))
+        return merge(beside, self._reflections(stretch))
 
-    def _observed(self, stretch: Stretch, heights: bool) -> Observations:
+    def _observe(self, stretch: Stretch, heights: bool) -> Observations:
         """Return GNSS readings, and constants where they are missing."""
         end, taken = stretch.first + stretch.height.size, stretch.taken
         if not self.plan.gnss:
@@ -168,7 +173,7 @@ class References:
         if heights and taken.size and taken.size not in lost:
             self.constant = False
         self.latest = int(edges[-2])
-        return merged(readings, joined(gaps)) if gaps else readings
+        return merge(readings, join_observations(gaps)) if gaps else readings
 
     def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Observations:
         """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
@@ -178,7 +183,7 @@ class References:
         """
         at, interval_s = stretch.taken, stretch.readings[:, KINDS]
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         if np.isnan(self.datum):
             self.datum = float(stretch.readings[0, HEIGHT]) - self.arm_m - self.start_m
         y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
@@ -196,7 +201,7 @@ class References:
         """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
         variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
         found = observations_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
@@ -214,7 +219,7 @@ class References:
         at = self._ends(stretch.first, stretch.first + stretch.height.size)
         at = at[stretch.there[at - stretch.first]]
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         height = stretch.height[at - stretch.first]
         begins = np.isnan(self.origin)
         if begins:

@@ -32,8 +32,8 @@ class Attitude:
         means, turned: over bins, of what is seen and of the integrated rates.
         near, far: lines through the angles by gravity, and through their difference to `turned`.
         latest: the last two of `means`, for central differences.
-        by_gravity: of bins whose line is not known yet: pitch and roll by gravity, whether rates are
-            missing, and whether forces are.
+        by_gravity: of bins whose line is not known yet: pitch and roll by gravity, whether
+            rates are missing, and whether forces are.
         tilts: pitch and roll by that line, both by gravity bin by bin, and the same two.
         swung: of bins whose difference is not known yet: `turned`, and whether forces are missing.
         more: what is added to the integrated rates: pitch, roll, and whether one of them or a

@@ -59,7 +59,7 @@ class Level(Stage):
             if self.memory["begin"] is None:
                 self.memory["begin"] = block.first
             for track, attitude in self._attitudes.items():
-                attitude.see(self._seen(track, block))
+                attitude.see(self._valid_rows(track, block))
             self.memory["seen"].append(block)
             self._turn()
             if self._ready(self.memory["turned"], "levels_before"):
@@ -81,10 +81,12 @@ class Level(Stage):
         found: dict[str, Attitude] = self.memory["attitudes"]
         return found
 
-    def _seen(self, track: str, block: Block) -> FloatArray:
+    def _valid_rows(self, track: str, block: Block) -> FloatArray:
         """Return forces, rates and distance of ``block``, NaN where they are flagged."""
         x, y, _, *rates = self._channels[track]
-        return np.stack([_trusted(block, name) for name in (x, y, *rates, ChannelId(DISTANCE))])
+        return np.stack(
+            [_trusted_samples(block, name) for name in (x, y, *rates, ChannelId(DISTANCE))]
+        )
 
     def _ready(self, waiting: Turned, bound: str) -> bool:
         if not waiting:
@@ -120,6 +122,6 @@ class Level(Stage):
         return block.setting(values, flags).without(SPECIFIC_FORCE, *IMU)
 
 
-def _trusted(block: Block, channel: ChannelId) -> FloatArray:
+def _trusted_samples(block: Block, channel: ChannelId) -> FloatArray:
     flags: FlagArray | None = block.flags.get(channel)
     return block[channel] if flags is None else np.where(flags == 0, block[channel], np.nan)

@@ -70,18 +70,18 @@ class RoadPrior:
         return Model(
             step=step,
             sub_block=sub_block,
-            white=_squared(self.acceleration),
-            walk=_squared(self.acceleration_walk),
-            walk_along=_squared(self.walk_along),
-            gap=_squared(self.missing_acceleration),
-            reading=_squared(self.reading_m),
+            white=_square(self.acceleration),
+            walk=_square(self.acceleration_walk),
+            walk_along=_square(self.walk_along),
+            gap=_square(self.missing_acceleration),
+            reading=_square(self.reading_m),
             road=float(self.road),
             slope=float(self.long_waves),
             reach=float(self.road_reach_m),
             lean=float(self.lean_expected_rad),
             tilt=float(self.tilt_expected),
-            lean_prior=_squared(self.lean_sigma_rad),
-            tilt_prior=_squared(self.tilt_sigma),
+            lean_prior=_square(self.lean_sigma_rad),
+            tilt_prior=_square(self.tilt_sigma),
             edge=float(self.edge_sigmas**2),
         )
 
@@ -96,5 +96,5 @@ class RoadPrior:
         return found
 
 
-def _squared(value: float) -> float:
+def _square(value: float) -> float:
     return float(np.square(value))

@@ -51,7 +51,7 @@ def _innovations(nodes: Nodes) -> FloatArray:
     return found
 
 
-def marked(
+def mark_leaps(
     flags: FlagArray | None, found: Sequence[Leap], first: int, size: int
 ) -> FlagArray | None:
     """Return ``flags`` of samples from ``first`` on, with those of leaps."""

@@ -33,7 +33,7 @@ class Brake:
         return bool((np.diag(self.covariance) < TOLD * variances).any())
 
 
-def pooled(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]:
+def pool(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]:
     """Return lean and tilt of all ``brakes`` with their 1-σ, by the names of `RoadPrior`.
 
     The mean is that of Gaussians, Λ = P₀⁻¹ + Σ (P⁻¹ - P₀⁻¹), which counts P₀ once. The 1-σ is

@@ -79,12 +79,12 @@ class RoadTrack:
             if low in roads:
                 self._renew_road(low)
             if low in brakes:
-                self.brakes = self.told()
+                self.brakes = self.all_brakes()
             count = -(-high // self.model.sub_block) - -(-low // self.model.sub_block)
             inside = slice(low - first, high - first)
             parts.append(self._advance(Inputs(low, a[inside], ends[:count]), height[inside]))
             ends = ends[count:]
-        return height, Nodes.joined(parts)
+        return height, Nodes.concatenate(parts)
 
     @property
     def height_m(self) -> float:
@@ -98,7 +98,7 @@ class RoadTrack:
         self.model = self.model._replace(road=road, slope=slope, reading=reading)
         self.bends.append((sample, self.spectrum.bend_m))
 
-    def told(self) -> list[Brake]:
+    def all_brakes(self) -> list[Brake]:
         """Return the brakes with an estimate of lean and tilt, also the one not yet ended."""
         latest = Brake.of(self.state.x, self.state.p)
         news = latest.tells(np.array([self.model.lean_prior, self.model.tilt_prior]))
@@ -119,7 +119,7 @@ class RoadTrack:
 
         nodes = Nodes.room(NODES, len(u.ends), len(u.ends))
         out = Output(height, nodes.rows, nodes.updates)
-        found = nodes.filled(forward.run(self.model, u, self.state, out))
+        found = nodes.take_first(forward.run(self.model, u, self.state, out))
         elevation = height[found.at - u.first] - u.ends["seen"]
         self.spectrum.add(elevation, u.ends["travel"].copy(), changes(found, u.ends))
         self.leaps += leaps(found, u.ends, self.model.edge)
@@ -144,4 +144,4 @@ class RoadTrack:
         known.travel, known.seen = travel_m, np.nan
         nodes = Nodes.room(NODES, 1, 1)
         count = forward.end(self.model, at, known, self.state, nodes.rows, nodes.updates)
-        return nodes.filled(count)
+        return nodes.take_first(count)

@@ -6,7 +6,7 @@ from math import ceil, inf, log2
 
 import numpy as np
 
-from floatref.estimators.smoothing.lag import settled
+from floatref.estimators.smoothing.lag import count_settled
 from floatref.estimators.smoothing.line import Closing, Line
 from floatref.estimators.smoothing.nodes import Filtered, Nodes
 from floatref.stages.signals import DISTANCE, REFERENCE_HEIGHT, SIGMA
@@ -64,7 +64,7 @@ class Backlog:
             line = self.lines[track]
             line.heights.append((block.first, passed.height))
             line.add(passed.nodes, distance[passed.nodes.at - block.first])
-            flags.update(_flagged(track, passed))
+            flags.update(_collect_flags(track, passed))
         full = range(block.first // self.length, (block.first + len(block)) // self.length)
         for number in full:
             self._end_segment((number + 1) * self.length)
@@ -115,7 +115,7 @@ class Backlog:
     def _ready(self, lines: Sequence[Line], most: int) -> int:
         """Return how many segments, ``most`` at most, need not wait, or may no longer."""
         change: FloatArray = np.maximum.reduce([line.changes() for line in lines])
-        ready = min(settled(change, lines[0].rule.tolerance_m), most)
+        ready = min(count_settled(change, lines[0].rule.tolerance_m), most)
         waited_s = (change.size + 1) * self.length * lines[0].rule.step
         if waited_s >= STANDING * self.longest_s:
             return most
@@ -127,7 +127,7 @@ class Backlog:
         return max(ready, least + 1 if change[least] <= JOINT_M else 0)
 
 
-def _flagged(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:
+def _collect_flags(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:
     if passed.flags is None:
         return {}
     return {ChannelId(name, track): passed.flags for name in (REFERENCE_HEIGHT, SIGMA)}

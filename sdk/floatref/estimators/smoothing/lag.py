@@ -51,7 +51,7 @@ def changes(segments: Sequence[Segment], behind: Settled | None, wavelength_m: f
     return influence(marks, latest, seen, ends[:-1], wavelength_m)
 
 
-def settled(change: FloatArray, tolerance_m: float) -> int:
+def count_settled(change: FloatArray, tolerance_m: float) -> int:
     """Return how many segments, from the first, have ends of no more ``change`` than allowed."""
     open_ends = change > tolerance_m
     return int(np.argmax(open_ends)) if open_ends.any() else open_ends.size

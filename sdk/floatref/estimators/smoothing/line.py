@@ -64,8 +64,8 @@ class Line:
 
     def end_segment(self, sample: int) -> None:
         """Make a segment of the nodes before ``sample``, one or more."""
-        head, tail = self.parts[-1].parted(sample)
-        nodes, count = head.joined([*self.parts[:-1], head]), len(head.at)
+        head, tail = self.parts[-1].split(sample)
+        nodes, count = head.concatenate([*self.parts[:-1], head]), len(head.at)
         distance = np.concatenate([*self.distances[:-1], self.distances[-1][:count]])
         marks = Marks.of(self.before, nodes, distance, self.rule.step)
         self.segments.append(Segment(self.before, self.origin, nodes, marks))

@@ -92,13 +92,13 @@ class Marks:
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        chosen = _chosen(nodes.at, distance_m, step)
+        chosen = _choose_nodes(nodes.at, distance_m, step)
         passed, gathered = nodes.passes(max(before, 0), step, chosen)
         place = nodes.at[chosen], distance_m[chosen]
         return cls(*place, nodes.column(chosen), nodes.latest(), passed, gathered)
 
 
-def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
+def _choose_nodes(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
     """Return the nodes that are far enough from those before, in time or travel, and the last.
 
     Time at a standstill does not count: it could be an hour.

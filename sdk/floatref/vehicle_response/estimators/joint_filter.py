@@ -108,12 +108,12 @@ class JointInputState:
             direct=direct,
             feedthrough=discrete.feedthrough(output, direct),
             variance=np.array([reading.sigma**2 for reading in readings]),
-            disturbance=_extended(noise, unseen),
+            disturbance=_extend(noise, unseen),
             after=discrete.after,
             unknown=np.array([(tyre.stiffness * UNKNOWN_ROAD_M) ** 2 for tyre in model.tyres]),
             stays=exp(-step_s / UNKNOWN_ROAD_S),
         )
-        return cls(model, tuple(readings), system, _extended(start, unseen + UNKNOWN_ROAD_M**2))
+        return cls(model, tuple(readings), system, _extend(start, unseen + UNKNOWN_ROAD_M**2))
 
     def estimate(self, samples: ArrayLike) -> Estimate:
         """Return what ``samples``, shape (N, m), tell; a missing (NaN) reading is left out.
@@ -123,7 +123,7 @@ class JointInputState:
         InputError for another shape, when no sample at all tells the forces, or when the
         covariance does not stay finite and positive.
         """
-        array = self._checked(samples)
+        array = self._check(samples)
         found = self.advance(self.begin(), array)
         if not np.isfinite(found.road).any():
             whole = zip(self.readings, array.T, strict=True)
@@ -153,7 +153,7 @@ class JointInputState:
         """
         from floatref.vehicle_response.estimators.joint_kernel import joint_input_state
 
-        array = self._checked(samples)
+        array = self._check(samples)
         count, (states, inputs) = array.shape[0], self.system.after.shape
         shapes = [(count, inputs)] * 2 + [(count, states)] * 2
         out = Estimates(*(np.empty(shape) for shape in shapes))
@@ -183,7 +183,7 @@ class JointInputState:
         states, sigma = found.states[:, :size], states_sigma[:, :size]
         return Estimate(road, road_sigma, states, sigma, found.forces, force_sigma)
 
-    def _checked(self, samples: ArrayLike) -> FloatArray:
+    def _check(self, samples: ArrayLike) -> FloatArray:
         array = np.ascontiguousarray(samples, dtype=np.float64)
         if array.ndim != 2 or array.shape[1] != len(self.readings):
             raise InputError(
@@ -193,7 +193,7 @@ class JointInputState:
         return array if array.flags.writeable else array.copy()
 
 
-def _extended(matrix: FloatArray, diagonal: FloatArray) -> FloatArray:
+def _extend(matrix: FloatArray, diagonal: FloatArray) -> FloatArray:
     """Return ``matrix`` with ``diagonal`` below it, zero beside."""
     size = matrix.shape[0]
     whole = np.diag(np.concatenate((np.zeros(size), diagonal)))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from floatref.measures import agreement, on_common_grid
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.locating.placing import place, placed
+from floatref_conformance.certify.locating.placing import apply_placement, place
 from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 
 
@@ -24,7 +24,7 @@ def correlations(reference, run):
 def put(reference, run):
     placement = place(reference, run)
     assert placement.found, placement.notes
-    return placement, placed(run, placement)
+    return placement, apply_placement(run, placement)
 
 
 @pytest.mark.parametrize("start_m", [0.0, 0.8, -0.8])
@@ -160,7 +160,7 @@ def test_another_road_is_not_found_and_it_is_said_what_was_tried(road, roads) ->
         run = roads(seed).run(-50.0, 600.0)
         placement = place(road.reference(), run)
         assert not placement.found
-        assert placed(run, placement) is run
+        assert apply_placement(run, placement) is run
         assert "the best correlation is" in placement.notes[0]
 
 

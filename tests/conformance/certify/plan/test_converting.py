@@ -24,7 +24,7 @@ from floatref.values.recording import Channel, Recording, Setup
 from floatref_adapters.erd.profile_format import Erd
 from floatref_conformance.certify.plan import commands as commands_module
 from floatref_conformance.certify.plan.commands import Answer, Commands, Stopped
-from floatref_conformance.certify.plan.converting import Converted, converted
+from floatref_conformance.certify.plan.converting import Converted, convert_all
 from floatref_conformance.certify.plan.plan_document import Processing
 
 SOURCES = {
@@ -55,13 +55,13 @@ def found(folder: Path) -> Mapping[str, Converted]:
     """What became of every source, by name, all read together."""
     paths = [folder / name for names in SOURCES.values() for name in names]
     processing = Processing("spatial-basic", folder / "mine.json")
-    made = converted(paths, processing, lambda path: None)
+    made = convert_all(paths, processing, lambda path: None)
     return {path.name: one for path, one in made.items()}
 
 
 def only(path: Path) -> Converted:
     """Return what becomes of ``path`` alone."""
-    return converted([path], Processing(), lambda path: None)[path]
+    return convert_all([path], Processing(), lambda path: None)[path]
 
 
 def recording() -> Recording:
@@ -163,7 +163,7 @@ def test_a_profile_directory_that_is_damaged_is_not_processed(tmp_path: Path) ->
 def test_every_source_is_told_once(folder: Path) -> None:
     paths = [folder / "made", folder / "made.csv", folder / "made", folder / "gone.erd"]
     told: list[Path] = []
-    converted(paths, Processing(), told.append)
+    convert_all(paths, Processing(), told.append)
     assert sorted(told) == sorted(set(paths))
 
 
@@ -179,7 +179,7 @@ def test_nothing_is_left_when_it_is_interrupted(
         raise error
 
     with pytest.raises(error):
-        converted([folder / "made", folder / "noise.bin"], Processing(), interrupted)
+        convert_all([folder / "made", folder / "noise.bin"], Processing(), interrupted)
     assert list(tmp_path.iterdir()) == []
 
 
