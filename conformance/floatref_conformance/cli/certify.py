@@ -31,7 +31,9 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
 )
 @click.option("--quiescent", metavar="SRC[@FROM:TO]", help="Recorded with the vehicle at rest.")
 @click.option("--bounce", metavar="SRC[@FROM:TO]", help="Recorded with the body pushed.")
-@click.option("--plan", metavar="FILE.toml", type=FILE, help="Says all this for several sections.")
+@click.option(
+    "--plan", metavar="FILE.toml", type=FILE, help="A file with all this for several sections."
+)
 @click.option(
     "--class",
     "device_class",
@@ -128,7 +130,7 @@ def _check_report(folder: Path | None) -> None:
 def _certify_with_progress(
     plan: Plan, processing: Processing, limits: "CertificationLimits", device_class: DeviceClass
 ) -> "Worksheet":
-    """Return the worksheet; on a terminal a bar on standard error tells how far it is."""
+    """Return the worksheet; on a terminal a bar on standard error shows the progress."""
     from rich.console import Console
     from rich.progress import Progress
 

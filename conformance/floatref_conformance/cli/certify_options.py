@@ -1,4 +1,4 @@
-"""What the options of `certify` stand for: a plan, limits, and how recordings are processed."""
+"""What the options of `certify` mean: a plan, limits, and how recordings are processed."""
 
 import re
 from collections.abc import Sequence
@@ -40,7 +40,7 @@ class Limit(NumberType):
     name = "limit"
 
     def __init__(self, most: float = 1e6, optional: bool = False) -> None:
-        """Keep what is allowed."""
+        """Store what is allowed."""
         self._most = most
         self._optional = optional
 
@@ -79,14 +79,14 @@ def plan_of(
     quiescent: str | None,
     bounce: str | None,
 ) -> Plan:
-    """Return the plan in the file ``plan``, or what the command line says in place of one.
+    """Return the plan in the file ``plan``, or that of the command line.
 
     Stationary tests of the command line come in place of the file's. Raises InputError for both,
     or neither, and for what cannot be found.
     """
     if plan is not None:
         if runs or reference is not None or sections:
-            raise InputError("--plan: says runs, reference and sections; leave out the others")
+            raise InputError("--plan: names runs, reference and sections; leave out the others")
         made = read_plan(plan)
     else:
         made = Plan(_sections(runs, reference, sections))
@@ -100,7 +100,7 @@ def plan_of(
 
 
 def stationary_of(text: str, name: str) -> StationaryPlan:
-    """Return the test that ``text``, SRC or SRC@FROM:TO, stands for."""
+    """Return the test that ``text``, SRC or SRC@FROM:TO, describes."""
     found = PART.fullmatch(text)
     if found is None or Path(text).exists():
         return StationaryPlan(check_exists(text))

@@ -15,7 +15,7 @@ from floatref_conformance.render.drawing import drawing
 @click.command()
 @click.argument("id_", metavar="ID")
 def explain(id_: str) -> None:
-    """Say what check ID asks, how much it allows, and why."""
+    """Explain what check ID asks, what it allows, and why."""
     registry = load_registry()
     check = registry.check(id_)
     click.echo("\n".join(explanation(check, registry.killers(id_))))

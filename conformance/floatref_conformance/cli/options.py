@@ -1,4 +1,4 @@
-"""What the options of `run` and `replay` stand for."""
+"""What the options of `run` and `replay` mean."""
 
 from math import isfinite
 from pathlib import Path

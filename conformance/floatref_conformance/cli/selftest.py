@@ -21,14 +21,14 @@ DOES_NOT_HOLD = 1
     type=click.IntRange(min=0),
     default=3,
     show_default=True,
-    help="With so many seeds, from 0 on, every mutant must be killed; 0 leaves mutants out.",
+    help="Number of seeds, from 0 on, with which every mutant must be killed; 0: no mutants.",
 )
 @click.option(
     "--false-alarms",
     type=click.IntRange(min=0),
     default=10,
     show_default=True,
-    help="With so many seeds, from 0 on, no built-in device may fail the class it claims.",
+    help="Number of seeds, from 0 on, with which no built-in device may fail the class it claims.",
 )
 @click.option(
     "--limits/--no-limits",
@@ -49,7 +49,7 @@ DOES_NOT_HOLD = 1
     type=click.IntRange(min=1),
     default=2,
     show_default=True,
-    help="Try so many devices at a time.",
+    help="Number of devices tried at a time.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.pass_context

@@ -147,7 +147,7 @@ def _show(
     plot: Path | None,
     draw: Callable[[Any, Path], None],
 ) -> None:
-    """Print ``made`` as ``document`` says, or else as text, and draw it to ``plot`` if given."""
+    """Print ``made`` by ``document``, or else as text, and draw it to ``plot`` if given."""
     from floatref_conformance.render.terminal import PipedConsole
 
     try:

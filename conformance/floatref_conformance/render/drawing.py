@@ -131,7 +131,7 @@ def _drive(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
 
 
 def _draw_parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
-    """Return what happens in time to a vehicle that stands."""
+    """Return the drawing over time of a stationary vehicle."""
     speed = scenario.speed_kmh * KMH
     t = np.linspace(0.0, DURATION_S, SAMPLES)
     told = Line("speed", t, np.full(t.size, scenario.speed_kmh), "speed")
@@ -146,7 +146,7 @@ def _draw_parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figu
     return Figure(
         name,
         f"A parked vehicle, {scenario.manoeuvre}",
-        f"The artificial encoder tells {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; {moves}. "
+        f"The artificial encoder gives {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; {moves}. "
         f"{_in_words([*counted, *plates])}",
         tuple(panels),
         "time in s",

@@ -32,7 +32,7 @@ ELEMENTS: Mapping[Outcome, str] = {
     Outcome.WAIVED: "skipped",
     Outcome.NOT_APPLICABLE: "skipped",
 }
-"""What says in a test case that it did not pass; one without is taken for passed."""
+"""Elements that mark a test case as not passed; a case without one counts as passed."""
 
 
 @dataclass

@@ -39,12 +39,12 @@ class Place:
 
 
 def is_parked(scenario: Scenario) -> bool:
-    """Return whether the vehicle stands while an artificial encoder tells a speed."""
+    """Return whether the vehicle is stationary while an artificial encoder gives a speed."""
     return scenario.manoeuvre in STATIONARY
 
 
 def drive_shown(scenario: Scenario) -> Drive:
-    """Return what the wheel does, or what the artificial encoder tells."""
+    """Return the drive of the wheel, or that of the artificial encoder."""
     if is_parked(scenario):
         return artificial_drive(scenario.speed_kmh * KMH)
     return drive_of(scenario)

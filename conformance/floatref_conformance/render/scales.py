@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from floatref.values.arrays import FloatArray
 
 MARGIN = 0.06
-"""Share of the range left empty above and below the lines."""
+"""Share of the range that is empty above and below the lines."""
 FARTHEST = 1e300
 """Values beyond this are drawn at it, so that differences stay finite."""
 NARROWEST = 1e-9

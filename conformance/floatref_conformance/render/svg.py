@@ -210,7 +210,7 @@ def _sample(style: str, x: float) -> str:
 
 
 def escape_text(text: str) -> str:
-    """Return ``text`` as it may stand in a picture."""
+    """Return ``text`` escaped for a picture."""
     return escaped(printable(text))
 
 

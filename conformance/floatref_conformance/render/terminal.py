@@ -28,11 +28,11 @@ from floatref_conformance.render.text import printable
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
 COLUMNS = ("check", "outcome", "class reached", "cases", "worst", "limit", "margin")
 PLAIN_WIDTH = 100
-"""Columns of the table when nobody says how wide the output is."""
+"""Columns of the table when the width of the output is unknown."""
 
 
 class PipedConsole(Console):
-    """A console that tells when nobody reads it any more, instead of ending the process."""
+    """A console that reports a broken pipe instead of ending the process."""
 
     def on_broken_pipe(self) -> None:
         """Let the caller decide on the exit code."""
@@ -84,7 +84,7 @@ class TerminalRenderer:
             self._progress.start()
 
     def _stage(self, event: CheckStarted | SearchStarted | ShrinkStarted) -> None:
-        """Tell that up to so many cases are judged from now on."""
+        """Report the largest number of cases that are judged from now on."""
         doing = {SearchStarted: ", searching", ShrinkStarted: ", simplifying"}.get(type(event), "")
         if not self._progress:
             self._print(f"{event.id}{doing}: {event.cases} cases")

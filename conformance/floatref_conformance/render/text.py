@@ -16,7 +16,7 @@ TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 def printable(text: str) -> str:
     """Return ``text`` with every character that cannot be shown written as an escape.
 
-    What remains may stand in any XML or HTML document and can be encoded. Line breaks and tabs
+    What remains is valid in any XML or HTML document and can be encoded. Line breaks and tabs
     are kept.
     """
     if text.isascii() and text.isprintable():

@@ -15,7 +15,7 @@ FAILED = (Outcome.FAIL, Outcome.ERROR)
 WHERE = "this case alone, where the run was started"
 """Where a command to run a case again is to be given."""
 UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
-"""Outcomes that say nothing of what the device can do."""
+"""Outcomes that do not judge the device."""
 
 
 def sensors(architecture: str, capabilities: Sequence[str]) -> str:

@@ -56,7 +56,7 @@ class Driven:
 
     Attributes:
         truth: unfiltered elevation along the laser's path against true distance.
-        encoder_m: distance in m that the encoder tells at the points of the truth.
+        encoder_m: distance in m by the encoder at the points of the truth.
         profiles: what every pipeline makes of the recording.
     """
 
@@ -86,7 +86,7 @@ class Processing:
         return self.drive(scenario, f"run {scenario.manoeuvre}", road).profiles
 
     def drive(self, scenario: Scenario, name: str, road: Road | None = None) -> Driven:
-        """Return what ``scenario``, called ``name``, comes to on ``road`` or else its own.
+        """Return the profiles of ``scenario``, called ``name``, on ``road`` or else its own.
 
         Raises SuiteError, naming pipeline and ``name``, for a pipeline that fails.
         """
@@ -117,12 +117,12 @@ class Processing:
 
 
 def draw_seed(seed: int, name: str, *numbers: int) -> int:
-    """Return the seed of whatever ``name`` and ``numbers`` stand for."""
+    """Return the seed that belongs to ``name`` and ``numbers``."""
     return int(np.random.SeedSequence([seed, *name.encode(), *numbers]).generate_state(1)[0])
 
 
 def _encoder_m(simulation: Simulation) -> FloatArray:
-    """Return the distance in m that the encoder tells at the points of the truth."""
+    """Return the distance in m by the encoder at the points of the truth."""
     truth, motion = simulation.truth, simulation.motion
     encoder = simulation.recording.channel("distance")
     told = np.interp(motion.times_s, encoder.times_s, encoder.values)

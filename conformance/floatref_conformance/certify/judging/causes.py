@@ -21,12 +21,12 @@ LEAST_EXPLAINED = 0.1
 """An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
 CERTAIN = 3.0
-"""Differences between waves count beyond so many sigma."""
+"""Differences between waves count beyond this number of sigma."""
 
 
 @dataclass(frozen=True)
 class _Suspect:
-    """A cause, what is left to compare once it is undone, and whether it counts in any case."""
+    """A cause, what remains to compare once it is undone, and whether it counts in any case."""
 
     id: str
     text: str

@@ -48,7 +48,7 @@ class Comparison:
 def compare(reference: Profile, run: Profile) -> Mapping[str, Comparison]:
     """Return the comparison of every wheel path of ``reference``, both cut to the section.
 
-    Raises InputError where the two do not overlap, or ``run`` lacks a wheel path.
+    Raises InputError where the two do not overlap, or a wheel path is missing in ``run``.
     """
     expected, found = on_common_grid(reference, run)
     outside = reference.tracks[0].elevation.size - expected.tracks[0].elevation.size

@@ -23,7 +23,7 @@ from floatref_conformance.certify.judging.scales import judge_distance, judge_he
 from floatref_conformance.checks.verdict import Verdict
 
 MISSING_PERCENT = 2.0
-"""Part of a section for which a run may lack elevations; ours.
+"""Part of a section in which elevations of a run may be missing; ours.
 
 Compare's offset of 1 m leaves out 0.6 % of 0.1 mile and a distance error of 1 % leaves out 1 %:
 neither is a hole. What is beyond is road that nobody measured, bridged by a straight line.
@@ -85,7 +85,7 @@ def _number(runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
 
 
 def _coverage(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
-    """Return the largest part of the section that a wheel path of a run lacks."""
+    """Return the largest part of the section that is missing in a wheel path of a run."""
     shares = [
         (100.0 * track.missing_m / _length_m(truth), f"{run.name}, {track.track}", track.missing_m)
         for run in used

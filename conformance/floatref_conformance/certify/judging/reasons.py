@@ -17,7 +17,7 @@ def list_in_words(items: Sequence[str], most: int = NAMED) -> str:
 
 
 def join_reasons(*parts: str) -> str:
-    """Return those of ``parts`` that say something, as one reason."""
+    """Return the ``parts`` that are not empty, as one reason."""
     return "; ".join(part for part in parts if part)
 
 
@@ -38,7 +38,7 @@ def name_unused(runs: Iterable[RunSheet]) -> list[str]:
 
 
 def judge(value: float, limit: float | None, failed: bool) -> Judged:
-    """Return the outcome of ``value``, of which is known whether it ``failed`` its limit.
+    """Return the outcome of ``value``, which ``failed`` its limit or not.
 
     Without a value nothing is judged, and without a limit nothing is asked.
     """

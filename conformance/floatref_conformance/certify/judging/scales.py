@@ -77,8 +77,8 @@ def scales_agree(track: RunTrack, limits: CertificationLimits) -> bool:
 def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tuple[Criterion, ...]:
     """Return the largest error of distance of a run, and the mean over the runs.
 
-    Of a run's wheel paths, which share one encoder, the one that tells it best counts. A worksheet
-    whose runs do not tell it is INCOMPLETE.
+    Of a run's wheel paths, which share one encoder, the one with the smallest sigma counts. A
+    worksheet whose runs do not measure it is INCOMPLETE.
     """
     told = [_best(run) for run in runs if run.tracks]
     found = [one.percent for one in told if not isnan(one.percent)]
@@ -91,7 +91,7 @@ def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tup
 def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
     """Return the largest error of the scale of heights of a run, in wheel path ``name``.
 
-    Where no run tells it, it is reported alone: R 56-14 does not ask for it.
+    Where no run measures it, it is reported only: R 56-14 does not ask for it.
     """
     tracks = of_track(runs, name)
     told = [Told(run.name, track.height_percent, track.height_sigma) for run, track in tracks]
@@ -136,9 +136,9 @@ def _judge_largest(
     told: Sequence[Told],
     limit: float | None,
     track: str,
-    untold: Judged,
+    unknown: Judged,
 ) -> Criterion:
-    """Return the criterion of the largest error; ``untold`` if no run tells it well enough."""
+    """Return the criterion of the largest error; ``unknown`` if no run measures it well enough."""
     bound = inf if limit is None else limit
     known = [one for one in told if not isnan(one.percent)]
     beyond = sorted((o for o in told if o.beyond(bound)), key=lambda o: -abs(o.percent))
@@ -147,7 +147,7 @@ def _judge_largest(
     value = max((one.percent for one in counted), key=abs, default=nan)
     judged = judge(value, limit, bool(beyond))
     if limit is not None and not beyond and len(vague) == len(told):
-        judged = untold
+        judged = unknown
     reason = join_reasons(
         f"beyond the limit: {list_in_words([str(one) for one in beyond])}" if beyond else "",
         f"not known to {bound:g} %: {list_in_words([str(o) for o in vague if o not in beyond])}"

@@ -3,7 +3,7 @@
 At every section these are the lowest accuracy and the IRI that is farthest off; at a stationary
 test, the highest IRI. The reference works in plain loops, 18 µs a point: it takes 2 s for a
 section of 0.1 mile at 5 mm. Of more than `MOST_POINTS` points the SDK and the reference both
-measure the first ones alone, which still tells a wrong measure from a right one and costs 2 s.
+measure the first ones only: that still finds a wrong measure, and costs 2 s.
 """
 
 from math import isnan

@@ -116,7 +116,7 @@ def _place(run: Run) -> tuple[list[tuple[int, str]], str]:
 
 
 def _measure(truth: Profile, run: Run) -> _Measured:
-    """Return ``run`` cut to the section and compared; one that cannot be says why."""
+    """Return ``run`` cut to the section and compared; one that cannot be has an error."""
     if run.profile is None:
         return _Measured(run, {})
     try:

@@ -1,7 +1,7 @@
 """Recorded stationary tests of AASHTO R 57-14: the IRI of a parked vehicle, wheel path by path.
 
-The vehicle stands on a flat floor while an artificial encoder tells travel. R 57-14 limits the
-IRI at rest to 0.047 m/km (3 in/mi) and with the body pushed to 0.126 m/km (8 in/mi). Which part
+The vehicle is stationary on a flat floor while an artificial encoder gives travel. R 57-14 limits
+the IRI at rest to 0.047 m/km (3 in/mi) and with the body pushed to 0.126 m/km (8 in/mi). Which part
 of the recording counts is ours: what is `END_M` from both ends, unless a stretch is given.
 """
 
@@ -76,7 +76,7 @@ def _stretch(profile: Profile, given: Stretch | None) -> Stretch:
     if profile.length_m < SHORTEST_M:
         raise InputError(
             f"the profile is {profile.length_m:.1f} m long, {SHORTEST_M:g} m are needed: a parked "
-            "vehicle needs an encoder that tells travel, as an artificial one does"
+            "vehicle needs an encoder that gives travel, as an artificial one does"
         )
     start, end = given if given is not None else (first + END_M, last - END_M)
     if end - start < SHORTEST_M:

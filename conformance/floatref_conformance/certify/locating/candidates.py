@@ -25,7 +25,7 @@ class Searched:
         self._spectra: dict[int, list[NDArray[np.complex128]]] = {}
 
     def spectra(self, padded: int) -> list[NDArray[np.complex128]]:
-        """Return the spectra of all wheel paths, padded with zeros to so many points."""
+        """Return the spectra of all wheel paths, padded with zeros to ``padded`` points."""
         if padded not in self._spectra:
             self._spectra[padded] = [rfft(slope.values, padded) for slope in self.slopes]
         return self._spectra[padded]
@@ -70,9 +70,9 @@ def _normalise(products: FloatArray, energies: FloatArray) -> FloatArray:
 
 
 LARGEST_SCALE = 0.06
-"""Distance errors of up to so much are searched."""
+"""Largest distance error that is searched."""
 DRIFT_M = 0.8
-"""By so much a piece may drift from end to end between two scales: half its shortest wave."""
+"""Largest drift of a piece from end to end between two scales: half its shortest wave."""
 TIE = 0.03
 """Scores that differ by less are equally good."""
 APART_M = 2.0

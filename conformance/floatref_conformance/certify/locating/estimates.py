@@ -15,9 +15,9 @@ from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.locating.spectra import Spectra, Windows
 
 BLOCKS = 12
-"""Stretches of the section, each left out once to tell the scatter."""
+"""Stretches of the section, each left out once to estimate the scatter."""
 UNDERSTATED = 1.12
-"""By so much the scatter of so few blocks, with weights of their own making, is too small."""
+"""Factor by which the scatter of so few blocks, weighted by themselves, is too small."""
 ROBUST = 2.0
 """A window counts less if its residual is larger than this many times the usual one."""
 ITERATIONS = 8
@@ -25,7 +25,7 @@ ITERATIONS = 8
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """What the windows tell, each value with its 1-sigma.
+    """Estimates from the windows, each value with its 1-sigma.
 
     Attributes:
         height: h.

@@ -24,11 +24,11 @@ PIECE_M = 160.0
 """Length of the pieces of the reference that are searched for."""
 MOST_PIECES = 6
 COARSEST_M, FINEST_M = 1.0, 1e-3
-"""Intervals beyond these are not those of a profile, in whatever unit."""
+"""Intervals beyond these are not those of a profile, in any unit."""
 USUAL_M = 0.005, 0.31
 """Intervals that profiles have; units that give others are tried later."""
 SHORTEST_M = 20.0
-"""A run shorter than this, in whatever unit, cannot be found."""
+"""A run shorter than this, in any unit, cannot be found."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def find(pieces: Sequence[Piece], run: Profile) -> Find | None:
 
 
 def _merit(find: Find) -> float:
-    """Return by how much a find stands above chance."""
+    """Return by how much a find is better than chance."""
     return abs(find.candidate.score) / find.candidate.needed
 
 

@@ -94,7 +94,7 @@ def fit(reference: Profile, run: Profile, track: str) -> Fit:
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """A wheel path of the reference and of the run, and the shortest wave that both hold."""
+    """A wheel path of the reference and of the run, and the shortest wave that both contain."""
 
     reference: Surface
     run: Surface
@@ -124,7 +124,7 @@ def _first_line(reference: Profile, run: Profile) -> tuple[Line, float] | None:
 
 
 def _fit_windows(pair: _Pair, line: Line) -> Fit:
-    """Return what the windows tell, ``line`` being corrected by them until it stands."""
+    """Return the estimates from the windows, which correct ``line`` until it is stable."""
     last: tuple[Windows, Estimate] | None = None
     shortest = max(ROUGHLY_M, pair.shortest_m)
     for _ in range(ROUNDS):
@@ -157,7 +157,7 @@ def _fit_windows(pair: _Pair, line: Line) -> Fit:
 
 
 def _correct_lag(line: Line, told: Estimate) -> Line:
-    """Return ``line`` plus the straight line of lag that is left."""
+    """Return ``line`` plus the straight line of the remaining lag."""
     shift = told.shift_m + told.slope * (line.at_m - told.middle_m)
     return Line(line.at_m, line.run_m + shift, line.scale + told.slope)
 

@@ -10,9 +10,9 @@ from floatref_conformance.certify.locating.slopes import STEP_M, Slope
 
 WINDOW_M = 10.0
 SEARCH_M = 1.0
-"""Lags are searched within so much of the line."""
+"""Largest distance from the line at which lags are searched."""
 AGREES = 0.5
-"""Correlation from which on a window tells a lag."""
+"""Least correlation of a window whose lag is used."""
 STARTS_M = 100.0
 """The line is followed from so far around the place where it is known."""
 

@@ -24,7 +24,7 @@ class Placement:
         found: whether the reference's road was found in the run at all.
         correlation: of slope in the waveband of 1.6 to 8 m, at the best place that was found.
         notes: all of it in sentences; empty for a run that lies right.
-        tracks: wheel path of the reference → that of the run; without those that it lacks.
+        tracks: wheel path of the reference → that of the run; without missing ones.
         reversed: whether the run's axis points against the reference's.
         inverted: whether its heights are upside down; they stay so, for that is a fault.
         distance_unit, distance_factor: of its axis, and m per unit.
@@ -59,7 +59,7 @@ class Placement:
 
 
 def apply_placement(run: Profile, placement: Placement) -> Profile:
-    """Return ``run`` as ``placement`` says: the same object if it lies right or was not found.
+    """Return ``run`` placed by ``placement``: the same object if it lies right or was not found.
 
     Wheel paths that are not the reference's are dropped where another takes their name.
     """
@@ -93,7 +93,7 @@ def _scale(values: FloatArray, factor: float) -> FloatArray:
 
 
 COVERED_M = 0.5
-"""A run that ends so much before the section covers it."""
+"""A run that ends this much before the section's end still covers it."""
 
 
 def add_sentences(reference: Profile, run: Profile, placement: Placement) -> Placement:

@@ -1,4 +1,4 @@
-"""A run recognised on the reference's road, whatever its units, direction, names and offset."""
+"""A run recognised on the reference's road in any units, direction, names and offset."""
 
 import math
 from dataclasses import dataclass, replace

@@ -15,7 +15,7 @@ Spectra = NDArray[np.complex128]
 STEP_M = 0.1
 """Between the points at which both are taken, and the length over which they are averaged."""
 MOST_MISSING = 0.5
-"""A window that lacks a larger share of its points is left out."""
+"""A window with a larger share of missing points is left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,8 +75,8 @@ def windows_of(
 ) -> Windows:
     """Return the spectra of windows of ``length_m`` of ``stretch_m``, half over each other.
 
-    Windows are Hann's, each freed of its straight line. What one of the two lacks is left out of
-    both.
+    Windows are Hann's, each freed of its straight line. What is missing in one of the two is left
+    out of both.
     """
     at = np.arange(stretch_m[0] + STEP_M, stretch_m[1] - STEP_M, STEP_M)
     p, p_known = reference.slope(Line(0.0, 0.0, 1.0), at)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import TracebackType
 
 COMMAND = (sys.executable, "-P", "-m", "floatref")
-"""-P: a folder called floatref where the user stands is not taken for the package."""
+"""-P: a folder called floatref in the current folder is not taken for the package."""
 
 
 class Stopped(Exception):

@@ -42,11 +42,11 @@ class Converted:
 
 
 def convert_all(
-    paths: Sequence[Path], processing: Processing, told: Callable[[Path], None]
+    paths: Sequence[Path], processing: Processing, report: Callable[[Path], None]
 ) -> Mapping[Path, Converted]:
     """Return the profile of every path of ``paths``, or why it has no profile.
 
-    ``told`` is called with each path once it is read. Temporary files and commands are always
+    ``report`` is called with each path once it is read. Temporary files and commands are always
     gone at the end.
     """
     with (
@@ -59,7 +59,7 @@ def convert_all(
             for index, path in enumerate(dict.fromkeys(paths))
         }
         for future in as_completed(work):
-            told(work[future])
+            report(work[future])
         return {path: future.result() for future, path in work.items()}
 
 
@@ -105,7 +105,7 @@ def _options(processing: Processing) -> list[str]:
 
 
 def _is_ours(path: Path) -> bool:
-    """Tell whether ``path`` is a profile directory or a CSV of ours, from what it holds."""
+    """Return whether ``path`` is a profile directory or a CSV of ours, by its content."""
     if path.is_dir():
         return (path / "profile.json").is_file()
     with opened(path) as stream:
@@ -116,7 +116,7 @@ def _is_ours(path: Path) -> bool:
 def _load_apart(profile: Profile, source: Path) -> Profile:
     """Return ``profile`` apart from its files, which go away, with the SHA-256 of ``source``.
 
-    One that tells from which inputs it was made keeps what it tells.
+    A profile that names the inputs it was made from still names them.
     """
     tracks = [
         ProfileTrack.of(

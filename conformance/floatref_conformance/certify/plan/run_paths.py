@@ -1,4 +1,4 @@
-"""Which files are runs: paths, directories of runs and patterns, and names that tell them apart."""
+"""Which files are runs: paths, directories of runs and patterns, and unique names for them."""
 
 import glob
 import re
@@ -89,7 +89,7 @@ def _within(path: Path) -> Iterator[Path]:
 
 
 def _is_file(path: Path) -> bool:
-    """Tell whether ``path`` is a file, or a link to nothing, which then is a run with an error."""
+    """Return whether ``path`` is a file or a broken link, which is a run with an error."""
     return path.is_file() or (path.is_symlink() and not path.exists())
 
 

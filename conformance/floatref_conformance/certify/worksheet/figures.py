@@ -141,7 +141,7 @@ def _lags(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -> Iter
 
 
 def _surest(run: RunSheet) -> RunTrack:
-    """Return the wheel path that tells the distance best: all share one encoder."""
+    """Return the wheel path that measures the distance best: all share one encoder."""
     return min(run.tracks, key=lambda t: inf if isnan(t.distance_sigma) else t.distance_sigma)
 
 

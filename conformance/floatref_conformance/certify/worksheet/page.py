@@ -49,7 +49,7 @@ class RunRow:
 
 @dataclass(frozen=True)
 class RunNote:
-    """What there is to say of a run; ``fault`` if it could not be used."""
+    """Notes on a run; ``fault`` if it could not be used."""
 
     number: int
     name: str

@@ -22,7 +22,7 @@ CLOSE_M = 15.0
 """Length of the stretch that is shown close up."""
 LONGEST_NAME = 24
 AROUND = 0.03
-"""The axis of the IRI holds so much around the reference's at least."""
+"""Least range of the axis of the IRI around the reference's."""
 NAMED = 2
 """Runs that do not agree and have a line of their own in the legend."""
 
@@ -219,7 +219,7 @@ def _describe_iri(section: SectionSheet, track: str) -> str:
 def lag_picture(section: SectionSheet, run: RunSheet, track: str, name: str) -> str:
     """Return the lags of windows of a run against distance; empty where they are not known.
 
-    Of a run that lies right they are level; one that tells distance too long lies the farther
+    Of a run that lies right they are level; one that measures distance too long lies the farther
     ahead, the farther it has come.
     """
     if run.profile is None:

@@ -29,7 +29,7 @@ HEADS = (
     "flag-\nged, m",
 )
 MOST_RUNS = 12
-"""With more, the matrix of pairs is left to the page and the document."""
+"""With more, only the page and the document have the matrix of pairs."""
 LONGEST_NAME = 10
 NARROW = (0, 0, 0, 0)
 
@@ -87,7 +87,7 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
 
 
 def _print_run(index: int, run: RunSheet, console: Console) -> None:
-    """Print what there is to say of a run, if there is anything."""
+    """Print the notes on a run, if there are any."""
     lines = wording.run_lines(run)
     if lines:
         _say(console, f"Run {index}, {run.name}:")

@@ -17,7 +17,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import scales_agree
 
 NOTHING = "–"
-"""Stands for a number that could not be had."""
+"""Text in place of a missing number."""
 COUNTED = "runs"
 """The id of the criterion that is a number of runs."""
 SIGNED = (
@@ -134,7 +134,7 @@ FIGURES = (
 
 
 def cause_in_words(cause: Cause) -> str:
-    """Return a cause, and how much of what the correlation lacks comes back without it."""
+    """Return a cause, and its share of the loss of correlation."""
     if isnan(cause.explains):
         return cause.text
     return f"{cause.text}; explains {100 * cause.explains:.0f} % of what the correlation lacks"
@@ -195,7 +195,7 @@ def _at_most(limit: float | None, unit: str) -> str:
 
 
 def list_pairs(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """Return settings or versions as pairs of words; what is not set is left out."""
+    """Return settings or versions as pairs of words; those not set are left out."""
     return tuple((name, _plain(value)) for name, value in values.items() if value is not None)
 
 

@@ -176,7 +176,7 @@ def _wheel_path(path: WheelPath) -> dict[str, Any]:
 
 
 def _finite(figures: dict[str, Any]) -> dict[str, Any]:
-    """Return ``figures`` with null in place of a number that JSON cannot say."""
+    """Return ``figures`` with null in place of a number that JSON does not have."""
     return {
         name: None if isinstance(value, float) and not isfinite(value) else value
         for name, value in figures.items()

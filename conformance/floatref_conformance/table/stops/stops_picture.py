@@ -26,7 +26,7 @@ ROW = 0.8
 def draw_stops(table: StopTable, path: Path) -> None:
     """Write a picture of ``table`` to ``path``: one row for each pipeline.
 
-    Across lies the cross correlation with the truth, on a logarithmic scale of what it lacks to
+    Across lies the cross correlation with the truth, on a logarithmic scale of its distance to
     one. A dot is a wheel path, its colour and its line within the row the vehicle, its shape the
     road; a long bar is the median, a short one the first percentile. Raises InputError where
     matplotlib is missing or ``path`` cannot be written.
@@ -90,5 +90,5 @@ def _draw_legend(ax: Axes, table: StopTable) -> None:
 
 
 def _distance_to_one(cross_correlation: float) -> float:
-    """Return what ``cross_correlation`` lacks to one, within the picture's ends."""
+    """Return one less ``cross_correlation``, within the picture's ends."""
     return 1.0 - min(max(cross_correlation, 0.0), HIGHEST)

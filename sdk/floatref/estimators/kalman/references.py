@@ -55,7 +55,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Samples ``first`` on: which of them stand still, the height, and where it is there.
+    """Samples ``first`` on: which of them are stationary, the height, and where it is there.
 
     ``readings``, shape (m, 5), are usable GNSS readings: height, velocity, pitch, roll, and the
     interval from the reading before in s; ``taken`` their samples; at samples ``quiet`` the
@@ -198,7 +198,7 @@ class References:
         return observations_of(at, 0, y, variance, moved)
 
     def _constants(self, begin: int, end: int) -> Observations:
-        """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
+        """Return what replaces GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
         if at.size == 0:
             return join_observations([])
@@ -235,7 +235,7 @@ class References:
 
 
 def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
-    """Yield the parts of ``stretch`` that stand still, or do not, in turn."""
+    """Yield the parts of ``stretch`` that are stationary, or are not, in turn."""
     if not reflects or not stretch.standing.any():
         yield stretch, False
         return

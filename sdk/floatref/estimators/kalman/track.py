@@ -31,13 +31,13 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
 
 NODES_PER_S = 100.0
-"""Sub-blocks of 160 samples at 16 kHz: long enough that covariances cost next to nothing."""
+"""Sub-blocks of 160 samples at 16 kHz: long enough that covariances cost very little."""
 START_SIGMA = (1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01)
 """1-σ of the first state: height, velocity, pitch, roll, and biases, in SI units."""
 FLOORS = (0.2, 0.5, np.radians(3.0), np.radians(3.0))
 """Innovations of GNSS readings up to here are taken, however small the filter expects them."""
 KNOWN = np.delete(np.eye(STATES), (DRIFT, OFFSET), axis=0)
-"""What readings to come can tell of the state at last: never the height but with GNSS's drift."""
+"""What later readings can show of the state at last: never the height but with GNSS's drift."""
 KNOWN[HEIGHT, DRIFT] = 1.0
 STANDING = np.eye(STATES)[HEIGHT] + np.eye(STATES)[OFFSET]
 """At a stop also how far the height is from where the stop began."""

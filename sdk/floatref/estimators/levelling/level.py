@@ -23,7 +23,7 @@ Turned = list[tuple[Block, dict[str, FloatArray]]]
 class Level(Stage):
     """Levels the accelerometers: `vertical_acceleration` in place of `vertical_specific_force`.
 
-    The result is (2.20) with the attitude that the rates tell at once and that gravity tells, with
+    The result is (2.20) with the attitude by the rates at once and that by gravity, with
     the encoder, over ``blended_s`` seconds to either side; so blocks wait for some five times as
     long, plus four seconds. All channels of the inertial unit are dropped.
     """
@@ -31,7 +31,7 @@ class Level(Stage):
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=ALL)
 
     def __init__(self, blended_s: float = BLENDED_S) -> None:
-        """Believe the rates over shorter, gravity over longer times than ``blended_s`` seconds."""
+        """Use the rates over shorter, gravity over longer times than ``blended_s`` seconds."""
         super().__init__()
         self.blended_s = blended_s
         self._channels: dict[str, tuple[ChannelId, ...]] = {}
@@ -68,7 +68,7 @@ class Level(Stage):
         return Block(waiting[0].first, dict.fromkeys(self._made, frozen(())))
 
     def close(self) -> tuple[Block, ...]:
-        """Return all that is left."""
+        """Return all that remains."""
         for attitude in self._attitudes.values():
             attitude.see_end()
         self._turn()

@@ -44,7 +44,7 @@ class Means:
 
 @dataclass(eq=False)
 class Held:
-    """Columns that are kept until they are no longer needed; ``first`` is the number of the first.
+    """Columns stored until they are no longer needed; ``first`` is the number of the first.
 
     Attributes:
         values: shape (rows, n).
@@ -116,7 +116,7 @@ class LocalLines:
         return found
 
     def rest(self) -> FloatArray:
-        """Return the lines of all places that are left."""
+        """Return the lines of all remaining places."""
         more = self._unknown()
         return self.take(more[:2], more[2])
 

@@ -26,8 +26,9 @@ class RoadPrior:
         road: q, half of G_s of the spectrum G_s/(2πν)² of (2.2), in m.
         long_waves: half of G_a of the spectrum G_a/(2πν)⁴ that (2.4) adds to that, in 1/m.
         road_reach_m: distance after which elevation and slope of the road are forgotten, in m.
-        road_memory_m: over so much travel the run's own road takes the place of both.
-        edge_sigmas: a reading at a standstill that is off by so many tells of an edge of the road.
+        road_memory_m: travel over which the run's own road replaces both.
+        edge_sigmas: a reading at a standstill that is off by this number of sigma
+            shows an edge of the road.
         lean_expected_rad, lean_sigma_rad: lean of the accelerometer's axis forward, and 1-σ.
         tilt_expected, tilt_sigma: pitch angle per longitudinal acceleration, in rad per m/s²,
             and 1-σ.

@@ -93,7 +93,7 @@ class Excitation:
         by: `response_weights`.
         distances: at the nodes from the first that the next acceleration needs, in m.
         begun: whether the distances have been continued before the first.
-        fade: where the encoder tells no travel, a brake goes on, less by this from node to node.
+        fade: where the encoder gives no travel, a brake goes on, less by this from node to node.
         memory: response, its rate and the latest acceleration.
     """
 

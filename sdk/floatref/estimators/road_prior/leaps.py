@@ -14,7 +14,7 @@ LEAST_M = 0.01
 
 
 class Leap(NamedTuple):
-    """A reading at a standstill, at a sample, that is off by so many m."""
+    """A reading at a standstill, its sample and its error in m."""
 
     sample: int
     by_m: float

@@ -10,7 +10,7 @@ from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.values.arrays import FloatArray
 
 BOTH = np.array([LEAN, TILT])
-TOLD = 0.5
+MOST_UNKNOWN = 0.5
 """A brake that reduces neither variance below this share is dropped."""
 
 SMALLEST = np.finfo(np.float64).tiny
@@ -30,7 +30,7 @@ class Brake:
 
     def tells(self, variances: FloatArray) -> bool:
         """Return whether that is much more than the ``variances`` that it began with."""
-        return bool((np.diag(self.covariance) < TOLD * variances).any())
+        return bool((np.diag(self.covariance) < MOST_UNKNOWN * variances).any())
 
 
 def pool(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]:

@@ -1,4 +1,4 @@
-"""The road-prior smoother in place of both integrations: the road stands still when we do."""
+"""The road-prior smoother in place of both integrations: at standstill the road does not move."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -41,7 +41,7 @@ from floatref.values.channels import ChannelId
 
 UNKNOWN = ChannelId(MISSING_SHARE)
 LONGEST_S = 180.0
-"""What is known of a bias grows for kilometres; little of it is left after so long."""
+"""What is known of a bias grows for kilometres; little of it remains after this time."""
 
 
 class RoadPriorSmoother(Stage):
@@ -117,7 +117,7 @@ class RoadPriorSmoother(Stage):
         return Block(first[0].first, dict.fromkeys(self._made, frozen(())))
 
     def close(self) -> tuple[Block, ...]:
-        """Return all that is left."""
+        """Return all that remains."""
         backlog: Backlog = self.memory["backlog"]
         if not self.memory["waiting"] and not backlog.blocks:
             return ()
@@ -140,7 +140,7 @@ class RoadPriorSmoother(Stage):
         return pool([b for each in filters.values() for b in each.all_brakes()], self.constants)
 
     def told(self) -> tuple[str, ...]:
-        """Say where the height sensor has leapt at a standstill."""
+        """Warn where the height sensor has leapt at a standstill."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
         assert self._header is not None
         found = {track: each.leaps for track, each in filters.items()}

@@ -25,11 +25,11 @@ from floatref.estimators.smoothing.nodes import Kind, Nodes
 from floatref.values.arrays import FloatArray, Records, new_record
 
 NODES = Kind(NODE, UPDATE, np.eye(STATES), np.eye(STATES))
-"""The road tells every state in time, at a stop as well."""
+"""The road makes every state known in time, at a stop as well."""
 NODES_PER_S = 500.0
 """A node every 32 samples at 16 kHz."""
 RENEWAL = 500
-"""After so many nodes the road is taken for what it has been."""
+"""Nodes after which the spectrum of the road is renewed by that of the road so far."""
 
 
 def sub_block(step: float) -> int:

@@ -17,7 +17,7 @@ from floatref.values.channels import ChannelId
 SEGMENT_S = 4.0
 """Duration of a segment, but for its power of two in samples."""
 WAITING_S = 60.0
-"""A segment waits so long, whatever the bound says: what changes since at the place where one part
+"""A segment waits this long at least, at any bound: what changes since at the place where one part
 has come out and the next has not would be a step there."""
 STANDING = 5.0
 """Longest wait of a segment, in multiples of the longest time: a vehicle may stand for hours."""
@@ -36,9 +36,9 @@ class Backlog:
     Attributes:
         lines: of every wheel path.
         waiting_s: segments are closed no earlier than that.
-        longest_s: nor much later, but where the vehicle stands or has just stood.
+        longest_s: nor much later, except where the vehicle is stationary or has just been.
         length: samples of a segment.
-        blocks: kept, without height and 1-σ.
+        blocks: stored, without height and 1-σ.
         closed: all samples before this one are.
     """
 
@@ -53,12 +53,12 @@ class Backlog:
     def of(
         cls, tracks: tuple[str, ...], rule: Closing, waiting_s: float, longest_s: float = inf
     ) -> "Backlog":
-        """Return one that keeps nothing."""
+        """Return an empty one."""
         length = 1 << max(0, round(log2(SEGMENT_S / rule.step)))
         return cls({track: Line(rule) for track in tracks}, waiting_s, longest_s, length)
 
     def add(self, block: Block, found: Mapping[str, Filtered]) -> None:
-        """Keep ``block`` and what the filters have made of it."""
+        """Store ``block`` and the results of the filters."""
         distance, flags = block[ChannelId(DISTANCE)], {}
         for track, passed in found.items():
             line = self.lines[track]

@@ -1,4 +1,4 @@
-"""What the smoother keeps of one wheel path until its readings no longer matter."""
+"""What the smoother stores of one wheel path until its readings no longer matter."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -58,7 +58,7 @@ class Line:
     known: FloatArray = field(default_factory=lambda: np.empty(0))
 
     def add(self, nodes: Nodes, distance_m: FloatArray) -> None:
-        """Keep nodes behind those before, and the distance there."""
+        """Store nodes behind those before, and the distance there."""
         self.parts.append(nodes)
         self.distances.append(distance_m)
 

@@ -34,7 +34,7 @@ class Kind:
         node: fields of a node, among them `at`, the sample, `updated`, the end of its updates, how
             far these `rise` and `climb`, and the upper half of the `covariance`.
         update: fields of a scalar update, among them `gain`, `innovation` and `information`.
-        seen: what readings to come can tell of a state, shape (m, states).
+        seen: what later readings can show of a state, shape (m, states).
         standing: the same at a stop.
     """
 
@@ -152,7 +152,7 @@ class Nodes:
         return found
 
     def seen(self, standing: bool) -> FloatArray:
-        """Return what readings to come can tell of a state, shape (m, states)."""
+        """Return what later readings can show of a state, shape (m, states)."""
         return self.kind.standing if standing else self.kind.seen
 
 

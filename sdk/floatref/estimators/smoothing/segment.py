@@ -121,7 +121,7 @@ class Segment:
         before: sample of the node before the first one; -1 before the run.
         origin: that node alone; empty before the run.
         nodes: those after ``before``.
-        marks: those of them that tell how covariances pass on.
+        marks: those of them that carry how covariances pass on.
     """
 
     before: int
@@ -145,7 +145,7 @@ class Segment:
     def shift(self, start: np.record, corrections: Records, step_m: float, place_m: float) -> float:
         """Shift all corrections by ``step_m``, less with the travel from ``place_m`` on.
 
-        Returns what is left of it at the last node.
+        Returns what remains of it at the last node.
         """
         if step_m == 0.0:
             return 0.0

@@ -28,7 +28,7 @@ def with_tyre_states(model: VehicleModel, discrete: Discrete) -> Discrete:
     """Return ``discrete`` with a state u, in m, for each tyre of ``model`` that has damping.
 
     They come behind x, in the order of the tyres. Each is exact for forces that change linearly
-    between samples, whatever the forces of ``discrete`` do: were they to stay, u would lag.
+    between samples, for any forces of ``discrete``: if they were held, u would lag.
     """
     damped = [(at, tyre) for at, tyre in enumerate(model.tyres) if tyre.damping > 0]
     size, inputs = discrete.before.shape
@@ -44,7 +44,7 @@ def with_tyre_states(model: VehicleModel, discrete: Discrete) -> Discrete:
 
 
 def _decay(tyre: Tyre, step_s: float) -> tuple[float, float, float]:
-    """Return what u keeps over a step, and what 1 N before it and 1 N after it give."""
+    """Return the share of u that remains over a step, and what 1 N before and after it give."""
     steps = tyre.stiffness * step_s / tyre.damping
     lost = -expm1(-steps)
     # 1 - lost/steps, by its series where the difference would be rounding.
@@ -53,7 +53,7 @@ def _decay(tyre: Tyre, step_s: float) -> tuple[float, float, float]:
 
 
 UNKNOWN_ROAD_M, UNKNOWN_ROAD_S = 0.1, 0.1
-"""1-σ of how far the road is from where it was last seen, while no reading tells of it, and after
+"""1-σ of how far the road is from where it was last seen, while no reading measures it, and after
 which time that has changed: (15) of Zhu for a road of class G of ISO 8608 at 15 m/s."""
 LOP_SIDED = 1e-9
 """Of its largest element, how far a covariance may be from symmetric or positive: rounding."""
@@ -116,11 +116,11 @@ class JointInputState:
         return cls(model, tuple(readings), system, _extend(start, unseen + UNKNOWN_ROAD_M**2))
 
     def estimate(self, samples: ArrayLike) -> Estimate:
-        """Return what ``samples``, shape (N, m), tell; a missing (NaN) reading is left out.
+        """Return the estimates from ``samples``, shape (N, m); a missing (NaN) reading is left out.
 
-        Where the others do not tell all forces, force and road are NaN; the states go on with the
-        last forces, and their standard deviations take in a rough road about 0.1 m away. Raises
-        InputError for another shape, when no sample at all tells the forces, or when the
+        Where the others do not determine all forces, force and road are NaN; the states go on with
+        the last forces, and their standard deviations take in a rough road about 0.1 m away. Raises
+        InputError for another shape, when no sample determines the forces, or when the
         covariance does not stay finite and positive.
         """
         array = self._check(samples)
@@ -146,7 +146,7 @@ class JointInputState:
         )
 
     def advance(self, memory: Memory, samples: ArrayLike) -> Estimate:
-        """Return what ``samples``, shape (N, m), tell, those that follow the last.
+        """Return the estimates from ``samples``, shape (N, m), which follow the last ones.
 
         Any split gives the same, bit for bit. Raises InputError as `estimate`, but for samples
         that tell nothing.

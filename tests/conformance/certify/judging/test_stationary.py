@@ -84,7 +84,7 @@ def test_the_limits_are_those_that_are_given():
 
 
 def test_a_vehicle_whose_encoder_stands_still_is_told_what_it_needs():
-    assert "a parked vehicle needs an encoder that tells travel" in missing(parked(0.3))
+    assert "a parked vehicle needs an encoder that gives travel" in missing(parked(0.3))
 
 
 def test_a_run_that_is_too_short_is_told_what_would_do():
