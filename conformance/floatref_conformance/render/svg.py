@@ -179,10 +179,10 @@ def _ticks_along(figure: Figure, across: Scale, bottom: float) -> str:
         for value in values
     )
     middle = (across.first + across.last) / 2
-    label = escape_text(figure.along)
+    title = escape_text(figure.along)
     return (
         f'<path class="tick" d="{strokes}"/><g class="numbers along">{numbers}</g>'
-        f'<text class="axis" x="{px(middle)}" y="{px(bottom + 36)}">{label}</text>'
+        f'<text class="axis" x="{px(middle)}" y="{px(bottom + 36)}">{title}</text>'
     )
 
 
