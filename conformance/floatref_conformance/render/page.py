@@ -115,7 +115,7 @@ class Page:
     rows: tuple[Row, ...]
     failures: tuple[Failure, ...]
     replayed: tuple[KeptRow, ...]
-    explain_check: tuple[Asked, ...]
+    asked: tuple[Asked, ...]
     classes: tuple[str, ...]
     versions: str
 
