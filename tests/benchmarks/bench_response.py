@@ -24,7 +24,7 @@ from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import road_of, setup_of, suite_of
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 JOINT, OBSERVER = "response-joint-input-state", "response-observer"
 LASER = "road-prior-smoother"
@@ -156,7 +156,7 @@ def lines_apart(draws: int) -> list[list[str]]:
     """Return for every vehicle how the road in its wheels' line compares with the laser's."""
     lines = []
     for name in VEHICLES:
-        vehicle, found = vehicle_called(name), []
+        vehicle, found = find_vehicle(name), []
         for draw in range(draws):
             scenario = Scenario(seed=draw, length_m=LENGTH_M, profile_interval_m=INTERVAL_M)
             road = road_of(scenario, LENGTH_M)

@@ -41,7 +41,7 @@ COLOURS = {"temporal": "C0", "spatial": "C2", "kalman": "C4", "road": "C3"}
 
 def on_the_encoders_axis(driven: Driven, points: FloatArray, interval_m: float) -> FloatArray:
     """Return the road, filtered as profiles are, at ``points`` of the encoder's distance."""
-    road = np.interp(points, driven.told_m, driven.truth.track(TRACK).elevation)
+    road = np.interp(points, driven.encoder_m, driven.truth.track(TRACK).elevation)
     return high_pass(road, interval_m)
 
 
@@ -118,7 +118,7 @@ def main() -> None:
     given = parser.parse_args()
     processing = Processing(floatref.pipelines())
     scenario = scenario_of_run(given.run, tracks=(TRACK,), imu=True, gnss=True)
-    draw(given.run, processing.driven(scenario, given.run), given.path)
+    draw(given.run, processing.drive(scenario, given.run), given.path)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,10 @@ from floatref.values.arrays import FloatArray
 from floatref_conformance.checks.faults.injection import with_values
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.proving_ground.roads.road import Road
-from floatref_conformance.proving_ground.roads.shaping import cosine_rise, scaled_to
+from floatref_conformance.proving_ground.roads.shaping import cosine_rise, scale_to
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 STOP_M = 316.0
 FORCE, HEIGHT = "vertical_specific_force", "height"
@@ -28,7 +28,7 @@ def crack(depth_mm: float, width_mm: float = 40.0) -> RoadChange:
     """Return a groove one edge of which lies where the lasers stand, but for the body's pitch."""
 
     def cut(road: Road, scenario: Scenario) -> Road:
-        edge = STOP_M + vehicle_called(scenario.vehicle).sensor_x_m
+        edge = STOP_M + find_vehicle(scenario.vehicle).sensor_x_m
         inside = np.abs(road.distance_m - edge - width_mm / 2000.0) < width_mm / 2000.0
         return added(road, -1e-3 * depth_mm * inside)
 
@@ -39,9 +39,9 @@ def step(before: float, behind: float) -> RoadChange:
     """Return a road whose IRI in m/km is another behind the place where the lasers stand."""
 
     def scaled(road: Road, scenario: Scenario) -> Road:
-        place = STOP_M + vehicle_called(scenario.vehicle).sensor_x_m
+        place = STOP_M + find_vehicle(scenario.vehicle).sensor_x_m
         weight = cosine_rise((road.distance_m - place) / STEP_M + 0.5)
-        low, high = scaled_to(road, before).elevation, scaled_to(road, behind).elevation
+        low, high = scale_to(road, before).elevation, scale_to(road, behind).elevation
         slopes = {
             n: np.diff(low[n]) * (1 - weight[1:]) + np.diff(high[n]) * weight[1:] for n in low
         }

@@ -18,7 +18,7 @@ from floatref_conformance.table.stops.stop_settings import (
     FINAL_SPEED_KMH,
     SPEED_KMH,
     STOP_ROADS,
-    stop_drawn,
+    draw_stop,
 )
 
 PAGE = (Path(__file__).parents[2] / "docs" / "published-table.md").read_text(encoding="utf-8")
@@ -47,7 +47,7 @@ def test_the_numbers_of_the_method_are_the_codes() -> None:
 def test_the_numbers_of_drawn_stops_are_the_codes() -> None:
     (section,) = re.findall(r"^## Drawn stops .*?(?=^## )", PAGE, re.M | re.S)
     text = " ".join(section.split())
-    drawn = stop_drawn(0, next(iter(VEHICLES)), STOP_ROADS[0], 0, frozenset())
+    drawn = draw_stop(0, next(iter(VEHICLES)), STOP_ROADS[0], 0, frozenset())
     smooth, fair, rough = (road.iri_m_per_km for road in STOP_ROADS)
     for said in (
         f"Each of the {WORDS[len(VEHICLES)]} vehicles",

@@ -20,8 +20,8 @@ from floatref_conformance.certify.judging.scales import judge_readings
 from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.judging.stationary import stationary_sheet
-from floatref_conformance.certify.locating.placing import place, placed
-from floatref_conformance.certify.plan.converting import Converted, converted
+from floatref_conformance.certify.locating.placing import apply_placement, place
+from floatref_conformance.certify.plan.converting import Converted, convert_all
 from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.plan.plan_document import (
     Plan,
@@ -55,14 +55,14 @@ def certify(
     for section in plan.sections:
         _check_apart(section)
     steps = _Steps(plan, progress)
-    read = converted(_references(plan), processing, steps.read)
+    read = convert_all(_references(plan), processing, steps.count_read)
     references = dict(_true(read))
-    sources = converted(_sources(plan), processing, steps.read)
+    sources = convert_all(_sources(plan), processing, steps.count_read)
     _check_usable(plan, sources)
     sections = tuple(
         replace(
             _section(section, references[section.reference], sources, limits, steps),
-            reference_said=read[section.reference].said,
+            reference_notes=read[section.reference].notes,
         )
         for section in plan.sections
     )
@@ -95,15 +95,15 @@ class _Steps:
         self._progress = progress
         progress("reading", 0.0)
 
-    def read(self, path: Path) -> None:
-        """Tell that ``path`` was read."""
-        self._tell(f"read {path.name}")
+    def count_read(self, path: Path) -> None:
+        """Report that ``path`` was read."""
+        self._report(f"read {path.name}")
 
-    def placed(self, name: str) -> None:
-        """Tell that the run ``name`` was found on its section."""
-        self._tell(f"placed {name}")
+    def count_placed(self, name: str) -> None:
+        """Report that the run ``name`` was found on its section."""
+        self._report(f"placed {name}")
 
-    def _tell(self, doing: str) -> None:
+    def _report(self, doing: str) -> None:
         self._done += 1
         self._progress(doing, self._done / self._total)
 
@@ -119,25 +119,25 @@ def _section(
     truth, runs = truth_of(plan, reference), []
     for name, path in zip(names_of(plan.runs), plan.runs, strict=True):
         runs.append(_run(name, path, sources[path], truth))
-        steps.placed(name)
+        steps.count_placed(name)
     return section_sheet(plan, truth, runs, limits)
 
 
 def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
     if source.profile is None:
-        return Run(name, str(path), source.said, None, source.error)
+        return Run(name, str(path), source.notes, None, source.error)
     try:
         placement = place(truth, source.profile)
-        profile = placed(source.profile, placement)
+        profile = apply_placement(source.profile, placement)
     except InputError as error:
-        return Run(name, str(path), source.said, None, f"{path}: {error}")
-    return Run(name, str(path), (*source.said, *placement.said), profile)
+        return Run(name, str(path), source.notes, None, f"{path}: {error}")
+    return Run(name, str(path), (*source.notes, *placement.notes), profile)
 
 
 def _stationary(
     name: str, plan: StationaryPlan, source: Converted, limits: CertificationLimits
 ) -> StationarySheet:
-    return stationary_sheet(name, plan, source.profile, limits, source.said, source.error)
+    return stationary_sheet(name, plan, source.profile, limits, source.notes, source.error)
 
 
 def _check_apart(section: SectionPlan) -> None:
@@ -159,7 +159,7 @@ def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:
     """Raise InputError with the first reason if no run of any section can be read."""
     runs = [sources[run] for section in plan.sections for run in section.runs]
     if all(run.profile is None for run in runs):
-        what = f"none of the {len(runs)} runs" if len(runs) > 1 else "the only run"
+        what = f"not one of the {len(runs)} runs" if len(runs) > 1 else "the only run"
         verb = "can be used, first" if len(runs) > 1 else "cannot be used:"
         raise InputError(f"{what} {verb} {runs[0].error}")
 

@@ -31,7 +31,9 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
 )
 @click.option("--quiescent", metavar="SRC[@FROM:TO]", help="Recorded with the vehicle at rest.")
 @click.option("--bounce", metavar="SRC[@FROM:TO]", help="Recorded with the body pushed.")
-@click.option("--plan", metavar="FILE.toml", type=FILE, help="Says all this for several sections.")
+@click.option(
+    "--plan", metavar="FILE.toml", type=FILE, help="A file with all this for several sections."
+)
 @click.option(
     "--class",
     "device_class",
@@ -86,7 +88,7 @@ def certify(
     RUN is a profile of any format, a recording, which is processed on the way, a directory of
     them, or a pattern. Runs that start elsewhere, go the other way or are in other units are
     recognised. --max-distance-error, --max-height-error and --max-iri-bias also take the word
-    none: then the error is told and not judged.
+    none: then the error is reported and not judged.
 
     Exit code 0: PASS; 1: FAIL; 2: wrong usage, or a reference or runs that cannot be used; 3: the
     suite itself is at fault, no worksheet; 4: INCOMPLETE, such as too few runs.
@@ -96,7 +98,7 @@ def certify(
     _check_pipeline(pipeline)
     _check_report(report)
     processing = Processing(pipeline, settings, adapter, channel_map)
-    worksheet = _followed(asked, processing, limits, DeviceClass(device_class))
+    worksheet = _certify_with_progress(asked, processing, limits, DeviceClass(device_class))
     if report is not None:
         _write(worksheet, report)
     _show(worksheet, as_json)
@@ -125,20 +127,20 @@ def _check_report(folder: Path | None) -> None:
     check_report(folder)
 
 
-def _followed(
+def _certify_with_progress(
     plan: Plan, processing: Processing, limits: "CertificationLimits", device_class: DeviceClass
 ) -> "Worksheet":
-    """Return the worksheet; on a terminal a bar on standard error tells how far it is."""
+    """Return the worksheet; on a terminal a bar on standard error shows the progress."""
     from rich.console import Console
     from rich.progress import Progress
 
     from floatref_conformance.certify.certifying import certify as certified
-    from floatref_conformance.cli.following import ended_like_an_interrupt
+    from floatref_conformance.cli.following import end_like_an_interrupt
 
     console = Console(stderr=True)
     shown = console.is_terminal
     with (
-        ended_like_an_interrupt(),
+        end_like_an_interrupt(),
         Progress(console=console, transient=True, disable=not shown) as bar,
     ):
         task = bar.add_task("", total=1.0)

@@ -1,4 +1,4 @@
-"""What the options of `certify` stand for: a plan, limits, and how recordings are processed."""
+"""What the options of `certify` mean: a plan, limits, and how recordings are processed."""
 
 import re
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from floatref_conformance.certify.plan.plan_document import (
     read_plan,
     stretch_of,
 )
-from floatref_conformance.certify.plan.run_paths import existing, names_of, runs_of
+from floatref_conformance.certify.plan.run_paths import check_exists, names_of, runs_of
 from floatref_conformance.classes import DeviceClass
 
 if TYPE_CHECKING:
@@ -35,19 +35,19 @@ NO_LIMIT = "none"
 
 
 class Limit(NumberType):
-    """A number from 0 to ``most``; with ``optional`` also the word none, for no limit."""
+    """A number from 0 to ``most``; with ``optional`` also `NO_LIMIT`."""
 
     name = "limit"
 
     def __init__(self, most: float = 1e6, optional: bool = False) -> None:
-        """Keep what is allowed."""
+        """Store what is allowed."""
         self._most = most
         self._optional = optional
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> float | str:
-        """Return the number, or none as it is."""
+        """Return the number, or `NO_LIMIT` unchanged."""
         if self._optional and value == NO_LIMIT:
             return NO_LIMIT
         try:
@@ -61,7 +61,7 @@ class Limit(NumberType):
 
 
 def limits_with(device_class: DeviceClass, given: dict[str, Any]) -> CertificationLimits:
-    """Return the limits of ``device_class`` with those ``given`` in place; none stands for None."""
+    """Return the limits of ``device_class``, replaced by those ``given``; `NO_LIMIT` is None."""
     known = {field.name for field in fields(CertificationLimits)}
     changes: dict[str, Any] = {
         name: None if value == NO_LIMIT else value
@@ -79,14 +79,14 @@ def plan_of(
     quiescent: str | None,
     bounce: str | None,
 ) -> Plan:
-    """Return the plan in the file ``plan``, or what the command line says in place of one.
+    """Return the plan in the file ``plan``, or that of the command line.
 
     Stationary tests of the command line come in place of the file's. Raises InputError for both,
     or neither, and for what cannot be found.
     """
     if plan is not None:
         if runs or reference is not None or sections:
-            raise InputError("--plan: says runs, reference and sections; leave out the others")
+            raise InputError("--plan: names runs, reference and sections; leave out the others")
         made = read_plan(plan)
     else:
         made = Plan(_sections(runs, reference, sections))
@@ -100,11 +100,11 @@ def plan_of(
 
 
 def stationary_of(text: str, name: str) -> StationaryPlan:
-    """Return the test that ``text``, SRC or SRC@FROM:TO, stands for."""
+    """Return the test that ``text``, SRC or SRC@FROM:TO, describes."""
     found = PART.fullmatch(text)
     if found is None or Path(text).exists():
-        return StationaryPlan(existing(text))
-    return StationaryPlan(existing(found[1]), _stretch(f"--{name} {text}", found[2], found[3]))
+        return StationaryPlan(check_exists(text))
+    return StationaryPlan(check_exists(found[1]), _stretch(f"--{name} {text}", found[2], found[3]))
 
 
 def _sections(
@@ -114,7 +114,7 @@ def _sections(
         raise InputError("no RUN given; name profiles or recordings, or a --plan")
     if reference is None:
         raise InputError("no --reference given; name the reference profile, or a --plan")
-    truth, found = existing(reference), runs_of(runs)
+    truth, found = check_exists(reference), runs_of(runs)
     if not sections:
         return (SectionPlan(names_of([truth])[0], truth, found),)
     parts = [_part(text) for text in sections]

@@ -15,7 +15,7 @@ from floatref_conformance.render.drawing import drawing
 @click.command()
 @click.argument("id_", metavar="ID")
 def explain(id_: str) -> None:
-    """Say what check ID asks, how much it allows, and why."""
+    """Explain what check ID asks, what it allows, and why."""
     registry = load_registry()
     check = registry.check(id_)
     click.echo("\n".join(explanation(check, registry.killers(id_))))
@@ -27,8 +27,8 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
     for quantity, limits in check.limits.items():
         row = ", ".join(f"{c.value} {limits[c]}" for c in DeviceClass)
         lines.append(f"  {quantity}: {row}")
-    lines += ["", "Derivation", *_wrapped(check.derivation), "", "Floor", *_wrapped(check.floor)]
-    lines += ["", *_drawn(check)]
+    lines += ["", "Derivation", *_wrap(check.derivation), "", "Floor", *_wrap(check.floor)]
+    lines += ["", *_draw_case(check)]
     cases = ", ".join(f"{len(check.cases(0, effort))} at effort {effort}" for effort in Effort)
     lines += ["", f"Cases: {cases}"]
     if check.needs:
@@ -36,8 +36,8 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
     return [*lines, f"Must fail: {', '.join(killers) or 'no device yet'}"]
 
 
-def _drawn(check: Check) -> list[str]:
-    """Return the drawing of the first case; a check may have none."""
+def _draw_case(check: Check) -> list[str]:
+    """Return the drawing of the first case; empty for a check without cases."""
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return []
@@ -45,5 +45,5 @@ def _drawn(check: Check) -> list[str]:
     return [f"Drawing of {cases[0].name}", *drawn]
 
 
-def _wrapped(text: str) -> list[str]:
+def _wrap(text: str) -> list[str]:
     return textwrap.wrap(text, 88, initial_indent="  ", subsequent_indent="  ")

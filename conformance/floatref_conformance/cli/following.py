@@ -43,7 +43,7 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
             _tell(event, writers)
 
     try:
-        with ended_like_an_interrupt():
+        with end_like_an_interrupt():
             result = run(plan, emit)
     except SuiteError as fault:
         terminal.close()
@@ -60,7 +60,7 @@ def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
 
 
 @contextmanager
-def ended_like_an_interrupt() -> Iterator[None]:
+def end_like_an_interrupt() -> Iterator[None]:
     """Let SIGTERM end the run as Ctrl-C does, so that the device is ended with it."""
     if threading.current_thread() is not threading.main_thread():
         yield

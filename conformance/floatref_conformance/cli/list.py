@@ -16,9 +16,9 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 
 PLAIN_WIDTH = 100
-"""Columns where nobody says how wide the output is."""
+"""Columns where the width of the output is unknown."""
 NARROWEST = 30
-"""Columns left for what is said, however narrow the terminal."""
+"""Columns for the text of an entry in the narrowest terminal."""
 MOST_SPARED = 3
 """Checks named that a device may pass, in place of those that must fail it."""
 
@@ -67,10 +67,10 @@ def _in_words(listing: dict[str, Any]) -> str:
     checks, devices = listing["checks"], listing["devices"]
     built = [check["id"] for check in checks if check["built"]]
     told = [(c["id"], c["title"], _details(c)) for c in checks]
-    lines = ["Checks", *_aligned(told)]
+    lines = ["Checks", *_align(told)]
     for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
         rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]
-        lines += ["", f"Devices, {kind}", *_aligned(rows)]
+        lines += ["", f"Devices, {kind}", *_align(rows)]
     return "\n".join(lines)
 
 
@@ -90,17 +90,17 @@ def _fails(fails: Sequence[str], built: Sequence[str]) -> str:
     return "must fail every check" + (f" but {', '.join(spared)}" if spared else "")
 
 
-def _aligned(rows: Sequence[tuple[str, str, str]]) -> list[str]:
+def _align(rows: Sequence[tuple[str, str, str]]) -> list[str]:
     """Return a line or more for each row: its name, what it is, and below that the details."""
     indent = 4 + max((len(name) for name, _, _ in rows), default=0)
     width = max(get_terminal_size((PLAIN_WIDTH, 0)).columns, indent + NARROWEST)
     lines: list[str] = []
     for name, what, details in rows:
-        texts = [part for text in (what, details) for part in _wrapped(text, width - indent)]
+        texts = [part for text in (what, details) for part in _wrap(text, width - indent)]
         lines.append(f"  {name:<{indent - 2}}{texts[0]}")
         lines += [f"{'':{indent}}{text}" for text in texts[1:]]
     return lines
 
 
-def _wrapped(text: str, width: int) -> list[str]:
+def _wrap(text: str, width: int) -> list[str]:
     return wrap(text, width, break_on_hyphens=False, break_long_words=False)

@@ -11,7 +11,7 @@ COMMANDS = {
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
-    "explain": ("floatref_conformance.cli.explain:explain", "say what a check asks, and why"),
+    "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),
     "certify": ("floatref_conformance.cli.certify:certify", "judge a profiler from recorded runs"),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),

@@ -32,7 +32,7 @@ class VerdictGroup(LazyGroup):
     """Group whose sub-commands alone say 1: whatever they let through ends with another code."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
-        """Run the command; where not even stderr takes a line, the exit code alone tells."""
+        """Run the command; where stderr is closed too, only the exit code remains."""
         try:
             return super().main(*args, **kwargs)
         except OSError:
@@ -82,7 +82,7 @@ def in_one_line(error: BaseException) -> str:
 
 
 def drop_output() -> None:
-    """Let what is left in the buffers go nowhere, so that flushing them at exit cannot fail."""
+    """Discard what remains in the buffers, so that flushing them at exit cannot fail."""
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):
             stream.flush()

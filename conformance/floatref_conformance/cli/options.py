@@ -1,4 +1,4 @@
-"""What the options of `run` and `replay` stand for."""
+"""What the options of `run` and `replay` mean."""
 
 from math import isfinite
 from pathlib import Path
@@ -31,7 +31,7 @@ def limit_time(device: Device, seconds: float | None) -> None:
 
 
 def writers_into(folder: Path | None) -> list[Renderer]:
-    """Return what writes the reports into ``folder``, made if need be; none without one."""
+    """Return what writes the reports into ``folder``, made if need be; empty without one."""
     if folder is None:
         return []
     writers = (CaseFiles, JsonReport, JUnitReport, HtmlReport)

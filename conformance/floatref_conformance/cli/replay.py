@@ -98,6 +98,6 @@ def _cells(measured: Measurement, device_class: DeviceClass) -> tuple[str, ...]:
         measured.quantity,
         measured.track,
         f"{measured.value:.4g} {measured.unit}",
-        "none" if limit is None else f"{limit:.4g} {measured.unit}",
+        "no limit" if limit is None else f"{limit:.4g} {measured.unit}",
         "" if measured.within(device_class) else "fails",
     )

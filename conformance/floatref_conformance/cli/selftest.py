@@ -21,14 +21,14 @@ DOES_NOT_HOLD = 1
     type=click.IntRange(min=0),
     default=3,
     show_default=True,
-    help="With so many seeds, from 0 on, every mutant must be killed; 0 leaves mutants out.",
+    help="Number of seeds, from 0 on, with which every mutant must be killed; 0: no mutants.",
 )
 @click.option(
     "--false-alarms",
     type=click.IntRange(min=0),
     default=10,
     show_default=True,
-    help="With so many seeds, from 0 on, no built-in device may fail the class it claims.",
+    help="Number of seeds, from 0 on, with which no built-in device may fail the class it claims.",
 )
 @click.option(
     "--limits/--no-limits",
@@ -49,7 +49,7 @@ DOES_NOT_HOLD = 1
     type=click.IntRange(min=1),
     default=2,
     show_default=True,
-    help="Try so many devices at a time.",
+    help="Number of devices tried at a time.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.pass_context
@@ -68,7 +68,7 @@ def selftest(
     Exit code 0: all of it holds; 1: it does not; 2: wrong usage; 3: the suite itself is at fault.
     """
     wanted = Extent(seeds, false_alarms, limits, not ids if unique is None else unique, processes)
-    counts = _counted(ids, wanted)
+    counts = _count(ids, wanted)
     if as_json:
         click.echo(json.dumps(counts.to_dict(), indent=2))
     else:
@@ -79,7 +79,7 @@ def selftest(
     context.exit(DOES_NOT_HOLD if counts.complaints else 0)
 
 
-def _counted(ids: tuple[str, ...], extent: Extent) -> Counts:
+def _count(ids: tuple[str, ...], extent: Extent) -> Counts:
     """Return the counts; the progress is shown on standard error, if that is a terminal."""
     registry = load_registry()
     checks, _ = registry.select(ids)

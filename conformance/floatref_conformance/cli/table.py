@@ -94,25 +94,25 @@ def table(
     if plot is not None:
         check_picture(plot)
     if stops:
-        _drawn_stops(stops, settings, as_json, plot)
+        _show_drawn_stops(stops, settings, as_json, plot)
     else:
-        _published_runs(settings, as_json, plot)
+        _show_published_runs(settings, as_json, plot)
 
 
 def _refuse_options_of_runs() -> None:
     """Raise InputError for an option given beside --stops that has no meaning there."""
     for option in click.get_current_context().command.params:
-        if option.name in OF_PUBLISHED_RUNS and _given(option.name):
+        if option.name in OF_PUBLISHED_RUNS and _is_given(option.name):
             raise InputError(f"{option.opts[0]}: not together with --stops; leave one of them out")
 
 
-def _given(name: str) -> bool:
+def _is_given(name: str) -> bool:
     """Return whether the option ``name`` is on the command line."""
     source = click.get_current_context().get_parameter_source(name)
     return source is click.core.ParameterSource.COMMANDLINE
 
 
-def _published_runs(settings: TableSettings, as_json: bool, plot: Path | None) -> None:
+def _show_published_runs(settings: TableSettings, as_json: bool, plot: Path | None) -> None:
     """Make and show the published tables beside ours."""
     from floatref_conformance.table import make_table
     from floatref_conformance.table.comparison_picture import draw_comparison_maps
@@ -125,7 +125,7 @@ def _published_runs(settings: TableSettings, as_json: bool, plot: Path | None) -
     _show(made, document if as_json else None, print_comparison, plot, draw_comparison_maps)
 
 
-def _drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Path | None) -> None:
+def _show_drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Path | None) -> None:
     """Make and show the table of drawn stops."""
     from floatref_conformance.table.making import PassProgress
     from floatref_conformance.table.stops import StopSettings, make_stop_table
@@ -133,7 +133,7 @@ def _drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Path | 
     from floatref_conformance.table.stops.stops_picture import draw_stops
     from floatref_conformance.table.stops.stops_text import print_stops
 
-    vehicles = (chosen.vehicle,) if _given("vehicle") else ()
+    vehicles = (chosen.vehicle,) if _is_given("vehicle") else ()
     settings = StopSettings(chosen.seed, stops, vehicles, chosen.pipelines)
     with PassProgress(settings.passes) as progress:
         made = make_stop_table(settings, progress)
@@ -147,7 +147,7 @@ def _show(
     plot: Path | None,
     draw: Callable[[Any, Path], None],
 ) -> None:
-    """Print ``made`` as ``document`` says, or else as text, and draw it to ``plot`` if given."""
+    """Print ``made`` by ``document``, or else as text, and draw it to ``plot`` if given."""
     from floatref_conformance.render.terminal import PipedConsole
 
     try:

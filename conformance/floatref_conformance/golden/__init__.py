@@ -20,11 +20,11 @@ SUFFIX = ".json"
 
 def names() -> tuple[str, ...]:
     """Return the names of all vectors, sorted; the stage's, with a suffix if it has several."""
-    return tuple(sorted(file.name.removesuffix(SUFFIX) for file in _stored()))
+    return tuple(sorted(file.name.removesuffix(SUFFIX) for file in _stored_files()))
 
 
 def read(name: str) -> dict[str, Any]:
-    """Return the JSON document of vector ``name``; InputError if there is none."""
+    """Return the JSON document of vector ``name``; InputError if it is unknown."""
     document: dict[str, Any] = json.loads(_file(name).read_text(encoding="utf-8"))
     return document
 
@@ -46,7 +46,7 @@ def copy_to(folder: Path) -> tuple[Path, ...]:
     return copies
 
 
-def _stored() -> Iterator[Traversable]:
+def _stored_files() -> Iterator[Traversable]:
     return (file for file in files(__name__).iterdir() if file.name.endswith(SUFFIX))
 
 

@@ -37,7 +37,7 @@ def new_entry(entry: Path) -> Iterator[Path]:
     try:
         yield beside
         (beside / CHECKSUMS).write_text(json.dumps(_checksums(beside)), encoding="ascii")
-        while not (_renamed(beside, entry) or is_intact(entry)):
+        while not (_rename(beside, entry) or is_intact(entry)):
             remove(entry)
     finally:
         shutil.rmtree(beside, ignore_errors=True)
@@ -57,7 +57,7 @@ def use(entry: Path) -> bool:
 
 
 def is_intact(entry: Path) -> bool:
-    """Return whether an entry exists and none of its files has changed."""
+    """Return whether an entry exists and its files are unchanged."""
     try:
         listed = json.loads((entry / CHECKSUMS).read_text(encoding="ascii"))
         return bool(listed) and listed == _checksums(entry)
@@ -78,7 +78,7 @@ def remove(entry: Path) -> None:
 def prune(folder: Path) -> None:
     """Delete what processes that died left on its way in or out of ``folder``."""
     for path in folder.iterdir():
-        if path.name.startswith((NEW, OLD)) and _used_s(path) < time.time() - ABANDONED_S:
+        if path.name.startswith((NEW, OLD)) and _last_used_s(path) < time.time() - ABANDONED_S:
             shutil.rmtree(path, ignore_errors=True)
 
 
@@ -86,7 +86,7 @@ def shrink(folder: Path, kept: Path, largest_bytes: int) -> None:
     """Remove the least recently used entries, but never ``kept``, until the rest fits."""
     named = re.compile(f"[0-9a-f]{{{KEY_LENGTH}}}").fullmatch
     sizes = {path: _size(path) for path in folder.iterdir() if named(path.name)}
-    for path in sorted(sizes, key=_used_s):
+    for path in sorted(sizes, key=_last_used_s):
         if sum(sizes.values()) <= largest_bytes:
             return
         if path != kept:
@@ -94,7 +94,7 @@ def shrink(folder: Path, kept: Path, largest_bytes: int) -> None:
             del sizes[path]
 
 
-def _renamed(beside: Path, entry: Path) -> bool:
+def _rename(beside: Path, entry: Path) -> bool:
     """Give a new entry its name, unless there is one of that name."""
     try:
         os.rename(beside, entry)
@@ -112,7 +112,7 @@ def _checksums(entry: Path) -> dict[str, int]:
 
 
 def _files(entry: Path) -> Iterator[Path]:
-    """Yield every file of an entry; one that has vanished has none."""
+    """Yield every file of an entry; nothing if the entry has vanished."""
     for folder, _, names in os.walk(entry):
         yield from (Path(folder, name) for name in names)
 
@@ -126,7 +126,7 @@ def _crc(path: Path) -> int:
 
 
 def _size(entry: Path) -> int:
-    """Return the bytes of an entry's files; one that has vanished has none."""
+    """Return the size of an entry's files in bytes; 0 if the entry has vanished."""
     total = 0
     for path in _files(entry):
         with suppress(OSError):
@@ -134,7 +134,7 @@ def _size(entry: Path) -> int:
     return total
 
 
-def _used_s(path: Path) -> float:
+def _last_used_s(path: Path) -> float:
     """Return when ``path`` was last used, in s of the clock; 0 if it has vanished."""
     try:
         return path.stat().st_mtime

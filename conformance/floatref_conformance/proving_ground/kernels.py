@@ -159,7 +159,7 @@ def at_points(
     guess = np.zeros(points.shape[0])
     for k in range(body.shape[1]):
         frame = axes(body[1, k], body[2, k])
-        turn, turning = curved(course, travel[1, k]), curved(course, travel[2, k])
+        turn, turning = turn_rate_at(course, travel[1, k]), turn_rate_at(course, travel[2, k])
         rate, rate_change = rates(frame, body, k, turn, turning)
         force, velocity = at_centre(course, body, travel, k, turn, turning)
         force = into_body(frame, force)
@@ -176,7 +176,7 @@ def at_points(
         for t in range(points.shape[0]):
             r = (points[t, 0], points[t, 1], points[t, 2])
             whirl = cross(rate, r)
-            f = added(force, added(cross(rate_change, r), cross(rate, whirl)))
+            f = add(force, add(cross(rate_change, r), cross(rate, whirl)))
             tracks[t, F_X, k], tracks[t, F_Y, k], tracks[t, F_Z, k] = f
             tracks[t, A_Z, k] = dot(vertical, f) - course[4]
             tracks[t, V_Z, k] = dot(up, velocity) + dot(vertical, whirl)
@@ -195,7 +195,7 @@ def axes(pitch: float, roll: float) -> Frame:
 
 
 @compiled
-def curved(course: FloatArray, speed: float) -> Vector:
+def turn_rate_at(course: FloatArray, speed: float) -> Vector:
     """Return the course's turn rate about the vertical, in its own frame, at a speed."""
     pace = course[0] * speed
     return pace * course[1], pace * course[2], pace * course[3]
@@ -211,8 +211,8 @@ def rates(
     twist = body[4, k] * body[5, k]
     own_change = (body[8, k], body[7, k] * cp - twist * sp, -body[7, k] * sp - twist * cp)
     carried = into_body(frame, turn)
-    change = added(added(into_body(frame, turning), own_change), cross(carried, own))
-    return added(carried, own), change
+    change = add(add(into_body(frame, turning), own_change), cross(carried, own))
+    return add(carried, own), change
 
 
 @compiled
@@ -224,10 +224,10 @@ def at_centre(
     swept = cross(turn, lift)
     own = (travel[2, k], 0.0, body[6, k])
     coriolis = cross(turn, (travel[1, k], 0.0, 2.0 * body[3, k]))
-    frame_made = added(cross(turning, lift), cross(turn, swept))
+    frame_made = add(cross(turning, lift), cross(turn, swept))
     weight = (course[4] * course[1], course[4] * course[2], course[4] * course[3])
-    force = added(added(own, weight), added(coriolis, frame_made))
-    return force, added((travel[1, k], 0.0, body[3, k]), swept)
+    force = add(add(own, weight), add(coriolis, frame_made))
+    return force, add((travel[1, k], 0.0, body[3, k]), swept)
 
 
 @compiled
@@ -249,7 +249,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 @compiled
-def added(a: Vector, b: Vector) -> Vector:
+def add(a: Vector, b: Vector) -> Vector:
     """Return the sum of ``a`` and ``b``."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 

@@ -20,7 +20,7 @@ from floatref_conformance.proving_ground.sensors.noise import stream
 from floatref_conformance.proving_ground.staging import setup_of
 from floatref_conformance.proving_ground.vehicles.kinematics import Course, Sighted
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, empty_rows
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FIRST_START_M, LAST_START_M = 455.0, 525.0
 """Between these a plate starts: a high-pass wavelength, 91.44 m, beyond the first 360.9 m of
@@ -50,14 +50,14 @@ def plates_of(scenario: Scenario) -> Mapping[str, Plate]:
     }
 
 
-def parked(scenario: Scenario) -> tuple[BodyMotion, Setup]:
+def park(scenario: Scenario) -> tuple[BodyMotion, Setup]:
     """Return the motion of a quiescent or bounce test and where its sensors sit.
 
     Distance and speed are the artificial encoder's. The body pitches and rolls about the
     middle of the reference points, whose height the closed form gives. The floor is level;
     under each laser its wheel path's plate of `plates_of` lies over a stretch of that distance.
     """
-    vehicle = vehicle_called(scenario.vehicle)
+    vehicle = find_vehicle(scenario.vehicle)
     floor = flat_road(1.0, tracks=scenario.tracks)
     setup = setup_of(scenario, vehicle, floor.lateral_m)
     drive = artificial_drive(scenario.speed_kmh * KMH)

@@ -16,7 +16,7 @@ from floatref.errors import InputError
 from floatref.files import read_schema
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FORMAT = "floatref-scenario/1"
 STATIONARY = ("quiescent", "bounce")
@@ -64,15 +64,15 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Scenario:
-    """One recording to be simulated; InputError for values that make none.
+    """One recording to be simulated; InputError for values out of range.
 
     Attributes:
         seed: draws the road and every sensor's errors.
-        road_seed: draws the road in its place, so that other errors meet the same road; -1: none.
+        road_seed: draws the road in its place, so that other errors meet the same road; -1: off.
         road: one of `ROADS`: flat, a measured profile, sine waves, of Sayers' spectrum, or of an
             ISO 8608 class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
-        bump_mm, bump_at_m: height of a 3-m bump, 0 for none, and where its middle lies.
+        bump_mm, bump_at_m: height of a 3-m bump, 0 for no bump, and where its middle lies.
         vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
         manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
         speed_kmh: initial speed; simulated speed of a stationary test.
@@ -131,11 +131,11 @@ class Scenario:
     def __post_init__(self) -> None:
         """Refuse wrong types, names and numbers; InputError names the field."""
         for field in fields(self):
-            value = _typed(field.name, getattr(self, field.name), field.default)
+            value = _in_type_of(field.name, getattr(self, field.name), field.default)
             object.__setattr__(self, field.name, value)
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
-        vehicle_called(self.vehicle)
+        find_vehicle(self.vehicle)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
 
@@ -165,7 +165,7 @@ class Scenario:
 
 
 def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
-    """Return the scenario of a published run or `ref_72`; InputError if there is none."""
+    """Return the scenario of a published run or `ref_72`; InputError if it is unknown."""
     if name not in RUNS:
         near = get_close_matches(name, RUNS, n=1)
         hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(RUNS)}"
@@ -197,7 +197,7 @@ def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
         raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
 
 
-def _typed(name: str, value: Any, default: Any) -> Any:
+def _in_type_of(name: str, value: Any, default: Any) -> Any:
     """Return ``value`` in the type of ``default``, or raise InputError naming the field."""
     if isinstance(default, tuple):
         return _track_names(value)

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording, Setup
-from floatref_conformance.proving_ground.parked import parked
+from floatref_conformance.proving_ground.parked import park
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError
@@ -24,7 +24,7 @@ from floatref_conformance.proving_ground.staging import (
     suite_of,
 )
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, drive_over
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +55,10 @@ def simulate(
     """
     suite = suite_of(scenario) if suite is None else suite
     if scenario.manoeuvre in STATIONARY:
-        motion, setup = parked(scenario)
-        return _recorded(scenario, suite.idling(), motion, setup)
+        motion, setup = park(scenario)
+        return _record(scenario, suite.idling(), motion, setup)
     drive, course = drive_of(scenario), course_of(scenario)
-    vehicle = vehicle_called(scenario.vehicle)
+    vehicle = find_vehicle(scenario.vehicle)
     road = road_of(scenario, drive.length_m) if road is None else road
     _check_road(scenario, road, drive.length_m)
     known = as_installed(vehicle.known(), suite.vehicle_error, scenario.seed)
@@ -67,7 +67,7 @@ def simulate(
     motion = drive_over(
         vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup, kept
     )
-    return _recorded(scenario, suite, motion, setup)
+    return _record(scenario, suite, motion, setup)
 
 
 def stationary(
@@ -103,9 +103,7 @@ def truth_of(motion: BodyMotion, interval_m: float) -> Profile:
     return Profile(interval_m, tuple(tracks), pipeline="truth")
 
 
-def _recorded(
-    scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: Setup
-) -> Simulation:
+def _record(scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: Setup) -> Simulation:
     """Return what the sensors make of a motion, and the truth."""
     chain = Chain(suite, scenario.seed, motion)
     channels, errors = [chain.distance()], {}

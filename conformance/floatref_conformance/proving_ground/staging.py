@@ -19,7 +19,7 @@ from floatref_conformance.proving_ground.roads.measured import (
 )
 from floatref_conformance.proving_ground.roads.random_roads import iso8608_road, sayers_road
 from floatref_conformance.proving_ground.roads.road import FULL_FROM_M, Road, flat_road
-from floatref_conformance.proving_ground.roads.shaping import scaled_to, with_bump
+from floatref_conformance.proving_ground.roads.shaping import scale_to, with_bump
 from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
@@ -52,7 +52,7 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
     else:
         road = sayers_road(which, length_m, seed, tracks=scenario.tracks)
     if kind != "flat" and scenario.iri_m_per_km > 0:
-        road = scaled_to(road, scenario.iri_m_per_km)
+        road = scale_to(road, scenario.iri_m_per_km)
     if scenario.bump_mm:
         road = with_bump(road, scenario.bump_at_m, BUMP_LENGTH_M, scenario.bump_mm / 1000)
     return road
@@ -87,7 +87,7 @@ def suite_of(scenario: Scenario) -> SensorSuite:
     """Return the scenario's sensors; a factor of 0 is the ideal suite."""
     suite = SensorSuite.ideal() if scenario.sensors == 0 else SensorSuite()
     return replace(
-        suite.scaled(scenario.sensors),
+        suite.scale(scenario.sensors),
         slip_per_g=scenario.sensors * scenario.slip_percent_per_g / 100,
         encoder_error=scenario.encoder_error_percent / 100,
         gyro_rate_hz=scenario.gyro_rate_hz,

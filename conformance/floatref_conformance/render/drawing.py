@@ -13,7 +13,7 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render import places
 from floatref_conformance.render.places import Place
 from floatref_conformance.render.scales import Scale, label, scale_of, ticks
-from floatref_conformance.render.svg import Figure, Line, Mark, Panel, Shade, drawn
+from floatref_conformance.render.svg import Figure, Line, Mark, Panel, Shade, draw_figure
 
 COLUMNS, ROWS = 78, 7
 INDENT = 7
@@ -35,36 +35,36 @@ def drawing(scenario: Scenario, scored_m: Stretches = ()) -> list[str]:
     x, speed = places.speed_along(scenario)
     factor = 1.0 / (scenario.speed_kmh * KMH) if parked else 1.0
     across = Scale(0.0, float(x[-1]) * factor, 0.0, COLUMNS - 1.0)
-    lines = _plotted(x * factor, speed, across)
+    lines = _plot_rows(x * factor, speed, across)
     lines += _axis(across, "s" if parked else "m")
-    for place in _placed(scenario, scored_m):
-        lines.append(_marked(_in_seconds(place, factor), across))
+    for place in _collect_places(scenario, scored_m):
+        lines.append(_mark_place(_in_seconds(place, factor), across))
     return lines
 
 
 def drawing_svg(scenario: Scenario, name: str = "drawing", scored_m: Stretches = ()) -> str:
     """Return the drawing as one SVG element whose ids begin with ``name``."""
-    picture = _parked if places.is_parked(scenario) else _drive
-    return drawn(picture(scenario, name, _scored(scored_m)))
+    picture = _draw_parked if places.is_parked(scenario) else _drive
+    return draw_figure(picture(scenario, name, _scored_places(scored_m)))
 
 
-def _placed(scenario: Scenario, scored_m: Stretches) -> list[Place]:
+def _collect_places(scenario: Scenario, scored_m: Stretches) -> list[Place]:
     """Return what is marked below the axis, of everything the first `MOST` at most."""
-    bounced = places.bounced(scenario)
-    scored, events = _scored(scored_m), places.events(scenario)
+    bounced = places.bounce_place(scenario)
+    scored, events = _scored_places(scored_m), places.events(scenario)
     found = (*scored[:MOST], *([bounced] if bounced else []), *events[:MOST])
     return [*found, *places.bumps(scenario)]
 
 
-def _scored(scored_m: Stretches) -> list[Place]:
-    return [Place(start, end, "scored") for start, end in places.joined(scored_m)]
+def _scored_places(scored_m: Stretches) -> list[Place]:
+    return [Place(start, end, "scored") for start, end in places.join_stretches(scored_m)]
 
 
 def _in_seconds(place: Place, s_per_m: float) -> Place:
     return Place(place.start_m * s_per_m, place.end_m * s_per_m, place.name)
 
 
-def _plotted(x: FloatArray, speed: FloatArray, across: Scale) -> list[str]:
+def _plot_rows(x: FloatArray, speed: FloatArray, across: Scale) -> list[str]:
     """Return the rows of the plot, each column filled from its lowest to its highest speed."""
     up = scale_of([speed], ROWS - 1.0, 0.0, from_zero=True)
     field = [[" "] * COLUMNS for _ in range(ROWS)]
@@ -92,7 +92,7 @@ def _axis(across: Scale, unit: str) -> list[str]:
     return [f"{'':>{INDENT}}+{''.join(rule)}", f"{unit:>{INDENT}} {''.join(below).rstrip()}"]
 
 
-def _marked(place: Place, across: Scale) -> str:
+def _mark_place(place: Place, across: Scale) -> str:
     """Return a row with ``place`` between brackets, or at a caret, and its name beside it."""
     ends = (min(max(x, 0.0), across.high) for x in (place.start_m, place.end_m))
     first, last = (round(across(end)) for end in ends)
@@ -130,8 +130,8 @@ def _drive(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
     )
 
 
-def _parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
-    """Return what happens in time to a vehicle that stands."""
+def _draw_parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
+    """Return the drawing over time of a stationary vehicle."""
     speed = scenario.speed_kmh * KMH
     t = np.linspace(0.0, DURATION_S, SAMPLES)
     told = Line("speed", t, np.full(t.size, scenario.speed_kmh), "speed")
@@ -146,7 +146,7 @@ def _parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figure:
     return Figure(
         name,
         f"A parked vehicle, {scenario.manoeuvre}",
-        f"The artificial encoder tells {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; {moves}. "
+        f"The artificial encoder gives {scenario.speed_kmh:g} km/h for {DURATION_S:g} s; {moves}. "
         f"{_in_words([*counted, *plates])}",
         tuple(panels),
         "time in s",

@@ -80,7 +80,7 @@ def _numbers(parameters: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
 
 
 def _pictures(check: CheckResult, anchor: str) -> list[tuple[int, Picture]]:
-    """Return the number of the recording and the picture of each wheel path, at most so many."""
+    """Return the recordings' numbers and pictures by wheel path, at most `MOST_PICTURES`."""
     wanted = [
         (number, done, track)
         for number, done in enumerate(check.passes, start=1)

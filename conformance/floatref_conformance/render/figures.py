@@ -11,7 +11,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.render import places
-from floatref_conformance.render.svg import WIDTH, Figure, Line, Mark, Panel, Shade, drawn
+from floatref_conformance.render.svg import WIDTH, Figure, Line, Mark, Panel, Shade, draw_figure
 
 HIGH_PASS_M = 91.44
 """The truth is shown as a profile is delivered: −3 dB at this wavelength."""
@@ -29,7 +29,7 @@ def figure_of(done: Pass, track: str, name: str, scored_m: Stretches = ()) -> st
     """
     true, found = done.truth.track(track), done.result.track(track)
     pairs = (
-        (done.truth, filtered(true.elevation, done.truth.interval_m), TRUTH, "truth"),
+        (done.truth, filter_elevation(true.elevation, done.truth.interval_m), TRUTH, "truth"),
         (done.result, found.elevation, RESULT, "result"),
     )
     x, speed = places.speed_along(done.scenario)
@@ -41,7 +41,7 @@ def figure_of(done: Pass, track: str, name: str, scored_m: Stretches = ()) -> st
     )
     start, end = _extent(done)
     shades, marks = _shades(done, found, scored_m), _marks(done)
-    return drawn(
+    return draw_figure(
         Figure(
             name,
             f"Wheel path {track}: truth against result",
@@ -56,9 +56,9 @@ def figure_of(done: Pass, track: str, name: str, scored_m: Stretches = ()) -> st
     )
 
 
-def filtered(elevation: FloatArray, interval_m: float) -> FloatArray:
+def filter_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     """Return a true elevation in m high-passed as a profile is; NaN if it is too short."""
-    return _calculated(lambda: high_pass(elevation, interval_m, HIGH_PASS_M), elevation.size)
+    return _calculate(lambda: high_pass(elevation, interval_m, HIGH_PASS_M), elevation.size)
 
 
 def stretches(
@@ -93,12 +93,12 @@ def _between_the_ends(lines: tuple[Line, ...]) -> FloatArray | None:
 
 def _roughness(profile: Profile, elevation: FloatArray, label: str, style: str) -> Line:
     size = elevation.size - 1
-    rough = _calculated(lambda: short_interval_roughness(elevation, profile.interval_m), size)
+    rough = _calculate(lambda: short_interval_roughness(elevation, profile.interval_m), size)
     middle = profile.distance_m[:-1] + profile.interval_m / 2
     return Line(label, middle, rough, style)
 
 
-def _calculated(calculate: Callable[[], FloatArray], size: int) -> FloatArray:
+def _calculate(calculate: Callable[[], FloatArray], size: int) -> FloatArray:
     """Return what ``calculate`` returns; NaN where the profile does not allow it."""
     try:
         return calculate()
@@ -114,7 +114,7 @@ def _extent(done: Pass) -> tuple[float, float]:
 def _shades(done: Pass, found: ProfileTrack, scored_m: Stretches) -> tuple[Shade, ...]:
     bumps = tuple((place.start_m, place.end_m) for place in places.bumps(done.scenario))
     return (
-        Shade("scored", places.joined(scored_m), "scored"),
+        Shade("scored", places.join_stretches(scored_m), "scored"),
         Shade("flagged invalid", stretches(done.result.distance_m, ~found.valid), "flagged"),
         Shade("known bump", bumps, "bump"),
     )

@@ -9,7 +9,7 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.judge.events import Event, RunFinished, RunStarted
 from floatref_conformance.render.page import page_of
-from floatref_conformance.render.text import filled, needs_jinja
+from floatref_conformance.render.text import fill_template, needs_jinja
 
 NAME = "report.html"
 TEMPLATE = "report.html.j2"
@@ -19,7 +19,7 @@ TEMPLATE = "report.html.j2"
 class HtmlReport:
     """Writes ``report.html`` into ``folder`` when the verdict is there.
 
-    What each check asks is told of the checks that the first event of a run names.
+    The page explains the checks that the first event of a run names.
     """
 
     folder: Path
@@ -49,7 +49,6 @@ class HtmlReport:
 def as_html(result: RunResult, checks: Sequence[Check] = ()) -> str:
     """Return the page that shows ``result``; it explains ``checks``.
 
-    Whatever a device or a file said is text in it, never markup, and nothing in it leads to
-    another file.
+    All text from a device or a file is escaped, and the page has no link to another file.
     """
-    return filled(TEMPLATE, page=page_of(result, checks))
+    return fill_template(TEMPLATE, page=page_of(result, checks))

@@ -32,7 +32,7 @@ ELEMENTS: Mapping[Outcome, str] = {
     Outcome.WAIVED: "skipped",
     Outcome.NOT_APPLICABLE: "skipped",
 }
-"""What says in a test case that it did not pass; one without is taken for passed."""
+"""Elements that mark a test case as not passed; a case without one counts as passed."""
 
 
 @dataclass
@@ -90,7 +90,7 @@ def as_xml(result: RunResult, seconds: Mapping[str, float], begun: datetime) -> 
     about = _suite(root, 0, f"floatref conformance {EDITION}", checks, begun)
     for name, value in _properties(result):
         SubElement(about, "property", name=name, value=printable(value))
-    kept = [_replayed(replayed, result) for replayed in result.replayed]
+    kept = [_replay_suite(replayed, result) for replayed in result.replayed]
     _suite(root, 1, "replayed cases", kept, begun)
     root[0][-2].text = printable(_output(result))
     return root
@@ -107,9 +107,9 @@ def _suite(root: Element, number: int, name: str, cases: list[Element], begun: d
         timestamp=begun.strftime("%Y-%m-%dT%H:%M:%S"),
         hostname="localhost",
         tests=str(len(cases)),
-        failures=str(_counted(cases, "failure")),
-        errors=str(_counted(cases, "error")),
-        skipped=str(_counted(cases, "skipped")),
+        failures=str(_count(cases, "failure")),
+        errors=str(_count(cases, "error")),
+        skipped=str(_count(cases, "skipped")),
         time=f"{sum(float(case.get('time', 0)) for case in cases):.3f}",
     )
     properties = SubElement(suite, "properties")
@@ -119,7 +119,7 @@ def _suite(root: Element, number: int, name: str, cases: list[Element], begun: d
     return properties
 
 
-def _counted(cases: Iterable[Element], tag: str) -> int:
+def _count(cases: Iterable[Element], tag: str) -> int:
     return sum(case.find(tag) is not None for case in cases)
 
 
@@ -140,7 +140,7 @@ def _case(id_: str, seconds: float, outcome: Outcome, reason: str, text: str) ->
 def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
     lines = [check.reason]
     if check.worst is not None:
-        lines.append(wording.measured(check, result.device_class))
+        lines.append(wording.describe_worst(check, result.device_class))
     if check.clause:
         lines.append(f"clause: {check.clause}")
     if check.counterexample is not None:
@@ -153,7 +153,7 @@ def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
     return _case(check.id, seconds, check.outcome, check.reason, "\n".join(lines))
 
 
-def _replayed(replayed: Mapping[str, Any], result: RunResult) -> Element:
+def _replay_suite(replayed: Mapping[str, Any], result: RunResult) -> Element:
     reason = str(replayed.get("reason") or "")
     command = wording.replay_command(replayed["file"], result)
     text = f"{reason}\n{wording.WHERE}: {command}"
@@ -181,7 +181,7 @@ def _output(result: RunResult) -> str:
     lines = [wording.verdict_line(result), *wording.not_run_lines(result)]
     for check in result.checks:
         if check.worst is not None:
-            reached = check.class_reached or "none"
+            reached = check.class_reached or "no class"
             lines.append(
                 f"{check.id}: {check.outcome}, class reached {reached}, {check.cases} cases, "
                 f"{_worst(check, check.worst, result.device_class)}"
@@ -191,7 +191,7 @@ def _output(result: RunResult) -> str:
 
 def _worst(check: CheckResult, worst: Measurement, device_class: DeviceClass) -> str:
     """Return what the worst value is, and its share of the limit if it has one."""
-    said = wording.measured(check, device_class)
-    if wording.nothing_limited(check, device_class):
+    said = wording.describe_worst(check, device_class)
+    if wording.why_unlimited(check, device_class):
         return said
     return f"{said}: {wording.share_in_words(worst, device_class)}"

@@ -32,8 +32,8 @@ class Asked:
     drawing: Markup | None
 
 
-def asked(check: Check, anchor: str) -> Asked:
-    """Return what is said of ``check``, with the drawing of its first case."""
+def explain_check(check: Check, anchor: str) -> Asked:
+    """Return the explanation of ``check``, with the drawing of its first case."""
     return Asked(
         anchor=anchor,
         id=check.id,
@@ -42,7 +42,7 @@ def asked(check: Check, anchor: str) -> Asked:
         derivation=check.derivation,
         floor=check.floor,
         limits=tuple(
-            (quantity, tuple(str(limits.get(c, "none")) for c in DeviceClass))
+            (quantity, tuple(str(limits.get(c, "no limit")) for c in DeviceClass))
             for quantity, limits in check.limits.items()
         ),
         drawing=_drawing(check, anchor),
@@ -122,7 +122,9 @@ class Page:
 
 def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
     """Return the page of ``result``; ``checks`` are those that are explained in it."""
-    explained = {check.id: asked(check, f"asked-{n}") for n, check in enumerate(checks, start=1)}
+    explained = {
+        check.id: explain_check(check, f"asked-{n}") for n, check in enumerate(checks, start=1)
+    }
     titles = {id_: one.title for id_, one in explained.items()}
     ordered = sorted(result.checks, key=lambda check: _urgency(check, result.device_class))
     shown = [check for check in ordered if check.outcome in SHOWN]
@@ -137,7 +139,7 @@ def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
         facts=_facts(result),
         rows=tuple(_row(c, result.device_class, targets.get(c.id, "checks")) for c in ordered),
         failures=tuple(failure(c, result, anchors[c.id], titles.get(c.id, "")) for c in shown),
-        replayed=tuple(_kept(replayed) for replayed in result.replayed),
+        replayed=tuple(_replay_row(replayed) for replayed in result.replayed),
         asked=tuple(explained.values()),
         classes=tuple(DeviceClass),
         versions=_versions(),
@@ -157,7 +159,7 @@ def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
     device = result.device
     return (
         ("Class judged", result.device_class.value),
-        ("Class reached", result.class_reached or "none"),
+        ("Class reached", result.class_reached or "no class"),
         ("Edition", EDITION),
         ("Effort", result.effort),
         ("Seed", str(result.seed)),
@@ -175,16 +177,16 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
         word=wording.outcome_in_words(check),
         judged=check.outcome not in wording.UNJUDGED,
         reason=check.reason or "not run",
-        class_reached=check.class_reached or "none",
+        class_reached=check.class_reached or "no class",
         cases=check.cases,
     )
     worst = check.worst
     if worst is None:
         return row
-    unlimited = wording.nothing_limited(check, device_class)
+    unlimited = wording.why_unlimited(check, device_class)
     if unlimited:
-        flagged = (wording.flagged(check),) if check.flagged_m else ()
-        return replace(row, value="none", notes=(unlimited, *flagged))
+        flagged = (wording.describe_flagged(check),) if check.flagged_m else ()
+        return replace(row, value="no limit", notes=(unlimited, *flagged))
     ratio = worst.ratio(device_class)
     return replace(
         row,
@@ -201,7 +203,7 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
 def _notes(check: CheckResult, worst: Measurement) -> tuple[str, ...]:
     """Return what the worst value is a value of, in which case, and what was flagged."""
     case = f"case {check.worst_case}" if check.worst_case else ""
-    flagged = wording.flagged(check) if check.flagged_m else ""
+    flagged = wording.describe_flagged(check) if check.flagged_m else ""
     notes = (f"{worst.quantity}, track {worst.track}", case, flagged)
     return tuple(note for note in notes if note)
 
@@ -219,7 +221,7 @@ def _margin(left: float | None) -> str:
     return f"{100 * left:.0f} % left" if left >= 0 else f"{-100 * left:,.0f} % beyond"
 
 
-def _kept(replayed: Mapping[str, Any]) -> KeptRow:
+def _replay_row(replayed: Mapping[str, Any]) -> KeptRow:
     unit = replayed.get("unit") or ""
     value, limit = (
         "" if number is None else wording.quantity(number, unit)

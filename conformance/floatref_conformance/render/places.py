@@ -39,12 +39,12 @@ class Place:
 
 
 def is_parked(scenario: Scenario) -> bool:
-    """Return whether the vehicle stands while an artificial encoder tells a speed."""
+    """Return whether the vehicle is stationary while an artificial encoder gives a speed."""
     return scenario.manoeuvre in STATIONARY
 
 
-def driven(scenario: Scenario) -> Drive:
-    """Return what the wheel does, or what the artificial encoder tells."""
+def drive_shown(scenario: Scenario) -> Drive:
+    """Return the drive of the wheel, or that of the artificial encoder."""
     if is_parked(scenario):
         return artificial_drive(scenario.speed_kmh * KMH)
     return drive_of(scenario)
@@ -52,7 +52,7 @@ def driven(scenario: Scenario) -> Drive:
 
 def speed_along(scenario: Scenario) -> tuple[FloatArray, FloatArray]:
     """Return distance in m and speed in km/h at many instants, those of every jolt included."""
-    drive = driven(scenario)
+    drive = drive_shown(scenario)
     even = np.linspace(0.0, drive.duration_s, INSTANTS)
     motion = drive.motion(np.union1d(even, drive.knot_times_s))
     return motion.distance, motion.speed / KMH
@@ -85,7 +85,7 @@ def bumps(scenario: Scenario) -> tuple[Place, ...]:
     return (Place(start, start + BUMP_LENGTH_M, f"bump of {scenario.bump_mm:g} mm"),)
 
 
-def bounced(scenario: Scenario) -> Place | None:
+def bounce_place(scenario: Scenario) -> Place | None:
     """Return the simulated distance over which the body of a parked vehicle is pushed."""
     if scenario.manoeuvre != "bounce":
         return None
@@ -95,7 +95,7 @@ def bounced(scenario: Scenario) -> Place | None:
     return Place(start, end, "body pushed up and down")
 
 
-def joined(stretches: Stretches) -> Stretches:
+def join_stretches(stretches: Stretches) -> Stretches:
     """Return ``stretches`` in order, those that overlap or touch as one."""
     apart: list[tuple[float, float]] = []
     for start, end in sorted(stretches):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from floatref.values.arrays import FloatArray
 
 MARGIN = 0.06
-"""Share of the range left empty above and below the lines."""
+"""Share of the range that is empty above and below the lines."""
 FARTHEST = 1e300
 """Values beyond this are drawn at it, so that differences stay finite."""
 NARROWEST = 1e-9
@@ -72,7 +72,7 @@ def label(value: float) -> str:
     return "0" if float(text) == 0 else text.replace("-", "−")
 
 
-def decimated(values: FloatArray, most: int) -> list[NDArray[np.int64]]:
+def decimate(values: FloatArray, most: int) -> list[NDArray[np.int64]]:
     """Return indices that keep the envelope of ``values``, one array for each stroke of the pen.
 
     Of every stretch of equally many points the lowest and the highest are kept, ``most`` points

@@ -10,7 +10,7 @@ from html import escape as escaped
 import numpy as np
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.render.scales import Scale, decimated, label, scale_of, ticks
+from floatref_conformance.render.scales import Scale, decimate, label, scale_of, ticks
 from floatref_conformance.render.text import printable
 
 WIDTH, LEFT, RIGHT, TOP, BOTTOM = 760.0, 64.0, 12.0, 30.0, 44.0
@@ -60,7 +60,7 @@ class Shade:
 
 @dataclass(frozen=True)
 class Mark:
-    """A vertical line through all panels, with a word at its top."""
+    """A vertical line through all panels, with a label at its top."""
 
     at: float
     label: str
@@ -86,7 +86,7 @@ class Figure:
     numbered: tuple[float, ...] = ()
 
 
-def drawn(figure: Figure) -> str:
+def draw_figure(figure: Figure) -> str:
     """Return ``figure`` as one SVG element; every text in it is escaped."""
     across = Scale(figure.start, figure.end, LEFT, WIDTH - RIGHT)
     tops = [TOP]
@@ -104,12 +104,12 @@ def drawn(figure: Figure) -> str:
 
 def opening(name: str, title: str, description: str, height: float) -> str:
     """Return the start tag of a picture, with its words for those who do not see it."""
-    name = worded(name)
+    name = escape_text(name)
     return (
         f'<svg class="plot" viewBox="0 0 {px(WIDTH)} {px(height)}" role="img" '
         f'aria-labelledby="{name}-title {name}-desc">\n'
-        f'<title id="{name}-title">{worded(title)}</title>\n'
-        f'<desc id="{name}-desc">{worded(description)}</desc>'
+        f'<title id="{name}-title">{escape_text(title)}</title>\n'
+        f'<desc id="{name}-desc">{escape_text(description)}</desc>'
     )
 
 
@@ -128,7 +128,7 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
         f'<path class="grid" d="{"".join(grid)}"/>',
         f'<g class="numbers up">{"".join(numbers)}</g>',
         f'<text class="axis" transform="translate(12 {px(middle)}) rotate(-90)">'
-        f"{worded(name)}</text>",
+        f"{escape_text(name)}</text>",
         *(_line(line, across, up) for line in panel.lines),
         f'<rect class="frame" x="{px(across.first)}" y="{px(top)}" '
         f'width="{px(across.last - across.first)}" height="{px(panel.height)}"/>',
@@ -138,11 +138,11 @@ def _panel(panel: Panel, across: Scale, top: float) -> list[str]:
 def _line(line: Line, across: Scale, up: Scale) -> str:
     """Return the path of ``line``; a point between two missing ones is a dot.
 
-    A dot has a length, for a square one of none is left out in print.
+    A dot has a length: printers leave out a square dot of length 0.
     """
     inside = (line.x >= across.low) & (line.x <= across.high)
     inside &= (line.y >= up.low) & (line.y <= up.high)
-    strokes = decimated(np.where(inside, line.y, np.nan), MOST_POINTS)
+    strokes = decimate(np.where(inside, line.y, np.nan), MOST_POINTS)
     path = []
     for stroke in strokes:
         points = [f"{px(across(line.x[k]))} {px(up(line.y[k]))}" for k in stroke]
@@ -167,7 +167,7 @@ def _mark(mark: Mark, across: Scale, bottom: float) -> str:
     return (
         f'<path class="mark" d="M{px(x)} {px(TOP)}V{px(bottom)}"/>'
         f'<text class="marked" x="{px(x + dx)}" y="{px(TOP + 11)}" text-anchor="{side}">'
-        f"{worded(mark.label)}</text>"
+        f"{escape_text(mark.label)}</text>"
     )
 
 
@@ -179,9 +179,10 @@ def _ticks_along(figure: Figure, across: Scale, bottom: float) -> str:
         for value in values
     )
     middle = (across.first + across.last) / 2
+    title = escape_text(figure.along)
     return (
         f'<path class="tick" d="{strokes}"/><g class="numbers along">{numbers}</g>'
-        f'<text class="axis" x="{px(middle)}" y="{px(bottom + 36)}">{worded(figure.along)}</text>'
+        f'<text class="axis" x="{px(middle)}" y="{px(bottom + 36)}">{title}</text>'
     )
 
 
@@ -196,7 +197,7 @@ def _legend(figure: Figure) -> str:
     for name, style in (*entries.items(), *((shade.label, shade.style) for shade in shown)):
         sample = _sample(style, x)
         parts.append(f'<path class="{style}" d="{sample}"/>')
-        parts.append(f'<text x="{px(x + 24)}" y="14" dy=".32em">{worded(name)}</text>')
+        parts.append(f'<text x="{px(x + 24)}" y="14" dy=".32em">{escape_text(name)}</text>')
         x += 48 + 5.8 * len(name)
     return f'<g class="legend">{"".join(parts)}</g>' if parts else ""
 
@@ -208,8 +209,8 @@ def _sample(style: str, x: float) -> str:
     return f"M{px(x)} 14h18" if style.startswith("line") else f"M{px(x)} 8h18v12h-18z"
 
 
-def worded(text: str) -> str:
-    """Return ``text`` as it may stand in a picture."""
+def escape_text(text: str) -> str:
+    """Return ``text`` escaped for a picture."""
     return escaped(printable(text))
 
 

@@ -28,11 +28,11 @@ from floatref_conformance.render.text import printable
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
 COLUMNS = ("check", "outcome", "class reached", "cases", "worst", "limit", "margin")
 PLAIN_WIDTH = 100
-"""Columns of the table when nobody says how wide the output is."""
+"""Columns of the table when the width of the output is unknown."""
 
 
 class PipedConsole(Console):
-    """A console that tells when nobody reads it any more, instead of ending the process."""
+    """A console that reports a broken pipe instead of ending the process."""
 
     def on_broken_pipe(self) -> None:
         """Let the caller decide on the exit code."""
@@ -84,7 +84,7 @@ class TerminalRenderer:
             self._progress.start()
 
     def _stage(self, event: CheckStarted | SearchStarted | ShrinkStarted) -> None:
-        """Tell that up to so many cases are judged from now on."""
+        """Report the largest number of cases that are judged from now on."""
         doing = {SearchStarted: ", searching", ShrinkStarted: ", simplifying"}.get(type(event), "")
         if not self._progress:
             self._print(f"{event.id}{doing}: {event.cases} cases")
@@ -111,7 +111,7 @@ class TerminalRenderer:
 
 
 def result_lines(result: RunResult) -> list[str]:
-    """Return what is said of ``result`` below the table: every check, the verdict, what to do."""
+    """Return the lines about ``result`` below the table: every check, the verdict, what to do."""
     lines: list[str] = []
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
@@ -124,10 +124,10 @@ def result_lines(result: RunResult) -> list[str]:
 
 
 def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
-    said = [part for part in (check.reason, wording.measured(check, device_class)) if part]
+    said = [part for part in (check.reason, wording.describe_worst(check, device_class)) if part]
     lines = [f"{check.id}: {'; '.join(said)} [{check.clause}]"]
     if check.flagged_m:
-        lines.append(f"{check.id}: {wording.flagged(check)}")
+        lines.append(f"{check.id}: {wording.describe_flagged(check)}")
     if check.counterexample is not None:
         lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
     return lines
@@ -155,18 +155,18 @@ def _table(result: RunResult) -> Table:
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
             word = Text(wording.outcome_in_words(check), COLOURS.get(check.outcome, "yellow"))
-            cells = [check.class_reached or "none", str(check.cases), *_numbers(check, result)]
+            cells = [check.class_reached or "no class", str(check.cases), *_numbers(check, result)]
             table.add_row(Text(check.id), word, *map(Text, cells))
     return table
 
 
 def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
     worst, device_class = check.worst, result.device_class
-    if worst is None or wording.nothing_limited(check, device_class):
-        return ("none", "", "") if worst else ("", "", "")
+    if worst is None or wording.why_unlimited(check, device_class):
+        return ("no limit", "", "") if worst else ("", "", "")
     left = wording.margin(worst, device_class)
     return (
         wording.quantity(worst.value, worst.unit),
         wording.limit_in_words(worst, device_class),
-        "none" if left is None else f"{left:.0%}",
+        "no limit" if left is None else f"{left:.0%}",
     )

@@ -16,15 +16,15 @@ TURNING = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"
 def printable(text: str) -> str:
     """Return ``text`` with every character that cannot be shown written as an escape.
 
-    What remains may stand in any XML or HTML document and can be encoded. Line breaks and tabs
+    What remains is valid in any XML or HTML document and can be encoded. Line breaks and tabs
     are kept.
     """
     if text.isascii() and text.isprintable():
         return text
-    return "".join(c if _shown(c) else _escape(c) for c in text)
+    return "".join(c if _is_shown(c) else _escape(c) for c in text)
 
 
-def _shown(character: str) -> bool:
+def _is_shown(character: str) -> bool:
     if character in KEPT:
         return True
     return unicodedata.category(character) not in HIDDEN and character not in TURNING
@@ -43,7 +43,7 @@ def needs_jinja(page: str) -> None:
         raise InputError(f"{page} needs Jinja; pip install 'floatref[conformance]'")
 
 
-def filled(template: str, package: str = __package__, **values: Any) -> str:
+def fill_template(template: str, package: str = __package__, **values: Any) -> str:
     """Return the page that ``template`` makes of ``values``; every string in it is escaped.
 
     It lies in the folder ``templates`` of ``package``, beside those of this one that it extends.

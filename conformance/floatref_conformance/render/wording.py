@@ -1,4 +1,4 @@
-"""What is said of a result in words, the same in the terminal and in every report."""
+"""A result in words, the same in the terminal and in every report."""
 
 import shlex
 from collections.abc import Mapping, Sequence
@@ -15,7 +15,7 @@ FAILED = (Outcome.FAIL, Outcome.ERROR)
 WHERE = "this case alone, where the run was started"
 """Where a command to run a case again is to be given."""
 UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
-"""Outcomes that say nothing of what the device can do."""
+"""Outcomes that do not judge the device."""
 
 
 def sensors(architecture: str, capabilities: Sequence[str]) -> str:
@@ -58,31 +58,31 @@ def limit_in_words(worst: Measurement, device_class: DeviceClass) -> str:
     return quantity(worst.limits[device_class], worst.unit)
 
 
-def measured(check: CheckResult, device_class: DeviceClass) -> str:
+def describe_worst(check: CheckResult, device_class: DeviceClass) -> str:
     """Return what the worst value of a check is a value of, and in which case it was found.
 
-    Where `nothing_limited`, it is said why.
+    Where `why_unlimited`, the reason in its place.
     """
     worst = check.worst
-    if worst is None or nothing_limited(check, device_class):
-        return nothing_limited(check, device_class)
+    if worst is None or why_unlimited(check, device_class):
+        return why_unlimited(check, device_class)
     case = f", case {check.worst_case}" if check.worst_case else ""
     return f"worst is the {worst.quantity} of track {worst.track}{case}"
 
 
-def nothing_limited(check: CheckResult, device_class: DeviceClass) -> str:
-    """Return that ``device_class`` limits none of the values of a check; empty if it limits one.
+def why_unlimited(check: CheckResult, device_class: DeviceClass) -> str:
+    """Return why ``device_class`` limits no value of a check; empty if it limits one.
 
-    A class may limit what the device vouches for alone, and the device vouch for nothing.
+    A class may limit valid points only, and the device may flag all points as invalid.
     """
     if check.worst is None or device_class in check.worst.limits:
         return ""
     if check.flagged_m:
-        return f"nothing was vouched for that class {device_class} limits"
-    return f"nothing was measured that class {device_class} limits"
+        return f"no value that class {device_class} limits was valid"
+    return f"no value that class {device_class} limits was measured"
 
 
-def flagged(check: CheckResult) -> str:
+def describe_flagged(check: CheckResult) -> str:
     """Return how much of a profile was flagged invalid."""
     return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid"
 
@@ -107,8 +107,7 @@ def summary(result: RunResult) -> str:
         parts.append(f"{waived} failed and {_be(waived)} waived")
     left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
     if left_out:
-        whom = "it" if left_out == 1 else "them"
-        parts.append(f"{left_out} {_be(left_out)} not run, and nothing is said of {whom}")
+        parts.append(f"{left_out} {_be(left_out)} not run and not judged")
     again = sum(case["outcome"] in FAILED for case in result.replayed)
     if again:
         verb = "fails" if again == 1 else "fail"

@@ -17,7 +17,7 @@ class Cell:
         pipeline: its name.
         run: designation of the run.
         passes: the scores of every wheel path of every pass.
-        published: the figures in print; None where there are none.
+        published: the figures in print; None if not published.
     """
 
     pipeline: str
@@ -39,7 +39,7 @@ class ComparisonTable:
     cells: tuple[Cell, ...]
 
     def cell(self, pipeline: str, run: str) -> Cell:
-        """Return the cell of ``pipeline`` and ``run``; InputError if there is none."""
+        """Return the cell of ``pipeline`` and ``run``; InputError if it is missing."""
         for cell in self.cells:
             if (cell.pipeline, cell.run) == (pipeline, run):
                 return cell

@@ -27,7 +27,7 @@ def print_comparison(table: ComparisonTable, console: Console) -> None:
 def closing_lines(table: ComparisonTable) -> list[str]:
     """Return what the means rest on, and how the order of the cells compares with print."""
     made = table.settings
-    paths = _counted(len(table.cells[0].passes), "wheel path")
+    paths = _count_in_words(len(table.cells[0].passes), "wheel path")
     lines = [
         f"Means over {paths} (roads: {made.roads}, sets of passes on each: {made.seeds}; "
         f"vehicle {made.vehicle}, seed {made.seed}).",
@@ -36,8 +36,8 @@ def closing_lines(table: ComparisonTable) -> list[str]:
     found = rank_correlations(table)
     rule = "the rule 'stop: low, else high' alone"
     chapter, stops = found["chapter_5"], found["stops"]
-    lines.append(f"  chapter 5: {_ranked(chapter)}; {rule}: {_value(chapter.rule)}")
-    lines.append(f"  its stops alone: {_ranked(stops)}")
+    lines.append(f"  chapter 5: {_rank_in_words(chapter)}; {rule}: {_value(chapter.rule)}")
+    lines.append(f"  its stops alone: {_rank_in_words(stops)}")
     return lines
 
 
@@ -82,13 +82,13 @@ def printed_correlation(published: PublishedFigures) -> str:
     return f"{published.scores.cross_correlation:.3f}"
 
 
-def _ranked(found: RankCorrelation) -> str:
-    return f"{_value(found.ours)} over {_counted(found.cells, 'cell')}"
+def _rank_in_words(found: RankCorrelation) -> str:
+    return f"{_value(found.ours)} over {_count_in_words(found.cells, 'cell')}"
 
 
-def _counted(number: int, name: str) -> str:
+def _count_in_words(number: int, name: str) -> str:
     return f"{number} {name}" if number == 1 else f"{number} {name}s"
 
 
 def _value(value: float | None) -> str:
-    return "none" if value is None else f"{value:.2f}"
+    return "no value" if value is None else f"{value:.2f}"

@@ -12,7 +12,7 @@ from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.proving_ground.drives.runs import REFERENCE_RUN
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import Processing, pass_scenario, road_drawn
+from floatref_conformance.table.passes import Processing, draw_road, pass_scenario
 from floatref_conformance.table.published import published_figures
 from floatref_conformance.table.scores import Scores, score
 from floatref_conformance.table.table_settings import TableSettings
@@ -41,30 +41,30 @@ def make_table(
         (pipeline, run): [] for pipeline in settings.pipelines for run in settings.runs
     }
     for road_number in range(settings.roads):
-        road = road_drawn(settings.seed, road_number)
+        road = draw_road(settings.seed, road_number)
         for noise in range(settings.seeds):
-            for pipeline, run, tracks in _scored_set(settings, road, (road_number, noise), watch):
+            for pipeline, run, tracks in _score_set(settings, road, (road_number, noise), watch):
                 scores[pipeline, run].extend(tracks)
     figures = published_figures()
     cells = (Cell(*key, tuple(passes), figures.get(key)) for key, passes in scores.items())
     return ComparisonTable(settings, tuple(cells))
 
 
-def _scored_set(
+def _score_set(
     settings: TableSettings, road: Road, place: tuple[int, int], watch: Watch
 ) -> Iterator[PipelineScores]:
     """Yield the scores of one set of passes; ``place`` is the number of its road and noise."""
     where = f"road {place[0] + 1}, noise {place[1] + 1}"
     watch(f"{where}: {REFERENCE_RUN}")
-    reference = _driven(settings, road, place, REFERENCE_RUN, (REFERENCE_PIPELINE,))
+    reference = _drive(settings, road, place, REFERENCE_RUN, (REFERENCE_PIPELINE,))
     for run in settings.runs:
         watch(f"{where}: {run}")
-        profiles = _driven(settings, road, place, run, settings.pipelines)
+        profiles = _drive(settings, road, place, run, settings.pipelines)
         for pipeline, profile in profiles.items():
             yield pipeline, run, _scores(reference[REFERENCE_PIPELINE], profile, pipeline, run)
 
 
-def _driven(
+def _drive(
     settings: TableSettings,
     road: Road,
     place: tuple[int, int],

@@ -29,9 +29,9 @@ ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 """The roads' kinds in turn; each is scaled to the IRI of the published reference pass."""
 
 
-def road_drawn(seed: int, index: int) -> Road:
+def draw_road(seed: int, index: int) -> Road:
     """Return road number ``index`` of ``seed``, long enough for every run."""
-    drawn = drawn_seed(seed, "road", index)
+    drawn = draw_seed(seed, "road", index)
     kind = ROADS[index % len(ROADS)]
     scenario = Scenario(seed=drawn, road=kind, iri_m_per_km=REFERENCE_IRI_M_PER_KM)
     return road_of(scenario, RECORDING_LENGTH_M)
@@ -45,7 +45,7 @@ def pass_scenario(
     They follow from ``seed``, ``run`` and ``place``, the number of the road and of the noise,
     so that a table of fewer runs or pipelines holds the same figures.
     """
-    drawn = drawn_seed(seed, run, *place)
+    drawn = draw_seed(seed, run, *place)
     recorded = {name: name in capabilities for name in CHANNELS_BY_NEED}
     return scenario_of_run(run, drawn, vehicle=vehicle, **recorded)
 
@@ -56,12 +56,12 @@ class Driven:
 
     Attributes:
         truth: unfiltered elevation along the laser's path against true distance.
-        told_m: distance in m that the encoder tells at the points of the truth.
+        encoder_m: distance in m by the encoder at the points of the truth.
         profiles: what every pipeline makes of the recording.
     """
 
     truth: Profile
-    told_m: FloatArray
+    encoder_m: FloatArray
     profiles: Mapping[str, Profile]
 
 
@@ -83,16 +83,16 @@ class Processing:
 
         Raises SuiteError, naming pipeline and run, for a pipeline that fails.
         """
-        return self.driven(scenario, f"run {scenario.manoeuvre}", road).profiles
+        return self.drive(scenario, f"run {scenario.manoeuvre}", road).profiles
 
-    def driven(self, scenario: Scenario, name: str, road: Road | None = None) -> Driven:
-        """Return what ``scenario``, called ``name``, comes to on ``road`` or else its own.
+    def drive(self, scenario: Scenario, name: str, road: Road | None = None) -> Driven:
+        """Return the profiles of ``scenario``, called ``name``, on ``road`` or else its own.
 
         Raises SuiteError, naming pipeline and ``name``, for a pipeline that fails.
         """
         simulation = simulate(scenario, road=road)
         truth, recording = simulation.truth, simulation.recording
-        told_m = _told_m(simulation)
+        encoder_m = _encoder_m(simulation)
         # The motion takes more memory than all that follows.
         del simulation
         kinds = list({said.channels for said in self._said.values()})
@@ -103,10 +103,10 @@ class Processing:
             del recording
             given = [folder / str(kinds.index(said.channels)) for said in self._said.values()]
             with ThreadPoolExecutor(os.cpu_count()) as workers:
-                made = workers.map(partial(self._processed, name), self._said, given)
-                return Driven(truth, told_m, dict(zip(self._said, made, strict=True)))
+                made = workers.map(partial(self._process, name), self._said, given)
+                return Driven(truth, encoder_m, dict(zip(self._said, made, strict=True)))
 
-    def _processed(self, name: str, pipeline: str, given: Path) -> Profile:
+    def _process(self, name: str, pipeline: str, given: Path) -> Profile:
         target = given.with_name(f"profile-{pipeline}")
         try:
             self._devices[pipeline].run(given / "recording.json", target)
@@ -116,13 +116,13 @@ class Processing:
             raise SuiteError(f"pipeline {pipeline}, {name}: {text}") from error
 
 
-def drawn_seed(seed: int, name: str, *numbers: int) -> int:
-    """Return the seed of whatever ``name`` and ``numbers`` stand for."""
+def draw_seed(seed: int, name: str, *numbers: int) -> int:
+    """Return the seed that belongs to ``name`` and ``numbers``."""
     return int(np.random.SeedSequence([seed, *name.encode(), *numbers]).generate_state(1)[0])
 
 
-def _told_m(simulation: Simulation) -> FloatArray:
-    """Return the distance in m that the encoder tells at the points of the truth."""
+def _encoder_m(simulation: Simulation) -> FloatArray:
+    """Return the distance in m by the encoder at the points of the truth."""
     truth, motion = simulation.truth, simulation.motion
     encoder = simulation.recording.channel("distance")
     told = np.interp(motion.times_s, encoder.times_s, encoder.values)

@@ -65,7 +65,7 @@ def mean_scores(scores: Sequence[Scores]) -> Scores:
 def _track_scores(reference: Profile, profile: Profile, track: str) -> Scores:
     interval_m = profile.interval_m
     roughness = short_interval_roughness(profile.track(track).elevation, interval_m)
-    expected, found = _filtered(reference, track), _filtered(profile, track)
+    expected, found = _filter_track(reference, track), _filter_track(profile, track)
     iri_reference = float(np.abs(expected).mean())
     if not iri_reference > 0:
         raise InputError(f"track {track}: the reference has no roughness to compare with")
@@ -76,7 +76,7 @@ def _track_scores(reference: Profile, profile: Profile, track: str) -> Scores:
     )
 
 
-def _filtered(profile: Profile, track: str) -> FloatArray:
+def _filter_track(profile: Profile, track: str) -> FloatArray:
     """Return the signed output of the IRI filter within `AVERAGE_M`, in m/km."""
     stretch(profile, track, *(SECTION_START_M + end for end in AVERAGE_M))
     trace = iri_trace(profile.track(track).elevation, profile.interval_m)

@@ -33,7 +33,7 @@ def document(table: ComparisonTable) -> dict[str, Any]:
 
 
 def _cell(cell: Cell) -> dict[str, Any]:
-    """Return our means and the published figures; null where there are none."""
+    """Return our means and the published figures; null if not published."""
     published = cell.published
     named: dict[str, Any] = {
         "pipeline": cell.pipeline,

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from floatref.errors import InputError
 from floatref_conformance.devices import builtin
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 from floatref_conformance.table.published import RUN_NAMES, published_figures
 
 
@@ -23,7 +23,7 @@ def offered_pipelines() -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class TableSettings:
-    """The numbers that make a table again; InputError for values that make none.
+    """The numbers that make a table again; InputError for values out of range.
 
     Attributes:
         seed: all roads and sensor errors are drawn from it.
@@ -48,9 +48,9 @@ class TableSettings:
         for name in ("roads", "seeds"):
             if getattr(self, name) < 1:
                 raise InputError(f"{name} is {getattr(self, name)}; give 1 or more")
-        vehicle_called(self.vehicle)
-        object.__setattr__(self, "runs", chosen("run", self.runs, RUN_NAMES))
-        pipelines = chosen("pipeline", self.pipelines, offered_pipelines())
+        find_vehicle(self.vehicle)
+        object.__setattr__(self, "runs", choose("run", self.runs, RUN_NAMES))
+        pipelines = choose("pipeline", self.pipelines, offered_pipelines())
         object.__setattr__(self, "pipelines", pipelines)
 
     @property
@@ -59,7 +59,7 @@ class TableSettings:
         return self.roads * self.seeds * (1 + len(self.runs))
 
 
-def chosen(kind: str, names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
+def choose(kind: str, names: Sequence[str], known: Sequence[str]) -> tuple[str, ...]:
     """Return those of ``known`` that are in ``names``, all if that is empty.
 
     Raises InputError for a name that is not known, calling it a ``kind``.

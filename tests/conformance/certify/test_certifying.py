@@ -19,7 +19,7 @@ from floatref_conformance.certify import certifying
 from floatref_conformance.certify.certifying import certify
 from floatref_conformance.certify.judging.contents import Judged, RunSheet, Worksheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.plan.converting import converted
+from floatref_conformance.certify.plan.converting import convert_all
 from floatref_conformance.certify.plan.cutting import within
 from floatref_conformance.certify.plan.plan_document import (
     DistancePlan,
@@ -80,7 +80,7 @@ def test_every_number_is_that_of_compare(written: Path) -> None:
 def test_good_runs_pass(written: Path) -> None:
     worksheet = certified(section(written, *(f"run-{k}" for k in range(1, 11))))
     assert worksheet.verdict is Verdict.PASS
-    assert not any(run.error or run.said for run in worksheet.sections[0].runs)
+    assert not any(run.error or run.notes for run in worksheet.sections[0].runs)
 
 
 def test_a_run_that_cannot_be_read_is_an_error_of_its_own(written: Path, tmp_path: Path) -> None:
@@ -121,7 +121,7 @@ def test_a_run_that_starts_elsewhere_is_moved_and_said(
 ) -> None:
     write_profile(replace(ten_runs[0], start_m=37.5), tmp_path / "late")
     run = only(certified(section(written, tmp_path / "late")))
-    assert any("37.50 m farther along" in line for line in run.said)
+    assert any("37.50 m farther along" in line for line in run.notes)
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
@@ -130,13 +130,13 @@ def test_what_was_said_of_a_reference_is_in_its_section(
 ) -> None:
     def with_warning(paths: Any, *rest: Any) -> Any:
         return {
-            path: replace(one, said=(f"warning of {path.name}",))
-            for path, one in converted(paths, *rest).items()
+            path: replace(one, notes=(f"warning of {path.name}",))
+            for path, one in convert_all(paths, *rest).items()
         }
 
-    monkeypatch.setattr(certifying, "converted", with_warning)
+    monkeypatch.setattr(certifying, "convert_all", with_warning)
     (sheet,) = certified(section(written, "run-1")).sections
-    assert sheet.reference_said == ("warning of reference",)
+    assert sheet.reference_notes == ("warning of reference",)
 
 
 def test_a_run_over_the_section_alone_is_taken_as_it_is(
@@ -144,7 +144,7 @@ def test_a_run_over_the_section_alone_is_taken_as_it_is(
 ) -> None:
     write_profile(within(ten_runs[0], 60.0, 140.0), tmp_path / "short")
     run = only(certified(section(written, tmp_path / "short", stretch_m=(60.0, 140.0))))
-    assert (run.said, run.error) == ((), "")
+    assert (run.notes, run.error) == ((), "")
     assert max(track.missing_m for track in run.tracks) == 0.0
 
 
@@ -155,8 +155,8 @@ def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     tracks = (ProfileTrack.of("left", right), ProfileTrack.of("right", left))
     write_profile(replace(ten_runs[0], tracks=tracks), tmp_path / "back")
     run = only(certified(section(written, tmp_path / "back")))
-    assert any("reversed" in line for line in run.said)
-    assert any("in mm" in line for line in run.said)
+    assert any("reversed" in line for line in run.notes)
+    assert any("in mm" in line for line in run.notes)
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
@@ -242,6 +242,6 @@ def test_recordings_are_processed_on_the_way(tmp_path: Path) -> None:
     assert worksheet.verdict is Verdict.PASS
     for run in sheet.runs:
         assert run.error == ""
-        assert run.said[0] == "processed by temporal-matched-hpf"
+        assert run.notes[0] == "processed by temporal-matched-hpf"
         assert len(run.tracks) == 2
     assert sheet.pairs["left"][0, 1] > 0.98

@@ -15,7 +15,7 @@ from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
-from floatref_conformance.render.places import joined
+from floatref_conformance.render.places import join_stretches
 
 STOP = DRIVING_CHECKS["stop"]
 INSIDE_M, OUTSIDE_M = 0.1, 5.0
@@ -25,7 +25,7 @@ WHOLE = [id_ for id_ in load_registry().checks if id_ not in (*STATIONARY, "faul
 
 def edges(check, case):
     """Return distances within each end of what is scored, and without, where no bump lies."""
-    scored = joined(check.scored(case))
+    scored = join_stretches(check.scored(case))
     within = [x for a, b in scored for x in (a + INSIDE_M, b - INSIDE_M)]
     return within, [x for a, b in scored for x in (a - OUTSIDE_M, b + OUTSIDE_M)]
 

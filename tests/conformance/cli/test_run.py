@@ -34,7 +34,7 @@ def test_a_selection_that_passes_is_incomplete_and_says_what_was_not_run(run_toy
     assert "INCOMPLETE: 1 of 1 checks that ran passed" in answer.output
     assert "Not run (not selected): second, skewed, needy" in answer.output
     assert f"Not run (not built yet): {', '.join(IDS)}" in answer.output
-    assert "nothing is said of them" in answer.output
+    assert "not run and not judged" in answer.output
 
 
 def test_a_failure_is_exit_1_with_reason_and_how_to_reproduce_it_last(run_toy):

@@ -11,7 +11,7 @@ from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.parked import plates_of
 from floatref_conformance.proving_ground.scenario import MANOEUVRES, Scenario
 from floatref_conformance.render.drawing import drawing, drawing_svg
-from floatref_conformance.render.places import events, joined, speed_along
+from floatref_conformance.render.places import events, join_stretches, speed_along
 
 AXIS = 8
 """Columns left of the plot."""
@@ -83,7 +83,7 @@ def test_an_event_lies_where_the_speed_begins_or_ceases_to_change(manoeuvre):
 @settings(max_examples=50, deadline=None)
 @given(st.lists(st.tuples(st.integers(0, 30), st.integers(0, 9)).map(lambda p: (p[0], sum(p)))))
 def test_stretches_are_joined_where_they_overlap_and_nothing_else_is(stretches):
-    apart = joined(stretches)
+    apart = join_stretches(stretches)
     assert all(one[1] < other[0] for one, other in pairwise(apart))
     for x in range(79):
         inside = [any(a <= x / 2 <= b for a, b in found) for found in (stretches, apart)]

@@ -139,14 +139,14 @@ def test_a_bar_is_as_long_as_the_share_of_the_limit(check, result):
 
 def test_no_value_is_shown_that_the_class_does_not_limit(page, check, result):
     said = {
-        0.0: "nothing was measured that class nominal limits",
-        371.2: "nothing was vouched for that class nominal limits "
+        0.0: "no value that class nominal limits was measured",
+        371.2: "no value that class nominal limits was valid "
         "up to 371.2 m of a wheel path flagged invalid",
     }
     for flagged_m, told in said.items():
         above = {DeviceClass.ADEQUATE: 0.08}
         words = page(result(check(Outcome.PASS, limits=above, flagged_m=flagged_m))).text
-        assert f"pass none {told} nominal 4" in words
+        assert f"pass no limit {told} nominal 4" in words
         assert "IRI error" not in words
         words = page(result(check(Outcome.PASS, flagged_m=flagged_m))).text
         assert "IRI error" in words

@@ -50,7 +50,7 @@ def test_a_report_of_nothing_keeps_the_schema(written, result):
 def test_no_value_is_told_that_the_class_does_not_limit(written, check, result):
     (suite, _) = suites(written(result(check(Outcome.PASS, limits={}), check(Outcome.PASS, "b"))))
     lines = suite.find("system-out").text.splitlines()
-    assert lines[-2].endswith("4 cases, nothing was measured that class nominal limits")
+    assert lines[-2].endswith("4 cases, no value that class nominal limits was measured")
     assert lines[-1].endswith(
         "worst is the IRI error of track left, case stop-2: 50 % of the limit"
     )

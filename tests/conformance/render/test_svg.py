@@ -9,8 +9,16 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from floatref_conformance.render.scales import Scale, decimated, scale_of, ticks
-from floatref_conformance.render.svg import MOST_POINTS, Figure, Line, Mark, Panel, Shade, drawn
+from floatref_conformance.render.scales import Scale, decimate, scale_of, ticks
+from floatref_conformance.render.svg import (
+    MOST_POINTS,
+    Figure,
+    Line,
+    Mark,
+    Panel,
+    Shade,
+    draw_figure,
+)
 
 NUMBERS = st.floats(-1e308, 1e308)
 VALUES = arrays(
@@ -38,7 +46,7 @@ def path(svg, style="line result"):
 @FEW
 @given(VALUES, st.integers(10, 200).map(lambda n: 2 * n))
 def test_few_points_keep_the_envelope_and_every_gap(values, most):
-    strokes = decimated(values, most)
+    strokes = decimate(values, most)
     kept = np.concatenate([*strokes, np.empty(0, dtype=np.int64)])
     finite = values[np.isfinite(values)]
     assert kept.size <= max(most, 0)
@@ -49,7 +57,7 @@ def test_few_points_keep_the_envelope_and_every_gap(values, most):
 
 
 def test_a_short_line_is_drawn_with_all_its_points():
-    (stroke,) = decimated(np.arange(50.0), 100)
+    (stroke,) = decimate(np.arange(50.0), 100)
     assert stroke.tolist() == list(range(50))
 
 
@@ -85,22 +93,22 @@ def test_a_scale_without_values_is_that_from_0_to_1():
 @FEW
 @given(VALUES)
 def test_a_plot_is_sound_small_and_the_same_every_time(values):
-    svg = drawn(figure(line(values), line(-values, "truth")))
+    svg = draw_figure(figure(line(values), line(-values, "truth")))
     root = ElementTree.fromstring(svg)
-    assert svg == drawn(figure(line(values), line(-values, "truth")))
+    assert svg == draw_figure(figure(line(values), line(-values, "truth")))
     assert len(svg) < 2 * MOST_POINTS * 16 + 5000
     numbers = re.findall(r"-?\d+\.?\d*", " ".join(path(svg)))
     assert all(0.0 <= float(n) <= float(root.get("viewBox").split()[2]) for n in numbers)
 
 
 def test_a_missing_value_lifts_the_pen_and_a_lone_one_is_a_dot():
-    (d,) = path(drawn(figure(line([1, 2, np.nan, 3, np.nan, 4, 5]))))
+    (d,) = path(draw_figure(figure(line([1, 2, np.nan, 3, np.nan, 4, 5]))))
     assert d.count("M") == 3
     assert d.count("h.1") == 1
 
 
 def test_points_beyond_the_axis_are_not_drawn():
-    svg = drawn(figure(line(np.arange(11.0)), end=50.0))
+    svg = draw_figure(figure(line(np.arange(11.0)), end=50.0))
     (d,) = path(svg)
     assert len(re.findall(r"\d+\.?\d* \d+\.?\d*", d)) == 6
 
@@ -108,15 +116,15 @@ def test_points_beyond_the_axis_are_not_drawn():
 def test_an_axis_that_holds_some_values_leaves_out_what_lies_beyond():
     values = np.array([0.0, 1.0, 1000.0, 1.0, 0.0])
     panel = Panel("elevation", "mm", (line(values),), held=values[:2])
-    (d,) = path(drawn(Figure("plot", "", "", (panel,), "m", 0.0, 100.0)))
+    (d,) = path(draw_figure(Figure("plot", "", "", (panel,), "m", 0.0, 100.0)))
     assert d.count("M") == 2
-    (whole,) = path(drawn(figure(line(values))))
+    (whole,) = path(draw_figure(figure(line(values))))
     assert whole.count("M") == 1
 
 
 def test_a_shade_lies_where_it_says_and_a_mark_too():
     shade = Shade("flagged", ((25.0, 50.0),), "flagged")
-    svg = drawn(figure(line([0, 1]), shades=(shade,), marks=(Mark(50.0, "stop"),)))
+    svg = draw_figure(figure(line([0, 1]), shades=(shade,), marks=(Mark(50.0, "stop"),)))
     flagged = [d for d in path(svg, "flagged") if "V" in d]
     left, width = (float(n) for n in re.match(r"M(\S+) \S+h([\d.]+)", flagged[0]).groups())
     (mark,) = path(svg, "mark")
@@ -127,21 +135,21 @@ def test_a_shade_lies_where_it_says_and_a_mark_too():
 
 
 def test_a_mark_outside_the_axis_is_left_out():
-    assert path(drawn(figure(line([0, 1]), marks=(Mark(101.0, "stop"),))), "mark") == []
+    assert path(draw_figure(figure(line([0, 1]), marks=(Mark(101.0, "stop"),))), "mark") == []
 
 
 def test_hostile_words_are_text(hostile):
     shade = Shade(hostile, ((0.0, 1.0),), "flagged")
     changes = {"along": hostile, "shades": (shade,), "marks": (Mark(1.0, hostile),)}
     panel = Panel(hostile, hostile, (line([0, 1], hostile), line([1, 0])))
-    svg = drawn(Figure("plot", hostile, hostile, (panel,), start=0.0, end=100.0, **changes))
+    svg = draw_figure(Figure("plot", hostile, hostile, (panel,), start=0.0, end=100.0, **changes))
     root = ElementTree.fromstring(svg)
     assert "script" not in {element.tag for element in root.iter()}
     assert all("<script>" in text.text for text in root.iter("title"))
 
 
 def test_a_plot_is_named_and_described_for_those_who_do_not_see_it():
-    root = ElementTree.fromstring(drawn(figure(line([0, 1]))))
+    root = ElementTree.fromstring(draw_figure(figure(line([0, 1]))))
     names = {element.get("id"): element.text for element in root.iter()}
     assert [names[id_] for id_ in root.get("aria-labelledby").split()] == [
         "A title",

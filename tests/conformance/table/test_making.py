@@ -13,7 +13,7 @@ from floatref_conformance.errors import SuiteError
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table import TableSettings, make_table
-from floatref_conformance.table.passes import Processing, pass_scenario, road_drawn
+from floatref_conformance.table.passes import Processing, draw_road, pass_scenario
 from floatref_conformance.table.table_settings import offered_pipelines
 
 BRAKES = ("brk_72-29_0.39g", "brk_49-34_0.84g")
@@ -71,7 +71,7 @@ def test_no_two_passes_share_their_errors_nor_two_roads_their_shape():
     assert len({s.seed for s in made}) == len(made)
     assert all((s.vehicle, s.imu, s.gnss) == ("minivan", False, False) for s in made)
     assert pass_scenario("ref_72", 0, (1, 2), "minivan", frozenset()) in made
-    first, again, second = (road_drawn(0, n).elevation["left"] for n in (0, 0, 1))
+    first, again, second = (draw_road(0, n).elevation["left"] for n in (0, 0, 1))
     assert np.array_equal(first, again)
     assert not np.allclose(first, second)
 

@@ -40,7 +40,7 @@ def test_each_figure_stands_beside_the_printed_one(table):
     assert brake[1:] == ["2.5", "2.2", "-1.5", "0.0", "0.870", "0.944"]
     assert "chapter 5: 1.00 over 2 cells" in lines[-2]
     assert "'stop: low, else high' alone: 1.00" in lines[-2]
-    assert lines[-1] == "  its stops alone: none over 1 cell"
+    assert lines[-1] == "  its stops alone: no value over 1 cell"
 
 
 @pytest.mark.parametrize("cross_correlation", [0.87, -0.25])

@@ -9,7 +9,7 @@ import numpy as np
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import Cause
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.undoing import Compared, compared, not_usable
+from floatref_conformance.certify.judging.undoing import Compared, compare_track, find_unusable
 from floatref_conformance.certify.locating.fit import Fit
 from floatref_conformance.certify.locating.lags import Line
 from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
@@ -18,15 +18,15 @@ LEAST_MISSING_M = 1.0
 DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0
 """Errors that count where a worksheet sets no limits."""
 LEAST_EXPLAINED = 0.1
-"""What is within the limits is told only of a run below the limits, if it explains so much."""
+"""An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
 CERTAIN = 3.0
-"""Differences between waves count beyond so many sigma."""
+"""Differences between waves count beyond this number of sigma."""
 
 
 @dataclass(frozen=True)
 class _Suspect:
-    """A cause, what is left to compare once it is undone, and whether it counts in any case."""
+    """A cause, what remains to compare once it is undone, and whether it counts in any case."""
 
     id: str
     text: str
@@ -47,7 +47,7 @@ def causes(
     long-waves and noise. They are undone in this order, each after those before it, so that what
     they explain adds up; the largest comes first. Both profiles are in m, on the section alone.
     """
-    before = compared(reference, run, track).correlation()
+    before = compare_track(reference, run, track).correlation()
     if not fit.found:
         return (Cause("not-this-road", "not this road", math.nan),)
     wanted = limits or CertificationLimits()
@@ -70,13 +70,13 @@ def _suspects(
     """Yield what may be wrong, each undone after those before it."""
     assert fit.line is not None
     upright = -1.0 if fit.inverted else 1.0
-    now = compared(reference, run, track).scaled(upright)
+    now = compare_track(reference, run, track).scale(upright)
     if fit.inverted:
         yield _Suspect("inverted", "heights upside down", now, True)
     for suspect, undoing in _displacements(reference, fit, limits):
-        now = compared(reference, run, track, undoing).scaled(upright)
+        now = compare_track(reference, run, track, undoing).scale(upright)
         yield replace(suspect, undone=now)
-    out = not_usable(reference, run, track, fit.line)
+    out = find_unusable(reference, run, track, fit.line)
     if out.sum() * reference.interval_m >= LEAST_MISSING_M:
         now = now.without(out)
         share = f"{out.sum() * reference.interval_m:.1f} m of {reference.length_m:.1f} m"
@@ -113,12 +113,12 @@ def _heights(now: Compared, fit: Fit, limits: CertificationLimits) -> Iterator[_
         limit = limits.height_percent
         certain = abs(percent) - 2.0 * sigma > (HEIGHT_PERCENT if limit is None else limit)
         way = "high" if percent > 0 else "low"
-        now = now.scaled(1.0 + percent / 100.0)
+        now = now.scale(1.0 + percent / 100.0)
         yield _Suspect("height-scale", f"heights {abs(percent):.1f} % too {way}", now, certain)
     if abs(fit.smoothing_m2) > CERTAIN * fit.smoothing_sigma:
         gain = math.exp(fit.smoothing_m2)
         text = f"waves of 1 m {_amount(gain)}: another footprint or filter"
-        yield _Suspect("short-waves", text, now.alike(fit.smoothing_m2), False)
+        yield _Suspect("short-waves", text, now.scale_waves(fit.smoothing_m2), False)
     long = fit.long_percent
     if abs(long) > max(CERTAIN * fit.long_sigma, LEAST_LONG_PERCENT):
         text = f"waves of 8 to 25 m {_amount(1.0 + long / 100.0)}: another filter"
@@ -131,7 +131,7 @@ def _amount(gain: float) -> str:
 
 
 def _noise(score: float, lost: float) -> list[Cause]:
-    """Return the cause of what is lost still; none if that is little."""
+    """Return the cause of the loss that remains; empty if it is small."""
     explains = _share(1.0 - score, lost)
     if not explains >= LEAST_EXPLAINED:
         return []

@@ -48,12 +48,13 @@ class Comparison:
 def compare(reference: Profile, run: Profile) -> Mapping[str, Comparison]:
     """Return the comparison of every wheel path of ``reference``, both cut to the section.
 
-    Raises InputError where the two do not overlap, or ``run`` lacks a wheel path.
+    Raises InputError where the two do not overlap, or a wheel path is missing in ``run``.
     """
     expected, found = on_common_grid(reference, run)
     outside = reference.tracks[0].elevation.size - expected.tracks[0].elevation.size
     return {
-        track.name: _compared(expected, found, track.name, outside) for track in reference.tracks
+        track.name: _compare_track(expected, found, track.name, outside)
+        for track in reference.tracks
     }
 
 
@@ -82,7 +83,7 @@ def with_others(pairs: FloatArray) -> FloatArray:
     return means
 
 
-def _compared(expected: Profile, found: Profile, name: str, outside: int) -> Comparison:
+def _compare_track(expected: Profile, found: Profile, name: str, outside: int) -> Comparison:
     """Return the comparison of one wheel path on common points; ``outside`` are not common."""
     interval = expected.interval_m
     p, track = expected.track(name).elevation, found.track(name)
@@ -98,14 +99,14 @@ def _compared(expected: Profile, found: Profile, name: str, outside: int) -> Com
 
 
 def _pair(first: Profile, second: Profile, name: str) -> float:
-    """Return the correlation of wheel path ``name`` of two runs; NaN if there is none."""
+    """Return the correlation of wheel path ``name`` of two runs; NaN if it is undefined."""
     try:
-        p, q = on_common_grid(_alone(first, name), _alone(second, name))
+        p, q = on_common_grid(_select_track(first, name), _select_track(second, name))
         z = p.tracks[0].elevation, q.tracks[0].elevation
         return agreement(*z, p.interval_m, "iri", MAX_OFFSET_M).cross_correlation
     except InputError:
         return nan
 
 
-def _alone(profile: Profile, name: str) -> Profile:
+def _select_track(profile: Profile, name: str) -> Profile:
     return Profile(profile.interval_m, (profile.track(name),), profile.start_m)

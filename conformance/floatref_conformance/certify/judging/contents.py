@@ -72,7 +72,7 @@ class RunTrack:
         offset_m: at which that was found.
         iri_m_per_km: of the run, on the reference's points.
         bias_percent: of that against the reference's IRI.
-        with_others: average cross correlation with the other runs; NaN if there are none.
+        with_others: average cross correlation with the other runs; NaN without other runs.
         distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
         height_percent, height_sigma: how much higher it takes the road, and 1-sigma.
         flagged_m: length of its points within the section that are not valid, or missing.
@@ -100,9 +100,9 @@ class RunSheet:
     """One run at one section.
 
     Attributes:
-        name: told apart from the section's other runs by it.
+        name: unique among the section's runs.
         source: the path that was given.
-        said: what had to be done to the run before it could be compared, and warnings.
+        notes: what had to be done to the run before it could be compared, and warnings.
         tracks: empty if the run could not be used.
         error: why it could not; empty otherwise.
         profile: within the section, on the reference's axis; None after an error.
@@ -110,7 +110,7 @@ class RunSheet:
 
     name: str
     source: str
-    said: tuple[str, ...]
+    notes: tuple[str, ...]
     tracks: tuple[RunTrack, ...]
     error: str = ""
     profile: Profile | None = None
@@ -126,7 +126,7 @@ class SectionSheet:
         pairs: by wheel path, the cross correlation of run j with run i in row i and column j > i,
             shape (runs, runs) in the order of ``runs``; NaN elsewhere.
         reference: within the section.
-        reference_said: how the reference was made, and warnings.
+        reference_notes: how the reference was made, and warnings.
     """
 
     name: str
@@ -138,7 +138,7 @@ class SectionSheet:
     pairs: Mapping[str, FloatArray]
     criteria: tuple[Criterion, ...]
     reference: Profile
-    reference_said: tuple[str, ...] = ()
+    reference_notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +150,7 @@ class StationarySheet:
     start_m: float
     end_m: float
     iri_m_per_km: Mapping[str, float]
-    said: tuple[str, ...]
+    notes: tuple[str, ...]
     criteria: tuple[Criterion, ...]
     profile: Profile | None = None
 

@@ -11,9 +11,9 @@ from floatref_conformance.certify.judging.comparing import with_others
 from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import (
-    joined,
-    judged_by,
-    listed,
+    join_reasons,
+    judge,
+    list_in_words,
     of_track,
     with_causes,
 )
@@ -24,7 +24,7 @@ def outliers(pairs: FloatArray, limit: float) -> tuple[list[int], float]:
 
     One bad run takes part in all others' pairs, whose averages fall with its own; so the worst is
     left out until the rest agrees. Empty, and NaN, if half of the runs or more would have to go,
-    or none has to. ``pairs`` has shape (runs, runs), NaN where there is none.
+    or no run has to. ``pairs`` has shape (runs, runs), NaN where there is no value.
     """
     kept = np.flatnonzero(~np.isnan(with_others(pairs))).tolist()
     gone: list[int] = []
@@ -76,7 +76,7 @@ def judge_repeatability(
         )
         for k in blamed
     ]
-    return replace(made, reason=f"the other runs agree to {rest:.3f} without {listed(told)}")
+    return replace(made, reason=f"the other runs agree to {rest:.3f} without {list_in_words(told)}")
 
 
 def judge_accuracy(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
@@ -103,7 +103,7 @@ def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits)
         for run, error, track in errors
         if limit is not None and abs(error) > limit
     ]
-    reason = joined(f"beyond the limit: {listed(told)}" if told else "")
+    reason = join_reasons(f"beyond the limit: {list_in_words(told)}" if told else "")
     if not errors:
         reason = "the IRI of no run could be taken, or the reference has no roughness"
     return Criterion(
@@ -114,14 +114,14 @@ def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits)
         limit,
         "%",
         False,
-        judged_by(value, limit, failed),
+        judge(value, limit, failed),
         name,
         reason,
     )
 
 
 def mean(values: Sequence[float]) -> float:
-    """Return the mean, whatever the order of ``values``; NaN of none."""
+    """Return the mean, the same in any order of ``values``; NaN if empty."""
     return fsum(values) / len(values) if values else nan
 
 
@@ -135,12 +135,12 @@ def _correlation(
     absent = [run.name for run, _, score in scores if isnan(score)]
     below = sorted((s for s in scores if s[2] < limit), key=lambda s: s[2])
     told = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
-    judged = judged_by(value, limit, value < limit)
+    judged = judge(value, limit, value < limit)
     if absent and judged is Judged.PASS:
         judged = Judged.MISSING
-    reason = joined(
+    reason = join_reasons(
         lacking,
-        f"not in the average: {listed(absent)}" if absent and not lacking else "",
-        f"below {limit:g} by itself: {listed(told)}" if told else "",
+        f"not in the average: {list_in_words(absent)}" if absent and not lacking else "",
+        f"below {limit:g} by itself: {list_in_words(told)}" if told else "",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "", True, judged, name, reason)

@@ -12,19 +12,25 @@ from floatref_conformance.certify.judging.correlations import (
     judge_repeatability,
 )
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.reasons import joined, judged_by, listed, reported, unused
+from floatref_conformance.certify.judging.reasons import (
+    join_reasons,
+    judge,
+    list_in_words,
+    name_unused,
+    report_value,
+)
 from floatref_conformance.certify.judging.scales import judge_distance, judge_height
 from floatref_conformance.checks.verdict import Verdict
 
 MISSING_PERCENT = 2.0
-"""Part of a section for which a run may lack elevations; ours.
+"""Part of a section in which elevations of a run may be missing; ours.
 
 Compare's offset of 1 m leaves out 0.6 % of 0.1 mile and a distance error of 1 % leaves out 1 %:
 neither is a hole. What is beyond is road that nobody measured, bridged by a straight line.
 """
 RUNS = "AASHTO R 56-14: ten repeated runs at each test section"
 COVERAGE = "ours: a run holds elevations for all but 2 % of the section, at each wheel path"
-FLAGGED = "ours: what a run flags as not valid is compared like the rest, and told"
+FLAGGED = "ours: what a run flags as not valid is compared like the rest, and reported"
 
 
 def judge_section(
@@ -38,7 +44,7 @@ def judge_section(
     ``truth`` is the reference within the section, ``pairs`` the correlations by wheel path.
     """
     used = [run for run in runs if not run.error]
-    made = [_number(runs, limits), _coverage(truth, used), _flagged(truth, used)]
+    made = [_number(runs, limits), _coverage(truth, used), _flagged_length(truth, used)]
     made += judge_distance(used, limits)
     for name in pairs:
         made += [
@@ -51,7 +57,7 @@ def judge_section(
 
 
 def verdict_of(criteria: Iterable[Criterion]) -> Verdict:
-    """Return FAIL if one failed, INCOMPLETE if one is missing or none was judged, else PASS.
+    """Return FAIL if one failed, INCOMPLETE if one is missing or not any was judged, else PASS.
 
     ``criteria`` are all of a worksheet: its own, its sections' and its stationary tests'.
     """
@@ -65,11 +71,11 @@ def verdict_of(criteria: Iterable[Criterion]) -> Verdict:
 
 def _number(runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
     """Return how many runs could be used; too few leave the verdict open."""
-    count, left_out = sum(not run.error for run in runs), unused(runs)
+    count, left_out = sum(not run.error for run in runs), name_unused(runs)
     enough = count >= limits.runs
-    reason = joined(
+    reason = join_reasons(
         "" if enough else f"{count} of the {limits.runs} runs that are asked for",
-        f"not used: {listed(left_out)}" if left_out else "",
+        f"not used: {list_in_words(left_out)}" if left_out else "",
     )
     judged = Judged.PASS if enough else Judged.MISSING
     title = "runs that could be used"
@@ -79,7 +85,7 @@ def _number(runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
 
 
 def _coverage(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
-    """Return the largest part of the section that a wheel path of a run lacks."""
+    """Return the largest part of the section that is missing in a wheel path of a run."""
     shares = [
         (100.0 * track.missing_m / _length_m(truth), f"{run.name}, {track.track}", track.missing_m)
         for run in used
@@ -90,7 +96,7 @@ def _coverage(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
     holes = [
         f"{who}: {missing_m:.1f} m" for part, who, missing_m in shares if part > MISSING_PERCENT
     ]
-    reason = f"without elevation: {listed(holes)}" if holes else ""
+    reason = f"without elevation: {list_in_words(holes)}" if holes else ""
     return Criterion(
         "coverage",
         "part of the section that a run lacks, the largest",
@@ -99,13 +105,13 @@ def _coverage(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
         MISSING_PERCENT,
         "%",
         False,
-        judged_by(worst, MISSING_PERCENT, bool(holes)),
+        judge(worst, MISSING_PERCENT, bool(holes)),
         "",
         reason or ("" if shares else "no run could be used"),
     )
 
 
-def _flagged(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
+def _flagged_length(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
     """Return the largest length of a wheel path that is not valid, and whose it is."""
     lengths = [(t.flagged_m, f"{run.name}, {t.track}") for run in used for t in run.tracks]
     told = sorted((one for one in lengths if one[0] > 0), key=lambda one: -one[0])
@@ -114,10 +120,10 @@ def _flagged(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
         for track in truth.tracks
         if not track.valid.all()
     ]
-    reason = listed(doubted + [f"{who}: {length:.1f} m" for length, who in told])
+    reason = list_in_words(doubted + [f"{who}: {length:.1f} m" for length, who in told])
     worst = max((length for length, _ in lengths), default=nan)
     title = "length within the section that a run flags or lacks, the largest"
-    return reported("flagged", title, FLAGGED, worst, "m", "", reason)
+    return report_value("flagged", title, FLAGGED, worst, "m", "", reason)
 
 
 def _length_m(truth: Profile) -> float:

@@ -9,15 +9,15 @@ NAMED = 5
 """Runs that a reason names; of the others it gives the number."""
 
 
-def listed(items: Sequence[str], most: int = NAMED) -> str:
+def list_in_words(items: Sequence[str], most: int = NAMED) -> str:
     """Return ``items`` joined, as many as ``most``, and how many more there are."""
     more = len(items) - most
     told = "; ".join(items[:most])
     return f"{told}; and {more} more" if more > 0 else told
 
 
-def joined(*parts: str) -> str:
-    """Return those of ``parts`` that say something, as one reason."""
+def join_reasons(*parts: str) -> str:
+    """Return the ``parts`` that are not empty, as one reason."""
     return "; ".join(part for part in parts if part)
 
 
@@ -32,13 +32,13 @@ def with_causes(text: str, track: RunTrack) -> str:
     return f"{text} ({causes})" if causes else text
 
 
-def unused(runs: Iterable[RunSheet]) -> list[str]:
+def name_unused(runs: Iterable[RunSheet]) -> list[str]:
     """Return the runs that could not be used, and why."""
     return [f"{run.name} ({run.error})" for run in runs if run.error]
 
 
-def judged_by(value: float, limit: float | None, failed: bool) -> Judged:
-    """Return the outcome of ``value``, of which is known whether it ``failed`` its limit.
+def judge(value: float, limit: float | None, failed: bool) -> Judged:
+    """Return the outcome of ``value``, which ``failed`` its limit or not.
 
     Without a value nothing is judged, and without a limit nothing is asked.
     """
@@ -49,7 +49,7 @@ def judged_by(value: float, limit: float | None, failed: bool) -> Judged:
     return Judged.MISSING if isnan(value) else Judged.PASS
 
 
-def reported(
+def report_value(
     id_: str, title: str, clause: str, value: float, unit: str, track: str = "", reason: str = ""
 ) -> Criterion:
     """Return a line that is not judged."""

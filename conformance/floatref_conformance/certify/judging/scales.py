@@ -1,4 +1,4 @@
-"""Scale of distance and of heights, told from the profiles and from readings of known lengths."""
+"""Scale of distance and of heights, measured by the profiles and by readings of known lengths."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,17 +9,17 @@ from floatref_conformance.certify.judging.contents import Criterion, Judged, Run
 from floatref_conformance.certify.judging.correlations import mean
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.reasons import (
-    joined,
-    judged_by,
-    listed,
+    join_reasons,
+    judge,
+    list_in_words,
     of_track,
-    reported,
+    report_value,
 )
 from floatref_conformance.certify.plan.plan_document import DistancePlan
 
 DISTANCE = (
-    "AASHTO R 56-14: distance within 0.15 %; ours: told from the section's profiles, and every "
-    "run is held to it"
+    "AASHTO R 56-14: distance within 0.15 %; ours: measured by the section's profiles, and "
+    "every run is held to it"
 )
 READINGS = (
     "AASHTO R 56-14: distance over a path of known length within 0.15 %; ours: every reading is "
@@ -27,12 +27,12 @@ READINGS = (
 )
 HEIGHT = (
     "ours, from the block check of AASHTO R 57-14, 0.01 in on a block of 1 in: 1 % of the "
-    "heights, told from the section's profiles, every run held to it"
+    "heights, measured by the section's profiles, every run held to it"
 )
 
 
 FINEST = 0.001
-"""Percent; a smaller doubt is told as this one."""
+"""Percent; a smaller uncertainty is given as this one."""
 
 
 @dataclass(frozen=True)
@@ -77,26 +77,26 @@ def scales_agree(track: RunTrack, limits: CertificationLimits) -> bool:
 def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tuple[Criterion, ...]:
     """Return the largest error of distance of a run, and the mean over the runs.
 
-    Of a run's wheel paths, which share one encoder, the one that tells it best counts. A worksheet
-    whose runs do not tell it is INCOMPLETE.
+    Of a run's wheel paths, which share one encoder, the one with the smallest sigma counts. A
+    worksheet whose runs do not measure it is INCOMPLETE.
     """
     told = [_best(run) for run in runs if run.tracks]
     found = [one.percent for one in told if not isnan(one.percent)]
     words = "distance", "error of distance, the largest of a run", DISTANCE
-    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
     title = "error of distance, mean of the runs"
-    return largest, reported("distance-mean", title, DISTANCE, mean(found), "%")
+    return largest, report_value("distance-mean", title, DISTANCE, mean(found), "%")
 
 
 def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
     """Return the largest error of the scale of heights of a run, in wheel path ``name``.
 
-    Where no run tells it, it is reported alone: R 56-14 does not ask for it.
+    Where no run measures it, it is reported only: R 56-14 does not ask for it.
     """
     tracks = of_track(runs, name)
     told = [Told(run.name, track.height_percent, track.height_sigma) for run, track in tracks]
     words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
-    return _judged(words, told, limits.height_percent, name, Judged.REPORTED)
+    return _judge_largest(words, told, limits.height_percent, name, Judged.REPORTED)
 
 
 def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Criterion, ...]:
@@ -116,10 +116,10 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
         f"distance read for {plan.known_m:g} m, the largest error",
         READINGS,
     )
-    largest = _judged(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
     title = f"distance read for {plan.known_m:g} m, mean error"
     average = mean([one.percent for one in told])
-    return largest, reported("distance-readings-mean", title, READINGS, average, "%")
+    return largest, report_value("distance-readings-mean", title, READINGS, average, "%")
 
 
 def _best(run: RunSheet) -> Told:
@@ -131,28 +131,28 @@ def _best(run: RunSheet) -> Told:
     return Told(run.name, track.distance_percent, track.distance_sigma)
 
 
-def _judged(
+def _judge_largest(
     words: tuple[str, str, str],
     told: Sequence[Told],
     limit: float | None,
     track: str,
-    untold: Judged,
+    unknown: Judged,
 ) -> Criterion:
-    """Return the criterion of the largest error; ``untold`` if no run tells it well enough."""
+    """Return the criterion of the largest error; ``unknown`` if no run measures it well enough."""
     bound = inf if limit is None else limit
     known = [one for one in told if not isnan(one.percent)]
     beyond = sorted((o for o in told if o.beyond(bound)), key=lambda o: -abs(o.percent))
     vague = [] if limit is None else [one for one in told if one.vague(bound)]
     counted = beyond or [one for one in known if one not in vague] or known
     value = max((one.percent for one in counted), key=abs, default=nan)
-    judged = judged_by(value, limit, bool(beyond))
+    judged = judge(value, limit, bool(beyond))
     if limit is not None and not beyond and len(vague) == len(told):
-        judged = untold
-    reason = joined(
-        f"beyond the limit: {listed([str(one) for one in beyond])}" if beyond else "",
-        f"not told to {bound:g} %: {listed([str(o) for o in vague if o not in beyond])}"
+        judged = unknown
+    reason = join_reasons(
+        f"beyond the limit: {list_in_words([str(one) for one in beyond])}" if beyond else "",
+        f"not known to {bound:g} %: {list_in_words([str(o) for o in vague if o not in beyond])}"
         if any(o not in beyond for o in vague)
         else "",
-        "" if told else "no run tells it",
+        "" if told else "no run measures it",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "%", False, judged, track, reason)

@@ -3,7 +3,7 @@
 At every section these are the lowest accuracy and the IRI that is farthest off; at a stationary
 test, the highest IRI. The reference works in plain loops, 18 µs a point: it takes 2 s for a
 section of 0.1 mile at 5 mm. Of more than `MOST_POINTS` points the SDK and the reference both
-measure the first ones alone, which still tells a wrong measure from a right one and costs 2 s.
+measure the first ones only: that still finds a wrong measure, and costs 2 s.
 """
 
 from math import isnan
@@ -105,11 +105,11 @@ def _common(reference: Profile, run: Profile, track: RunTrack) -> Pair:
     p, q = (profile.track(track.track).elevation for profile in (expected, found))
     both = np.flatnonzero(np.isfinite(p) & np.isfinite(q))
     part = slice(int(both[0]), int(both[-1]) + 1)
-    truth, result = _bridged(p[part]), _bridged(q[part])
+    truth, result = _bridge_gaps(p[part]), _bridge_gaps(q[part])
     return Pair(truth, result, expected.interval_m, np.ones(truth.size - 1, dtype=np.bool_))
 
 
-def _bridged(elevation: FloatArray) -> FloatArray:
+def _bridge_gaps(elevation: FloatArray) -> FloatArray:
     """Return ``elevation`` with straight lines over its gaps, as the measures take it."""
     measured = np.isfinite(elevation)
     places = np.arange(elevation.size)

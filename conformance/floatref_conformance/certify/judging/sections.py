@@ -36,16 +36,16 @@ class Run:
     """One run as it was read and placed on the reference's axis, not yet cut to the section.
 
     Attributes:
-        name: told apart from the section's other runs by it.
+        name: unique among the section's runs.
         source: the path that was given.
-        said: what had to be done to it, and warnings.
+        notes: what had to be done to it, and warnings.
         profile: with the reference's wheel paths; None if it could not be used.
         error: why it could not; empty otherwise.
     """
 
     name: str
     source: str
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     profile: Profile | None = None
     error: str = ""
 
@@ -76,7 +76,7 @@ def section_sheet(
     order here.
     """
     truth_iri = _roughness(truth)
-    measured = _without_copies(truth, [_measured(truth, run) for run in sorted(runs, key=_place)])
+    measured = _without_copies(truth, [_measure(truth, run) for run in sorted(runs, key=_place)])
     pairs = correlate_pairs([m.run.profile for m in measured], list(truth_iri))
     others = {name: with_others(pairs[name]) for name in truth_iri}
     sheets = tuple(
@@ -98,7 +98,7 @@ def section_sheet(
 
 @dataclass(frozen=True, eq=False)
 class _Measured:
-    """A run cut to the section, and its comparison by wheel path; none if it has an error."""
+    """A run cut to the section, and its comparison by wheel path; empty if it has an error."""
 
     run: Run
     tracks: Mapping[str, Comparison]
@@ -115,8 +115,8 @@ def _place(run: Run) -> tuple[list[tuple[int, str]], str]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts], run.source
 
 
-def _measured(truth: Profile, run: Run) -> _Measured:
-    """Return ``run`` cut to the section and compared; one that cannot be says why."""
+def _measure(truth: Profile, run: Run) -> _Measured:
+    """Return ``run`` cut to the section and compared; one that cannot be has an error."""
     if run.profile is None:
         return _Measured(run, {})
     try:
@@ -127,7 +127,7 @@ def _measured(truth: Profile, run: Run) -> _Measured:
     errors = [c.error for c in tracks.values() if c.error]
     if len(errors) == len(tracks):
         return _Measured(replace(run, profile=None, error="; ".join(errors)), {})
-    return _Measured(replace(run, profile=cut, said=(*run.said, *errors)), tracks)
+    return _Measured(replace(run, profile=cut, notes=(*run.notes, *errors)), tracks)
 
 
 def _without_copies(truth: Profile, measured: Iterable[_Measured]) -> list[_Measured]:
@@ -164,7 +164,7 @@ def _sheet(
         for name, found in measured.tracks.items()
         if run.profile is not None
     )
-    return RunSheet(run.name, run.source, run.said, tracks, run.error, run.profile)
+    return RunSheet(run.name, run.source, run.notes, tracks, run.error, run.profile)
 
 
 def _track(

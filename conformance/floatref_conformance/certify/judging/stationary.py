@@ -1,7 +1,7 @@
 """Recorded stationary tests of AASHTO R 57-14: the IRI of a parked vehicle, wheel path by path.
 
-The vehicle stands on a flat floor while an artificial encoder tells travel. R 57-14 limits the
-IRI at rest to 0.047 m/km (3 in/mi) and with the body pushed to 0.126 m/km (8 in/mi). Which part
+The vehicle is stationary on a flat floor while an artificial encoder gives travel. R 57-14 limits
+the IRI at rest to 0.047 m/km (3 in/mi) and with the body pushed to 0.126 m/km (8 in/mi). Which part
 of the recording counts is ours: what is `END_M` from both ends, unless a stretch is given.
 """
 
@@ -15,7 +15,7 @@ from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import Criterion, Judged, StationarySheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.reasons import judged_by
+from floatref_conformance.certify.judging.reasons import judge
 from floatref_conformance.certify.plan.plan_document import StationaryPlan, Stretch
 from floatref_conformance.checks.stretches import END_M, points
 
@@ -36,30 +36,30 @@ def stationary_sheet(
     plan: StationaryPlan,
     profile: Profile | None,
     limits: CertificationLimits,
-    said: Sequence[str] = (),
+    notes: Sequence[str] = (),
     error: str = "",
 ) -> StationarySheet:
     """Return the sheet of test ``id_``, ``quiescent`` or ``bounce``.
 
     Without ``profile`` the test counts as missing, for the reason in ``error``; so does a profile
     that cannot be judged: too short, or with a point without elevation in what counts. Raises
-    InputError for a stretch that is none.
+    InputError for an invalid stretch.
     """
     limit = limits.quiescent_m_per_km if id_ == "quiescent" else limits.bounce_m_per_km
     if plan.stretch_m is not None:
         _check_stretch(id_, plan.stretch_m)
     if profile is None:
-        return _missing(id_, plan, said, limit, error or "no profile", None)
+        return _missing(id_, plan, notes, limit, error or "no profile", None)
     try:
         start, end = _stretch(profile, plan.stretch_m)
         found = {track.name: _iri(profile, track.name, start, end) for track in profile.tracks}
     except InputError as refused:
-        return _missing(id_, plan, said, limit, str(refused), profile)
+        return _missing(id_, plan, notes, limit, str(refused), profile)
     criteria = tuple(
-        _criterion(id_, value, limit, judged_by(value, limit, value > limit), name, "")
+        _criterion(id_, value, limit, judge(value, limit, value > limit), name, "")
         for name, value in found.items()
     )
-    told = (*said, *_flags(profile, start, end))
+    told = (*notes, *_flags(profile, start, end))
     return StationarySheet(id_, str(plan.source), start, end, found, told, criteria, profile)
 
 
@@ -76,7 +76,7 @@ def _stretch(profile: Profile, given: Stretch | None) -> Stretch:
     if profile.length_m < SHORTEST_M:
         raise InputError(
             f"the profile is {profile.length_m:.1f} m long, {SHORTEST_M:g} m are needed: a parked "
-            "vehicle needs an encoder that tells travel, as an artificial one does"
+            "vehicle needs an encoder that gives travel, as an artificial one does"
         )
     start, end = given if given is not None else (first + END_M, last - END_M)
     if end - start < SHORTEST_M:
@@ -111,7 +111,7 @@ def _iri(profile: Profile, name: str, start: float, end: float) -> float:
 
 
 def _flags(profile: Profile, start: float, end: float) -> list[str]:
-    """Return what is said of the points that a wheel path flags in what counts."""
+    """Return one line per wheel path that flags points of the stretch that counts."""
     told = []
     for track in profile.tracks:
         doubted = np.count_nonzero(~track.valid[points(profile, start, end)])
@@ -124,7 +124,7 @@ def _flags(profile: Profile, start: float, end: float) -> list[str]:
 def _missing(
     id_: str,
     plan: StationaryPlan,
-    said: Sequence[str],
+    notes: Sequence[str],
     limit: float,
     reason: str,
     profile: Profile | None,
@@ -133,7 +133,7 @@ def _missing(
     start, end = plan.stretch_m or (nan, nan)
     criterion = _criterion(id_, nan, limit, Judged.MISSING, "", reason)
     return StationarySheet(
-        id_, str(plan.source), start, end, {}, tuple(said), (criterion,), profile
+        id_, str(plan.source), start, end, {}, tuple(notes), (criterion,), profile
     )
 
 

@@ -25,7 +25,7 @@ class Compared:
     run: FloatArray
 
     def correlation(self) -> float:
-        """Return the cross correlation as `floatref compare` gives it, NaN if there is none."""
+        """Return the cross correlation as `floatref compare` gives it, NaN if it is undefined."""
         try:
             return agreement(
                 self.reference, self.run, self.interval_m, "iri", MAX_OFFSET_M
@@ -33,7 +33,7 @@ class Compared:
         except InputError:
             return math.nan
 
-    def scaled(self, gain: float) -> "Compared":
+    def scale(self, gain: float) -> "Compared":
         """Return it with the run's heights divided by ``gain``."""
         return replace(self, run=self.run / gain)
 
@@ -42,19 +42,21 @@ class Compared:
         z = [np.where(points, np.nan, v) for v in (self.reference, self.run)]
         return Compared(self.interval_m, *z)
 
-    def alike(self, smoothing_m2: float) -> "Compared":
+    def scale_waves(self, smoothing_m2: float) -> "Compared":
         """Return it with the one that has more of the short waves smoothed like the other.
 
         Its waves are taken times exp(-|c|·k²), with c in m² and k in cycles per m.
         """
         rougher = self.run if smoothing_m2 > 0 else self.reference
-        smooth = _smoothed(rougher, self.interval_m, abs(smoothing_m2))
+        smooth = _smooth(rougher, self.interval_m, abs(smoothing_m2))
         if smoothing_m2 > 0:
             return replace(self, run=smooth)
         return replace(self, reference=smooth)
 
 
-def compared(reference: Profile, run: Profile, track: str, line: Line | None = None) -> Compared:
+def compare_track(
+    reference: Profile, run: Profile, track: str, line: Line | None = None
+) -> Compared:
     """Return ``track`` of both on the reference's points, the run laid by ``line``.
 
     Linearly between the run's points, as `floatref compare` does; NaN beyond and next to missing
@@ -66,7 +68,7 @@ def compared(reference: Profile, run: Profile, track: str, line: Line | None = N
     return Compared(reference.interval_m, reference.track(track).elevation, z)
 
 
-def not_usable(reference: Profile, run: Profile, track: str, line: Line) -> BoolArray:
+def find_unusable(reference: Profile, run: Profile, track: str, line: Line) -> BoolArray:
     """Return the reference's points at which the run, laid by ``line``, has no valid elevation.
 
     What lies beyond its ends is not among them.
@@ -76,7 +78,7 @@ def not_usable(reference: Profile, run: Profile, track: str, line: Line) -> Bool
     return np.asarray(np.interp(places, run.distance_m, valid, 1.0, 1.0) < 0.999)
 
 
-def _smoothed(z: FloatArray, interval_m: float, amount_m2: float) -> FloatArray:
+def _smooth(z: FloatArray, interval_m: float, amount_m2: float) -> FloatArray:
     """Return ``z`` with every wave times exp(-amount·k²); NaN where it is NaN."""
     known = np.isfinite(z)
     if not known.any():

@@ -25,13 +25,13 @@ class Searched:
         self._spectra: dict[int, list[NDArray[np.complex128]]] = {}
 
     def spectra(self, padded: int) -> list[NDArray[np.complex128]]:
-        """Return the spectra of all wheel paths, padded with zeros to so many points."""
+        """Return the spectra of all wheel paths, padded with zeros to ``padded`` points."""
         if padded not in self._spectra:
             self._spectra[padded] = [rfft(slope.values, padded) for slope in self.slopes]
         return self._spectra[padded]
 
 
-def scores_of(templates: Sequence[FloatArray], searched: Searched) -> list[list[FloatArray]]:
+def score_places(templates: Sequence[FloatArray], searched: Searched) -> list[list[FloatArray]]:
     """Return the score of every template in every wheel path, by place.
 
     Place k has the template's last point on point k of the run; places run over its end.
@@ -46,7 +46,7 @@ def scores_of(templates: Sequence[FloatArray], searched: Searched) -> list[list[
         own = float(np.square(template).sum())
         rows.append(
             [
-                _normalised(irfft(spectrum * s, padded)[: count + size - 1], own * energy)
+                _normalise(irfft(spectrum * s, padded)[: count + size - 1], own * energy)
                 for s, energy in zip(searched.spectra(padded), energies, strict=True)
             ]
         )
@@ -60,8 +60,8 @@ def _windowed_energy(values: FloatArray, size: int) -> FloatArray:
     return np.asarray(padded[size:] - padded[: padded.size - size])
 
 
-def _normalised(products: FloatArray, energies: FloatArray) -> FloatArray:
-    """Return ``products`` over the root of ``energies``, 0 where there is next to none."""
+def _normalise(products: FloatArray, energies: FloatArray) -> FloatArray:
+    """Return ``products`` over the root of ``energies``, 0 where there is next to no energy."""
     least = 1e-6 * float(energies.max(initial=0.0))
     shaped = energies > least
     out = np.zeros(products.size)
@@ -70,9 +70,9 @@ def _normalised(products: FloatArray, energies: FloatArray) -> FloatArray:
 
 
 LARGEST_SCALE = 0.06
-"""Distance errors of up to so much are searched."""
+"""Largest distance error that is searched."""
 DRIFT_M = 0.8
-"""By so much a piece may drift from end to end between two scales: half its shortest wave."""
+"""Largest drift of a piece from end to end between two scales: half its shortest wave."""
 TIE = 0.03
 """Scores that differ by less are equally good."""
 APART_M = 2.0
@@ -191,7 +191,7 @@ def _at_scale(
     for mirrored in mirrors:
         templates = [piece.template(i, scale, mirrored) for i in range(len(piece.slopes))]
         size = templates[0].size
-        scores = scores_of(templates, searched)
+        scores = score_places(templates, searched)
         for pairing in pairings(len(templates), len(run)):
             mean = _joint(scores, run, pairing)
             for index in _peaks(mean):

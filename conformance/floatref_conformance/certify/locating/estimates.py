@@ -15,17 +15,17 @@ from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.locating.spectra import Spectra, Windows
 
 BLOCKS = 12
-"""Stretches of the section, each left out once to tell the scatter."""
+"""Stretches of the section, each left out once to estimate the scatter."""
 UNDERSTATED = 1.12
-"""By so much the scatter of so few blocks, with weights of their own making, is too small."""
+"""Factor by which the scatter of so few blocks, weighted by themselves, is too small."""
 ROBUST = 2.0
-"""A window with so many times the usual rest counts less from there on."""
+"""A window counts less if its residual is larger than this many times the usual one."""
 ITERATIONS = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """What the windows tell, each value with its 1-sigma.
+    """Estimates from the windows, each value with its 1-sigma.
 
     Attributes:
         height: h.
@@ -69,7 +69,7 @@ def estimate(windows: Windows) -> Estimate:
         gain = gain + normal.solution()
     lag = -2j * np.pi * windows.wave_number * model
     each = _normal(lag[None], rest, weights[:, None] / noise)
-    return _told(windows, gain, normal, each, weights)
+    return _summarise(windows, gain, normal, each, weights)
 
 
 def _footprint(smoothing: float, squares: FloatArray) -> FloatArray:
@@ -132,7 +132,7 @@ def _energy(spectra: Spectra) -> float:
     return max(float(np.median(np.square(np.abs(spectra)).sum(axis=1))), 1e-300)
 
 
-def _told(
+def _summarise(
     windows: Windows, gain: FloatArray, normal: _Normal, each: _Normal, weights: FloatArray
 ) -> Estimate:
     """Return the estimate of the solved normal equations."""

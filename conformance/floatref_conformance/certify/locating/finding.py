@@ -18,17 +18,17 @@ from floatref_conformance.certify.locating.candidates import (
     search,
 )
 from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS
-from floatref_conformance.certify.locating.slopes import Slope, aligned, slope_of
+from floatref_conformance.certify.locating.slopes import Slope, align, slope_of
 
 PIECE_M = 160.0
 """Length of the pieces of the reference that are searched for."""
 MOST_PIECES = 6
 COARSEST_M, FINEST_M = 1.0, 1e-3
-"""Intervals beyond these are not those of a profile, in whatever unit."""
+"""Intervals beyond these are not those of a profile, in any unit."""
 USUAL_M = 0.005, 0.31
 """Intervals that profiles have; units that give others are tried later."""
 SHORTEST_M = 20.0
-"""A run shorter than this, in whatever unit, cannot be found."""
+"""A run shorter than this, in any unit, cannot be found."""
 
 
 @dataclass(frozen=True)
@@ -41,12 +41,12 @@ class Find:
 
 
 def pieces_of(reference: Profile) -> list[Piece]:
-    """Return the pieces of ``reference`` to search for, the first first; none if it is flat."""
+    """Return the pieces of ``reference`` in the order of search; empty if it is flat."""
     slopes = [slope_of(t, reference.start_m, reference.interval_m) for t in reference.tracks]
     shaped = [s for s in slopes if s is not None and s.energy() > 0]
     if len(shaped) < len(slopes) or not shaped:
         return []
-    together = aligned(shaped)
+    together = align(shaped)
     start, end = together[0].start_m, together[0].end_m
     count = max(math.ceil((end - start) / PIECE_M), 1)
     length = (end - start) / count
@@ -70,7 +70,7 @@ def find(pieces: Sequence[Piece], run: Profile) -> Find | None:
 
 
 def _merit(find: Find) -> float:
-    """Return by how much a find stands above chance."""
+    """Return by how much a find is better than chance."""
     return abs(find.candidate.score) / find.candidate.needed
 
 
@@ -80,7 +80,7 @@ def _trials(pieces: Sequence[Piece], run: Profile) -> Iterator[Find]:
     for unit, factor in likely:
         slopes = _slopes_in(run, factor)
         for piece in pieces if slopes else ():
-            yield from _tried(piece, slopes, unit)
+            yield from _try_piece(piece, slopes, unit)
 
 
 def _oddity(interval_m: float) -> float:
@@ -90,7 +90,7 @@ def _oddity(interval_m: float) -> float:
 
 
 def _slopes_in(run: Profile, factor: float) -> tuple[Slope, ...]:
-    """Return the slopes of ``run``, a unit of whose axis has ``factor`` m; none if it is absurd."""
+    """Return the slopes of ``run``, one axis unit being ``factor`` m; empty if absurd."""
     interval = run.interval_m * factor
     if not FINEST_M <= interval <= COARSEST_M or run.length_m * factor < SHORTEST_M:
         return ()
@@ -101,10 +101,10 @@ def _slopes_in(run: Profile, factor: float) -> tuple[Slope, ...]:
     some = next(s for s in known if s is not None)
     nothing = np.zeros(some.values.size)
     blank = replace(some, values=nothing, measured=nothing > 0)
-    return aligned([s or blank for s in known])
+    return align([s or blank for s in known])
 
 
-def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
+def _try_piece(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
     """Yield the best place of ``piece``."""
     scales = scales_of(piece.end_m - piece.start_m)
     ways = 2 * len(pairings(len(piece.slopes), len(slopes))) * len(scales)
@@ -115,7 +115,7 @@ def _tried(piece: Piece, slopes: Sequence[Slope], unit: str) -> Iterator[Find]:
 
 
 def _other_places(found: Sequence[Candidate]) -> int:
-    """Return at how many places but the first's ``found`` lie; a neighbouring scale is none."""
+    """Return the number of places of ``found`` beside the first; a near scale is no other place."""
     places: list[float] = []
     for c in found:
         if all(abs(c.run_m - place) > APART_M for place in places):

@@ -1,4 +1,4 @@
-"""Scale of distance and of heights of a run against the reference, told from the section alone."""
+"""Scale of distance and of heights of a run against the reference, from the section alone."""
 
 import math
 from dataclasses import dataclass, field, replace
@@ -9,13 +9,13 @@ from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.certify.locating.estimates import Estimate, estimate, long_gain
 from floatref_conformance.certify.locating.finding import find_forward, pieces_of
-from floatref_conformance.certify.locating.lags import Line, followed
+from floatref_conformance.certify.locating.lags import Line, follow_line
 from floatref_conformance.certify.locating.slopes import slope_of
 from floatref_conformance.certify.locating.spectra import Surface, Windows, windows_of
 
 WINDOW_M, LONG_WINDOW_M = 12.8, 38.4
 LONGEST_M, SHORTEST_M = 6.5, 0.4
-"""Waves by which gain and lag are told: above, the filters of profilers; below, footprints."""
+"""Waves by which gain and lag are estimated: above, the filters of profilers; below, footprints."""
 LONG_WAVES_M = 25.0, 8.0
 POINTS_PER_WAVE = 5
 """Of the coarser profile in the shortest wave that counts."""
@@ -30,7 +30,7 @@ FARTHEST = 0.07
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """How a wheel path of a run lies on the reference; NaN where that could not be told.
+    """How a wheel path of a run lies on the reference; NaN where that is unknown.
 
     Attributes:
         distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
@@ -72,9 +72,9 @@ def fit(reference: Profile, run: Profile, track: str) -> Fit:
     """Return how the wheel path ``track`` of ``run`` lies on ``reference``, both in m.
 
     Lag and gain come from windows of 12.8 m in waves of 0.4 to 6.5 m. A gain that is less for the
-    shorter waves is that of a footprint or a filter; the scale of heights is what is left of it at
-    the longest. 1-sigma is told by leaving out stretches of the section. Raises InputError where
-    one of the two has no such track.
+    shorter waves is that of a footprint or a filter; the scale of heights is what remains of it at
+    the longest. 1-sigma is estimated by leaving out stretches of the section. Raises InputError
+    where one of the two has no such track.
     """
     p = replace(reference, tracks=(reference.track(track),))
     q = replace(run, tracks=(run.track(track),))
@@ -89,12 +89,12 @@ def fit(reference: Profile, run: Profile, track: str) -> Fit:
         sign,
         max(SHORTEST_M, POINTS_PER_WAVE * max(p.interval_m, q.interval_m)),
     )
-    return _told(pair, line)
+    return _fit_windows(pair, line)
 
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """A wheel path of the reference and of the run, and the shortest wave that both hold."""
+    """A wheel path of the reference and of the run, and the shortest wave that both contain."""
 
     reference: Surface
     run: Surface
@@ -120,11 +120,11 @@ def _first_line(reference: Profile, run: Profile) -> tuple[Line, float] | None:
     if found is None or abs(found.run_m - found.at_m) > 2.0 + FARTHEST * reference.length_m:
         return None
     sign = math.copysign(1.0, found.score)
-    return followed(p, q, Line(found.at_m, found.run_m, found.scale), sign), sign
+    return follow_line(p, q, Line(found.at_m, found.run_m, found.scale), sign), sign
 
 
-def _told(pair: _Pair, line: Line) -> Fit:
-    """Return what the windows tell, ``line`` being corrected by them until it stands."""
+def _fit_windows(pair: _Pair, line: Line) -> Fit:
+    """Return the estimates from the windows, which correct ``line`` until it is stable."""
     last: tuple[Windows, Estimate] | None = None
     shortest = max(ROUGHLY_M, pair.shortest_m)
     for _ in range(ROUNDS):
@@ -132,7 +132,7 @@ def _told(pair: _Pair, line: Line) -> Fit:
         if windows.at_m.size < LEAST_WINDOWS or windows.wave_number.size < LEAST_WAVES:
             return Fit(line=line, inverted=pair.sign < 0)
         told = estimate(windows)
-        line = _moved(line, told)
+        line = _correct_lag(line, told)
         last = windows, told
         shortest = max(pair.shortest_m, math.sqrt(abs(told.smoothing_m2) / STEEPEST))
     assert last is not None
@@ -156,8 +156,8 @@ def _told(pair: _Pair, line: Line) -> Fit:
     )
 
 
-def _moved(line: Line, told: Estimate) -> Line:
-    """Return ``line`` plus the straight line of lag that is left."""
+def _correct_lag(line: Line, told: Estimate) -> Line:
+    """Return ``line`` plus the straight line of the remaining lag."""
     shift = told.shift_m + told.slope * (line.at_m - told.middle_m)
     return Line(line.at_m, line.run_m + shift, line.scale + told.slope)
 

@@ -10,9 +10,9 @@ from floatref_conformance.certify.locating.slopes import STEP_M, Slope
 
 WINDOW_M = 10.0
 SEARCH_M = 1.0
-"""Lags are searched within so much of the line."""
+"""Largest distance from the line at which lags are searched."""
 AGREES = 0.5
-"""Correlation from which on a window tells a lag."""
+"""Least correlation of a window whose lag is used."""
 STARTS_M = 100.0
 """The line is followed from so far around the place where it is known."""
 
@@ -43,7 +43,7 @@ class Lags:
     correlation: FloatArray
 
 
-def followed(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Line:
+def follow_line(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Line:
     """Return ``line`` corrected until it fits all of the section that the run covers.
 
     ``sign`` is -1 for heights upside down.
@@ -51,7 +51,7 @@ def followed(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> Lin
     reach, length = STARTS_M, reference.end_m - reference.start_m
     while True:
         for _ in range(2):
-            line = _corrected(line, window_lags(reference, run, line, sign), reach)
+            line = _correct_line(line, window_lags(reference, run, line, sign), reach)
         if reach > length:
             return line
         reach *= 2.0
@@ -94,7 +94,7 @@ def _peaks(scores: FloatArray, shifts: FloatArray) -> tuple[FloatArray, FloatArr
     return shifts[top] + STEP_M * np.clip(slanted, -1.0, 1.0), here
 
 
-def _corrected(line: Line, lags: Lags, reach_m: float) -> Line:
+def _correct_line(line: Line, lags: Lags, reach_m: float) -> Line:
     """Return ``line`` plus the straight line through the lags within ``reach_m`` of its middle."""
     used = (np.abs(lags.at_m - line.at_m) <= reach_m) & (lags.correlation >= AGREES)
     if np.count_nonzero(used) < 3:
@@ -117,7 +117,7 @@ def _within(rest: FloatArray, used: BoolArray) -> BoolArray:
 def gain(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> float:
     """Return the slope of the regression of ``run`` on ``reference``, one being laid on the other.
 
-    Windows that disagree have no part in it. NaN where none agrees.
+    Windows that disagree are left out. NaN if no window agrees.
     """
     agreeing = window_lags(reference, run, line, sign).correlation >= AGREES
     counted = np.repeat(agreeing, round(WINDOW_M / STEP_M))[: reference.values.size]

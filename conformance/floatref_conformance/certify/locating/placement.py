@@ -23,8 +23,8 @@ class Placement:
     Attributes:
         found: whether the reference's road was found in the run at all.
         correlation: of slope in the waveband of 1.6 to 8 m, at the best place that was found.
-        said: all of it in sentences; empty for a run that lies right.
-        tracks: wheel path of the reference → that of the run; without those that it lacks.
+        notes: all of it in sentences; empty for a run that lies right.
+        tracks: wheel path of the reference → that of the run; without missing ones.
         reversed: whether the run's axis points against the reference's.
         inverted: whether its heights are upside down; they stay so, for that is a fault.
         distance_unit, distance_factor: of its axis, and m per unit.
@@ -37,7 +37,7 @@ class Placement:
 
     found: bool
     correlation: float
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     tracks: Mapping[str, str] = field(default_factory=dict)
     reversed: bool = False
     inverted: bool = False
@@ -58,8 +58,8 @@ class Placement:
         return self.found and (turned or scales != (1.0, 1.0) or self.offset_m != 0.0)
 
 
-def placed(run: Profile, placement: Placement) -> Profile:
-    """Return ``run`` as ``placement`` says: the same object if it lies right or was not found.
+def apply_placement(run: Profile, placement: Placement) -> Profile:
+    """Return ``run`` placed by ``placement``: the same object if it lies right or was not found.
 
     Wheel paths that are not the reference's are dropped where another takes their name.
     """
@@ -82,23 +82,23 @@ def _track(track: ProfileTrack, name: str, placement: Placement) -> ProfileTrack
     """Return ``track`` in m and forward, under ``name``."""
     order = slice(None, None, -1 if placement.reversed else 1)
     factor = placement.height_factor
-    sigma = None if track.sigma is None else _scaled(track.sigma[order], factor)
-    elevation = _scaled(track.elevation[order], factor)
+    sigma = None if track.sigma is None else _scale(track.sigma[order], factor)
+    elevation = _scale(track.elevation[order], factor)
     return ProfileTrack.of(name, elevation, track.valid[order], sigma)
 
 
-def _scaled(values: FloatArray, factor: float) -> FloatArray:
+def _scale(values: FloatArray, factor: float) -> FloatArray:
     """Return ``values`` times ``factor``, the same numbers where it is one."""
     return np.array(values) if factor == 1.0 else values * factor
 
 
 COVERED_M = 0.5
-"""A run that ends so much before the section covers it."""
+"""A run that ends this much before the section's end still covers it."""
 
 
-def worded(reference: Profile, run: Profile, placement: Placement) -> Placement:
-    """Return ``placement`` with all that was found out about it said."""
-    return replace(placement, said=tuple(_sentences(reference, run, placement)))
+def add_sentences(reference: Profile, run: Profile, placement: Placement) -> Placement:
+    """Return ``placement`` with its sentences."""
+    return replace(placement, notes=tuple(_sentences(reference, run, placement)))
 
 
 def not_found(best: Find | None, shaped: bool) -> tuple[str, ...]:
@@ -132,7 +132,7 @@ def _sentences(reference: Profile, run: Profile, placement: Placement) -> Iterat
             f"the road repeats itself: {placement.alternatives} other places fit as well; the one "
             "with the least offset was taken"
         )
-    yield from _coverage(reference, placed(run, placement))
+    yield from _coverage(reference, apply_placement(run, placement))
 
 
 def _names(reference: Profile, run: Profile, placement: Placement) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""A run recognised on the reference's road, whatever its units, direction, names and offset."""
+"""A run recognised on the reference's road in any units, direction, names and offset."""
 
 import math
 from dataclasses import dataclass, replace
@@ -10,13 +10,13 @@ from floatref.measures import agreement, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.certify.locating.candidates import Candidate
 from floatref_conformance.certify.locating.finding import Find, find, pieces_of
-from floatref_conformance.certify.locating.lags import Line, followed, gain, window_lags
+from floatref_conformance.certify.locating.lags import Line, follow_line, gain, window_lags
 from floatref_conformance.certify.locating.placement import (
     COVERED_M,
     Placement,
+    add_sentences,
+    apply_placement,
     not_found,
-    placed,
-    worded,
 )
 from floatref_conformance.certify.locating.profile_units import (
     DISTANCE_UNITS,
@@ -32,7 +32,7 @@ LIES_RIGHT = 0.9
 SAME_HEIGHT = 1.3
 """Largest ratio of heights that no unit need explain."""
 
-__all__ = ["Placement", "place", "placed"]
+__all__ = ["Placement", "apply_placement", "place"]
 
 
 def place(reference: Profile, run: Profile) -> Placement:
@@ -49,7 +49,7 @@ def place(reference: Profile, run: Profile) -> Placement:
     best = find(pieces, run)
     if best is None or not best.candidate.found:
         return Placement(False, _score(best), not_found(best, bool(pieces)))
-    return worded(reference, run, _refined(reference, run, best))
+    return add_sentences(reference, run, _refine(reference, run, best))
 
 
 def _agreement_as_given(reference: Profile, run: Profile) -> float:
@@ -83,7 +83,7 @@ class _Followed:
     gain: float
 
 
-def _refined(reference: Profile, run: Profile, best: Find) -> Placement:
+def _refine(reference: Profile, run: Profile, best: Find) -> Placement:
     """Return the placement of the find ``best``, its offset by all of the section."""
     c = best.candidate
     turned = Placement(
@@ -96,7 +96,7 @@ def _refined(reference: Profile, run: Profile, best: Find) -> Placement:
         distance_factor=DISTANCE_UNITS[best.unit],
         alternatives=best.others,
     )
-    forward = placed(run, turned)
+    forward = apply_placement(run, turned)
     line, sign = _line(c, forward), math.copysign(1.0, c.score)
     known = [_follow(reference, forward, name, line, sign) for name in turned.tracks]
     surest = max(known, key=lambda k: k.correlation)
@@ -125,7 +125,7 @@ def _follow(reference: Profile, forward: Profile, name: str, line: Line, sign: f
     q = slope_of(forward.track(name), forward.start_m, forward.interval_m)
     if p is None or q is None:
         return _Followed(line, 0.0, math.nan)
-    line = followed(p, q, line, sign)
+    line = follow_line(p, q, line, sign)
     scores = window_lags(p, q, line, sign).correlation
     covered = scores[scores != 0.0]
     return _Followed(

@@ -1,4 +1,4 @@
-"""Units in which runs turn up instead of metres, and how a gain of heights tells its unit."""
+"""Units that runs use instead of metres, and how the unit follows from a gain of heights."""
 
 import math
 from collections.abc import Mapping

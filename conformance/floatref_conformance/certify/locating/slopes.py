@@ -50,7 +50,7 @@ class Slope:
 def slope_of(
     track: ProfileTrack, start_m: float, interval_m: float, clipped: bool = True
 ) -> Slope | None:
-    """Return the slope of ``track``, whose point 0 lies at ``start_m``; None if it has none.
+    """Return the slope of ``track``, whose point 0 lies at ``start_m``; None without a valid point.
 
     Elevation may be in any unit: its median is taken away first.
     """
@@ -96,14 +96,14 @@ def _on_steps(at: FloatArray, slope: FloatArray, known: BoolArray, clipped: bool
     return Slope(float(STEP_M * first), values, measured)
 
 
-def aligned(slopes: Sequence[Slope]) -> tuple[Slope, ...]:
-    """Return ``slopes`` from the first point of any of them to the last, 0 where one has none."""
+def align(slopes: Sequence[Slope]) -> tuple[Slope, ...]:
+    """Return ``slopes`` from their first point to their last; 0 where a slope has no point."""
     start = min(s.start_m for s in slopes)
     end = max(s.end_m for s in slopes)
-    return tuple(_extended(s, start, end) for s in slopes)
+    return tuple(_extend(s, start, end) for s in slopes)
 
 
-def _extended(slope: Slope, start_m: float, end_m: float) -> Slope:
+def _extend(slope: Slope, start_m: float, end_m: float) -> Slope:
     """Return ``slope`` from ``start_m`` to ``end_m``."""
     before = round((slope.start_m - start_m) / STEP_M)
     after = round((end_m - slope.end_m) / STEP_M)

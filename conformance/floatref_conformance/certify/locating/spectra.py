@@ -15,7 +15,7 @@ Spectra = NDArray[np.complex128]
 STEP_M = 0.1
 """Between the points at which both are taken, and the length over which they are averaged."""
 MOST_MISSING = 0.5
-"""A window that lacks a larger share of its points is left out."""
+"""A window with a larger share of missing points is left out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,12 +56,16 @@ class Surface:
         It is the difference of averages over `STEP_M` to both sides, the same for any interval.
         """
         places = [line.run_at(at_m + step) for step in (-STEP_M, 0.0, STEP_M)]
-        known = self._measured(places[0]) & self._measured(places[1]) & self._measured(places[2])
+        known = (
+            self._is_measured(places[0])
+            & self._is_measured(places[1])
+            & self._is_measured(places[2])
+        )
         areas = [np.asarray(self._integral(p)) for p in places]
         slope = (areas[2] - 2.0 * areas[1] + areas[0]) / (line.scale * STEP_M**2)
         return np.where(known, slope, 0.0), known
 
-    def _measured(self, places: FloatArray) -> BoolArray:
+    def _is_measured(self, places: FloatArray) -> BoolArray:
         """Return which ``places`` lie between measured points."""
         return np.asarray(np.interp(places, self._distance_m, self._known, 0.0, 0.0) > 0.999)
 
@@ -71,8 +75,8 @@ def windows_of(
 ) -> Windows:
     """Return the spectra of windows of ``length_m`` of ``stretch_m``, half over each other.
 
-    Windows are Hann's, each freed of its straight line. What one of the two lacks is left out of
-    both.
+    Windows are Hann's, each freed of its straight line. What is missing in one of the two is left
+    out of both.
     """
     at = np.arange(stretch_m[0] + STEP_M, stretch_m[1] - STEP_M, STEP_M)
     p, p_known = reference.slope(Line(0.0, 0.0, 1.0), at)

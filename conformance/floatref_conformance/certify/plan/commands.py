@@ -1,4 +1,4 @@
-"""The floatref command as a program of its own, a few at a time, none of which outlives us."""
+"""The floatref command as a program of its own, a few at a time; all end with this process."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import TracebackType
 
 COMMAND = (sys.executable, "-P", "-m", "floatref")
-"""-P: a folder called floatref where the user stands is not taken for the package."""
+"""-P: a folder called floatref in the current folder is not taken for the package."""
 
 
 class Stopped(Exception):

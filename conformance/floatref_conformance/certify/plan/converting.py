@@ -32,22 +32,22 @@ class Converted:
 
     Attributes:
         profile: None if it could not be read.
-        said: how it was made, and warnings.
-        error: in one line, with the path, why there is none; empty otherwise.
+        notes: how it was made, and warnings.
+        error: in one line, with the path, why there is no profile; empty otherwise.
     """
 
     profile: Profile | None
-    said: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     error: str = ""
 
 
-def converted(
-    paths: Sequence[Path], processing: Processing, told: Callable[[Path], None]
+def convert_all(
+    paths: Sequence[Path], processing: Processing, report: Callable[[Path], None]
 ) -> Mapping[Path, Converted]:
-    """Return the profile of every path of ``paths``, or why there is none.
+    """Return the profile of every path of ``paths``, or why it has no profile.
 
-    ``told`` hears of each that is done. Temporary files and commands are gone at the end, whatever
-    happens.
+    ``report`` is called with each path once it is read. Temporary files and commands are always
+    gone at the end.
     """
     with (
         tempfile.TemporaryDirectory(prefix="floatref-certify-") as folder,
@@ -55,29 +55,29 @@ def converted(
         Commands() as commands,
     ):
         work = {
-            pool.submit(_converted, path, processing, Path(folder, str(index)), commands): path
+            pool.submit(_convert, path, processing, Path(folder, str(index)), commands): path
             for index, path in enumerate(dict.fromkeys(paths))
         }
         for future in as_completed(work):
-            told(work[future])
+            report(work[future])
         return {path: future.result() for future, path in work.items()}
 
 
-def _converted(path: Path, processing: Processing, out: Path, commands: Commands) -> Converted:
+def _convert(path: Path, processing: Processing, out: Path, commands: Commands) -> Converted:
     try:
         if _is_ours(path):
-            return Converted(_kept(read_profile(path), path))
+            return Converted(_load_apart(read_profile(path), path))
         no_profile = ""
         if not path.is_dir():
             no_profile = commands.run("convert", "--out", str(out), "--", str(path)).error
             if not no_profile:
-                return Converted(_kept(read_profile(out), path))
-        return _processed(path, processing, out, commands, no_profile)
+                return Converted(_load_apart(read_profile(out), path))
+        return _process(path, processing, out, commands, no_profile)
     except (FloatrefError, OSError, MemoryError) as error:
         return Converted(None, error=_naming(path, str(error) or type(error).__name__))
 
 
-def _processed(
+def _process(
     path: Path, processing: Processing, out: Path, commands: Commands, no_profile: str
 ) -> Converted:
     """Return what `floatref process` makes of ``path``, which for ``no_profile`` is no profile."""
@@ -89,8 +89,8 @@ def _processed(
         both = f"no profile ({bare[0]}), and no recording ({bare[-1]})"
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)
-    said = (f"processed by {report['pipeline']}", *report["warnings"])
-    return Converted(_kept(read_profile(out), path), said)
+    notes = (f"processed by {report['pipeline']}", *report["warnings"])
+    return Converted(_load_apart(read_profile(out), path), notes)
 
 
 def _options(processing: Processing) -> list[str]:
@@ -105,7 +105,7 @@ def _options(processing: Processing) -> list[str]:
 
 
 def _is_ours(path: Path) -> bool:
-    """Tell whether ``path`` is a profile directory or a CSV of ours, from what it holds."""
+    """Return whether ``path`` is a profile directory or a CSV of ours, by its content."""
     if path.is_dir():
         return (path / "profile.json").is_file()
     with opened(path) as stream:
@@ -113,10 +113,10 @@ def _is_ours(path: Path) -> bool:
     return b"distance_m" in (name.strip(b' "\r\n') for name in header.split(b","))
 
 
-def _kept(profile: Profile, source: Path) -> Profile:
+def _load_apart(profile: Profile, source: Path) -> Profile:
     """Return ``profile`` apart from its files, which go away, with the SHA-256 of ``source``.
 
-    One that tells from which inputs it was made keeps what it tells.
+    A profile that names the inputs it was made from still names them.
     """
     tracks = [
         ProfileTrack.of(

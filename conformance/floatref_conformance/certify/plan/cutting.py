@@ -26,7 +26,7 @@ def section_of(reference: Profile, stretch_m: Stretch | None) -> Profile:
         _check_stretch(reference, stretch_m)
         found = _points(reference, *_inner(reference, stretch_m))
     else:
-        found = _measured(reference)
+        found = _trim_unmeasured(reference)
     for track in found.tracks:
         missing = np.flatnonzero(np.isnan(track.elevation))
         if missing.size:
@@ -90,7 +90,7 @@ def _inner(profile: Profile, stretch_m: Stretch) -> tuple[int, int]:
     return first, last
 
 
-def _measured(reference: Profile) -> Profile:
+def _trim_unmeasured(reference: Profile) -> Profile:
     """Return ``reference`` from its first to its last point that every wheel path measured."""
     measured = np.all([np.isfinite(track.elevation) for track in reference.tracks], axis=0)
     points = np.flatnonzero(measured)

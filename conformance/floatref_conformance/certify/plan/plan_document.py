@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.files.schema import enforce_schema
 from floatref.files.sources import naming
 from floatref.files.toml_document import read_toml
-from floatref_conformance.certify.plan.run_paths import existing, runs_of
+from floatref_conformance.certify.plan.run_paths import check_exists, runs_of
 from floatref_conformance.schemas import read_schema
 
 Stretch = tuple[float, float]
@@ -114,7 +114,7 @@ def _section(entry: Mapping[str, Any], folder: Path) -> SectionPlan:
     with naming(f"section {entry['name']}"):
         return SectionPlan(
             entry["name"],
-            existing(entry["reference"], folder),
+            check_exists(entry["reference"], folder),
             runs_of(entry["runs"], folder),
             _stretch(entry),
         )
@@ -124,7 +124,9 @@ def _stationary(document: Mapping[str, Any], name: str, folder: Path) -> Station
     if name not in document:
         return None
     with naming(name):
-        return StationaryPlan(existing(document[name]["source"], folder), _stretch(document[name]))
+        return StationaryPlan(
+            check_exists(document[name]["source"], folder), _stretch(document[name])
+        )
 
 
 def _stretch(entry: Mapping[str, Any]) -> Stretch | None:

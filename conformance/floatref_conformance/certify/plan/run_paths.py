@@ -1,4 +1,4 @@
-"""Which files are runs: paths, directories of runs and patterns, and names that tell them apart."""
+"""Which files are runs: paths, directories of runs and patterns, and unique names for them."""
 
 import glob
 import re
@@ -34,7 +34,7 @@ def runs_of(given: Sequence[str], folder: Path = Path()) -> tuple[Path, ...]:
     return tuple(found.values())
 
 
-def existing(text: str, folder: Path = Path()) -> Path:
+def check_exists(text: str, folder: Path = Path()) -> Path:
     """Return the path that ``text`` means in ``folder``; InputError if there is nothing."""
     if not text:
         raise InputError("a path is empty; name a file or a directory")
@@ -56,8 +56,8 @@ def natural(text: str) -> list[tuple[str, int]]:
 
 def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
     """Return a name for every path, all different: no longer a part of it than is needed."""
-    parts = [[_printed(part) for part in path.resolve().parts[1:]] for path in paths]
-    bare = tuple(_bare(_printed(path.name) or "run") for path in paths)
+    parts = [[_on_one_line(part) for part in path.resolve().parts[1:]] for path in paths]
+    bare = tuple(_bare(_on_one_line(path.name) or "run") for path in paths)
     longest = max(map(len, parts), default=0)
     deeper = ("/".join(names[-depth:]) for depth in range(1, longest + 1) for names in parts)
     levels = [bare, *zip(*[deeper] * len(paths), strict=True)] if paths else [bare]
@@ -70,9 +70,9 @@ def _runs(text: str, folder: Path) -> Iterator[Path]:
         if not matches:
             raise InputError(f"{folder / text}: no file matches this pattern; correct it")
         for match in matches:
-            yield from _within(existing(match, folder))
+            yield from _within(check_exists(match, folder))
     else:
-        yield from _within(existing(text, folder))
+        yield from _within(check_exists(text, folder))
 
 
 def _within(path: Path) -> Iterator[Path]:
@@ -89,16 +89,16 @@ def _within(path: Path) -> Iterator[Path]:
 
 
 def _is_file(path: Path) -> bool:
-    """Tell whether ``path`` is a file, or a link to nothing, which then is a run with an error."""
+    """Return whether ``path`` is a file or a broken link, which is a run with an error."""
     return path.is_file() or (path.is_symlink() and not path.exists())
 
 
 def _bare(name: str) -> str:
-    """Return ``name`` without its suffix; what starts with a digit, as in stop_0.20g, is none."""
+    """Return ``name`` without its suffix; .20g of stop_0.20g is no suffix: a digit."""
     stem, dot, suffix = name.rpartition(".")
     return stem if dot and stem and suffix[:1].isalpha() else name
 
 
-def _printed(name: str) -> str:
+def _on_one_line(name: str) -> str:
     """Return ``name`` on one line."""
     return CONTROL.sub(" ", name)

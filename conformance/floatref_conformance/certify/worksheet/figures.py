@@ -15,7 +15,7 @@ from floatref_conformance.certify.worksheet import pictures, wording
 from floatref_conformance.certify.worksheet.pictures import lag_picture
 from floatref_conformance.certify.worksheet.wording import correlation
 from floatref_conformance.render.failures import Markup, Picture
-from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH, opening, px, worded
+from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH, escape_text, opening, px
 
 WIDEST, HIGHEST = 64.0, 26.0
 """Size of a cell, as long as there is room."""
@@ -36,7 +36,7 @@ def heat_map(name: str, title: str, values: FloatArray, limit: float) -> str:
     width = min(WIDEST, (WIDTH - LEFT - RIGHT) / max(n - 1, 1))
     height = min(HIGHEST, width)
     below = int((values < limit).sum())
-    parts = [opening(name, title, _described(n, below, limit), TOP + n * height + 8.0)]
+    parts = [opening(name, title, _describe(n, below, limit), TOP + n * height + 8.0)]
     parts.append(_heads(n, width, height))
     for row in range(n - 1):
         for column in range(row + 1, n):
@@ -45,7 +45,7 @@ def heat_map(name: str, title: str, values: FloatArray, limit: float) -> str:
     return "\n".join([*parts, _legend(limit), "</svg>"])
 
 
-def _described(runs: int, below: int, limit: float) -> str:
+def _describe(runs: int, below: int, limit: float) -> str:
     pairs = runs * (runs - 1) // 2
     return f"Cross correlation of {pairs} pairs of {runs} runs; {below} of them below {limit:g}."
 
@@ -66,7 +66,7 @@ def _heads(n: int, width: float, height: float) -> str:
 
 def _cell(value: float, limit: float, x: float, y: float, width: float, height: float) -> str:
     place = f'x="{px(x + 1)}" y="{px(y + 1)}" width="{px(width - 2)}" height="{px(height - 2)}"'
-    kind = "none" if isnan(value) else "low" if value < limit else "high"
+    kind = "missing" if isnan(value) else "low" if value < limit else "high"
     cell = f'<rect class="heat {kind}" {place} fill-opacity="{_depth(value, limit):.2f}"/>'
     if width < NARROWEST:
         return cell
@@ -83,7 +83,7 @@ def _depth(value: float, limit: float) -> float:
 
 
 def _legend(limit: float) -> str:
-    low = worded(f"below {limit:g}: framed, bold")
+    low = escape_text(f"below {limit:g}: framed, bold")
     return (
         f'<g class="legend"><rect class="heat low" x="{px(LEFT)}" y="7" width="26" height="14" '
         f'fill-opacity="0.2"/><text x="{px(LEFT + 34)}" y="14" dy=".32em">{low}</text></g>'
@@ -109,7 +109,7 @@ def _of_section(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -
     for number, track in enumerate(wording.tracks_of(sheet), start=1):
         name = f"{anchor}-{number}"
         yield _picture(
-            pictures.overlaid(sheet, track, limits, f"{name}-all"),
+            pictures.overlay(sheet, track, limits, f"{name}-all"),
             f"Wheel path {track}: elevation of wavelengths up to {pictures.SHOWN_M:g} m, and "
             "roughness over 7.62 m, of the reference and of all runs.",
         )
@@ -141,7 +141,7 @@ def _lags(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -> Iter
 
 
 def _surest(run: RunSheet) -> RunTrack:
-    """Return the wheel path that tells the distance best: all share one encoder."""
+    """Return the wheel path that measures the distance best: all share one encoder."""
     return min(run.tracks, key=lambda t: inf if isnan(t.distance_sigma) else t.distance_sigma)
 
 

@@ -20,7 +20,7 @@ DOCUMENT = "worksheet.json"
 PAGE = "worksheet.html"
 REFERENCE, RUNS, STATIONARY = "reference", "runs", "stationary"
 OURS = {DOCUMENT, PAGE, REFERENCE, RUNS, STATIONARY}
-"""What a report folder holds; one with anything else is not replaced."""
+"""Files of a report folder; a folder with others is not replaced."""
 NO_NAME = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]+')
 """What no file name has on any system."""
 LONGEST_NAME = 80

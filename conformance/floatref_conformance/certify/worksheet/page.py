@@ -18,7 +18,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.certify.worksheet.figures import of_section, of_test
 from floatref_conformance.render.failures import Picture
-from floatref_conformance.render.text import filled, needs_jinja
+from floatref_conformance.render.text import fill_template, needs_jinja
 
 Pairs = tuple[tuple[str, str], ...]
 SIGNED_BY = ("Operator of the profiler", "Certified by", "Agency")
@@ -49,7 +49,7 @@ class RunRow:
 
 @dataclass(frozen=True)
 class RunNote:
-    """What there is to say of a run; ``fault`` if it could not be used."""
+    """Notes on a run; ``fault`` if it could not be used."""
 
     number: int
     name: str
@@ -120,8 +120,8 @@ def page_of(worksheet: Worksheet) -> Page:
         heads=wording.FIGURES,
         limits=wording.limits_in_words(worksheet.limits),
         clauses=wording.clauses_of(worksheet),
-        settings=wording.listed(worksheet.settings),
-        versions=wording.listed(worksheet.versions),
+        settings=wording.list_pairs(worksheet.settings),
+        versions=wording.list_pairs(worksheet.versions),
         inputs=tuple(_inputs(worksheet)),
         signed_by=SIGNED_BY,
     )
@@ -135,7 +135,7 @@ def _facts(worksheet: Worksheet) -> Pairs:
         ("Class", worksheet.device_class.value),
         ("Sections", f"{len(worksheet.sections)}, {round(length, 1):.10g} m together"),
         ("Runs", f"{len(runs)}, {sum(not run.error for run in runs)} of them used"),
-        ("Stationary tests", tests or "none"),
+        ("Stationary tests", tests or "not tested"),
     )
 
 
@@ -180,7 +180,7 @@ def _note(number: int, run: RunSheet) -> RunNote:
 
 
 def _test(sheet: StationarySheet, anchor: str) -> SectionPart:
-    note = RunNote(1, sheet.id, sheet.source, "", sheet.said)
+    note = RunNote(1, sheet.id, sheet.source, "", sheet.notes)
     return SectionPart(
         anchor,
         f"Test {sheet.id}",
@@ -226,6 +226,6 @@ def write_page(worksheet: Worksheet, path: Path) -> None:
 def as_html(worksheet: Worksheet) -> str:
     """Return the page that shows ``worksheet``.
 
-    Whatever a file said is text in it, never markup, and nothing in it leads to another file.
+    All text from a file is escaped, and the page has no link to another file.
     """
-    return filled(TEMPLATE, __package__, page=page_of(worksheet))
+    return fill_template(TEMPLATE, __package__, page=page_of(worksheet))

@@ -14,7 +14,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.locating.fit import WINDOW_M, fit
 from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.render import svg
-from floatref_conformance.render.svg import Figure, Line, Panel, Shade, drawn
+from floatref_conformance.render.svg import Figure, Line, Panel, Shade, draw_figure
 
 SHOWN_M = 30.0
 """Longest wavelength of the elevations shown: a profile's drift would hide the road."""
@@ -22,12 +22,12 @@ CLOSE_M = 15.0
 """Length of the stretch that is shown close up."""
 LONGEST_NAME = 24
 AROUND = 0.03
-"""The axis of the IRI holds so much around the reference's at least."""
+"""Least range of the axis of the IRI around the reference's."""
 NAMED = 2
 """Runs that do not agree and have a line of their own in the legend."""
 
 
-def overlaid(section: SectionSheet, track: str, limits: CertificationLimits, name: str) -> str:
+def overlay(section: SectionSheet, track: str, limits: CertificationLimits, name: str) -> str:
     """Return the reference with all runs of ``track`` over it, as one SVG element.
 
     Elevation of wavelengths up to `SHOWN_M`, and the roughness over 7.62 m.
@@ -38,7 +38,7 @@ def overlaid(section: SectionSheet, track: str, limits: CertificationLimits, nam
         Panel("roughness", "m/km", tuple(_roughness(*pair, track) for pair in pairs), 120.0, True),
     )
     title = f"Wheel path {track}: {len(pairs) - 1} runs over the reference"
-    return _drawn_along(section.start_m, section.end_m, panels, title, name)
+    return _draw_along(section.start_m, section.end_m, panels, title, name)
 
 
 def close_up(section: SectionSheet, track: str, limits: CertificationLimits, name: str) -> str:
@@ -49,7 +49,7 @@ def close_up(section: SectionSheet, track: str, limits: CertificationLimits, nam
     lines = tuple(_between(_elevation(*pair, track), start, end) for pair in pairs)
     panel = Panel("elevation", "mm", lines, 200.0)
     title = f"Wheel path {track}: the roughest {CLOSE_M:g} m"
-    return _drawn_along(start, end, (panel,), title, name)
+    return _draw_along(start, end, (panel,), title, name)
 
 
 def roughest_m(reference: Profile, track: str) -> float:
@@ -73,11 +73,11 @@ def iri_by_run(section: SectionSheet, limits: CertificationLimits, name: str) ->
         _iri_panel(section, track, limits, numbers) for track in wording.tracks_of(section)
     )
     first, last = 0.5, len(section.runs) + 0.5
-    return drawn(
+    return draw_figure(
         Figure(
             name,
             "IRI of every run against the reference's",
-            "; ".join(_iri_told(section, track) for track in wording.tracks_of(section)),
+            "; ".join(_describe_iri(section, track) for track in wording.tracks_of(section)),
             panels,
             "run",
             first,
@@ -100,29 +100,31 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
         elevation.append(Line(label, profile.distance_m, 1000.0 * track.elevation, style))
         roughness.append(Line(label, middle, rough, style))
     panels = (
-        Panel("elevation", "mm", tuple(elevation), 120.0, held=_counted(elevation, sheet)),
-        Panel("roughness", "m/km", tuple(roughness), 110.0, True, _counted(roughness, sheet)),
+        Panel("elevation", "mm", tuple(elevation), 120.0, held=_counting_values(elevation, sheet)),
+        Panel(
+            "roughness", "m/km", tuple(roughness), 110.0, True, _counting_values(roughness, sheet)
+        ),
     )
     end = max(float(profile.distance_m[-1]), profile.start_m + profile.interval_m)
     reach = () if isnan(sheet.start_m) else ((sheet.start_m, sheet.end_m),)
     counts = Shade("counts", reach, "scored")
     title = f"Test {sheet.id}: elevation and roughness of a standing vehicle"
     told = f"What counts: {wording.what_counts(sheet)}."
-    return drawn(
+    return draw_figure(
         Figure(name, title, told, panels, "distance in m", profile.start_m, end, (counts,))
     )
 
 
-def _counted(lines: list[Line], sheet: StationarySheet) -> FloatArray | None:
+def _counting_values(lines: list[Line], sheet: StationarySheet) -> FloatArray | None:
     """Return the values that count, so that what happens beside them does not hide them."""
     parts = [line.y[(line.x >= sheet.start_m) & (line.x <= sheet.end_m)] for line in lines]
     held = np.concatenate(parts)
     return held if np.isfinite(held).any() else None
 
 
-def _drawn_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
+def _draw_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
     told = f"{title}, {start:.6g} m to {end:.6g} m."
-    return drawn(Figure(name, title, told, panels, "distance in m", start, end))
+    return draw_figure(Figure(name, title, told, panels, "distance in m", start, end))
 
 
 def _profiles(
@@ -207,7 +209,7 @@ def _iri(run: RunSheet, track: str) -> float:
     return next((one.iri_m_per_km for one in run.tracks if one.track == track), float("nan"))
 
 
-def _iri_told(section: SectionSheet, track: str) -> str:
+def _describe_iri(section: SectionSheet, track: str) -> str:
     found = [_iri(run, track) for run in section.runs]
     known = [value for value in found if value == value]
     spread = f"runs {min(known):.3f} to {max(known):.3f} m/km" if known else "no runs"
@@ -217,7 +219,7 @@ def _iri_told(section: SectionSheet, track: str) -> str:
 def lag_picture(section: SectionSheet, run: RunSheet, track: str, name: str) -> str:
     """Return the lags of windows of a run against distance; empty where they are not known.
 
-    Of a run that lies right they are level; one that tells distance too long lies the farther
+    Of a run that lies right they are level; one that measures distance too long lies the farther
     ahead, the farther it has come.
     """
     if run.profile is None:
@@ -243,4 +245,6 @@ def lag_along(
     title = f"{of}: lag against distance"
     told = f"The lag goes from {line_m[0]:.3f} m to {line_m[1]:.3f} m."
     panel = svg.Panel("lag", "mm", lines, 130.0)
-    return svg.drawn(svg.Figure(name, title, told, (panel,), "distance in m", ends_m[0], ends_m[1]))
+    return svg.draw_figure(
+        svg.Figure(name, title, told, (panel,), "distance in m", ends_m[0], ends_m[1])
+    )

@@ -29,7 +29,7 @@ HEADS = (
     "flag-\nged, m",
 )
 MOST_RUNS = 12
-"""With more, the matrix of pairs is left to the page and the document."""
+"""With more, only the page and the document have the matrix of pairs."""
 LONGEST_NAME = 10
 NARROW = (0, 0, 0, 0)
 
@@ -55,8 +55,8 @@ def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
     """Return limits, settings and versions in one line each, then where criteria come from."""
     told = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
-        ("Settings", wording.listed(worksheet.settings)),
-        ("Versions", wording.listed(worksheet.versions)),
+        ("Settings", wording.list_pairs(worksheet.settings)),
+        ("Versions", wording.list_pairs(worksheet.versions)),
     )
     lines = [
         f"{title}: {'; '.join(f'{name} {value}' for name, value in pairs)}."
@@ -87,7 +87,7 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
 
 
 def _print_run(index: int, run: RunSheet, console: Console) -> None:
-    """Print what there is to say of a run, if there is anything."""
+    """Print the notes on a run, if there are any."""
     lines = wording.run_lines(run)
     if lines:
         _say(console, f"Run {index}, {run.name}:")
@@ -99,7 +99,7 @@ def _print_stationary(sheet: StationarySheet, console: Console) -> None:
     _say(console, "")
     _say(console, f"Test {sheet.id}: {wording.what_counts(sheet)}")
     _print_criteria("Criteria", sheet.criteria, console)
-    for line in sheet.said:
+    for line in sheet.notes:
         _say(console, f"  {line}")
 
 

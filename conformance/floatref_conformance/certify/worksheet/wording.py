@@ -1,4 +1,4 @@
-"""What is said of a certification in words and marks, the same in the terminal and on the page."""
+"""A certification in words and marks, the same in the terminal and on the page."""
 
 from collections.abc import Mapping, Sequence
 from math import isnan
@@ -17,7 +17,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import scales_agree
 
 NOTHING = "–"
-"""Stands for a number that could not be had."""
+"""Text in place of a missing number."""
 COUNTED = "runs"
 """The id of the criterion that is a number of runs."""
 SIGNED = (
@@ -63,7 +63,9 @@ def value_in_words(criterion: Criterion) -> str:
         return NOTHING
     if criterion.id == COUNTED:
         return f"{value:.0f}"
-    told = signed(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
+    told = (
+        with_sign(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
+    )
     return f"{told} {criterion.unit}".strip()
 
 
@@ -78,9 +80,9 @@ def clauses_of(worksheet: Worksheet) -> tuple[tuple[str, str], ...]:
 
 
 def limit_in_words(criterion: Criterion) -> str:
-    """Return what the value has to reach or to stay within; that there is nothing such."""
+    """Return the limit of the value with its sign; "no limit" without one."""
     if criterion.limit is None:
-        return "none"
+        return "no limit"
     sign = "±" if criterion.id in SIGNED else "≥" if criterion.at_least else "≤"
     return f"{sign} {criterion.limit:.6g} {criterion.unit}".strip()
 
@@ -90,7 +92,7 @@ def number(value: float, digits: int) -> str:
     return NOTHING if isnan(value) else f"{value:.{digits}f}"
 
 
-def signed(value: float, digits: int) -> str:
+def with_sign(value: float, digits: int) -> str:
     """Return ``value`` with its sign and ``digits`` decimals."""
     return NOTHING if isnan(value) else f"{value:+.{digits}f}".replace("-", "−")
 
@@ -103,8 +105,8 @@ def correlation(value: float) -> str:
 def with_error(value: float, sigma: float, digits: int) -> str:
     """Return ``value`` with twice its standard deviation, both in per cent."""
     if isnan(value) or isnan(sigma):
-        return signed(value, digits)
-    return f"{signed(value, digits)} ± {2 * sigma:.{digits}f}"
+        return with_sign(value, digits)
+    return f"{with_sign(value, digits)} ± {2 * sigma:.{digits}f}"
 
 
 def figures(track: RunTrack) -> tuple[str, ...]:
@@ -113,7 +115,7 @@ def figures(track: RunTrack) -> tuple[str, ...]:
         number(track.accuracy, 4),
         number(track.with_others, 4),
         number(track.iri_m_per_km, 3),
-        signed(track.bias_percent, 2),
+        with_sign(track.bias_percent, 2),
         with_error(track.distance_percent, track.distance_sigma, 3),
         with_error(track.height_percent, track.height_sigma, 2),
         number(track.flagged_m, 1),
@@ -132,19 +134,19 @@ FIGURES = (
 
 
 def cause_in_words(cause: Cause) -> str:
-    """Return a cause, and how much of what the correlation lacks comes back without it."""
+    """Return a cause, and its share of the loss of correlation."""
     if isnan(cause.explains):
         return cause.text
     return f"{cause.text}; explains {100 * cause.explains:.0f} % of what the correlation lacks"
 
 
 def run_lines(run: RunSheet) -> tuple[str, ...]:
-    """Return what is said of a run: its fault, what was done to it, why it does not agree."""
+    """Return the lines about a run: its fault, what was done to it, why it does not agree."""
     fault = (f"not used: {run.error}",) if run.error else ()
     causes = tuple(
         f"{track.track}: {cause_in_words(cause)}" for track in run.tracks for cause in track.causes
     )
-    return (*fault, *run.said, *causes)
+    return (*fault, *run.notes, *causes)
 
 
 def tracks_of(section: SectionSheet) -> tuple[str, ...]:
@@ -159,8 +161,8 @@ def where(section: SectionSheet) -> str:
 
 
 def reference_lines(section: SectionSheet) -> tuple[str, ...]:
-    """Return what is said of the reference of ``section``."""
-    return tuple(f"the reference: {line}" for line in section.reference_said)
+    """Return the lines about the reference of ``section``."""
+    return tuple(f"the reference: {line}" for line in section.reference_notes)
 
 
 def what_counts(sheet: StationarySheet) -> str:
@@ -192,8 +194,8 @@ def _at_most(limit: float | None, unit: str) -> str:
     return "reported only" if limit is None else f"≤ {limit:g} {unit}"
 
 
-def listed(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """Return settings or versions as pairs of words; what is not set is left out."""
+def list_pairs(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
+    """Return settings or versions as pairs of words; those not set are left out."""
     return tuple((name, _plain(value)) for name, value in values.items() if value is not None)
 
 

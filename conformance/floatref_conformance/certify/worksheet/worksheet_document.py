@@ -62,7 +62,7 @@ def _section(sheet: SectionSheet) -> Mapping[str, Any]:
     return {
         "name": sheet.name,
         "reference": sheet.reference_source,
-        "reference_said": list(sheet.reference_said),
+        "reference_said": list(sheet.reference_notes),
         "start_m": sheet.start_m,
         "end_m": sheet.end_m,
         "interval_m": sheet.reference.interval_m,
@@ -77,7 +77,7 @@ def _run(run: RunSheet) -> Mapping[str, Any]:
     return {
         "name": run.name,
         "source": run.source,
-        "said": list(run.said),
+        "said": list(run.notes),
         "error": run.error,
         "tracks": [asdict(track) for track in run.tracks],
     }
@@ -90,6 +90,6 @@ def _stationary(sheet: StationarySheet) -> Mapping[str, Any]:
         "start_m": sheet.start_m,
         "end_m": sheet.end_m,
         "iri_m_per_km": dict(sheet.iri_m_per_km),
-        "said": list(sheet.said),
+        "said": list(sheet.notes),
         "criteria": [_criterion(one) for one in sheet.criteria],
     }

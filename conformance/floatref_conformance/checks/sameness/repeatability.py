@@ -19,7 +19,7 @@ from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
-from floatref_conformance.proving_ground.vehicles.parameter_sets import vehicle_called
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
@@ -50,7 +50,7 @@ def passes_of(case: Case) -> tuple[Scenario, Scenario]:
 
 def on_road(profile: Profile, scenario: Scenario) -> Profile:
     """Return ``profile`` on the road's axis: the lasers lie ahead of the vehicle's own point."""
-    ahead_m = vehicle_called(scenario.vehicle).sensor_x_m
+    ahead_m = find_vehicle(scenario.vehicle).sensor_x_m
     return replace(profile, start_m=profile.start_m + ahead_m)
 
 

@@ -103,7 +103,7 @@ class Bounce:
 
 @dataclass(frozen=True)
 class Stationary:
-    """A parked vehicle with its engine on, and a bounce or none.
+    """A parked vehicle with its engine on, with a bounce or without.
 
     Attributes:
         bounce: the induced motion; None for a quiescent test.

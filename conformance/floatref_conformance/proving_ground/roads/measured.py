@@ -71,7 +71,7 @@ def measured_road(
     road = Road(
         start_m,
         spacing_m,
-        {name: _resampled(z, interval_m, x - FULL_FROM_M) for name, z in profiles.items()},
+        {name: _resample(z, interval_m, x - FULL_FROM_M) for name, z in profiles.items()},
         sides,
     )
     return with_level_start(road)
@@ -116,7 +116,7 @@ def _neighbour(
     return np.asarray(np.fft.irfft(mixed, mirrored.size)[: z.size])
 
 
-def _resampled(z: FloatArray, interval_m: float, x: FloatArray) -> FloatArray:
+def _resample(z: FloatArray, interval_m: float, x: FloatArray) -> FloatArray:
     """Return the profile at ``x`` in m from its first point, mirrored beyond its ends."""
     before = max(0, int(np.ceil(-x[0] / interval_m)) + 2)
     after = max(0, int(np.ceil(x[-1] / interval_m)) + 2 - (z.size - 1))

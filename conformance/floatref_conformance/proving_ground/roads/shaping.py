@@ -75,7 +75,7 @@ def with_bump(
     )
 
 
-def scaled_to(
+def scale_to(
     road: Road, iri_m_per_km: float, start_m: float = FULL_FROM_M, end_m: float | None = None
 ) -> Road:
     """Return the road scaled so that its wheel paths have a mean IRI of ``iri_m_per_km``.

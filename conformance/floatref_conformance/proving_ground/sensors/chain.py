@@ -9,7 +9,7 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import UniformClock
 from floatref.values.recording import ONLY_TRACK, Channel
 from floatref_conformance.proving_ground.sensors.noise import (
-    drawn,
+    draw_value,
     quantize,
     random_walk,
     stream,
@@ -54,8 +54,8 @@ class Chain:
         """Return the vertical accelerometer of ``track`` and its slow errors."""
         name = "vertical_specific_force"
         rng = stream(self.seed, f"{track}.{name}")
-        pitch = drawn(rng, self.suite.misalignment_rad)
-        roll = drawn(rng, self.suite.misalignment_rad)
+        pitch = draw_value(rng, self.suite.misalignment_rad)
+        roll = draw_value(rng, self.suite.misalignment_rad)
         true = self.motion.tracks[track]
         seen = true.vertical * (np.cos(pitch) * np.cos(roll))
         seen += np.sin(pitch) * np.cos(roll) * true.longitudinal
@@ -97,7 +97,7 @@ class Chain:
         """
         suite = self.suite
         bias = random_walk(rng, suite.force_walk, self.rate_hz, self.count)
-        bias += drawn(rng, suite.force_bias)
+        bias += draw_value(rng, suite.force_bias)
         scale = suite.force_scale * rng.uniform(-1.0, 1.0)
         force *= 1.0 + scale
         if shake is not None:
@@ -140,7 +140,7 @@ class Chain:
             gain -= gain[0]
             gain *= suite.slip_per_g / (2 * STANDARD_GRAVITY)
             travel += gain
-        return self.channel("distance", counted(travel, suite.encoder_step_m))
+        return self.channel("distance", count_steps(travel, suite.encoder_step_m))
 
     def gyros(self) -> tuple[Channel, ...]:
         """Return roll, pitch and yaw rate on the gyros' own clock."""
@@ -148,18 +148,18 @@ class Chain:
         clock = UniformClock.of(suite.gyro_rate_hz)
         last_s = (self.count - 1) / self.rate_hz
         times = clock.times(int(last_s * suite.gyro_rate_hz) + 1)
-        rates = sampled(self.motion.rates, times * self.rate_hz)
+        rates = sample_rows(self.motion.rates, times * self.rate_hz)
         channels = []
         for name, true in zip(RATES, rates, strict=True):
             rng = stream(self.seed, name)
-            true += drawn(rng, suite.gyro_bias)
+            true += draw_value(rng, suite.gyro_bias)
             true += random_walk(rng, suite.gyro_walk, suite.gyro_rate_hz, times.size)
             true += white(rng, suite.gyro_noise, suite.gyro_rate_hz, times.size)
             channels.append(Channel.of(name, true, clock))
         return tuple(channels)
 
 
-def counted(travel: FloatArray, step_m: float) -> FloatArray:
+def count_steps(travel: FloatArray, step_m: float) -> FloatArray:
     """Return ``travel`` in whole encoder counts, made non-decreasing, in place."""
     if step_m > 0:
         travel /= step_m
@@ -168,7 +168,7 @@ def counted(travel: FloatArray, step_m: float) -> FloatArray:
     return np.asarray(np.maximum.accumulate(travel, out=travel))
 
 
-def sampled(rows: FloatArray, positions: FloatArray) -> FloatArray:
+def sample_rows(rows: FloatArray, positions: FloatArray) -> FloatArray:
     """Return ``rows``, shape (r, n), at fractional sample indices, linear in between."""
     before = np.minimum(positions.astype(np.intp), rows.shape[-1] - 2)
     weight = positions - before

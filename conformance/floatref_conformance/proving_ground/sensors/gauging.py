@@ -12,7 +12,7 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import ONLY_TRACK, Channel, Setup
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.sensors.noise import (
-    drawn,
+    draw_value,
     quantize,
     random_walk,
     stream,
@@ -88,8 +88,8 @@ class ResponseSensors:
             roll = np.zeros(1)
         else:
             pitch, roll = self.tilt
-        pitch = pitch + drawn(rng, self.suite.misalignment_rad)
-        roll = roll + drawn(rng, self.suite.misalignment_rad)
+        pitch = pitch + draw_value(rng, self.suite.misalignment_rad)
+        roll = roll + draw_value(rng, self.suite.misalignment_rad)
         seen = normal + row @ self.motion.acceleration
         seen *= np.cos(pitch)
         seen += np.sin(pitch) * along
@@ -108,7 +108,7 @@ class ResponseSensors:
             else (s.force_noise, s.force_bias, s.force_walk, s.force_resolution)
         )
         force *= 1.0 + s.force_scale * rng.uniform(-1.0, 1.0)
-        force += drawn(rng, bias)
+        force += draw_value(rng, bias)
         force += random_walk(rng, walk, self.rate_hz, self.count)
         force += white(rng, noise, self.rate_hz, self.count)
         return quantize(force, step)

@@ -16,7 +16,7 @@ def stream(seed: int, channel: str) -> np.random.Generator:
     return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(name,))))
 
 
-def drawn(rng: np.random.Generator, nominal: float) -> float:
+def draw_value(rng: np.random.Generator, nominal: float) -> float:
     """Return 0.5 to 1.5 times ``nominal``, of either sign: never so small that it vanishes."""
     return float(nominal * rng.uniform(0.5, 1.5) * rng.choice((-1.0, 1.0)))
 

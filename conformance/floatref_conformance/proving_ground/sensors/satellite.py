@@ -5,7 +5,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Setup, Vector
-from floatref_conformance.proving_ground.sensors.chain import Chain, sampled
+from floatref_conformance.proving_ground.sensors.chain import Chain, sample_rows
 from floatref_conformance.proving_ground.sensors.noise import gauss_markov, stream
 
 FIRST_S = 0.0125
@@ -35,7 +35,7 @@ def gnss_channels(
     antenna = setup.gnss_antenna_offset_m
     reference = next(iter(setup.tracks.values())).reference_point_m
     lever = np.subtract(antenna, reference)
-    travel = np.zeros(fixes) if standing else sampled(chain.motion.distance, at)
+    travel = np.zeros(fixes) if standing else sample_rows(chain.motion.distance, at)
     true = {
         **_vertical(chain, at, attitude, lever),
         "gnss_pitch": attitude[0],
@@ -55,7 +55,7 @@ def gnss_channels(
 
 def _attitude(chain: Chain, at: FloatArray) -> FloatArray:
     """Return pitch and roll at fractional samples, shape (2, fixes), in rad."""
-    return sampled(np.stack([chain.motion.pitch, chain.motion.roll]), at)
+    return sample_rows(np.stack([chain.motion.pitch, chain.motion.roll]), at)
 
 
 def _vertical(
@@ -64,10 +64,10 @@ def _vertical(
     """Carry height and velocity from the reference point to the antenna, (6.39)."""
     motion = chain.motion
     first = next(iter(motion.tracks.values()))
-    height, velocity = sampled(np.stack([first.height_m, first.velocity]), at)
+    height, velocity = sample_rows(np.stack([first.height_m, first.velocity]), at)
     pitch, roll = attitude
     up = np.stack([-np.sin(pitch), np.cos(pitch) * np.sin(roll), np.cos(pitch) * np.cos(roll)])
-    whirl = np.cross(sampled(motion.rates, at), lever[:, None], axis=0)
+    whirl = np.cross(sample_rows(motion.rates, at), lever[:, None], axis=0)
     return {
         "gnss_height": height + lever @ up,
         "gnss_vertical_velocity": velocity + np.sum(up * whirl, axis=0),

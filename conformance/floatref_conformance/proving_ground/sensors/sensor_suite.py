@@ -120,9 +120,9 @@ class SensorSuite:
     @classmethod
     def ideal(cls) -> "SensorSuite":
         """Return the suite without any error, its range as fast as its accelerometers."""
-        return replace(cls().scaled(0.0), range_rate_hz=0.0)
+        return replace(cls().scale(0.0), range_rate_hz=0.0)
 
-    def scaled(self, factor: float) -> "SensorSuite":
+    def scale(self, factor: float) -> "SensorSuite":
         """Return the suite with every error ``factor`` times as large, at the same rates."""
         larger = {
             name: factor * value for name, value in vars(self).items() if name not in UNSCALED

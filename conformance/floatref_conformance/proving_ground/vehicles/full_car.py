@@ -147,7 +147,7 @@ class Vehicle:
 
     def stiffness(self) -> FloatArray:
         """Return the stiffness matrix, shape (7, 7), in N/m, N and N·m."""
-        matrix = self._assembled([axle.spring for axle in self.axles])
+        matrix = self._assemble([axle.spring for axle in self.axles])
         travel = self._travel()
         for number, axle in enumerate(self.axles):
             twist = travel[2 * number] - travel[2 * number + 1]
@@ -157,7 +157,7 @@ class Vehicle:
 
     def damping(self) -> FloatArray:
         """Return the damping matrix, shape (7, 7), in N·s/m, N·s and N·m·s."""
-        return self._assembled([axle.damper for axle in self.axles])
+        return self._assemble([axle.damper for axle in self.axles])
 
     def forcing(self) -> FloatArray:
         """Return the forces per unit of input, shape (7, 6).
@@ -227,7 +227,7 @@ class Vehicle:
             rows[wheel, 3 + wheel] = -1.0
         return rows
 
-    def _assembled(self, per_axle: list[float]) -> FloatArray:
+    def _assemble(self, per_axle: list[float]) -> FloatArray:
         """Return the sum over the corners of travel·travelᵀ times an axle's element."""
         rows = self._travel()
         return np.asarray(rows.T @ (np.repeat(per_axle, 2)[:, None] * rows))

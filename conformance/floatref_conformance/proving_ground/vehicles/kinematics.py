@@ -79,7 +79,7 @@ class Sighted:
             for setup in setups
             for x, y, z in [setup.reference_point_m]
         ]
-        paths, pairs = _beside(road, [p[1] + p[4] for p in points])
+        paths, pairs = _neighbours(road, [p[1] + p[4] for p in points])
         constants = [course.curvature_per_m, *course.up, STANDARD_GRAVITY, cg_height_m]
         return cls(np.array(constants), np.array(points), paths, grid_of(road), pairs)
 
@@ -102,7 +102,7 @@ class Sighted:
         )
 
 
-def _beside(road: Road, sides: Sequence[float]) -> tuple[FloatArray, FloatArray]:
+def _neighbours(road: Road, sides: Sequence[float]) -> tuple[FloatArray, FloatArray]:
     """Return the wheel paths from right to left, and which two lie beside each position."""
     names = road.tracks[::-1]
     if len(names) == 1:

@@ -56,7 +56,7 @@ TRAILER: Mapping[str, float] = MappingProxyType(
         "axle_m": 0.6,
     }
 )
-"""m₁, m₂, m, Ix, Iy, k₁ to k₄, kc, B₁ to B₄, l, p: the paper prints none; round numbers."""
+"""m₁, m₂, m, Ix, Iy, k₁ to k₄, kc, B₁ to B₄, l, p: not in the paper; round numbers."""
 
 
 def quarter_car(

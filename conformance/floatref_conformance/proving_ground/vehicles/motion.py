@@ -131,14 +131,14 @@ def drive_over(
         body = response.advance(motion.distance, ground, *wanted)
         seen.carry(body, travel[:, part], tracks[:, :, part], shared[:, part])
     if every > 1:
-        tracks = _decimated(tracks, every)
+        tracks = _decimate(tracks, every)
         travel, shared = travel[:, ::every].copy(), shared[:, ::every].copy()
     named = dict(zip(setup.tracks, tracks, strict=True))
     suspension = watch.motion(vehicle, course, drive) if watch else None
     return BodyMotion.of(clock, travel, shared, named, suspension)
 
 
-def _decimated(tracks: FloatArray, every: int) -> FloatArray:
+def _decimate(tracks: FloatArray, every: int) -> FloatArray:
     """Return every q-th sample, accelerations averaged over the interval around it.
 
     An accelerometer is band-limited to its recording: a sudden change between two samples

@@ -113,8 +113,8 @@ LINEAR_MODELS: Mapping[str, PlainModel] = MappingProxyType(
 """The models of papers by name: they answer to the road alone, and neither brake nor corner."""
 
 
-def vehicle_called(name: str) -> Suspended:
-    """Return the parameter set ``name``, a vehicle's or a model's; InputError if there is none."""
+def find_vehicle(name: str) -> Suspended:
+    """Return the parameter set ``name``, a vehicle's or a model's; InputError if unknown."""
     known: dict[str, Suspended] = {**VEHICLES, **LINEAR_MODELS}
     if name in known:
         return known[name]

@@ -160,7 +160,7 @@ def simulate_pendulum(
     half_steps = trolley.motion(np.arange(2 * count - 1) / (2 * rate_hz)).acceleration
     pitch, rate = _pitch(pendulum, half_steps, 1 / rate_hz)
     time = np.arange(count) / rate_hz
-    return _measured(pendulum, time, trolley.motion(time), pitch, rate)
+    return _measure(pendulum, time, trolley.motion(time), pitch, rate)
 
 
 def _pitch(
@@ -188,7 +188,7 @@ def _runge_kutta(
     return state + step_s / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
 
 
-def _measured(
+def _measure(
     pendulum: Pendulum, time: FloatArray, trolley: Motion, pitch: FloatArray, rate: FloatArray
 ) -> PendulumMotion:
     """Return (2.23) to (2.25) with gravity as in (2.17), and the truth behind them."""

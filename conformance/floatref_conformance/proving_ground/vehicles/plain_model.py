@@ -23,7 +23,7 @@ NEITHER: Mapping[str, FloatArray] = MappingProxyType({})
 
 
 class _Placed(Protocol):
-    """Something measured: of the wheel path nearest to it, or of none."""
+    """Something measured, with or without a wheel path nearest to it."""
 
     @property
     def channel(self) -> str: ...
@@ -112,7 +112,7 @@ class PlainModel:
 
     @property
     def pose(self) -> tuple[int | None, int | None, int | None]:
-        """Places of the body's heave, pitch and roll; None: the model has none."""
+        """Places of the body's heave, pitch and roll; None: not in the model."""
         names = [c.channel for c in self.coordinates]
         heave, pitch, roll = (
             names.index(name) if name in names else None for name in ("sprung", *ANGULAR)

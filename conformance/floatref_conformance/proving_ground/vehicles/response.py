@@ -69,7 +69,7 @@ class Response:
         vector = np.zeros(STATES + INPUTS)
         at_rest = equilibrium(vehicle, inputs)
         vector[: at_rest.size] = at_rest
-        vector[at_rest.size : 2 * at_rest.size] = -struck(vehicle) @ inputs[:TYRES]
+        vector[at_rest.size : 2 * at_rest.size] = -step_response(vehicle) @ inputs[:TYRES]
         vector[STATES:] = inputs
         return cls(update, outputs, vector, lanes, grid_of(road), wheel_x, places(vehicle))
 
@@ -116,7 +116,7 @@ def equilibrium(vehicle: Suspended, inputs: FloatArray) -> FloatArray:
     return vehicle.at_rest(vehicle.forcing() @ inputs)
 
 
-def struck(vehicle: Suspended) -> FloatArray:
+def step_response(vehicle: Suspended) -> FloatArray:
     """Return M⁻¹·D, by which a step of the road changes the freedoms' rates, shape (n, 4)."""
     return vehicle.tyre_damping() / vehicle.masses()[:, None]
 
@@ -140,7 +140,7 @@ def state_space(vehicle: Suspended) -> tuple[FloatArray, FloatArray]:
     a[size:, :size] = -inverse * vehicle.stiffness()
     a[size:, size:] = -inverse * vehicle.damping()
     b = np.zeros((2 * size, INPUTS))
-    b[:size, :TYRES] = struck(vehicle)
+    b[:size, :TYRES] = step_response(vehicle)
     b[size:] = inverse * vehicle.forcing()
     b[size:, :TYRES] += a[size:, size:] @ b[:size, :TYRES]
     return a, b
@@ -171,11 +171,11 @@ def under_wheels(vehicle: Suspended, road: Road) -> FloatArray:
     x = road.distance_m
     lanes = np.zeros((TYRES, x.size))
     for lane, (_, y) in zip(lanes, vehicle.contacts(), strict=False):
-        lane[:] = enveloped(road.across(x, np.full(x.size, y)), road.spacing_m)
+        lane[:] = envelope_of(road.across(x, np.full(x.size, y)), road.spacing_m)
     return lanes
 
 
-def enveloped(elevation: FloatArray, spacing_m: float) -> FloatArray:
+def envelope_of(elevation: FloatArray, spacing_m: float) -> FloatArray:
     """Return the centred moving average over `ENVELOPE_M`, shape and unit as given."""
     side = max(0, round((ENVELOPE_M / spacing_m - 1) / 2))
     padded = np.concatenate([[0.0], np.pad(elevation, side, mode="edge")])

@@ -64,7 +64,7 @@ class Suspended(Protocol):
 
     @property
     def pose(self) -> tuple[int | None, int | None, int | None]:
-        """Places of the body's heave, pitch and roll among the freedoms; None: has none."""
+        """Places of the body's heave, pitch and roll among the freedoms; None: not among them."""
         ...
 
     def contacts(self) -> Sequence[tuple[float, float]]:

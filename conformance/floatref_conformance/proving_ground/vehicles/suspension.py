@@ -13,7 +13,7 @@ from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import UniformClock
 from floatref_conformance.proving_ground.drives.drive import Longitudinal
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
-from floatref_conformance.proving_ground.vehicles.response import INPUTS, STATES, struck
+from floatref_conformance.proving_ground.vehicles.response import INPUTS, STATES, step_response
 from floatref_conformance.proving_ground.vehicles.suspended import TYRES, Suspended
 
 
@@ -77,7 +77,7 @@ class Watch:
         size = vehicle.masses().size
         rows = self._rows()
         position, road = rows[:size], rows[STATES : STATES + TYRES]
-        velocity = rows[size : 2 * size] + struck(vehicle) @ road
+        velocity = rows[size : 2 * size] + step_response(vehicle) @ road
         span = self.times_s[2::2] - self.times_s[:-2:2]
         gain = velocity[:, 2::2] - velocity[:, :-2:2]
         speed = drive.motion(self.times_s[::2]).speed

@@ -28,7 +28,7 @@ class StopScores:
             profile's 1-sigma, along the encoder's distance, which is the profile's axis; None
             where the profile has no sigma.
         within_two_sigma_true_distance_percent: the same along the true distance, so that sigma
-            would have to hold what the axis is off.
+            would have to contain the error of the axis.
     """
 
     cross_correlation: float
@@ -38,15 +38,15 @@ class StopScores:
     within_two_sigma_true_distance_percent: float | None = None
 
 
-def stop_scores(truth: Profile, told_m: FloatArray, profile: Profile) -> dict[str, StopScores]:
+def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict[str, StopScores]:
     """Return the scores of every wheel path of ``truth``, the unfiltered laser path.
 
-    ``told_m`` holds the distance that the encoder tells at the truth's points. The truth is
+    ``encoder_m`` is the distance by the encoder at the truth's points. The truth is
     high-pass filtered as profiles are (-3 dB at 91.44 m). Raises DeviceError for a profile
-    that lacks points within `STRETCH_M`, InputError for a missing wheel path.
+    with missing points within `STRETCH_M`, InputError for a missing wheel path.
     """
     _check_reach(profile)
-    reference, told = _filtered(truth), _filtered(_along(truth, told_m))
+    reference, told = _high_pass(truth), _high_pass(_along(truth, encoder_m))
     return {
         name: StopScores(
             scores.cross_correlation,
@@ -69,14 +69,16 @@ def _check_reach(profile: Profile) -> None:
         )
 
 
-def _along(truth: Profile, told_m: FloatArray) -> Profile:
-    """Return ``truth`` against the distance that the encoder tells, at the same interval."""
-    told = truth.interval_m * np.arange(int(told_m[-1] / truth.interval_m) + 1)
-    tracks = (ProfileTrack.of(t.name, np.interp(told, told_m, t.elevation)) for t in truth.tracks)
+def _along(truth: Profile, encoder_m: FloatArray) -> Profile:
+    """Return ``truth`` against the distance by the encoder, at the same interval."""
+    told = truth.interval_m * np.arange(int(encoder_m[-1] / truth.interval_m) + 1)
+    tracks = (
+        ProfileTrack.of(t.name, np.interp(told, encoder_m, t.elevation)) for t in truth.tracks
+    )
     return replace(truth, tracks=tuple(tracks))
 
 
-def _filtered(profile: Profile) -> Profile:
+def _high_pass(profile: Profile) -> Profile:
     """Return ``profile`` after the high-pass."""
     interval_m = profile.interval_m
     tracks = (ProfileTrack.of(t.name, high_pass(t.elevation, interval_m)) for t in profile.tracks)
@@ -84,7 +86,7 @@ def _filtered(profile: Profile) -> Profile:
 
 
 def _within_two_sigma(reference: Profile, profile: Profile, name: str) -> float | None:
-    """Return the share in percent on the profile's own points; a sigma of NaN holds nothing."""
+    """Return the share in percent on the profile's own points; a sigma of NaN contains no point."""
     found, true = on_common_grid(profile, reference)
     inside, track = points(found, *STRETCH_M), found.track(name)
     if track.sigma is None:

@@ -9,8 +9,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
-from floatref_conformance.table.passes import ROADS, drawn_seed
-from floatref_conformance.table.table_settings import chosen, offered_pipelines
+from floatref_conformance.table.passes import ROADS, draw_seed
+from floatref_conformance.table.table_settings import choose, offered_pipelines
 
 SPEED_KMH = (30.0, 80.0)
 """Slowest and fastest speed before the brake."""
@@ -42,7 +42,7 @@ STOP_ROADS = tuple(
 
 @dataclass(frozen=True)
 class StopSettings:
-    """The numbers that make a table of drawn stops again; InputError for values that make none.
+    """The numbers that make a table of drawn stops again; InputError for values out of range.
 
     Attributes:
         seed: all drives, roads and sensor errors are drawn from it.
@@ -62,8 +62,8 @@ class StopSettings:
             raise InputError(f"seed is {self.seed}; give 0 or more")
         if self.stops < 1:
             raise InputError(f"stops is {self.stops}; give 1 or more")
-        object.__setattr__(self, "vehicles", chosen("vehicle", self.vehicles, tuple(VEHICLES)))
-        pipelines = chosen("pipeline", self.pipelines, offered_pipelines())
+        object.__setattr__(self, "vehicles", choose("vehicle", self.vehicles, tuple(VEHICLES)))
+        pipelines = choose("pipeline", self.pipelines, offered_pipelines())
         object.__setattr__(self, "pipelines", pipelines)
 
     @property
@@ -80,15 +80,15 @@ class StopSettings:
         for vehicle in self.vehicles:
             for road in STOP_ROADS:
                 for number in range(self.stops):
-                    scenario = stop_drawn(self.seed, vehicle, road, number, capabilities)
+                    scenario = draw_stop(self.seed, vehicle, road, number, capabilities)
                     yield f"{vehicle}, {road.name} road: stop {number + 1}", scenario
 
 
-def stop_drawn(
+def draw_stop(
     seed: int, vehicle: str, road: StopRoad, number: int, capabilities: frozenset[str]
 ) -> Scenario:
     """Return stop ``number`` of ``vehicle`` on ``road``, its numbers rounded to be read."""
-    drawn = drawn_seed(seed, f"stop {vehicle} {road.name}", number)
+    drawn = draw_seed(seed, f"stop {vehicle} {road.name}", number)
     draw = np.random.default_rng(drawn)
     return Scenario(
         seed=drawn,

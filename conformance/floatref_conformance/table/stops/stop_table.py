@@ -79,7 +79,7 @@ class StopSummary:
             the two values next to it.
         iri_error_median_percent, iri_error_largest_percent: of the magnitudes of the errors.
         within_two_sigma_percent, within_two_sigma_true_distance_percent: of the shares of points
-            of each wheel path, as in `StopScores`; None where no sigma is told.
+            of each wheel path, as in `StopScores`; None without sigma.
     """
 
     wheel_paths: int
@@ -93,7 +93,7 @@ class StopSummary:
 
 
 def summary(paths: Sequence[WheelPath]) -> StopSummary:
-    """Return the summary of ``paths``; InputError for none."""
+    """Return the summary of ``paths``; InputError if empty."""
     if not paths:
         raise InputError("no wheel path to sum up; make at least one drive")
     scores = [path.scores for path in paths]
@@ -112,7 +112,7 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
 
 
 def _ends(values: Sequence[float | None]) -> Ends | None:
-    """Return the ends of the values that there are; None for none."""
+    """Return the ends of the values that are not None; None without such values."""
     told = [value for value in values if value is not None]
     if not told:
         return None
@@ -176,7 +176,7 @@ def _wheel_path(path: WheelPath) -> dict[str, Any]:
 
 
 def _finite(figures: dict[str, Any]) -> dict[str, Any]:
-    """Return ``figures`` with null in place of a number that JSON cannot say."""
+    """Return ``figures`` with null in place of a number that JSON does not have."""
     return {
         name: None if isinstance(value, float) and not isfinite(value) else value
         for name, value in figures.items()
@@ -184,7 +184,7 @@ def _finite(figures: dict[str, Any]) -> dict[str, Any]:
 
 
 def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = None) -> StopTable:
-    """Return the table of ``settings``; ``watch`` is told of every drive before it starts.
+    """Return the table of ``settings``; ``watch`` is called before every drive.
 
     Raises SuiteError for a pipeline that fails or leaves out points that count.
     """
@@ -194,17 +194,17 @@ def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = 
     paths: list[WheelPath] = []
     for name, scenario in settings.scenarios(processing.capabilities):
         watch(name)
-        paths += _driven(processing, name, scenario)
+        paths += _drive_all(processing, name, scenario)
     return StopTable(settings, tuple(paths))
 
 
-def _driven(processing: Processing, name: str, scenario: Scenario) -> list[WheelPath]:
+def _drive_all(processing: Processing, name: str, scenario: Scenario) -> list[WheelPath]:
     """Return every wheel path of one drive through every pipeline."""
-    driven = processing.driven(scenario, name)
+    driven = processing.drive(scenario, name)
     paths: list[WheelPath] = []
     for pipeline, profile in driven.profiles.items():
         try:
-            scores = stop_scores(driven.truth, driven.told_m, profile)
+            scores = stop_scores(driven.truth, driven.encoder_m, profile)
         except (DeviceError, InputError) as error:
             raise SuiteError(f"pipeline {pipeline}, {name}: {error}") from error
         paths += [WheelPath(pipeline, track, scenario, found) for track, found in scores.items()]

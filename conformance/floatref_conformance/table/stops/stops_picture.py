@@ -26,7 +26,7 @@ ROW = 0.8
 def draw_stops(table: StopTable, path: Path) -> None:
     """Write a picture of ``table`` to ``path``: one row for each pipeline.
 
-    Across lies the cross correlation with the truth, on a logarithmic scale of what it lacks to
+    Across lies the cross correlation with the truth, on a logarithmic scale of its distance to
     one. A dot is a wheel path, its colour and its line within the row the vehicle, its shape the
     road; a long bar is the median, a short one the first percentile. Raises InputError where
     matplotlib is missing or ``path`` cannot be written.
@@ -57,7 +57,7 @@ def _draw_row(ax: Axes, table: StopTable, pipeline: str, row: int) -> None:
         height = row + ROW * ((number + 0.5) / len(vehicles) - 0.5)
         for road, marker in zip(STOP_ROADS, MARKERS, strict=True):
             found = table.of(pipeline, vehicle, road.kind)
-            lacking = [_lacking(path.scores.cross_correlation) for path in found]
+            lacking = [_distance_to_one(path.scores.cross_correlation) for path in found]
             heights = np.full(len(lacking), height)
             ax.plot(lacking, heights, marker, color=f"C{number}", ms=3.5, alpha=0.7, mew=0)
     together = summary(table.of(pipeline))
@@ -66,7 +66,7 @@ def _draw_row(ax: Axes, table: StopTable, pipeline: str, row: int) -> None:
         (together.cross_correlation_percentile_1, 0.5),
     ):
         ends = (row - length * ROW / 2, row + length * ROW / 2)
-        ax.plot([_lacking(value)] * 2, ends, color="black", lw=1.2)
+        ax.plot([_distance_to_one(value)] * 2, ends, color="black", lw=1.2)
 
 
 def _draw_legend(ax: Axes, table: StopTable) -> None:
@@ -89,6 +89,6 @@ def _draw_legend(ax: Axes, table: StopTable) -> None:
     )  # fmt: skip
 
 
-def _lacking(cross_correlation: float) -> float:
-    """Return what ``cross_correlation`` lacks to one, within the picture's ends."""
+def _distance_to_one(cross_correlation: float) -> float:
+    """Return one less ``cross_correlation``, within the picture's ends."""
     return 1.0 - min(max(cross_correlation, 0.0), HIGHEST)

@@ -36,7 +36,7 @@ def print_stops(table: StopTable, console: Console) -> None:
 
 
 def below_block(table: StopTable, pipeline: str) -> list[str]:
-    """Return what is told of ``pipeline`` beside its block, and an empty line."""
+    """Return the lines below the block of ``pipeline``, and an empty line."""
     shares = summary(table.of(pipeline)).within_two_sigma_true_distance_percent
     lines = [lowest_line(table, pipeline), ""]
     if shares is not None:

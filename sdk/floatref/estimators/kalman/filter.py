@@ -65,7 +65,7 @@ class KalmanStage(Stage):
     declared = Declared(linear=False, zero_in_zero_out=False, shift_invariant=False)
 
     def __init__(self, plan: Plan, noise: Noise, wavelength_m: float = 105.91) -> None:
-        """Observe what ``plan`` says, with ``noise``; the result is cut off at ``wavelength_m``."""
+        """Observe as in ``plan``, with ``noise``; the result is cut off at ``wavelength_m``."""
         super().__init__()
         self.plan, self.noise, self.wavelength_m = plan, noise, wavelength_m
         self._header: Header | None = None
@@ -106,7 +106,7 @@ class KalmanStage(Stage):
         return found
 
     def told(self) -> tuple[str, ...]:
-        """Say which kinds of GNSS readings were left out, how often, and from when on."""
+        """Warn of the kinds of GNSS readings that were left out, how often, and from when on."""
         filters: dict[str, TrackFilter] = self.memory["filters"]
         memories = [each.state.memory for each in filters.values()]
         assert self._header is not None

@@ -234,7 +234,7 @@ def _keep_inputs(u: Inputs, i: int, memory: np.record) -> None:
 
 @compiled
 def _begin_sub_block(x: FloatArray, memory: np.record) -> None:
-    """Let the transition be I, and the sums be none."""
+    """Set the transition to I and the sums to 0."""
     t = memory.transition
     t.height_pitch, t.height_roll, t.height_roll_bias, t.height_pitch_bias = 0.0, 0.0, 0.0, 0.0
     t.velocity_pitch, t.velocity_roll = 0.0, 0.0
@@ -276,9 +276,9 @@ def _predict(model: Model, state: Filter, carried: FloatArray) -> None:
     t, span = memory.transition, memory.steps * model.step
     # Column by column A P, then row by row (A P) A'; the states from the biases on do not move.
     for j in range(STATES):
-        carried[0, j], carried[1, j], carried[2, j], carried[3, j] = _carried(t, span, p[j])
+        carried[0, j], carried[1, j], carried[2, j], carried[3, j] = _carry(t, span, p[j])
     for i in range(4):
-        p[i, 0], p[i, 1], p[i, 2], p[i, 3] = _carried(t, span, carried[i])
+        p[i, 0], p[i, 1], p[i, 2], p[i, 3] = _carry(t, span, carried[i])
         for j in range(4, STATES):
             p[i, j] = carried[i, j]
     _add_noise(model, state)
@@ -288,7 +288,7 @@ def _predict(model: Model, state: Filter, carried: FloatArray) -> None:
 
 
 @compiled
-def _carried(t: np.record, span: float, c: FloatArray) -> tuple[float, float, float, float]:
+def _carry(t: np.record, span: float, c: FloatArray) -> tuple[float, float, float, float]:
     """Return height, velocity, pitch and roll of A c; the other states stay as they are."""
     c3, c4, c6, c7, c8 = c[PITCH], c[ROLL], c[ROLL_BIAS], c[PITCH_BIAS], c[LEAN]
     rise = t.height_pitch * c3 + t.height_roll * c4 + t.height_roll_bias * c6
@@ -382,7 +382,7 @@ def _observe(
         innovation += base if kind == HEIGHT else 0.0
         for j in range(STATES):
             innovation -= h[kind, j] * (x[j] - prior[j])
-        if mark & TRUSTED or _believed(model, state, kind, innovation, variances[kind], work):
+        if mark & TRUSTED or _is_plausible(model, state, kind, innovation, variances[kind], work):
             _update(state, h[kind], innovation, variances[kind], work, updates[done])
             done += 1
     return done
@@ -409,7 +409,7 @@ def _base(mark: int, state: Filter, h: FloatArray, predicted: FloatArray) -> flo
 
 
 @compiled
-def _believed(
+def _is_plausible(
     model: Model, state: Filter, kind: int, innovation: float, variance: float, work: Work
 ) -> bool:
     """Return whether a reading may be right; heights that insist are another datum."""
@@ -433,7 +433,7 @@ def _believed(
 
 @compiled
 def _other(mark: int) -> int:
-    """Return the state that an observation of ``mark`` begins anew, 0 if there is none."""
+    """Return the state that an observation of ``mark`` begins anew; 0 for any other mark."""
     if mark & RENEW:
         return OFFSET
     return LEAN if mark & FORGET else 0

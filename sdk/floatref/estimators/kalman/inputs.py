@@ -98,7 +98,7 @@ class Readings:
 
 
 def _rows(events: Sequence[Event]) -> FloatArray:
-    """Return what the readings say, with their quality, shape (m, 5)."""
+    """Return the readings with their quality, shape (m, 5)."""
     try:
         return np.array([WHOLE(event.values) for event in events])
     except KeyError:

@@ -23,7 +23,7 @@ def observations_of(
     return Observations(at, np.full(at.size, mark), y, r, np.full(at.size, drifted, np.float64))
 
 
-def merged(one: Observations, other: Observations) -> Observations:
+def merge(one: Observations, other: Observations) -> Observations:
     """Return both in the order of time; what comes at one sample becomes one observation."""
     at = np.union1d(one.at, other.at)
     found = observations_of(at, 0, UNSEEN, UNSEEN)
@@ -36,7 +36,7 @@ def merged(one: Observations, other: Observations) -> Observations:
     return found
 
 
-def marked(observations: Observations, sample: int, mark: int) -> Observations:
+def mark_sample(observations: Observations, sample: int, mark: int) -> Observations:
     """Return ``observations`` with ``mark`` at ``sample``, where there need not be one."""
     at = observations.at
     place = int(np.searchsorted(at, sample))
@@ -45,7 +45,7 @@ def marked(observations: Observations, sample: int, mark: int) -> Observations:
         return observations
     alone = observations_of(np.array([sample]), mark, UNSEEN, UNSEEN)
     head, tail = part(observations, slice(place)), part(observations, slice(place, None))
-    return joined([head, alone, tail])
+    return join_observations([head, alone, tail])
 
 
 def part(observations: Observations, where: slice | IndexArray) -> Observations:
@@ -54,7 +54,7 @@ def part(observations: Observations, where: slice | IndexArray) -> Observations:
     return Observations(at[where], marks[where], values[where], variances[where], drifted[where])
 
 
-def joined(parts: Sequence[Observations]) -> Observations:
+def join_observations(parts: Sequence[Observations]) -> Observations:
     """Return ``parts``, each behind the one before, as one."""
     if not parts:
         return observations_of(np.empty(0, np.int64), 0, UNSEEN, UNSEEN)

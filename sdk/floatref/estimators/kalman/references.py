@@ -7,7 +7,12 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.estimators.kalman.noise import Noise
-from floatref.estimators.kalman.observations import joined, marked, merged, observations_of
+from floatref.estimators.kalman.observations import (
+    join_observations,
+    mark_sample,
+    merge,
+    observations_of,
+)
 from floatref.estimators.models.kalman_values import (
     CAPTURE,
     FORGET,
@@ -50,7 +55,7 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Samples ``first`` on: which of them stand still, the height, and where it is there.
+    """Samples ``first`` on: which of them are stationary, the height, and where it is there.
 
     ``readings``, shape (m, 5), are usable GNSS readings: height, velocity, pitch, roll, and the
     interval from the reading before in s; ``taken`` their samples; at samples ``quiet`` the
@@ -90,7 +95,7 @@ class References:
         sub_block, step: samples of a sub-block, and the time of one in s.
         start_m: the filter's first height.
         arm_m: how far the antenna is above the reference point.
-        datum: what GNSS heights are told from, in m; the first decides it.
+        datum: height from which GNSS heights are measured, in m; the first reading sets it.
         latest, heard: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
         origin: what the height sensor read where the stop began, in m; NaN while moving.
@@ -115,7 +120,7 @@ class References:
         parts = []
         for part, standing in _runs(stretch, self.plan.reflects):
             parts.append(self._standing(part) if standing else self._moving(part))
-        found = parts[0] if len(parts) == 1 else joined(parts)
+        found = parts[0] if len(parts) == 1 else join_observations(parts)
         observed = np.flatnonzero(found.marks != FORGET)[-1:]
         if observed.size:
             self.last = int(found.at[observed[0]]), int(found.marks[observed[0]])
@@ -139,18 +144,18 @@ class References:
 
     def _moving(self, stretch: Stretch) -> Observations:
         self.origin = np.nan
-        observed = self._observed(stretch, heights=True)
+        observed = self._observe(stretch, heights=True)
         for sample in stretch.quiet.tolist():
-            observed = marked(observed, sample, FORGET)
+            observed = mark_sample(observed, sample, FORGET)
         return observed
 
     def _standing(self, stretch: Stretch) -> Observations:
         """Return the height sensor's readings in place of heights, the rest as ever."""
-        beside = self._observed(stretch, heights=False)
+        beside = self._observe(stretch, heights=False)
         beside.values[:, HEIGHT], beside.drifted[:] = np.nan, 0.0
-        return merged(beside, self._reflections(stretch))
+        return merge(beside, self._reflections(stretch))
 
-    def _observed(self, stretch: Stretch, heights: bool) -> Observations:
+    def _observe(self, stretch: Stretch, heights: bool) -> Observations:
         """Return GNSS readings, and constants where they are missing."""
         end, taken = stretch.first + stretch.height.size, stretch.taken
         if not self.plan.gnss:
@@ -168,7 +173,7 @@ class References:
         if heights and taken.size and taken.size not in lost:
             self.constant = False
         self.latest = int(edges[-2])
-        return merged(readings, joined(gaps)) if gaps else readings
+        return merge(readings, join_observations(gaps)) if gaps else readings
 
     def _readings(self, stretch: Stretch, heights: bool, again: list[int]) -> Observations:
         """Return the GNSS readings, heights from the datum of this wheel path, (6.48).
@@ -178,7 +183,7 @@ class References:
         """
         at, interval_s = stretch.taken, stretch.readings[:, KINDS]
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         if np.isnan(self.datum):
             self.datum = float(stretch.readings[0, HEIGHT]) - self.arm_m - self.start_m
         y = stretch.readings[:, :KINDS] - [self.datum, 0.0, 0.0, 0.0]
@@ -193,10 +198,10 @@ class References:
         return observations_of(at, 0, y, variance, moved)
 
     def _constants(self, begin: int, end: int) -> Observations:
-        """Return what stands in for GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
+        """Return what replaces GNSS from ``begin`` up to ``end``, per sub-block, (6.65)."""
         at = self._ends(begin, end)
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         weight = np.where(at == 0, 0.5 * (self.sub_block + 1), self.sub_block)
         variance = self.noise.constants(1.0) / (weight * self.step)[:, None]
         found = observations_of(at, RELATIVE | TRUSTED, np.zeros(KINDS), variance)
@@ -214,7 +219,7 @@ class References:
         at = self._ends(stretch.first, stretch.first + stretch.height.size)
         at = at[stretch.there[at - stretch.first]]
         if at.size == 0:
-            return joined([])
+            return join_observations([])
         height = stretch.height[at - stretch.first]
         begins = np.isnan(self.origin)
         if begins:
@@ -230,7 +235,7 @@ class References:
 
 
 def _runs(stretch: Stretch, reflects: bool) -> Iterator[tuple[Stretch, bool]]:
-    """Yield the parts of ``stretch`` that stand still, or do not, in turn."""
+    """Yield the parts of ``stretch`` that are stationary, or are not, in turn."""
     if not reflects or not stretch.standing.any():
         yield stretch, False
         return

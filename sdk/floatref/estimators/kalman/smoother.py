@@ -20,7 +20,7 @@ class KalmanSmoother(KalmanStage):
 
     Adds `floating_reference_height`, and `elevation_sigma`: 1-σ of the elevation after HPF_B3x2 at
     ``wavelength_m``. Segments of four seconds are smoothed once the readings behind them no longer
-    matter, and a block comes out with each that is pushed from then on. What is kept until then
+    matter, and a block comes out with each that is pushed from then on. What is stored until then
     depends on the drive, not on its length (section 7.3.4).
     """
 
@@ -34,7 +34,7 @@ class KalmanSmoother(KalmanStage):
         tolerance_m: float = TOLERANCE_M,
         waiting_s: float = WAITING_S,
     ) -> None:
-        """Observe what ``plan`` says, with ``noise``.
+        """Observe what ``plan`` lists, with ``noise``.
 
         Segments are closed within ``tolerance_m``, after ``waiting_s`` at the earliest.
         """
@@ -42,7 +42,7 @@ class KalmanSmoother(KalmanStage):
         self.tolerance_m, self.waiting_s = tolerance_m, waiting_s
 
     def open(self, header: Header) -> Header:
-        """Begin with nothing kept."""
+        """Begin with empty memory."""
         out = super().open(header)
         rule = Closing(header.step, self.tolerance_m, self.wavelength_m, self.noise.height_m)
         self.memory["backlog"] = Backlog.of(header.tracks, rule, self.waiting_s)
@@ -61,7 +61,7 @@ class KalmanSmoother(KalmanStage):
         return self.empty(backlog.next_sample(block))
 
     def close(self) -> tuple[Block, ...]:
-        """Return all that is left."""
+        """Return all that remains."""
         backlog: Backlog = self.memory["backlog"]
         backlog.finish(self.ending())
         return tuple(backlog.come_out())

@@ -31,13 +31,13 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
 
 NODES_PER_S = 100.0
-"""Sub-blocks of 160 samples at 16 kHz: long enough that covariances cost next to nothing."""
+"""Sub-blocks of 160 samples at 16 kHz: long enough that covariances cost very little."""
 START_SIGMA = (1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01)
 """1-σ of the first state: height, velocity, pitch, roll, and biases, in SI units."""
 FLOORS = (0.2, 0.5, np.radians(3.0), np.radians(3.0))
 """Innovations of GNSS readings up to here are taken, however small the filter expects them."""
 KNOWN = np.delete(np.eye(STATES), (DRIFT, OFFSET), axis=0)
-"""What readings to come can tell of the state at last: never the height but with GNSS's drift."""
+"""What later readings can show of the state at last: never the height but with GNSS's drift."""
 KNOWN[HEIGHT, DRIFT] = 1.0
 STANDING = np.eye(STATES)[HEIGHT] + np.eye(STATES)[OFFSET]
 """At a stop also how far the height is from where the stop began."""
@@ -106,13 +106,13 @@ class TrackFilter:
         schedule = self.references.schedule(stretch)
         parts = self._parts(stretch.first, stretch.height.size, lost)
         begun = deepcopy(self.state)
-        height, nodes = self._filtered(u, schedule, parts)
+        height, nodes = self._filter(u, schedule, parts)
         # A NaN in any input stays in the state: to look for it there takes no time.
         missing = bool(np.isnan(self.state.x.sum()) or _latest_is_missing(self.state.memory))
         if missing:
             self.state = begun
             known = Inputs(u.first, *(frozen(np.nan_to_num(values)) for values in u[1:]))
-            height, nodes = self._filtered(known, schedule, parts)
+            height, nodes = self._filter(known, schedule, parts)
         return Passed(height, nodes, missing)
 
     def _parts(self, first: int, size: int, lost: BoolArray | None) -> list[tuple[int, int, bool]]:
@@ -128,7 +128,7 @@ class TrackFilter:
         edges = [0, *(np.flatnonzero(noisy[1:] != noisy[:-1]) + 1).tolist(), size]
         return [(begin, end, bool(noisy[begin])) for begin, end in pairwise(edges)]
 
-    def _filtered(
+    def _filter(
         self, u: Inputs, schedule: Observations, parts: list[tuple[int, int, bool]]
     ) -> tuple[FloatArray, Nodes]:
         if len(parts) == 1:
@@ -139,7 +139,7 @@ class TrackFilter:
             low, high = np.searchsorted(schedule.at, (u.first + begin, u.first + end))
             found.append(self._run(own, part(schedule, slice(low, high)), lost))
         heights, nodes = zip(*found, strict=True)
-        return np.concatenate(heights), Nodes.joined(nodes)
+        return np.concatenate(heights), Nodes.concatenate(nodes)
 
     def _run(self, u: Inputs, schedule: Observations, lost: bool) -> tuple[FloatArray, Nodes]:
         from floatref.estimators.kalman import forward
@@ -148,14 +148,14 @@ class TrackFilter:
         height, observed = np.empty(u.x.size), schedule.at.size
         nodes = Nodes.room(NODES, height.size // model.sub_block + observed + 2, KINDS * observed)
         out = Output(height, nodes.rows, nodes.updates)
-        return height, nodes.filled(forward.run(model, u, schedule, self.state, out))
+        return height, nodes.take_first(forward.run(model, u, schedule, self.state, out))
 
     def end(self) -> Nodes:
-        """Return a node at the sample advanced to last, or none if it is one already."""
+        """Return a node at the sample advanced to last, empty if it is one already."""
         from floatref.estimators.kalman import forward
 
         nodes = Nodes.room(NODES, 1, 0)
-        return nodes.filled(forward.end(self.model, self.state, nodes.rows))
+        return nodes.take_first(forward.end(self.model, self.state, nodes.rows))
 
     def beyond(self) -> FloatArray:
         """Return lambda behind the last node, which `end` has made: by the constants there."""

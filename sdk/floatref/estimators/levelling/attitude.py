@@ -30,11 +30,11 @@ class Attitude:
         step: between two samples, in s.
         every: samples of a bin.
         means, turned: over bins, of what is seen and of the integrated rates.
-        near, far: lines through what gravity says, and through its difference to `turned`.
+        near, far: lines through the angles by gravity, and through their difference to `turned`.
         latest: the last two of `means`, for central differences.
-        said: of bins whose line is not known yet: what gravity says, whether rates are missing,
-            and whether forces are.
-        tilts: pitch and roll by that line, both as gravity says them, and the same two.
+        by_gravity: of bins whose line is not known yet: pitch and roll by gravity, whether
+            rates are missing, and whether forces are.
+        tilts: pitch and roll by that line, both by gravity bin by bin, and the same two.
         swung: of bins whose difference is not known yet: `turned`, and whether forces are missing.
         more: what is added to the integrated rates: pitch, roll, and whether one of them or a
             force is unknown.
@@ -48,7 +48,7 @@ class Attitude:
     near: LocalLines
     far: LocalLines
     latest: FloatArray = field(default_factory=lambda: np.full((6, 1), np.nan))
-    said: Held = field(default_factory=lambda: Held.of(4))
+    by_gravity: Held = field(default_factory=lambda: Held.of(4))
     tilts: Held = field(default_factory=lambda: Held.of(6))
     swung: Held = field(default_factory=lambda: Held.of(3))
     more: Held = field(default_factory=lambda: Held.of(3))
@@ -125,30 +125,30 @@ class Attitude:
         return found, more[2][of_bin] > 0.0
 
     def _tell(self, means: FloatArray) -> None:
-        """Compute what gravity says up to the bin before the last of ``means``."""
+        """Compute the angles by gravity up to the bin before the last of ``means``."""
         wide = np.concatenate((self.latest, means), axis=1)
         self.latest = wide[:, -2:].copy()
         before, now, after = wide[:, :-2], wide[:, 1:-1], wide[:, 2:]
         h = self.every * self.step
         along = (after[5] - 2.0 * now[5] + before[5]) / h**2
         speed = (after[5] - before[5]) / (2.0 * h)
-        said = np.vstack((along - now[0], now[1] - speed * now[4])) / STANDARD_GRAVITY
+        sines = np.vstack((along - now[0], now[1] - speed * now[4])) / STANDARD_GRAVITY
         silent, lost = (
             np.isnan(rows.sum(axis=0)).astype(np.float64) for rows in (now[2:5], now[:2])
         )
-        self.said.add(said, silent, lost)
-        self._tilt(self.near.take(said, silent))
+        self.by_gravity.add(sines, silent, lost)
+        self._tilt(self.near.take(sines, silent))
 
     def _tilt(self, lines: FloatArray) -> None:
         from floatref.estimators.levelling import kernel
 
-        known = self.said.take(lines.shape[1])
+        known = self.by_gravity.take(lines.shape[1])
         found = np.empty((4, lines.shape[1]))
         kernel.slow(known[:2].copy(), lines, found)
         self.tilts.add(found, known[2:])
 
     def _part(self, turned: FloatArray) -> None:
-        """Compare with what gravity says."""
+        """Compare with the angles by gravity."""
         known = self.tilts.take(turned.shape[1])
         silent = known[4]
         off = np.where(silent > 0.0, np.nan, known[2:4] - turned)

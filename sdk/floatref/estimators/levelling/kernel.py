@@ -6,11 +6,11 @@ from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
 LEAST = 1e-9
-"""A spread in squared places that is none."""
+"""Spread in squared places below which it counts as zero."""
 STEEP = 0.5
 """Sine of an angle that no road has."""
 SIDE = 4.0
-"""Squared ratio of offset and spread of what is known, beyond which a line is none."""
+"""Squared ratio of offset and spread of what is known, beyond which no line is fitted."""
 
 
 @compiled
@@ -84,20 +84,20 @@ def _line(s_0: float, s_1: float, s_2: float, t_0: float, t_1: float) -> float:
 
 
 @compiled
-def slow(said: FloatArray, smooth: FloatArray, found: FloatArray) -> None:
-    """Write pitch and roll, and both as gravity tells them bin by bin, shape (4, n).
+def slow(sines: FloatArray, smooth: FloatArray, found: FloatArray) -> None:
+    """Write pitch and roll, and both by gravity bin by bin, shape (4, n).
 
-    ``said``, shape (2, n), are the sine of pitch, and that of roll times the cosine of pitch;
+    ``sines``, shape (2, n), are the sine of pitch, and that of roll times the cosine of pitch;
     ``smooth`` the lines through them.
     """
-    for b in range(said.shape[1]):
+    for b in range(sines.shape[1]):
         p, q = smooth[0, b], smooth[1, b]
         theta = asin(min(STEEP, max(-STEEP, p if p == p else 0.0)))
         c_theta = cos(theta)
         phi = asin(min(STEEP, max(-STEEP, (q if q == q else 0.0) / c_theta)))
         found[0, b], found[1, b] = theta, phi
-        found[2, b] = theta + (said[0, b] - p) / c_theta
-        found[3, b] = phi + (said[1, b] - q) / (cos(phi) * c_theta)
+        found[2, b] = theta + (sines[0, b] - p) / c_theta
+        found[3, b] = phi + (sines[1, b] - q) / (cos(phi) * c_theta)
 
 
 @compiled

@@ -23,7 +23,7 @@ Turned = list[tuple[Block, dict[str, FloatArray]]]
 class Level(Stage):
     """Levels the accelerometers: `vertical_acceleration` in place of `vertical_specific_force`.
 
-    The result is (2.20) with the attitude that the rates tell at once and that gravity tells, with
+    The result is (2.20) with the attitude by the rates at once and that by gravity, with
     the encoder, over ``blended_s`` seconds to either side; so blocks wait for some five times as
     long, plus four seconds. All channels of the inertial unit are dropped.
     """
@@ -31,7 +31,7 @@ class Level(Stage):
     declared: ClassVar[Declared] = Declared(linear=False, zero_in_zero_out=False, delay=ALL)
 
     def __init__(self, blended_s: float = BLENDED_S) -> None:
-        """Believe the rates over shorter, gravity over longer times than ``blended_s`` seconds."""
+        """Use the rates over shorter, gravity over longer times than ``blended_s`` seconds."""
         super().__init__()
         self.blended_s = blended_s
         self._channels: dict[str, tuple[ChannelId, ...]] = {}
@@ -59,7 +59,7 @@ class Level(Stage):
             if self.memory["begin"] is None:
                 self.memory["begin"] = block.first
             for track, attitude in self._attitudes.items():
-                attitude.see(self._seen(track, block))
+                attitude.see(self._valid_rows(track, block))
             self.memory["seen"].append(block)
             self._turn()
             if self._ready(self.memory["turned"], "levels_before"):
@@ -68,7 +68,7 @@ class Level(Stage):
         return Block(waiting[0].first, dict.fromkeys(self._made, frozen(())))
 
     def close(self) -> tuple[Block, ...]:
-        """Return all that is left."""
+        """Return all that remains."""
         for attitude in self._attitudes.values():
             attitude.see_end()
         self._turn()
@@ -81,10 +81,12 @@ class Level(Stage):
         found: dict[str, Attitude] = self.memory["attitudes"]
         return found
 
-    def _seen(self, track: str, block: Block) -> FloatArray:
+    def _valid_rows(self, track: str, block: Block) -> FloatArray:
         """Return forces, rates and distance of ``block``, NaN where they are flagged."""
         x, y, _, *rates = self._channels[track]
-        return np.stack([_trusted(block, name) for name in (x, y, *rates, ChannelId(DISTANCE))])
+        return np.stack(
+            [_trusted_samples(block, name) for name in (x, y, *rates, ChannelId(DISTANCE))]
+        )
 
     def _ready(self, waiting: Turned, bound: str) -> bool:
         if not waiting:
@@ -120,6 +122,6 @@ class Level(Stage):
         return block.setting(values, flags).without(SPECIFIC_FORCE, *IMU)
 
 
-def _trusted(block: Block, channel: ChannelId) -> FloatArray:
+def _trusted_samples(block: Block, channel: ChannelId) -> FloatArray:
     flags: FlagArray | None = block.flags.get(channel)
     return block[channel] if flags is None else np.where(flags == 0, block[channel], np.nan)

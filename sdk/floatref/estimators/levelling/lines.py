@@ -44,7 +44,7 @@ class Means:
 
 @dataclass(eq=False)
 class Held:
-    """Columns that are kept until they are no longer needed; ``first`` is the number of the first.
+    """Columns stored until they are no longer needed; ``first`` is the number of the first.
 
     Attributes:
         values: shape (rows, n).
@@ -65,7 +65,7 @@ class Held:
         return self.first + int(self.values.shape[1])
 
     def add(self, *rows: FloatArray) -> None:
-        """Add columns whose rows are told in one or more arrays."""
+        """Add columns; their rows come in one or more arrays."""
         self.values = np.concatenate((self.values, np.vstack(rows)), axis=1)
 
     def take(self, count: int) -> FloatArray:
@@ -84,7 +84,7 @@ class LocalLines:
     """Values of lines that fit best nearby, by least squares with Gaussian weights.
 
     The line of a place is that of ``weights.size - 1`` places to either side, as far as they are
-    known; none across ``patience`` silent ones in a row. Two rows go together.
+    known. No line reaches across ``patience`` unknown places in a row. Two rows go together.
     """
 
     weights: FloatArray
@@ -116,7 +116,7 @@ class LocalLines:
         return found
 
     def rest(self) -> FloatArray:
-        """Return the lines of all places that are left."""
+        """Return the lines of all remaining places."""
         more = self._unknown()
         return self.take(more[:2], more[2])
 

@@ -29,7 +29,7 @@ GATE = 100.0
 RUNNING_S = 1.0
 """Time constant of the running mean of the longitudinal specific force."""
 BELIEVED_AT = 20
-"""As many heights left out in a row are a leap of the datum."""
+"""This number of heights left out in a row is a leap of the datum."""
 
 
 class Model(NamedTuple):
@@ -44,7 +44,7 @@ class Model(NamedTuple):
         white_roll, white_pitch, white_yaw: of the rates.
         walk, walk_roll, walk_pitch: of the walks of the biases.
         datum: variance of a new datum of the GNSS height, in m².
-        floors: innovations up to here are believed, shape (KINDS,).
+        floors: innovations up to here are accepted, shape (KINDS,).
         lean: variance of a lean that begins anew, in rad².
     """
 

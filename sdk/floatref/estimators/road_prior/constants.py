@@ -9,7 +9,7 @@ from floatref.estimators.models.road_prior_values import ROAD, SLOPE, Model
 from floatref.values.arrays import FloatArray
 
 LEAST_MEMORY_M = 32.0
-"""One second difference over the longer distance; a mean of less is none."""
+"""One second difference over the longer distance; over less there is no mean."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +26,9 @@ class RoadPrior:
         road: q, half of G_s of the spectrum G_s/(2πν)² of (2.2), in m.
         long_waves: half of G_a of the spectrum G_a/(2πν)⁴ that (2.4) adds to that, in 1/m.
         road_reach_m: distance after which elevation and slope of the road are forgotten, in m.
-        road_memory_m: over so much travel the run's own road takes the place of both.
-        edge_sigmas: a reading at a standstill that is off by so many tells of an edge of the road.
+        road_memory_m: travel over which the run's own road replaces both.
+        edge_sigmas: a reading at a standstill that is off by this number of sigma
+            shows an edge of the road.
         lean_expected_rad, lean_sigma_rad: lean of the accelerometer's axis forward, and 1-σ.
         tilt_expected, tilt_sigma: pitch angle per longitudinal acceleration, in rad per m/s²,
             and 1-σ.
@@ -70,18 +71,18 @@ class RoadPrior:
         return Model(
             step=step,
             sub_block=sub_block,
-            white=_squared(self.acceleration),
-            walk=_squared(self.acceleration_walk),
-            walk_along=_squared(self.walk_along),
-            gap=_squared(self.missing_acceleration),
-            reading=_squared(self.reading_m),
+            white=_square(self.acceleration),
+            walk=_square(self.acceleration_walk),
+            walk_along=_square(self.walk_along),
+            gap=_square(self.missing_acceleration),
+            reading=_square(self.reading_m),
             road=float(self.road),
             slope=float(self.long_waves),
             reach=float(self.road_reach_m),
             lean=float(self.lean_expected_rad),
             tilt=float(self.tilt_expected),
-            lean_prior=_squared(self.lean_sigma_rad),
-            tilt_prior=_squared(self.tilt_sigma),
+            lean_prior=_square(self.lean_sigma_rad),
+            tilt_prior=_square(self.tilt_sigma),
             edge=float(self.edge_sigmas**2),
         )
 
@@ -96,5 +97,5 @@ class RoadPrior:
         return found
 
 
-def _squared(value: float) -> float:
+def _square(value: float) -> float:
     return float(np.square(value))

@@ -93,7 +93,7 @@ class Excitation:
         by: `response_weights`.
         distances: at the nodes from the first that the next acceleration needs, in m.
         begun: whether the distances have been continued before the first.
-        fade: where the encoder tells no travel, a brake goes on, less by this from node to node.
+        fade: where the encoder gives no travel, a brake goes on, less by this from node to node.
         memory: response, its rate and the latest acceleration.
     """
 
@@ -125,7 +125,7 @@ class Excitation:
         """Continue the distances behind the last node."""
         if not self.begun and self.distances.size:
             self._begin(self.distances.size - 1)
-        turned = _turned(self.distances[::-1], min(self.reach, self.distances.size - 1))
+        turned = _reflect(self.distances[::-1], min(self.reach, self.distances.size - 1))
         missing = np.full(self.reach - turned.size, turned[-1] if turned.size else np.nan)
         self.distances = np.concatenate((self.distances, turned, missing))
 
@@ -139,13 +139,13 @@ class Excitation:
         return a, response
 
     def _begin(self, known: int) -> None:
-        turned = _turned(self.distances, known)[::-1]
+        turned = _reflect(self.distances, known)[::-1]
         missing = np.full(self.reach - known, turned[0] if known else self.distances[0])
         self.distances = np.concatenate((missing, turned, self.distances))
         self.begun = True
 
 
-def _turned(distances: FloatArray, count: int) -> FloatArray:
+def _reflect(distances: FloatArray, count: int) -> FloatArray:
     """Return ``count`` distances beyond the first, turned about it: as far the other way."""
     found: FloatArray = 2.0 * distances[0] - distances[1 : count + 1]
     return found

@@ -1,4 +1,4 @@
-"""Leaps of the height sensor while the vehicle stands: what they are flagged and told as."""
+"""Leaps of the height sensor at standstill: the lines they flag and their warnings."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
@@ -14,7 +14,7 @@ LEAST_M = 0.01
 
 
 class Leap(NamedTuple):
-    """A reading at a standstill, at a sample, that is off by so many m."""
+    """A reading at a standstill, its sample and its error in m."""
 
     sample: int
     by_m: float
@@ -51,7 +51,7 @@ def _innovations(nodes: Nodes) -> FloatArray:
     return found
 
 
-def marked(
+def mark_leaps(
     flags: FlagArray | None, found: Sequence[Leap], first: int, size: int
 ) -> FlagArray | None:
     """Return ``flags`` of samples from ``first`` on, with those of leaps."""

@@ -1,4 +1,4 @@
-"""What the brakes of a run tell of lean and tilt of the vehicle."""
+"""Estimates of lean and tilt of the vehicle from the brakes of a run."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.values.arrays import FloatArray
 
 BOTH = np.array([LEAN, TILT])
-TOLD = 0.5
-"""A brake that leaves more than this of both variances tells too little to be kept."""
+MOST_UNKNOWN = 0.5
+"""A brake that reduces neither variance below this share is dropped."""
 
 SMALLEST = np.finfo(np.float64).tiny
 
@@ -30,15 +30,15 @@ class Brake:
 
     def tells(self, variances: FloatArray) -> bool:
         """Return whether that is much more than the ``variances`` that it began with."""
-        return bool((np.diag(self.covariance) < TOLD * variances).any())
+        return bool((np.diag(self.covariance) < MOST_UNKNOWN * variances).any())
 
 
-def pooled(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]:
+def pool(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]:
     """Return lean and tilt of all ``brakes`` with their 1-σ, by the names of `RoadPrior`.
 
     The mean is that of Gaussians, Λ = P₀⁻¹ + Σ (P⁻¹ - P₀⁻¹), which counts P₀ once. The 1-σ is
     that of one more brake: Λ⁻¹ and the variance of the brakes about the mean, each weighted by
-    what it has told. Without brakes there is nothing.
+    the information it adds. Without brakes there is nothing.
     """
     if not brakes:
         return {}
@@ -53,10 +53,10 @@ def pooled(brakes: Sequence[Brake], constants: RoadPrior) -> Mapping[str, float]
     covariance = np.linalg.inv(information)
     mean = covariance @ weighted
     estimates = np.array([brake.estimate for brake in brakes])
-    told = np.array([1.0 - np.diag(brake.covariance) / variances for brake in brakes])
-    # What a brake has not told is where it began: it is as far off as that, less what it told.
-    off = estimates - start - told * (mean - start)
-    spread = (off**2).sum(axis=0) / np.maximum(np.square(told).sum(axis=0), SMALLEST)
+    known = np.array([1.0 - np.diag(brake.covariance) / variances for brake in brakes])
+    # Without information the estimate of a brake stays at its start: subtract that part.
+    off = estimates - start - known * (mean - start)
+    spread = (off**2).sum(axis=0) / np.maximum(np.square(known).sum(axis=0), SMALLEST)
     sigma = np.sqrt(np.minimum(np.diag(covariance) + spread, variances))
     return {
         "lean_expected_rad": float(mean[0]),

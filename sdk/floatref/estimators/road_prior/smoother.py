@@ -1,4 +1,4 @@
-"""The road-prior smoother in place of both integrations: the road stands still when we do."""
+"""The road-prior smoother in place of both integrations: at standstill the road does not move."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -10,8 +10,8 @@ from floatref.estimators.kalman.inputs import Quiet
 from floatref.estimators.models.road_prior_values import ENDS, Inputs
 from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
-from floatref.estimators.road_prior.leaps import lines, marked
-from floatref.estimators.road_prior.learned import pooled
+from floatref.estimators.road_prior.leaps import lines, mark_leaps
+from floatref.estimators.road_prior.learned import pool
 from floatref.estimators.road_prior.track import RoadTrack, sub_block
 from floatref.estimators.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.estimators.smoothing.line import Closing
@@ -41,7 +41,7 @@ from floatref.values.channels import ChannelId
 
 UNKNOWN = ChannelId(MISSING_SHARE)
 LONGEST_S = 180.0
-"""What is known of a bias grows for kilometres; little of it is left after so long."""
+"""What is known of a bias grows for kilometres; little of it remains after this time."""
 
 
 class RoadPriorSmoother(Stage):
@@ -111,13 +111,13 @@ class RoadPriorSmoother(Stage):
             self._filter_known()
             done = next(backlog.come_out(), None)
             if done is not None:
-                return self._doubted(done)
+                return self._flag_uncertain(done)
         waiting: list[Block] = self.memory["waiting"]
         first = backlog.blocks or waiting or [block]
         return Block(first[0].first, dict.fromkeys(self._made, frozen(())))
 
     def close(self) -> tuple[Block, ...]:
-        """Return all that is left."""
+        """Return all that remains."""
         backlog: Backlog = self.memory["backlog"]
         if not self.memory["waiting"] and not backlog.blocks:
             return ()
@@ -132,21 +132,21 @@ class RoadPriorSmoother(Stage):
             # A node now, with the bias and the tilt since the one before.
             backlog.lines[name].heights[-1][1][-1] = each.height_m
         backlog.finish(ending)
-        return tuple(map(self._doubted, backlog.come_out()))
+        return tuple(map(self._flag_uncertain, backlog.come_out()))
 
     def learned(self) -> Mapping[str, float]:
-        """Return what all wheel paths have told of lean and tilt, see `pooled`."""
+        """Return the estimate of lean and tilt from all wheel paths, see `pool`."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
-        return pooled([b for each in filters.values() for b in each.told()], self.constants)
+        return pool([b for each in filters.values() for b in each.all_brakes()], self.constants)
 
     def told(self) -> tuple[str, ...]:
-        """Say where the height sensor has leapt at a standstill."""
+        """Warn where the height sensor has leapt at a standstill."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
         assert self._header is not None
         found = {track: each.leaps for track, each in filters.items()}
         return tuple(lines(found, self._header.origin, self._header.step))
 
-    def _doubted(self, block: Block) -> Block:
+    def _flag_uncertain(self, block: Block) -> Block:
         """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
         flags: dict[ChannelId, FlagArray] = {}
         assert self._header is not None
@@ -175,19 +175,19 @@ class RoadPriorSmoother(Stage):
             self.memory["known"] = known = known[:, nodes.size :]
 
     def _filter(self, block: Block, nodes: IndexArray, known: FloatArray) -> None:
-        shared, found = self._shared(block, nodes, known), {}
+        shared, found = self._collect_shared(block, nodes, known), {}
         assert self._header is not None
         for track in self._header.tracks:
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
             ends, a = shared.copy(), block[vertical]
-            ends["seen"] = _trusted(block, range_, nodes)
-            share = self._missing(track, _lost(block, vertical), len(block), nodes)
+            ends["seen"] = _trusted_samples(block, range_, nodes)
+            share = self._missing(track, _missing_samples(block, vertical), len(block), nodes)
             ends["missing"] = np.maximum(shared["missing"], share)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
             passed = own.advance(Inputs(block.first, values, ends))
             flags = flags_of(block, vertical, range_)
-            flags = marked(flags, own.leaps, block.first, len(block))
+            flags = mark_leaps(flags, own.leaps, block.first, len(block))
             found[track] = Filtered(*passed, flags)
         self.memory["backlog"].add(block.without(ACCELERATION), found)
 
@@ -200,7 +200,7 @@ class RoadPriorSmoother(Stage):
             filters[track] = RoadTrack.of(self.constants, self._header.step, start)
         return filters[track]
 
-    def _shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> Records:
+    def _collect_shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> Records:
         """Return what all wheel paths know at the nodes, see `road_prior_values`."""
         distance = block[ChannelId(DISTANCE)]
         quiet = self.memory["quiet"].take(block.first, distance) - block.first
@@ -216,7 +216,7 @@ class RoadPriorSmoother(Stage):
         return ends
 
     def _travel(self, places: FloatArray) -> FloatArray:
-        """Return the travel to each node, going on as before where the encoder tells none."""
+        """Return the travel to each node, at the last speed where the encoder gives no reading."""
         travel = np.maximum(np.diff(places, prepend=self.memory["travelled"]), 0.0)
         known = np.append(self.memory["pace"], travel)
         latest = np.maximum.accumulate(np.where(np.isnan(known), 0, np.arange(known.size)))
@@ -238,13 +238,13 @@ class RoadPriorSmoother(Stage):
         return share
 
 
-def _trusted(block: Block, channel: ChannelId, nodes: IndexArray) -> FloatArray:
+def _trusted_samples(block: Block, channel: ChannelId, nodes: IndexArray) -> FloatArray:
     """Return the samples of ``channel`` at the nodes, NaN where they are flagged."""
     flags, values = block.flags.get(channel), block[channel][nodes]
     return values if flags is None else np.where(flags[nodes] == 0, values, np.nan)
 
 
-def _lost(block: Block, channel: ChannelId) -> BoolArray | None:
+def _missing_samples(block: Block, channel: ChannelId) -> BoolArray | None:
     """Return which samples of ``channel`` are NaN or lie in a gap too long to be bridged."""
     gaps, values = long_gaps(block, channel), block[channel]
     if not np.isnan(values.sum()):

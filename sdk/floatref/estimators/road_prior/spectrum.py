@@ -118,13 +118,13 @@ def _square(
 
 SPACING_M = 1.0
 LAGS = (2, 16)
-"""Second differences are taken over so many metres: one tells white slope, the other long waves."""
+"""Metres of second differences: the short ones show white slope, the long ones long waves."""
 LONGEST_S = 4.0
 """What takes longer is the accelerometer's drift as much as the road."""
 APART_M = 0.005, 0.03
-"""Nodes so far apart tell the texture, which is another one at each of them."""
+"""Nodes this far apart show the texture, which differs at each of them."""
 SOONER = 15.0
-"""Texture is forgotten after so much less travel than the spectrum."""
+"""Times by which the travel of texture's memory is shorter than that of the spectrum."""
 LEAST = 0.125
 """No road is taken for smoother than this share of what it was taken for at the start."""
 
@@ -135,7 +135,7 @@ class RoadSpectrum:
 
     For a road of the spectrum 2 q / (2 pi nu)^2 + 2 g / (2 pi nu)^4 the square of the second
     difference over L is 2 q L + 2/3 g L^3 in the mean. Texture, which is G_e of (2.4) and another
-    one at each node, adds six times its variance, whatever L: it is what is left for L = 0.
+    one at each node, adds six times its variance, for any L: it is what remains for L = 0.
 
     Attributes:
         interval_s: between nodes.
@@ -161,7 +161,7 @@ class RoadSpectrum:
         return cls(interval_s, LEAST * usual, SPACING_M / constants.road_memory_m, memory, texture)
 
     def add(self, elevation_m: FloatArray, travel_m: FloatArray, changed: FloatArray) -> None:
-        """Take filtered elevation at the next nodes, NaN where there is none, and the travel.
+        """Take filtered elevation at the next nodes, NaN where it is missing, and the travel.
 
         Both have shape (nodes,); ``changed``, shape (2, nodes), is by how much the reading of a
         node has moved the height in m and turned the velocity in m/s.

@@ -25,11 +25,11 @@ from floatref.estimators.smoothing.nodes import Kind, Nodes
 from floatref.values.arrays import FloatArray, Records, new_record
 
 NODES = Kind(NODE, UPDATE, np.eye(STATES), np.eye(STATES))
-"""The road tells every state in time, at a stop as well."""
+"""The road makes every state known in time, at a stop as well."""
 NODES_PER_S = 500.0
 """A node every 32 samples at 16 kHz."""
 RENEWAL = 500
-"""After so many nodes the road is taken for what it has been."""
+"""Nodes after which the spectrum of the road is renewed by that of the road so far."""
 
 
 def sub_block(step: float) -> int:
@@ -47,7 +47,7 @@ class RoadTrack:
         spectrum: of the road that it has gone.
         bends: how far the road bends, in m, from which sample on.
         reading_m2: least variance of a reading of the height sensor, in m².
-        brakes: what has been told of lean and tilt.
+        brakes: estimates of lean and tilt, one per brake.
         leaps: of the height sensor at standstills.
     """
 
@@ -79,12 +79,12 @@ class RoadTrack:
             if low in roads:
                 self._renew_road(low)
             if low in brakes:
-                self.brakes = self.told()
+                self.brakes = self.all_brakes()
             count = -(-high // self.model.sub_block) - -(-low // self.model.sub_block)
             inside = slice(low - first, high - first)
             parts.append(self._advance(Inputs(low, a[inside], ends[:count]), height[inside]))
             ends = ends[count:]
-        return height, Nodes.joined(parts)
+        return height, Nodes.concatenate(parts)
 
     @property
     def height_m(self) -> float:
@@ -98,8 +98,8 @@ class RoadTrack:
         self.model = self.model._replace(road=road, slope=slope, reading=reading)
         self.bends.append((sample, self.spectrum.bend_m))
 
-    def told(self) -> list[Brake]:
-        """Return the brakes that have told of lean and tilt, with the one that has not ended."""
+    def all_brakes(self) -> list[Brake]:
+        """Return the brakes with an estimate of lean and tilt, also the one not yet ended."""
         latest = Brake.of(self.state.x, self.state.p)
         news = latest.tells(np.array([self.model.lean_prior, self.model.tilt_prior]))
         return [*self.brakes, latest] if news else self.brakes
@@ -119,7 +119,7 @@ class RoadTrack:
 
         nodes = Nodes.room(NODES, len(u.ends), len(u.ends))
         out = Output(height, nodes.rows, nodes.updates)
-        found = nodes.filled(forward.run(self.model, u, self.state, out))
+        found = nodes.take_first(forward.run(self.model, u, self.state, out))
         elevation = height[found.at - u.first] - u.ends["seen"]
         self.spectrum.add(elevation, u.ends["travel"].copy(), changes(found, u.ends))
         self.leaps += leaps(found, u.ends, self.model.edge)
@@ -136,7 +136,7 @@ class RoadTrack:
         return found
 
     def end(self, at: int, travel_m: float) -> Nodes:
-        """Return a node at sample ``at``, the last, or none if it is one already."""
+        """Return a node at sample ``at``, the last; empty if it is one already."""
         from floatref.estimators.road_prior import forward
 
         known, memory = new_record(ENDS), self.state.memory
@@ -144,4 +144,4 @@ class RoadTrack:
         known.travel, known.seen = travel_m, np.nan
         nodes = Nodes.room(NODES, 1, 1)
         count = forward.end(self.model, at, known, self.state, nodes.rows, nodes.updates)
-        return nodes.filled(count)
+        return nodes.take_first(count)

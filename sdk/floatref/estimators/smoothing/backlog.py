@@ -6,7 +6,7 @@ from math import ceil, inf, log2
 
 import numpy as np
 
-from floatref.estimators.smoothing.lag import settled
+from floatref.estimators.smoothing.lag import count_settled
 from floatref.estimators.smoothing.line import Closing, Line
 from floatref.estimators.smoothing.nodes import Filtered, Nodes
 from floatref.stages.signals import DISTANCE, REFERENCE_HEIGHT, SIGMA
@@ -17,10 +17,10 @@ from floatref.values.channels import ChannelId
 SEGMENT_S = 4.0
 """Duration of a segment, but for its power of two in samples."""
 WAITING_S = 60.0
-"""A segment waits so long, whatever the bound says: what changes since at the place where one part
+"""A segment waits this long at least, at any bound: what changes since at the place where one part
 has come out and the next has not would be a step there."""
 STANDING = 5.0
-"""No segment waits longer than so many times the longest time: a vehicle may stand for hours."""
+"""Longest wait of a segment, in multiples of the longest time: a vehicle may stand for hours."""
 JOINT_M = 3e-4
 """1-σ of what may still change where a part that has waited so long ends."""
 TOLERANCE_M = 2e-6
@@ -36,9 +36,9 @@ class Backlog:
     Attributes:
         lines: of every wheel path.
         waiting_s: segments are closed no earlier than that.
-        longest_s: nor much later, but where the vehicle stands or has just stood.
+        longest_s: nor much later, except where the vehicle is stationary or has just been.
         length: samples of a segment.
-        blocks: kept, without height and 1-σ.
+        blocks: stored, without height and 1-σ.
         closed: all samples before this one are.
     """
 
@@ -53,18 +53,18 @@ class Backlog:
     def of(
         cls, tracks: tuple[str, ...], rule: Closing, waiting_s: float, longest_s: float = inf
     ) -> "Backlog":
-        """Return one that keeps nothing."""
+        """Return an empty one."""
         length = 1 << max(0, round(log2(SEGMENT_S / rule.step)))
         return cls({track: Line(rule) for track in tracks}, waiting_s, longest_s, length)
 
     def add(self, block: Block, found: Mapping[str, Filtered]) -> None:
-        """Keep ``block`` and what the filters have made of it."""
+        """Store ``block`` and the results of the filters."""
         distance, flags = block[ChannelId(DISTANCE)], {}
         for track, passed in found.items():
             line = self.lines[track]
             line.heights.append((block.first, passed.height))
             line.add(passed.nodes, distance[passed.nodes.at - block.first])
-            flags.update(_flagged(track, passed))
+            flags.update(_collect_flags(track, passed))
         full = range(block.first // self.length, (block.first + len(block)) // self.length)
         for number in full:
             self._end_segment((number + 1) * self.length)
@@ -93,7 +93,7 @@ class Backlog:
             yield block.setting(values)
 
     def next_sample(self, block: Block) -> int:
-        """Return where the next output begins: at ``block`` if none is kept."""
+        """Return where the next output begins: at ``block`` if no block is stored."""
         return (self.blocks[0] if self.blocks else block).first
 
     def _end_segment(self, sample: int) -> None:
@@ -115,7 +115,7 @@ class Backlog:
     def _ready(self, lines: Sequence[Line], most: int) -> int:
         """Return how many segments, ``most`` at most, need not wait, or may no longer."""
         change: FloatArray = np.maximum.reduce([line.changes() for line in lines])
-        ready = min(settled(change, lines[0].rule.tolerance_m), most)
+        ready = min(count_settled(change, lines[0].rule.tolerance_m), most)
         waited_s = (change.size + 1) * self.length * lines[0].rule.step
         if waited_s >= STANDING * self.longest_s:
             return most
@@ -127,7 +127,7 @@ class Backlog:
         return max(ready, least + 1 if change[least] <= JOINT_M else 0)
 
 
-def _flagged(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:
+def _collect_flags(track: str, passed: Filtered) -> dict[ChannelId, FlagArray]:
     if passed.flags is None:
         return {}
     return {ChannelId(name, track): passed.flags for name in (REFERENCE_HEIGHT, SIGMA)}

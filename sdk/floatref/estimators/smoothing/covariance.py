@@ -22,15 +22,15 @@ def settle(column: FloatArray, passed: FloatArray, gathered: FloatArray, left: F
             for j in range(states):
                 total -= information[i, j] * column[k, j]
             left[k, i] = total
-        _turned(information, passed[k], half)
-        _turned(passed[k], half, information)
+        _multiply_transposed(information, passed[k], half)
+        _multiply_transposed(passed[k], half, information)
         for i in range(states):
             for j in range(states):
                 information[i, j] += gathered[k, i, j]
 
 
 @compiled
-def _turned(a: FloatArray, b: FloatArray, product: FloatArray) -> None:
+def _multiply_transposed(a: FloatArray, b: FloatArray, product: FloatArray) -> None:
     """Write a' b into ``product``."""
     states = a.shape[0]
     for i in range(states):
@@ -99,7 +99,7 @@ def reach(column: FloatArray, passed: FloatArray, found: FloatArray) -> None:
             for j in range(states):
                 total += psi[j, i] * column[k, j]
             found[k, i] = total
-        _turned(passed[k], psi, product)
+        _multiply_transposed(passed[k], psi, product)
         for i in range(states):
             for j in range(states):
                 psi[i, j] = product[i, j]

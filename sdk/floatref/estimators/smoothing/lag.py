@@ -20,8 +20,8 @@ def influence(
     They act through z_T, what can be ``seen`` of the state at the last mark, alone; ``latest`` is
     that state's covariance. Were z_T known, a height before it would change by E[e_j | z_T], of
     covariance w_j' Z^-1 w_k with w the part of Psi P e_r that can be seen, Psi the product of
-    (I - K H) F from there to T, and Z the covariance of z_T; no reading can tell more. What counts
-    is what HPF_B3x2 leaves of that: an error of the whole run's height is none.
+    (I - K H) F from there to T, and Z the covariance of z_T; no reading can give more. Only
+    the part that passes HPF_B3x2 counts: an error of the whole run's height does not.
     """
     from floatref.estimators.smoothing import covariance
 
@@ -51,7 +51,7 @@ def changes(segments: Sequence[Segment], behind: Settled | None, wavelength_m: f
     return influence(marks, latest, seen, ends[:-1], wavelength_m)
 
 
-def settled(change: FloatArray, tolerance_m: float) -> int:
+def count_settled(change: FloatArray, tolerance_m: float) -> int:
     """Return how many segments, from the first, have ends of no more ``change`` than allowed."""
     open_ends = change > tolerance_m
     return int(np.argmax(open_ends)) if open_ends.any() else open_ends.size

@@ -1,4 +1,4 @@
-"""What the smoother keeps of one wheel path until its readings no longer matter."""
+"""What the smoother stores of one wheel path until its readings no longer matter."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -41,7 +41,7 @@ class Line:
         segments: those that are complete.
         before, origin: last node of a complete segment, its sample and itself.
         behind: marks of closed segments that the filter still reaches.
-        told: correction in m at the last closed node, as it came out.
+        shift: correction in m at the last closed node, as given out.
         known_at, known: marks of closed segments that have not come out, and 1-σ in m there.
     """
 
@@ -53,19 +53,19 @@ class Line:
     before: int = -1
     origin: Nodes | None = None
     behind: Settled | None = None
-    told: float = 0.0
+    shift: float = 0.0
     known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
     known: FloatArray = field(default_factory=lambda: np.empty(0))
 
     def add(self, nodes: Nodes, distance_m: FloatArray) -> None:
-        """Keep nodes behind those before, and the distance there."""
+        """Store nodes behind those before, and the distance there."""
         self.parts.append(nodes)
         self.distances.append(distance_m)
 
     def end_segment(self, sample: int) -> None:
         """Make a segment of the nodes before ``sample``, one or more."""
-        head, tail = self.parts[-1].parted(sample)
-        nodes, count = head.joined([*self.parts[:-1], head]), len(head.at)
+        head, tail = self.parts[-1].split(sample)
+        nodes, count = head.concatenate([*self.parts[:-1], head]), len(head.at)
         distance = np.concatenate([*self.distances[:-1], self.distances[-1][:count]])
         marks = Marks.of(self.before, nodes, distance, self.rule.step)
         self.segments.append(Segment(self.before, self.origin, nodes, marks))
@@ -107,13 +107,13 @@ class Line:
         for segment, corrections, behind in found:
             start = segment.start(behind)
             if segment is self.segments[0] and self.behind is not None:
-                shift = self.told - float(start.far_height)
+                shift = self.shift - float(start.far_height)
             shift = segment.shift(start, corrections, shift, place)
             place = float(np.fmax(place, segment.marks.distance_m[-1]))
             low = bisect_right(firsts, segment.before + 1) - 1
             pieces = self.heights[low : bisect_right(firsts, segment.last)]
             segment.smooth(corrections, start, self.rule.step, pieces)
-            self.told = float(corrections["far_height"][-1])
+            self.shift = float(corrections["far_height"][-1])
 
     def _settle(self, count: int) -> None:
         """Find 1-σ of the first ``count`` segments."""

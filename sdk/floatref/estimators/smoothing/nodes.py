@@ -34,7 +34,7 @@ class Kind:
         node: fields of a node, among them `at`, the sample, `updated`, the end of its updates, how
             far these `rise` and `climb`, and the upper half of the `covariance`.
         update: fields of a scalar update, among them `gain`, `innovation` and `information`.
-        seen: what readings to come can tell of a state, shape (m, states).
+        seen: what later readings can show of a state, shape (m, states).
         standing: the same at a stop.
     """
 
@@ -76,26 +76,28 @@ class Nodes:
         """The number of states."""
         return int(self.kind.seen.shape[1])
 
-    def filled(self, count: int) -> "Nodes":
+    def take_first(self, count: int) -> "Nodes":
         """Return the first ``count``, without the room behind them."""
         end = int(self.rows["updated"][count - 1]) if count else 0
         return replace(self, rows=self.rows[:count], updates=self.updates[:end])
 
-    def parted(self, sample: int) -> tuple["Nodes", "Nodes"]:
+    def split(self, sample: int) -> tuple["Nodes", "Nodes"]:
         """Return those before ``sample``, and those behind."""
-        head = self.filled(int(np.searchsorted(self.at, sample)))
+        head = self.take_first(int(np.searchsorted(self.at, sample)))
         end = len(head.updates)
-        rows = _moved(self.rows[len(head.rows) :], -end)
+        rows = _shift_updates(self.rows[len(head.rows) :], -end)
         return head, replace(self, rows=rows, updates=self.updates[end:])
 
     @classmethod
-    def joined(cls, parts: Sequence["Nodes"]) -> "Nodes":
+    def concatenate(cls, parts: Sequence["Nodes"]) -> "Nodes":
         """Return ``parts``, one or more and each behind the one before, as one."""
         parts = [part for part in parts if len(part.rows)] or parts[:1]
         if len(parts) == 1:
             return parts[0]
         ends = np.cumsum([0, *(len(part.updates) for part in parts)])
-        rows = [_moved(part.rows, end) for part, end in zip(parts, ends.tolist(), strict=False)]
+        rows = [
+            _shift_updates(part.rows, end) for part, end in zip(parts, ends.tolist(), strict=False)
+        ]
         updates = np.concatenate([part.updates for part in parts])
         return cls(parts[0].kind, np.concatenate(rows), updates)
 
@@ -150,11 +152,11 @@ class Nodes:
         return found
 
     def seen(self, standing: bool) -> FloatArray:
-        """Return what readings to come can tell of a state, shape (m, states)."""
+        """Return what later readings can show of a state, shape (m, states)."""
         return self.kind.standing if standing else self.kind.seen
 
 
-def _moved(rows: Records, by: int) -> Records:
+def _shift_updates(rows: Records, by: int) -> Records:
     """Return ``rows`` whose updates are counted from ``by`` places further back."""
     if by == 0:
         return rows

@@ -92,16 +92,16 @@ class Marks:
     @classmethod
     def of(cls, before: int, nodes: Nodes, distance_m: FloatArray, step: float) -> "Marks":
         """Choose the marks of a segment from its ``nodes``, at ``distance_m`` each."""
-        chosen = _chosen(nodes.at, distance_m, step)
+        chosen = _choose_nodes(nodes.at, distance_m, step)
         passed, gathered = nodes.passes(max(before, 0), step, chosen)
         place = nodes.at[chosen], distance_m[chosen]
         return cls(*place, nodes.column(chosen), nodes.latest(), passed, gathered)
 
 
-def _chosen(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
+def _choose_nodes(at: IndexArray, distance_m: FloatArray, step: float) -> IndexArray:
     """Return the nodes that are far enough from those before, in time or travel, and the last.
 
-    Time that passes at a standstill is none: it could be an hour.
+    Time at a standstill does not count: it could be an hour.
     """
     apart = np.zeros(at.size)
     travel = distance_m[1:] - distance_m[:-1]
@@ -119,9 +119,9 @@ class Segment:
 
     Attributes:
         before: sample of the node before the first one; -1 before the run.
-        origin: that node alone, none before the run.
+        origin: that node alone; empty before the run.
         nodes: those after ``before``.
-        marks: those of them that tell how covariances pass on.
+        marks: those of them that carry how covariances pass on.
     """
 
     before: int
@@ -145,7 +145,7 @@ class Segment:
     def shift(self, start: np.record, corrections: Records, step_m: float, place_m: float) -> float:
         """Shift all corrections by ``step_m``, less with the travel from ``place_m`` on.
 
-        Returns what is left of it at the last node.
+        Returns what remains of it at the last node.
         """
         if step_m == 0.0:
             return 0.0

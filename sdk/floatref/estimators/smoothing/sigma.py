@@ -20,7 +20,7 @@ REACH = 1.5
 
 @dataclass(eq=False)
 class Settled:
-    """Marks with what the readings behind them say.
+    """Marks with the information of the readings behind them.
 
     Attributes:
         at: samples, shape (n,).
@@ -83,7 +83,7 @@ def sigma(marks: Settled, first: int, end: int, wavelength_m: float, noise_m: fl
 def covariances(marks: Settled, width_m: float = np.inf) -> FloatArray:
     """Return E[e_i e_j] of the smoothed height at all marks, shape (n, n), in m².
 
-    It is left 0 for marks further than ``width_m`` apart.
+    It stays 0 for marks further than ``width_m`` apart.
     """
     from floatref.estimators.smoothing import covariance
 

@@ -28,7 +28,7 @@ def with_tyre_states(model: VehicleModel, discrete: Discrete) -> Discrete:
     """Return ``discrete`` with a state u, in m, for each tyre of ``model`` that has damping.
 
     They come behind x, in the order of the tyres. Each is exact for forces that change linearly
-    between samples, whatever the forces of ``discrete`` do: were they to stay, u would lag.
+    between samples, for any forces of ``discrete``: if they were held, u would lag.
     """
     damped = [(at, tyre) for at, tyre in enumerate(model.tyres) if tyre.damping > 0]
     size, inputs = discrete.before.shape
@@ -44,7 +44,7 @@ def with_tyre_states(model: VehicleModel, discrete: Discrete) -> Discrete:
 
 
 def _decay(tyre: Tyre, step_s: float) -> tuple[float, float, float]:
-    """Return what u keeps over a step, and what 1 N before it and 1 N after it give."""
+    """Return the share of u that remains over a step, and what 1 N before and after it give."""
     steps = tyre.stiffness * step_s / tyre.damping
     lost = -expm1(-steps)
     # 1 - lost/steps, by its series where the difference would be rounding.
@@ -53,7 +53,7 @@ def _decay(tyre: Tyre, step_s: float) -> tuple[float, float, float]:
 
 
 UNKNOWN_ROAD_M, UNKNOWN_ROAD_S = 0.1, 0.1
-"""1-σ of how far the road is from where it was last seen, while no reading tells of it, and after
+"""1-σ of how far the road is from where it was last seen, while no reading measures it, and after
 which time that has changed: (15) of Zhu for a road of class G of ISO 8608 at 15 m/s."""
 LOP_SIDED = 1e-9
 """Of its largest element, how far a covariance may be from symmetric or positive: rounding."""
@@ -90,7 +90,7 @@ class JointInputState:
         ``disturbance`` is Q, of one step, and ``initial`` P of the first sample; both have the
         shape (2n, 2n), or (2n,) for a diagonal, in squares of m, rad, m/s and rad/s. With a
         ``hold`` of first order forces are linear between samples. Raises InputError for a step
-        that is not above zero, a covariance that is none, or readings that do not tell all forces
+        that is not above zero, an invalid covariance, or readings that do not determine all forces
         and states, naming what is missing.
         """
         check_readings(model, readings, step_s, hold)
@@ -108,29 +108,29 @@ class JointInputState:
             direct=direct,
             feedthrough=discrete.feedthrough(output, direct),
             variance=np.array([reading.sigma**2 for reading in readings]),
-            disturbance=_extended(noise, unseen),
+            disturbance=_extend(noise, unseen),
             after=discrete.after,
             unknown=np.array([(tyre.stiffness * UNKNOWN_ROAD_M) ** 2 for tyre in model.tyres]),
             stays=exp(-step_s / UNKNOWN_ROAD_S),
         )
-        return cls(model, tuple(readings), system, _extended(start, unseen + UNKNOWN_ROAD_M**2))
+        return cls(model, tuple(readings), system, _extend(start, unseen + UNKNOWN_ROAD_M**2))
 
     def estimate(self, samples: ArrayLike) -> Estimate:
-        """Return what ``samples``, shape (N, m), tell; a missing (NaN) reading is left out.
+        """Return the estimates from ``samples``, shape (N, m); a missing (NaN) reading is left out.
 
-        Where the others do not tell all forces, force and road are NaN; the states go on with the
-        last forces, and their standard deviations take in a rough road about 0.1 m away. Raises
-        InputError for another shape, when no sample at all tells the forces, or when the
+        Where the others do not determine all forces, force and road are NaN; the states go on with
+        the last forces, and their standard deviations take in a rough road about 0.1 m away. Raises
+        InputError for another shape, when no sample determines the forces, or when the
         covariance does not stay finite and positive.
         """
-        array = self._checked(samples)
+        array = self._check(samples)
         found = self.advance(self.begin(), array)
         if not np.isfinite(found.road).any():
             whole = zip(self.readings, array.T, strict=True)
             named = [str(r) for r, column in whole if not np.isfinite(column).any()]
             raise InputError(
-                f"model {self.model.name}: none of {array.shape[0]} samples has the readings that "
-                f"tell the forces of its tyres; missing throughout: {', '.join(named) or 'none'}"
+                f"model {self.model.name}: no sample of {array.shape[0]} has all readings that "
+                f"determine the forces of its tyres; missing throughout: {', '.join(named) or '-'}"
             )
         return found
 
@@ -146,14 +146,14 @@ class JointInputState:
         )
 
     def advance(self, memory: Memory, samples: ArrayLike) -> Estimate:
-        """Return what ``samples``, shape (N, m), tell, those that follow the last.
+        """Return the estimates from ``samples``, shape (N, m), which follow the last ones.
 
         Any split gives the same, bit for bit. Raises InputError as `estimate`, but for samples
         that tell nothing.
         """
         from floatref.vehicle_response.estimators.joint_kernel import joint_input_state
 
-        array = self._checked(samples)
+        array = self._check(samples)
         count, (states, inputs) = array.shape[0], self.system.after.shape
         shapes = [(count, inputs)] * 2 + [(count, states)] * 2
         out = Estimates(*(np.empty(shape) for shape in shapes))
@@ -183,7 +183,7 @@ class JointInputState:
         states, sigma = found.states[:, :size], states_sigma[:, :size]
         return Estimate(road, road_sigma, states, sigma, found.forces, force_sigma)
 
-    def _checked(self, samples: ArrayLike) -> FloatArray:
+    def _check(self, samples: ArrayLike) -> FloatArray:
         array = np.ascontiguousarray(samples, dtype=np.float64)
         if array.ndim != 2 or array.shape[1] != len(self.readings):
             raise InputError(
@@ -193,7 +193,7 @@ class JointInputState:
         return array if array.flags.writeable else array.copy()
 
 
-def _extended(matrix: FloatArray, diagonal: FloatArray) -> FloatArray:
+def _extend(matrix: FloatArray, diagonal: FloatArray) -> FloatArray:
     """Return ``matrix`` with ``diagonal`` below it, zero beside."""
     size = matrix.shape[0]
     whole = np.diag(np.concatenate((np.zeros(size), diagonal)))

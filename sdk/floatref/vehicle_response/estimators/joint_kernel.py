@@ -88,11 +88,11 @@ def _full_rank(system: System, present: IndexArray, count: int) -> bool:
     for r in range(count):
         for i in range(scaled.shape[1]):
             scaled[r, i] = system.direct[present[r], i] / sqrt(system.variance[present[r]])
-    return _cholesky(_turned(scaled, scaled), DEFICIENT)
+    return _cholesky(_multiply_transposed(scaled, scaled), DEFICIENT)
 
 
 @compiled
-def _turned(a: FloatArray, b: FloatArray) -> FloatArray:
+def _multiply_transposed(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return aᵀ·b."""
     product = np.zeros((a.shape[1], b.shape[1]))
     for r in range(a.shape[0]):
@@ -112,7 +112,7 @@ def _add_product(a: FloatArray, b: FloatArray, total: FloatArray) -> None:
 
 
 @compiled
-def _add_turned(a: FloatArray, b: FloatArray, total: FloatArray) -> None:
+def _add_times_transposed(a: FloatArray, b: FloatArray, total: FloatArray) -> None:
     """Add a·bᵀ to ``total``."""
     for i in range(a.shape[0]):
         for j in range(b.shape[0]):
@@ -172,13 +172,13 @@ def _update(
         for k in range(inputs):
             passed[i, k] = system.feedthrough[row, k]
     _add_product(output, memory.covariance, weighted)
-    _add_turned(weighted, output, spanned)
+    _add_times_transposed(weighted, output, spanned)
     if not _cholesky(spanned, 0.0):
         return False
     _divide(spanned, weighted)
     _divide(spanned, passed)
     _divide(spanned, left)
-    root = _turned(passed, passed)
+    root = _multiply_transposed(passed, passed)
     if not _cholesky(root, 0.0):
         return False
     _estimate(weighted, passed, left, root, memory)
@@ -194,10 +194,10 @@ def _estimate(
     L·(R̃ - J·P_F·Jᵀ)·Lᵀ of step (b) is WᵀW - (HᵀW)ᵀ·P_F·(HᵀW), and P_XF is -(HᵀW)ᵀ·P_F.
     """
     size, inputs = memory.crossed.shape
-    inverse, common = np.eye(inputs), _turned(passed, weighted)
+    inverse, common = np.eye(inputs), _multiply_transposed(passed, weighted)
     _divide(root, inverse)
-    spread, seen = _turned(inverse, inverse), _turned(passed, left)
-    taken, shared = _turned(weighted, weighted), _turned(common, spread)
+    spread, seen = _multiply_transposed(inverse, inverse), _multiply_transposed(passed, left)
+    taken, shared = _multiply_transposed(weighted, weighted), _multiply_transposed(common, spread)
     for i in range(inputs):
         memory.force[i] = 0.0
         for j in range(inputs):
@@ -206,7 +206,7 @@ def _estimate(
     for r in range(left.shape[0]):
         for j in range(inputs):
             left[r, 0] -= passed[r, j] * memory.force[j]
-    moved = _turned(weighted, left)
+    moved = _multiply_transposed(weighted, left)
     for i in range(size):
         memory.state[i] += moved[i, 0]
         for j in range(inputs):
@@ -246,11 +246,11 @@ def _predict(system: System, memory: Memory, seen: bool) -> None:
     _add_product(a, memory.state.reshape(size, 1), moved)
     _add_product(b, memory.force.reshape(inputs, 1), moved)
     _add_product(a, memory.covariance, half)
-    _add_turned(b, memory.crossed, half)
+    _add_times_transposed(b, memory.crossed, half)
     _add_product(a, memory.crossed, side)
     _add_product(b, memory.spread, side)
-    _add_turned(half, a, whole)
-    _add_turned(side, b, whole)
+    _add_times_transposed(half, a, whole)
+    _add_times_transposed(side, b, whole)
     for i in range(size):
         memory.state[i] = moved[i, 0]
         for j in range(inputs):

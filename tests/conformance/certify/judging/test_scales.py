@@ -79,7 +79,7 @@ def test_runs_that_do_not_tell_the_distance_are_named(vague):
     some, _ = by_distance((0.02, 0.01), vague)
     none, _ = by_distance(vague, vague)
     assert (some.judged, some.value) == (Judged.PASS, 0.02)
-    assert some.reason.startswith("not told to 0.15 %: run-2")
+    assert some.reason.startswith("not known to 0.15 %: run-2")
     assert none.judged is Judged.MISSING
     assert by_distance()[0].judged is Judged.MISSING
 

@@ -103,7 +103,7 @@ def test_a_run_that_was_not_read_stays_as_it_is_and_the_rest_goes_on(sheet_of, t
     sheet = sheet_of((ten_runs[0], bad, *ten_runs[1:]))
     found = {run.name: run for run in sheet.runs}["run-2b"]
     assert (found.error, found.tracks, found.profile) == ("line 3 is cut short", (), None)
-    assert found.said == ("said",)
+    assert found.notes == ("said",)
     assert sum(bool(run.tracks) for run in sheet.runs) == 10
     assert np.isfinite(sheet.pairs["left"]).sum() == 45
 
@@ -131,7 +131,7 @@ def test_a_wheel_path_that_holds_nothing_leaves_the_other_one(sheet_of, ten_runs
     left, right = sheet.runs[0].tracks
     assert np.isnan([left.accuracy, left.iri_m_per_km, left.with_others]).all()
     assert right.accuracy > 0.9
-    assert "track left" in " ".join(sheet.runs[0].said)
+    assert "track left" in " ".join(sheet.runs[0].notes)
     assert left.missing_m == pytest.approx(200.05)
 
 

@@ -84,7 +84,7 @@ def test_the_limits_are_those_that_are_given():
 
 
 def test_a_vehicle_whose_encoder_stands_still_is_told_what_it_needs():
-    assert "a parked vehicle needs an encoder that tells travel" in missing(parked(0.3))
+    assert "a parked vehicle needs an encoder that gives travel" in missing(parked(0.3))
 
 
 def test_a_run_that_is_too_short_is_told_what_would_do():
@@ -108,16 +108,16 @@ def test_a_point_without_elevation_is_not_bridged_where_it_counts():
 
 def test_what_is_flagged_counts_and_is_told():
     found = sheet(parked(doubted=slice(4000, 4040)))
-    assert found.said == tuple(
+    assert found.notes == tuple(
         f"track {name} flags 2.0 m of what counts as not valid" for name in ("left", "right")
     )
     assert {c.judged for c in found.criteria} == {Judged.PASS}
 
 
 def test_a_recording_that_made_no_profile_says_why():
-    found = sheet(None, error="distance: does not advance", said=("read as TDMS",))
+    found = sheet(None, error="distance: does not advance", notes=("read as TDMS",))
     assert found.criteria[0].reason == "distance: does not advance"
-    assert (found.said, found.iri_m_per_km, found.profile) == (("read as TDMS",), {}, None)
+    assert (found.notes, found.iri_m_per_km, found.profile) == (("read as TDMS",), {}, None)
 
 
 @pytest.mark.parametrize("stretch", [(100.0, 50.0), (np.nan, 5.0), (0.0, np.inf)])

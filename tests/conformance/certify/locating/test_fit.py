@@ -1,4 +1,4 @@
-"""Scales of distance and of heights are told from the section alone, and so is their scatter."""
+"""Scales of distance and of heights come from the section alone, and so does their scatter."""
 
 from dataclasses import replace
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from floatref.measures import agreement, on_common_grid
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.locating.placing import place, placed
+from floatref_conformance.certify.locating.placing import apply_placement, place
 from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 
 
@@ -23,8 +23,8 @@ def correlations(reference, run):
 
 def put(reference, run):
     placement = place(reference, run)
-    assert placement.found, placement.said
-    return placement, placed(run, placement)
+    assert placement.found, placement.notes
+    return placement, apply_placement(run, placement)
 
 
 @pytest.mark.parametrize("start_m", [0.0, 0.8, -0.8])
@@ -32,7 +32,7 @@ def test_a_run_that_lies_right_comes_back_as_the_same_object(road, start_m) -> N
     run = replace(road.run(start_m - 1.0, 165.0), start_m=-1.0)
     placement, result = put(road.reference(), run)
     assert result is run
-    assert placement.said == ()
+    assert placement.notes == ()
 
 
 @settings(max_examples=12, deadline=None)
@@ -60,7 +60,7 @@ def test_all_that_was_done_to_a_run_is_undone(
     assert (placement.distance_unit, placement.height_unit) == (distance, height)
     assert placement.offset_m == pytest.approx(-start_m, abs=0.1)
     assert min(correlations(reference, result)) > 0.85
-    assert place(reference, result).said == ()
+    assert place(reference, result).notes == ()
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -71,7 +71,7 @@ def test_heights_upside_down_are_said_and_stay_a_fault(road, changed, mirrored) 
     placement, result = put(reference, turned)
     assert placement.inverted
     assert (placement.reversed, placement.height_unit) == (mirrored, "mm")
-    assert any("upside down" in line for line in placement.said)
+    assert any("upside down" in line for line in placement.notes)
     assert max(correlations(reference, result)) < 0.5
     upright = changed(result, lambda name, z: (name, -z))
     assert min(correlations(reference, upright)) > 0.85
@@ -83,7 +83,7 @@ def test_every_unit_of_distance_is_told(road, unit) -> None:
     slipped = replace(run, interval_m=run.interval_m / DISTANCE_UNITS[unit])
     placement, _ = put(road.reference(), slipped)
     assert placement.distance_unit == unit
-    assert any(f"in {unit}," in s for s in placement.said) == (unit != "m")
+    assert any(f"in {unit}," in s for s in placement.notes) == (unit != "m")
 
 
 @settings(max_examples=15, deadline=None)
@@ -108,7 +108,7 @@ def test_exchanged_wheel_paths_are_put_right(road, changed) -> None:
     run = changed(road.run(), lambda name, z: (other[name], z))
     placement, result = put(road.reference(), run)
     assert placement.tracks == other
-    assert placement.said == ("wheel paths left and right are exchanged: put right",)
+    assert placement.notes == ("wheel paths left and right are exchanged: put right",)
     assert min(correlations(road.reference(), result)) > 0.99
 
 
@@ -120,7 +120,7 @@ def test_a_run_of_one_wheel_path_tells_which(road, name) -> None:
     assert placement.tracks == {name: "main"}
     assert [t.name for t in result.tracks] == [name]
     lacking = ({"left", "right"} - {name}).pop()
-    assert f"wheel path {lacking} of the reference is missing in the run" in placement.said
+    assert f"wheel path {lacking} of the reference is missing in the run" in placement.notes
 
 
 def test_a_dead_wheel_path_does_not_hide_the_other(road, changed) -> None:
@@ -160,14 +160,16 @@ def test_another_road_is_not_found_and_it_is_said_what_was_tried(road, roads) ->
         run = roads(seed).run(-50.0, 600.0)
         placement = place(road.reference(), run)
         assert not placement.found
-        assert placed(run, placement) is run
-        assert "the best correlation is" in placement.said[0]
+        assert apply_placement(run, placement) is run
+        assert "the best correlation is" in placement.notes[0]
 
 
 def test_a_run_that_ends_early_says_how_much_is_missing(road) -> None:
     placement, _ = put(road.reference(), road.run(0.0, 70.0))
     assert not placement.moves
-    assert placement.said == ("the run covers 70.0 m of the section's 160.9 m, from 0.0 to 70.0 m",)
+    assert placement.notes == (
+        "the run covers 70.0 m of the section's 160.9 m, from 0.0 to 70.0 m",
+    )
 
 
 @pytest.mark.parametrize("shape", ["run", "reference"])
@@ -176,7 +178,7 @@ def test_a_constant_profile_is_not_found(road, shape) -> None:
     pair = (road.reference(), flat) if shape == "run" else (flat, road.run())
     placement = place(*pair)
     assert not placement.found
-    assert len(placement.said) == 1
+    assert len(placement.notes) == 1
 
 
 def test_of_the_repeats_of_a_road_the_nearest_is_taken_and_said() -> None:
@@ -186,7 +188,7 @@ def test_of_the_repeats_of_a_road_the_nearest_is_taken_and_said() -> None:
     run = Profile(0.05, (ProfileTrack.of("main", slabs[34:]),))
     placement, _ = put(reference, run)
     assert placement.offset_m == pytest.approx(-1.7, abs=0.05)
-    assert any("the road repeats itself" in s for s in placement.said)
+    assert any("the road repeats itself" in s for s in placement.notes)
 
 
 @settings(max_examples=15, deadline=None)
@@ -201,7 +203,7 @@ def test_a_reference_that_is_not_in_metres_is_told(road, changed) -> None:
     reference = changed(road.reference(), lambda name, z: (name, 1000.0 * z))
     placement, _ = put(reference, road.run())
     assert placement.height_factor == 1.0
-    assert any("the reference seems to be in mm" in s for s in placement.said)
+    assert any("the reference seems to be in mm" in s for s in placement.notes)
 
 
 def test_validity_and_sigma_follow_their_points(road) -> None:

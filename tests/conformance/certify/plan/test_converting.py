@@ -24,7 +24,7 @@ from floatref.values.recording import Channel, Recording, Setup
 from floatref_adapters.formats.erd.erd_profile import Erd
 from floatref_conformance.certify.plan import commands as commands_module
 from floatref_conformance.certify.plan.commands import Answer, Commands, Stopped
-from floatref_conformance.certify.plan.converting import Converted, converted
+from floatref_conformance.certify.plan.converting import Converted, convert_all
 from floatref_conformance.certify.plan.plan_document import Processing
 
 SOURCES = {
@@ -55,13 +55,13 @@ def found(folder: Path) -> Mapping[str, Converted]:
     """What became of every source, by name, all read together."""
     paths = [folder / name for names in SOURCES.values() for name in names]
     processing = Processing("spatial-basic", folder / "mine.json")
-    made = converted(paths, processing, lambda path: None)
+    made = convert_all(paths, processing, lambda path: None)
     return {path.name: one for path, one in made.items()}
 
 
 def only(path: Path) -> Converted:
     """Return what becomes of ``path`` alone."""
-    return converted([path], Processing(), lambda path: None)[path]
+    return convert_all([path], Processing(), lambda path: None)[path]
 
 
 def recording() -> Recording:
@@ -83,7 +83,7 @@ def test_a_profile_of_any_format_is_the_profile(
     found: Mapping[str, Converted], folder: Path, reference: Profile, name: str
 ) -> None:
     one = found[name]
-    assert (one.error, one.said) == ("", ())
+    assert (one.error, one.notes) == ("", ())
     assert one.profile is not None
     for track in reference.tracks:
         half_digit = 0.6e-7 if name == "made.erd" else 0.0
@@ -117,7 +117,7 @@ def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Conver
     assert one.profile.pipeline == "spatial-basic"
     assert one.profile.interval_m == 0.1
     assert one.profile.provenance["adapter"] == "recording"
-    assert one.said[0] == "processed by spatial-basic"
+    assert one.notes[0] == "processed by spatial-basic"
 
 
 def test_warnings_of_processing_are_told(
@@ -129,7 +129,7 @@ def test_warnings_of_processing_are_told(
 
     monkeypatch.setattr(Commands, "run", warned)
     (tmp_path / "drive").mkdir()
-    assert only(tmp_path / "drive").said == ("processed by any", "half of it", "is missing")
+    assert only(tmp_path / "drive").notes == ("processed by any", "half of it", "is missing")
 
 
 @pytest.mark.parametrize(
@@ -164,7 +164,7 @@ def test_a_profile_directory_that_is_damaged_is_not_processed(tmp_path: Path) ->
 def test_every_source_is_told_once(folder: Path) -> None:
     paths = [folder / "made", folder / "made.csv", folder / "made", folder / "gone.erd"]
     told: list[Path] = []
-    converted(paths, Processing(), told.append)
+    convert_all(paths, Processing(), told.append)
     assert sorted(told) == sorted(set(paths))
 
 
@@ -180,7 +180,7 @@ def test_nothing_is_left_when_it_is_interrupted(
         raise error
 
     with pytest.raises(error):
-        converted([folder / "made", folder / "noise.bin"], Processing(), interrupted)
+        convert_all([folder / "made", folder / "noise.bin"], Processing(), interrupted)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref_conformance.certify.plan.run_paths import existing, names_of, natural, runs_of
+from floatref_conformance.certify.plan.run_paths import check_exists, names_of, natural, runs_of
 
 
 @pytest.fixture
@@ -81,9 +81,9 @@ def test_what_is_not_there_is_refused(folder: Path, text: str, said: str) -> Non
 
 
 def test_a_source_that_is_there(folder: Path) -> None:
-    assert existing("stop_0.20g/recording.json", folder) == folder / "stop_0.20g"
+    assert check_exists("stop_0.20g/recording.json", folder) == folder / "stop_0.20g"
     with pytest.raises(InputError, match="nowhere: not found"):
-        existing("nowhere", folder)
+        check_exists("nowhere", folder)
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,7 @@ def certified(section_of):
         bad = [run_track(t, 0.31, 1.0, causes=[long]) for t in ("left", "right")]
         runs = (
             run_sheet(1, tracks),
-            run_sheet(2, tracks, said=("reversed: driven from the other end",)),
+            run_sheet(2, tracks, notes=("reversed: driven from the other end",)),
             run_sheet(3, bad, stretched=0.01),
             RunSheet("run-4", "runs/run-4.csv", (), (), "holds no profile"),
         )

@@ -65,7 +65,7 @@ def spoilt(certified, hostile, run_of):
         for cause in t.causes
     )
     run = make(1, [numbers("left", causes=causes), numbers("right")], name=hostile, source=hostile,
-               said=(hostile,))  # fmt: skip
+               notes=(hostile,))  # fmt: skip
     run = replace(run, profile=replace(run.profile, provenance={"sha256": {hostile: hostile}}))
     unread = replace(run, tracks=(), profile=None, error=hostile)
     criteria = tuple(
@@ -75,7 +75,7 @@ def spoilt(certified, hostile, run_of):
     section = replace(
         section, name=hostile, reference_source=hostile, runs=(run, unread), criteria=criteria
     )
-    tests = tuple(replace(s, id=hostile, source=hostile, said=(hostile,)) for s in made.stationary)
+    tests = tuple(replace(s, id=hostile, source=hostile, notes=(hostile,)) for s in made.stationary)
     return replace(made, sections=(section, section), stationary=tests)
 
 

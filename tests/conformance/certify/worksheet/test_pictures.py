@@ -25,7 +25,7 @@ from floatref_conformance.certify.worksheet.pictures import (
     close_up,
     iri_by_run,
     lag_picture,
-    overlaid,
+    overlay,
     roughest_m,
 )
 from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH
@@ -64,7 +64,7 @@ def section(section_of, run_of):
 
 
 def test_every_run_has_its_line_and_bad_ones_another_stroke(section):
-    svg = overlaid(section(3, 2), "left", LIMITS, "x")
+    svg = overlay(section(3, 2), "left", LIMITS, "x")
     counts = {s: len(parts(svg, "path", s)) for s in ("truth", "run", "failing-1", "failing-2")}
     # A panel of elevation, one of roughness, and the legend.
     assert counts == {"truth": 3, "run": 2 * 3 + 1, "failing-1": 3, "failing-2": 3}
@@ -72,7 +72,7 @@ def test_every_run_has_its_line_and_bad_ones_another_stroke(section):
 
 
 def test_many_bad_runs_share_a_name_in_the_legend(section):
-    svg = overlaid(section(1, 5), "left", LIMITS, "x")
+    svg = overlay(section(1, 5), "left", LIMITS, "x")
     assert svg.count("runs that do not agree") == 1
     assert len(parts(svg, "path", "failing-1")) == 2 * 5 + 1
 
@@ -83,7 +83,7 @@ def test_a_run_without_the_wheel_path_or_without_a_profile_has_no_line(section, 
         make(1, [numbers("right")]),
         replace(make(2, [numbers("left")]), tracks=(), profile=None),
     ]
-    svg = overlaid(section_of(runs, tracks=("left",)), "left", LIMITS, "x")
+    svg = overlay(section_of(runs, tracks=("left",)), "left", LIMITS, "x")
     assert not parts(svg, "path", "run")
     assert len(parts(svg, "path", "truth")) == 2
 

@@ -81,7 +81,7 @@ def test_every_criterion_stands_with_its_limit_and_its_reason(certified):
         "Accuracy left 0.9500 ≥ 0.9 pass",
         "Distance left +1.000 % ± 0.15 % fail",
         "Distance left: run-3 takes the section 1.00 % longer",
-        "Iri-Bias left +0.400 % none reported",
+        "Iri-Bias left +0.400 % no limit reported",
         "Bounce left – ≤ 0.126 m/km missing",
     ):
         assert part in text
@@ -109,7 +109,7 @@ def test_the_matrix_is_shown_as_long_as_it_fits(certified, section_of, run_of, r
 
 def test_what_a_file_said_is_text(certified, hostile, run_of):
     make, numbers = run_of
-    run = make(1, [numbers("left")], name="[red]x[/red]", said=(hostile,))
+    run = make(1, [numbers("left")], name="[red]x[/red]", notes=(hostile,))
     made = certified(profiler="[bold]" + hostile)
     section = replace(made.sections[0], runs=(run,), name=hostile, reference_source=hostile)
     text = shown(replace(made, sections=(section,)), terminal=False)
@@ -129,7 +129,7 @@ def test_what_is_said_of_the_reference_is_told_in_the_terminal_and_on_the_page(
 ):
     make, numbers = run_of
     said = ("processed by temporal-basic", "a gap of 3 m")
-    section = section_of([make(1, [numbers("left")])], tracks=("left",), reference_said=said)
+    section = section_of([make(1, [numbers("left")])], tracks=("left",), reference_notes=said)
     made = certified(sections=(section,))
     for line in said:
         assert f"the reference: {line}" in shown(made)

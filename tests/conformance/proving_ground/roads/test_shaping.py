@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from floatref import measures
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.roads.road import Road, flat_road
-from floatref_conformance.proving_ground.roads.shaping import scaled_to, with_bump, with_level_start
+from floatref_conformance.proving_ground.roads.shaping import scale_to, with_bump, with_level_start
 
 
 def wavy_road(length_m: float = 200.0) -> Road:
@@ -57,7 +57,7 @@ def test_a_bump_has_its_height_its_length_and_its_place(
 @settings(deadline=None, max_examples=10)
 def test_scaling_meets_the_mean_iri_and_keeps_the_wheel_paths_ratio(target: float) -> None:
     road = with_level_start(wavy_road())
-    scaled = scaled_to(road, target)
+    scaled = scale_to(road, target)
     x = road.distance_m
     part = (x >= 26.0) & (x <= road.end_m - 20.0)
     values = [measures.iri(z[part], road.spacing_m) for z in scaled.elevation.values()]
@@ -69,9 +69,9 @@ def test_scaling_meets_the_mean_iri_and_keeps_the_wheel_paths_ratio(target: floa
 def test_impossible_changes_are_refused() -> None:
     flat = flat_road(100.0, spacing_m=0.05)
     with pytest.raises(InputError, match="without roughness"):
-        scaled_to(flat, 2.0)
+        scale_to(flat, 2.0)
     with pytest.raises(InputError, match="target IRI is 0"):
-        scaled_to(flat, 0.0)
+        scale_to(flat, 0.0)
     with pytest.raises(InputError, match="flank_m is 2"):
         with_bump(flat, 50.0, 3.0, 0.01, 2.0)
     with pytest.raises(InputError, match="wheel path third"):

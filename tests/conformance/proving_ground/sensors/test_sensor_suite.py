@@ -11,9 +11,9 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY as G
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Setup, TrackSetup
-from floatref_conformance.proving_ground.sensors.chain import Chain, counted
+from floatref_conformance.proving_ground.sensors.chain import Chain, count_steps
 from floatref_conformance.proving_ground.sensors.noise import (
-    drawn,
+    draw_value,
     gauss_markov,
     quantize,
     random_walk,
@@ -68,7 +68,7 @@ def test_ideal_sensors_tell_the_truth() -> None:
 
 def test_scaling_is_linear_and_leaves_rates_alone() -> None:
     suite = SensorSuite()
-    larger = suite.scaled(3.0)
+    larger = suite.scale(3.0)
     for name, value in vars(suite).items():
         assert getattr(larger, name) == pytest.approx(value if name in UNSCALED else 3 * value)
         assert value > 0 or name == "encoder_error"
@@ -109,7 +109,7 @@ def test_correlated_drift_is_stationary_and_forgets_with_its_time_constant() -> 
 @settings(deadline=None, max_examples=50)
 @given(seed=st.integers(0, 2**62), nominal=st.floats(1e-6, 1.0))
 def test_drawn_errors_never_vanish(seed: int, nominal: float) -> None:
-    assert 0.5 <= abs(drawn(stream(seed, "b"), nominal)) / nominal <= 1.5
+    assert 0.5 <= abs(draw_value(stream(seed, "b"), nominal)) / nominal <= 1.5
 
 
 @settings(deadline=None, max_examples=50)
@@ -190,7 +190,7 @@ def test_vibration_of_the_mount_has_any_phase_against_the_body() -> None:
 @given(steps=st.lists(st.floats(-1e-9, 0.01), min_size=2, max_size=60))
 def test_counts_never_fall_and_lag_by_less_than_one(steps: list[float]) -> None:
     travel = np.cumsum(np.abs(steps))
-    counts = counted(travel.copy(), 0.3e-3)
+    counts = count_steps(travel.copy(), 0.3e-3)
     assert np.all(np.diff(counts) >= 0)
     assert np.all((travel - counts > -1e-9) & (travel - counts < 0.3e-3 + 1e-9))
 

@@ -14,7 +14,7 @@ from floatref_conformance.proving_ground.vehicles.full_car import HEAVE, PITCH, 
 from floatref_conformance.proving_ground.vehicles.parameter_sets import (
     LOADED_VAN,
     VEHICLES,
-    vehicle_called,
+    find_vehicle,
 )
 from floatref_conformance.proving_ground.vehicles.response import (
     ENVELOPE_M,
@@ -189,4 +189,4 @@ def test_parameters_that_no_vehicle_has_are_refused(change: dict, message: str) 
 
 def test_unknown_vehicle_is_refused_with_a_hint() -> None:
     with pytest.raises(InputError, match="did you mean minivan"):
-        vehicle_called("minivn")
+        find_vehicle("minivn")

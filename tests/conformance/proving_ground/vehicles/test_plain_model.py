@@ -12,7 +12,7 @@ from floatref_conformance.proving_ground.roads.road import flat_road
 from floatref_conformance.proving_ground.vehicles.linear_models import QUARTER_CAR, ZHU_HALF_CAR
 from floatref_conformance.proving_ground.vehicles.parameter_sets import (
     LINEAR_MODELS,
-    vehicle_called,
+    find_vehicle,
 )
 from floatref_conformance.proving_ground.vehicles.plain_model import PlainModel
 from floatref_conformance.proving_ground.vehicles.response import Response, equilibrium
@@ -80,4 +80,4 @@ def test_models_that_do_not_fit_are_refused() -> None:
     with pytest.raises(InputError, match="more than 7 freedoms or 4 tyres"):
         replace(QUARTER_CAR, tyres=5 * QUARTER_CAR.tyres)
     with pytest.raises(InputError, match="did you mean zhu-half-car"):
-        vehicle_called("zhu-halfcar")
+        find_vehicle("zhu-halfcar")

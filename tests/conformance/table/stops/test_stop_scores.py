@@ -25,9 +25,9 @@ TRUTH = Profile(DX, (ProfileTrack.of("left", rough(X)),))
 FILTERED = high_pass(rough(X), DX)
 
 
-def scored(elevation, sigma=None, told_m=X):
+def scored(elevation, sigma=None, encoder_m=X):
     track = ProfileTrack.of("left", elevation, sigma=sigma)
-    return stop_scores(TRUTH, told_m, Profile(DX, (track,)))["left"]
+    return stop_scores(TRUTH, encoder_m, Profile(DX, (track,)))["left"]
 
 
 def test_the_filtered_truth_is_perfect():
@@ -63,9 +63,9 @@ def test_only_points_around_the_stop_count_for_sigma():
 
 
 def test_an_encoder_that_tells_too_much_is_an_error_of_the_axis_alone():
-    told_m = 1.002 * X
-    along_told = high_pass(np.interp(X, told_m, rough(X)), DX)
-    scores = scored(along_told, np.full(X.size, 1e-4), told_m)
+    encoder_m = 1.002 * X
+    along_told = high_pass(np.interp(X, encoder_m, rough(X)), DX)
+    scores = scored(along_told, np.full(X.size, 1e-4), encoder_m)
     assert scores.within_two_sigma_percent == 100.0
     assert scores.within_two_sigma_true_distance_percent < 50.0
 

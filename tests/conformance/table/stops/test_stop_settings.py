@@ -17,7 +17,7 @@ from floatref_conformance.table.stops.stop_settings import (
     FINAL_SPEED_KMH,
     SPEED_KMH,
     STOP_ROADS,
-    stop_drawn,
+    draw_stop,
 )
 from floatref_conformance.table.table_settings import offered_pipelines
 
@@ -27,7 +27,7 @@ NOMINAL = frozenset[str]()
 @pytest.mark.parametrize("corner", list(product(SPEED_KMH, DECELERATION_G, FINAL_SPEED_KMH)))
 def test_the_farthest_drives_fit(corner):
     speed, deceleration, final = corner
-    drawn = stop_drawn(0, "minivan", STOP_ROADS[0], 0, NOMINAL)
+    drawn = draw_stop(0, "minivan", STOP_ROADS[0], 0, NOMINAL)
     changed = {"speed_kmh": speed, "deceleration_g": deceleration, "final_speed_kmh": final}
     drive = drive_of(replace(drawn, dwell_s=DWELL_S[1], **changed))
     assert drive.length_m == pytest.approx(drawn.length_m)
@@ -35,7 +35,7 @@ def test_the_farthest_drives_fit(corner):
 
 
 def test_numbers_are_drawn_all_over_their_ranges():
-    drawn = [stop_drawn(5, "trailer", STOP_ROADS[1], number, NOMINAL) for number in range(400)]
+    drawn = [draw_stop(5, "trailer", STOP_ROADS[1], number, NOMINAL) for number in range(400)]
     for name, (low, high), middle in (
         ("speed_kmh", SPEED_KMH, sum(SPEED_KMH) / 2),
         ("deceleration_g", DECELERATION_G, sum(DECELERATION_G) / 2),
@@ -69,9 +69,9 @@ def test_fewer_stops_and_vehicles_are_the_same_ones():
 
 def test_channels_are_recorded_as_they_are_needed():
     road = STOP_ROADS[2]
-    rich = stop_drawn(1, "pickup", road, 0, frozenset({"imu", "gnss"}))
+    rich = draw_stop(1, "pickup", road, 0, frozenset({"imu", "gnss"}))
     assert (rich.imu, rich.gnss) == (True, True)
-    assert stop_drawn(1, "pickup", road, 0, NOMINAL) == replace(rich, imu=False, gnss=False)
+    assert draw_stop(1, "pickup", road, 0, NOMINAL) == replace(rich, imu=False, gnss=False)
 
 
 def test_all_is_the_default_in_the_usual_order():

@@ -20,12 +20,12 @@ PIPELINES = ("temporal-basic", "spatial-basic")
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     """Let every drive be short and slowly sampled."""
-    drawn = settings_module.stop_drawn
+    drawn = settings_module.draw_stop
 
     def short(*arguments):
         return replace(drawn(*arguments), dwell_s=0.5, rate_hz=1000.0, profile_interval_m=0.025)
 
-    monkeypatch.setattr(settings_module, "stop_drawn", short)
+    monkeypatch.setattr(settings_module, "draw_stop", short)
 
 
 def flat(_device, recording, target):

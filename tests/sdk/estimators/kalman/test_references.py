@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.kalman.noise import Noise
-from floatref.estimators.kalman.observations import joined, part
+from floatref.estimators.kalman.observations import join_observations, part
 from floatref.estimators.kalman.references import Plan, References, Stretch
 from floatref.estimators.models.kalman_values import (
     CAPTURE,
@@ -76,7 +76,7 @@ def scheduled(plan, stretch, cuts=()):
     """Return all observations, from a run cut at ``cuts``."""
     references = References(plan, NOISE, SUB_BLOCK, STEP, 0.3, 1.6)
     edges = [0, *sorted(set(cuts)), LENGTH]
-    return joined([references.schedule(stretch.part(a, b)) for a, b in pairwise(edges)])
+    return join_observations([references.schedule(stretch.part(a, b)) for a, b in pairwise(edges)])
 
 
 @laws

@@ -93,7 +93,7 @@ def test_blocks_come_out_before_the_run_ends_and_little_is_kept():
         held += len(block) - len(stage.push(block))
         assert held <= (4 * (NEAR_S + FAR_S) + 2.0) * rate
     (attitude,) = stage.memory["attitudes"].values()
-    kept = (attitude.said, attitude.tilts, attitude.swung, attitude.more, attitude.near.held)
+    kept = (attitude.by_gravity, attitude.tilts, attitude.swung, attitude.more, attitude.near.held)
     assert max(each.values.shape[1] for each in kept) <= 2 * 4 * FAR_S / BIN_S
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from floatref.estimators.models.road_prior_values import LEAN, STATES, TILT
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.estimators.road_prior.excitation import Excitation
-from floatref.estimators.road_prior.learned import Brake, pooled
+from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.values.channels import ChannelId
 
 HEIGHT = ChannelId("floating_reference_height", "left")
@@ -42,7 +42,7 @@ def test_brakes_of_one_vehicle_tell_what_all_their_readings_tell_at_once(
 ):
     rng = np.random.default_rng(seed)
     parts = [readings(rng, np.array(coefficients), 6, 1e-3) for _ in range(brakes)]
-    found = pooled([posterior(*part) for part in parts], C)
+    found = pool([posterior(*part) for part in parts], C)
     whole = posterior(np.vstack([p[0] for p in parts]), np.concatenate([p[1] for p in parts]), 1e-3)
     given_ = found["lean_expected_rad"], found["tilt_expected"]
     np.testing.assert_allclose(given_, whole.estimate, rtol=1e-6, atol=1e-12)
@@ -57,13 +57,13 @@ def test_the_sigma_is_that_of_brakes_which_differ(seed):
     """Each has a coefficient of its own; no reading is much in doubt."""
     rng = np.random.default_rng(seed)
     own = rng.normal(0.0, [2e-3, 5e-4], (400, 2))
-    found = pooled([posterior(*readings(rng, each, 8, 1e-5)) for each in own], C)
+    found = pool([posterior(*readings(rng, each, 8, 1e-5)) for each in own], C)
     assert found["lean_sigma_rad"] == pytest.approx(2e-3, rel=0.2)
     assert found["tilt_sigma"] == pytest.approx(5e-4, rel=0.2)
 
 
 def test_without_brakes_nothing_is_told(drive, through):
-    assert pooled([], C) == {}
+    assert pool([], C) == {}
     stage = RoadPriorSmoother()
     through(stage, drive(1, 10.0, 100))
     assert stage.learned() == {}
@@ -132,7 +132,7 @@ def test_what_is_known_already_is_not_learned():
     constants = replace(C, tilt_sigma=1e-9)
     covariance = np.diag(np.square([1e-3, 1e-9]))
     brakes = [Brake(np.array([lean, C.tilt_expected]), covariance) for lean in (0.01, 0.012)]
-    found = pooled(brakes, constants)
+    found = pool(brakes, constants)
     assert found["tilt_expected"] == pytest.approx(C.tilt_expected)
     assert found["tilt_sigma"] == pytest.approx(1e-9)
     assert found["lean_expected_rad"] == pytest.approx(0.011, abs=1e-4)
@@ -150,7 +150,7 @@ def test_brakes_of_a_run_are_kept_one_after_the_other(drive, through):
     )
     stage = RoadPriorSmoother()
     through(stage, joined)
-    brakes = stage.memory["filters"]["left"].told()
+    brakes = stage.memory["filters"]["left"].all_brakes()
     assert [round(brake.estimate[0], 3) for brake in brakes] == [0.015, 0.005]
     found = stage.learned()
     assert found["lean_expected_rad"] == pytest.approx(0.010, abs=1e-3)
@@ -161,7 +161,7 @@ def test_no_spread_makes_less_sure_than_at_the_start():
     """Brakes that contradict one another wildly tell nothing."""
     covariance = np.diag(np.square([1e-4, 1e-4]))
     brakes = [Brake(np.array([lean, C.tilt_expected]), covariance) for lean in (-0.3, 0.3)]
-    assert pooled(brakes, C)["lean_sigma_rad"] == C.lean_sigma_rad
+    assert pool(brakes, C)["lean_sigma_rad"] == C.lean_sigma_rad
 
 
 @pytest.mark.parametrize(("left", "told"), [(0.49, True), (0.51, False)])

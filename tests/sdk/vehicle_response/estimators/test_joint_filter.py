@@ -198,8 +198,11 @@ def test_what_cannot_be_is_refused_in_one_line(changed, says):
     [
         (np.zeros((9, 3)), r"samples of the shape \(9, 3\); 4 readings need \(N, 4\)"),
         (np.zeros(4), r"samples of the shape \(4,\)"),
-        (np.full((9, 4), np.nan), "none of 9 samples .* acceleration of the body, acceleration of"),
-        (np.zeros((0, 4)), "none of 0 samples"),
+        (
+            np.full((9, 4), np.nan),
+            "no sample of 9 has .* acceleration of the body, acceleration of",
+        ),
+        (np.zeros((0, 4)), "no sample of 0 has"),
     ],
 )
 def test_samples_that_tell_nothing_are_refused_in_one_line(samples, says):
