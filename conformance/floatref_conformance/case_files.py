@@ -65,7 +65,7 @@ def read_case(path: Path) -> KeptCase:
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not JSON ({error}); name a case file") from error
     try:
-        return _kept(path.name, found)
+        return _parse_case(path.name, found)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
 
@@ -75,7 +75,7 @@ def read_cases(folder: Path) -> tuple[KeptCase, ...]:
     return tuple(read_case(path) for path in sorted((folder / FOLDER).glob("*.json")))
 
 
-def _kept(name: str, found: object) -> KeptCase:
+def _parse_case(name: str, found: object) -> KeptCase:
     if not isinstance(found, Mapping) or found.get("format") != FORMAT:
         told = found.get("format") if isinstance(found, Mapping) else type(found).__name__
         raise InputError(f"format {told!r}: unknown, expected {FORMAT!r}")
@@ -84,12 +84,14 @@ def _kept(name: str, found: object) -> KeptCase:
         raise InputError("has no check; give its id")
     edition = found.get("edition")
     if edition != EDITION:
-        return KeptCase(name, Case(check, Scenario()), DeviceClass.NOMINAL, _of_another(edition))
+        return KeptCase(
+            name, Case(check, Scenario()), DeviceClass.NOMINAL, _describe_edition(edition)
+        )
     if told not in list(DeviceClass):
         raise InputError(f"class {told!r}: unknown; choose from {', '.join(DeviceClass)}")
     return KeptCase(name, Case.of(check, found, Path(name).stem), DeviceClass(told))
 
 
-def _of_another(edition: object) -> str:
+def _describe_edition(edition: object) -> str:
     told = "has no edition" if edition is None else f"is of edition {shortened(edition)}"
     return f"the case {told}, and its numbers may mean something else in {EDITION}; take it out"

@@ -11,12 +11,12 @@ from floatref.errors import InputError
 from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check, Taken, fitted
+from floatref_conformance.checks.interface import Check, Taken, fit_check
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.bench import seen_by, taken_of
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.judge.bench import make_taken, restrict_channels
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NAME_LENGTH = 12
@@ -33,7 +33,7 @@ class ExportBench:
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels of the capabilities."""
-        taken = taken_of(seen_by(self.description, scenario))
+        taken = make_taken(restrict_channels(self.description, scenario))
         return replace(taken, recording=visible(taken.recording, self.description.channels))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
@@ -48,7 +48,7 @@ class ExportBench:
             self.written.add(name)
         finally:
             shutil.rmtree(beside, ignore_errors=True)
-        return perfect(taken)
+        return make_perfect(taken)
 
 
 def content_name(recording: Path) -> str:
@@ -76,7 +76,7 @@ def export(
     bench = ExportBench(folder, description)
     for check in checks:
         if check.needs <= description.meets:
-            for case in fitted(check, description.meets).cases(seed, effort):
+            for case in fit_check(check, description.meets).cases(seed, effort):
                 _record(check, case, bench)
         told(check.id, len(bench.written))
     return len(bench.written)

@@ -15,7 +15,7 @@ from floatref_conformance.devices.interface import NEEDS, DeviceEntry, DeviceKin
 from floatref_conformance.registry import Registry
 
 
-def sound_check(check: Check) -> Check:
+def verify_check(check: Check) -> Check:
     """Return ``check``; TypeError that names the first member that is missing or unusable."""
     what = f"check {_text(check, 'id', 'a check')}"
     for name in ("title", "clause", "derivation", "floor"):
@@ -33,7 +33,7 @@ def sound_check(check: Check) -> Check:
     return check
 
 
-def sound_kind(kind: DeviceKind) -> DeviceKind:
+def verify_kind(kind: DeviceKind) -> DeviceKind:
     """Return ``kind``; TypeError that names the first member that is missing or unusable."""
     what = f"device kind {_text(kind, 'prefix', 'a device kind')}"
     if ":" in kind.prefix:
@@ -98,7 +98,7 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
     broken: list[str] = []
     for name, load in plugins.items():
         try:
-            new_kinds, new_checks = _registered(name, load())
+            new_kinds, new_checks = _call_hooks(name, load())
             _refuse_taken(owners, (*new_kinds, *new_checks))
         except (Exception, SystemExit) as error:
             text = " ".join(str(error).split())
@@ -110,16 +110,16 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
     return Registry(kinds, checks, tuple(broken))
 
 
-def _registered(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[str, Check]]:
+def _call_hooks(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[str, Check]]:
     """Return what ``plugin`` registers; it has a manager of its own, so it breaks alone."""
     manager = pluggy.PluginManager(hookspecs.GROUP)
     manager.add_hookspecs(hookspecs)
     manager.register(plugin, name)
     kinds: list[DeviceKind] = []
     checks: list[Check] = []
-    manager.hook.conformance_register_devices(register=lambda kind: kinds.append(sound_kind(kind)))
+    manager.hook.conformance_register_devices(register=lambda kind: kinds.append(verify_kind(kind)))
     manager.hook.conformance_register_checks(
-        register=lambda check: checks.append(sound_check(check))
+        register=lambda check: checks.append(verify_check(check))
     )
     _refuse_repeated([*(kind.prefix for kind in kinds), *(check.id for check in checks)])
     return {kind.prefix: kind for kind in kinds}, {check.id: check for check in checks}

@@ -29,8 +29,8 @@ from floatref.files import write_profile
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.devices.builtin import quietly_processed
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.devices.builtin import process_quietly
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -65,7 +65,7 @@ def drive(number: int, encoder_error_percent: float = 0.0) -> Taken:
 
 def measured(device: str, taken: Taken) -> Profile:
     """Return what ``device`` makes of a drive."""
-    return perfect(taken) if device == PERFECT else quietly_processed(taken.recording, device)
+    return make_perfect(taken) if device == PERFECT else process_quietly(taken.recording, device)
 
 
 def higher(profile: Profile) -> Profile:

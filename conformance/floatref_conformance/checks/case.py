@@ -47,7 +47,10 @@ class Case:
     @property
     def parameters(self) -> Mapping[str, Any]:
         """The numbers that make the case again: those that differ from the defaults."""
-        return {"scenario": _differing(self.scenario), "variation": dict(self.variation)}
+        return {
+            "scenario": _differences_from_default(self.scenario),
+            "variation": dict(self.variation),
+        }
 
     @property
     def digest(self) -> str:
@@ -75,7 +78,7 @@ def _is_plain(value: object) -> bool:
     return isinstance(value, str) or (isinstance(value, float) and isfinite(value))
 
 
-def _differing(scenario: Scenario) -> dict[str, Any]:
+def _differences_from_default(scenario: Scenario) -> dict[str, Any]:
     values = scenario.to_dict()
     return {
         f.name: values[f.name]

@@ -38,7 +38,7 @@ def speed_at(scenario: Scenario, distance_m: FloatArray) -> FloatArray:
     return np.interp(distance_m, motion.distance, motion.speed)
 
 
-def flagged(
+def measure_flags(
     compared: Compared, scenario: Scenario, events_m: Sequence[float]
 ) -> tuple[Measurement, ...]:
     """Return the longest flagged length at an end, and around one of ``events_m``, in m.

@@ -104,6 +104,6 @@ class Fitting(Protocol):
         """Return the check without such cases for a device that has ``meets`` of `NEEDS`."""
 
 
-def fitted(check: Check, meets: Iterable[str]) -> Check:
+def fit_check(check: Check, meets: Iterable[str]) -> Check:
     """Return ``check`` with the cases for a device that ``meets`` so much: most have one kind."""
     return check.fitted(meets) if isinstance(check, Fitting) else check

@@ -12,7 +12,7 @@ SEED = 2**32 - 1
 """Largest seed that is drawn."""
 
 
-def rounded(low: float, high: float, digits: int = 1) -> "SearchStrategy[float]":
+def rounded_numbers(low: float, high: float, digits: int = 1) -> "SearchStrategy[float]":
     """Return a strategy of numbers from ``low`` to ``high`` with so many ``digits`` decimals."""
     from hypothesis import strategies as st
 

@@ -62,7 +62,7 @@ class Compared:
 
     def _pair(self, inside: slice, counted: BoolArray) -> Pair:
         truth = self.truth[inside]
-        return Pair(truth, bridged(self.result[inside], truth), self.interval_m, counted)
+        return Pair(truth, bridge(self.result[inside], truth), self.interval_m, counted)
 
 
 def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
@@ -84,7 +84,7 @@ def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
     )
 
 
-def bridged(result: FloatArray, truth: FloatArray) -> FloatArray:
+def bridge(result: FloatArray, truth: FloatArray) -> FloatArray:
     """Return ``result`` with the shape of ``truth`` where it has no elevation.
 
     The car of the IRI runs over what was not measured, too; this way it brings nothing along
@@ -136,10 +136,10 @@ def better(first: Measurement, second: Measurement, device_class: DeviceClass) -
 
 def _roughness(pair: Pair) -> tuple[float, float]:
     true, found = (float(np.abs(trace).mean()) for trace in _traces(pair))
-    return not_flat(true), found
+    return refuse_flat(true), found
 
 
-def not_flat(true_m_per_km: float) -> float:
+def refuse_flat(true_m_per_km: float) -> float:
     """Return the IRI of a true road; InputError for 0, of which no error is a share."""
     if true_m_per_km == 0:
         raise InputError("the road that is judged is flat; give one with an IRI above 0")

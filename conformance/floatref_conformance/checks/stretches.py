@@ -13,7 +13,7 @@ END_M = 106.0
 """What counts is so far from both ends: the high-pass (105.91 m) may leave points out."""
 
 
-def fitting(stretches: Stretches, length_m: float) -> Stretches:
+def verify_stretches(stretches: Stretches, length_m: float) -> Stretches:
     """Return the ``stretches`` of a run of ``length_m`` that are to be judged.
 
     Raises InputError if one is empty, or lies within `END_M` of an end of the run.

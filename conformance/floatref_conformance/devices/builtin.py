@@ -48,10 +48,10 @@ class BuiltinDevice:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Process ``recording`` and write the profile directory ``profile``."""
-        write_profile(quietly_processed(read_recording(recording), self.pipeline), profile)
+        write_profile(process_quietly(read_recording(recording), self.pipeline), profile)
 
 
-def quietly_processed(
+def process_quietly(
     recording: Recording, pipeline: str, settings: Mapping[str, Any] | None = None
 ) -> Profile:
     """Return what ``pipeline`` makes of ``recording``; what it repairs or flags is no news here."""

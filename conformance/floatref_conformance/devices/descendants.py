@@ -79,14 +79,14 @@ class Descendants:
         limit = time.monotonic() + PATIENCE_S
         while time.monotonic() < limit:
             has_ended = device.poll() is not None
-            left = self._left(device)
+            left = self._remaining(device)
             if has_ended and not left:
                 return
             for process in left:
                 _kill(process, device.pid)
             time.sleep(0.002)
 
-    def _left(self, device: "subprocess.Popen[bytes]") -> list[Process]:
+    def _remaining(self, device: "subprocess.Popen[bytes]") -> list[Process]:
         """Return the device's processes that are still there, dead ones that wait for us too."""
         table = processes()
         running = {device.pid} if device.returncode is None else set()
@@ -98,7 +98,7 @@ class Descendants:
     def _is_orphan(self, process: Process) -> bool:
         if process.parent != os.getpid() or process.pid in self._others:
             return False
-        return process.session != os.getsid(0) and not _bears(process, _marks - {self._mark})
+        return process.session != os.getsid(0) and not _has_mark(process, _marks - {self._mark})
 
 
 def processes() -> list[Process]:
@@ -116,7 +116,7 @@ def processes() -> list[Process]:
     return found
 
 
-def _bears(process: Process, marks: Iterable[bytes]) -> bool:
+def _has_mark(process: Process, marks: Iterable[bytes]) -> bool:
     with suppress(OSError):
         return not set(marks).isdisjoint(
             (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")

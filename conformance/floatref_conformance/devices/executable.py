@@ -39,18 +39,18 @@ class ExecDevice:
     start_s: float = START_S
     stop_s: float = STOP_S
     _session: Session | None = field(default=None, init=False, repr=False)
-    _said: Mapping[str, Any] | None = field(default=None, init=False, repr=False)
+    _description: Mapping[str, Any] | None = field(default=None, init=False, repr=False)
 
     def describe(self) -> Mapping[str, Any]:
         """Return what the program says of itself; DeviceError if it does not."""
-        return self._started().device
+        return self._start().device
 
     def run(self, recording: Path, profile: Path) -> None:
         """Have ``recording`` processed; DeviceError, DeviceHung or DeviceSkipped if it is not."""
         limit_s = self.timeout_s
         if limit_s is None:
             limit_s = RUN_S + RUN_PER_LENGTH * length_s(recording)
-        self._started().run(recording, profile, limit_s)
+        self._start().run(recording, profile, limit_s)
 
     def close(self) -> None:
         """Stop the program; DeviceError if it does not stop well. No process of it is left."""
@@ -58,11 +58,11 @@ class ExecDevice:
         if session is not None:
             session.stop(self.stop_s)
 
-    def _started(self) -> Session:
+    def _start(self) -> Session:
         if self._session is None or self._session.is_over:
             self._session = Session(self.argv, self.folder, self.start_s)
-            self._said = self._said or self._session.device
-        if self._session.device != self._said:
+            self._description = self._description or self._session.device
+        if self._session.device != self._description:
             raise DeviceError("start: describes itself otherwise than at its first start")
         return self._session
 

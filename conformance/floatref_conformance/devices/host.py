@@ -33,7 +33,7 @@ def main(words: Sequence[str]) -> None:
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
     if FIND in options:
-        _write(answers, {"missing": missing(spec)})
+        _write(answers, {"missing": describe_missing(spec)})
         return
     serve(spec, map(json.loads, commands), partial(_write, answers))
 
@@ -51,7 +51,7 @@ def serve(
             break
         try:
             if command["cmd"] == "start":
-                device = found(spec)()
+                device = find_factory(spec)()
                 told = {"version": 1, "device": dict(device.describe())}
             else:
                 paths = Path(command["recording"]), Path(command["profile"])
@@ -63,7 +63,7 @@ def serve(
         device.close()
 
 
-def found(spec: str) -> Callable[[], Any]:
+def find_factory(spec: str) -> Callable[[], Any]:
     """Return the factory that ``spec`` names; Missing if there is none.
 
     What the vendor's module raises while it is imported is let through.
@@ -85,10 +85,10 @@ def found(spec: str) -> Callable[[], Any]:
     return made
 
 
-def missing(spec: str) -> str | None:
+def describe_missing(spec: str) -> str | None:
     """Return why there is no factory of that name; None if there is, or if it cannot be told."""
     try:
-        found(spec)
+        find_factory(spec)
     except Missing as reason:
         return str(reason)
     except BaseException:

@@ -78,7 +78,7 @@ class Tail:
 
     def __init__(self, stream: IO[bytes]) -> None:
         """Begin to read ``stream``."""
-        self.kept = b""
+        self.end = b""
         self._stream = stream
         self._last_s = monotonic()
         self.thread = Thread(target=self._follow, daemon=True)
@@ -94,7 +94,7 @@ class Tail:
 
     def _follow(self) -> None:
         while chunk := _read(self._stream):
-            self.kept = (self.kept + chunk)[-KEPT:]
+            self.end = (self.end + chunk)[-KEPT:]
             self._last_s = monotonic()
 
 

@@ -126,10 +126,10 @@ class Child:
         self._is_gone = True
         atexit.unregister(self.kill)
 
-    def said(self) -> str:
+    def describe_stderr(self) -> str:
         """Return the last lines of standard error, to be put behind a fault; empty without."""
         self._tail.settle()
-        shown = map(readable, self._neutral(self._tail.kept).splitlines())
+        shown = map(readable, self._neutral(self._tail.end).splitlines())
         lines = [line for line in shown if any(map(str.isalnum, line))]
         return f" ; stderr: {' | '.join(lines[-SHOWN_LINES:])}" if lines else ""
 

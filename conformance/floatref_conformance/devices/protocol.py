@@ -59,7 +59,7 @@ class Session:
             if failed is None and skipped is None and answer.get("ok") is not True:
                 raise DeviceError("answered neither ok, nor skipped, nor error")
         if failed is not None:
-            raise DeviceError(f"run: answered an error: {failed}{self._child.said()}")
+            raise DeviceError(f"run: answered an error: {failed}{self._child.describe_stderr()}")
         if skipped is not None:
             raise DeviceSkipped(skipped)
 
@@ -85,7 +85,7 @@ class Session:
             self.is_over = True
             self._child.kill()
             if isinstance(fault, DeviceError):
-                raise type(fault)(f"{name}: {fault}{self._child.said()}") from fault
+                raise type(fault)(f"{name}: {fault}{self._child.describe_stderr()}") from fault
             raise
 
     def _ask(self, command: Mapping[str, Any], limit_s: float) -> Mapping[str, Any]:
@@ -98,7 +98,7 @@ class Session:
 
     def _check(self, line: bytes) -> Mapping[str, Any]:
         """Return the object on ``line``; DeviceError unless it answers the last command."""
-        answer = parsed(line)
+        answer = parse_line(line)
         seq = answer.get("seq")
         if isinstance(seq, bool) or not isinstance(seq, int) or seq != self._seq:
             told = f"seq {readable(repr(seq), 40)}" if "seq" in answer else "without a seq"
@@ -106,10 +106,10 @@ class Session:
         return answer
 
 
-def parsed(line: bytes) -> Mapping[str, Any]:
+def parse_line(line: bytes) -> Mapping[str, Any]:
     """Return the JSON object on ``line``; DeviceError, in one line, for anything else."""
     try:
-        found = json.loads(line.decode("utf-8"), parse_constant=_refused)
+        found = json.loads(line.decode("utf-8"), parse_constant=_refuse)
     except UnicodeDecodeError as error:
         raise DeviceError(f"answered what is not UTF-8: {readable(line)}") from error
     except (ValueError, RecursionError) as error:
@@ -121,7 +121,7 @@ def parsed(line: bytes) -> Mapping[str, Any]:
     return found
 
 
-def _refused(literal: str) -> NoReturn:
+def _refuse(literal: str) -> NoReturn:
     raise ValueError(f"{literal} is not JSON")
 
 

@@ -8,7 +8,7 @@ from floatref_conformance.devices import process
 from floatref_conformance.devices.executable import ExecDevice
 from floatref_conformance.devices.host import FIND
 from floatref_conformance.devices.interface import DeviceKind
-from floatref_conformance.devices.protocol import START_S, parsed
+from floatref_conformance.devices.protocol import START_S, parse_line
 from floatref_conformance.errors import DeviceError
 
 HOST = (sys.executable, "-m", "floatref_conformance.devices.host")
@@ -36,7 +36,7 @@ def _missing(spec: str) -> str | None:
     except DeviceError as error:
         raise InputError(f"device python:{spec}: {error}") from error
     try:
-        missing = parsed(child.receive(START_S)).get("missing")
+        missing = parse_line(child.receive(START_S)).get("missing")
     except DeviceError:
         return None
     finally:

@@ -32,13 +32,13 @@ class RecordedDevice:
     """
 
     folder: Path
-    said: Mapping[str, Any]
+    description: Mapping[str, Any]
     searchable: bool = field(default=False, init=False)
     _digests: dict[Path, Digests] = field(default_factory=dict, init=False, repr=False)
 
     def describe(self) -> Mapping[str, Any]:
         """Return the content of device.json, or the folder's name and nominal sensors."""
-        return self.said
+        return self.description
 
     def run(self, recording: Path, profile: Path) -> None:
         """Copy what was made of ``recording`` to ``profile``; DeviceSkipped if nothing was."""
@@ -86,14 +86,14 @@ def make(name: str) -> RecordedDevice:
         raise InputError(
             f"device files:{name}: no <case>/{RECORDING} in it; give the folder of an export"
         )
-    said = _said(folder)
+    said = _read_description(folder)
     if not isinstance(said, Mapping):
         raise InputError(f"{folder / DESCRIPTION}: not a JSON object; give name and version in one")
     default = {"version": "unknown", "architecture": "temporal", "capabilities": []}
     return RecordedDevice(folder, {"name": folder.name, **default, **said})
 
 
-def _said(folder: Path) -> Any:
+def _read_description(folder: Path) -> Any:
     return read_document(folder / DESCRIPTION) if (folder / DESCRIPTION).exists() else {}
 
 

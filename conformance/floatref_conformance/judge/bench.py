@@ -25,7 +25,7 @@ AGE_NS = 10**10
 """Coarser than any disk's clock, so that a file written at once after it was made shows it."""
 
 
-def taken_of(scenario: Scenario) -> Taken:
+def make_taken(scenario: Scenario) -> Taken:
     """Return the recording and truth of ``scenario``, from the cache if it can be.
 
     A folder that cannot be written, or no package to find one, costs time and nothing else.
@@ -50,17 +50,17 @@ class DeviceBench:
 
     device: Device
     description: Description
-    make: Callable[[Scenario], Taken] = taken_of
+    make: Callable[[Scenario], Taken] = make_taken
     passes: list[Pass] = field(default_factory=list)
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels that the device may have."""
-        taken = self.make(seen_by(self.description, scenario))
+        taken = self.make(restrict_channels(self.description, scenario))
         return replace(taken, recording=visible(taken.recording, self.description.channels))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return what the device makes of ``taken.recording``, and keep it."""
-        profile = exercise(Watched(self.device), self.description, taken.recording)
+        profile = exercise(GuardedDevice(self.device), self.description, taken.recording)
         self.passes.append(Pass(label, taken.truth, profile, taken.scenario))
         return profile
 
@@ -71,7 +71,7 @@ class DeviceBench:
 
 
 @dataclass(frozen=True)
-class Watched:
+class GuardedDevice:
     """A device whose recording must be after a run what it was before.
 
     Attributes:
@@ -86,7 +86,7 @@ class Watched:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Let the device run; DeviceError if it changed a file of ``recording``."""
-        before = {path: _aged(path) for path in sorted(recording.parent.iterdir())}
+        before = {path: _age(path) for path in sorted(recording.parent.iterdir())}
         self.device.run(recording, profile)
         for path, stamp in before.items():
             if not path.is_file() or _stamp(path) != stamp:
@@ -99,14 +99,14 @@ def _stamp(path: Path) -> tuple[int, int, int]:
     return status.st_ino, status.st_size, status.st_mtime_ns
 
 
-def _aged(path: Path) -> tuple[int, int, int]:
+def _age(path: Path) -> tuple[int, int, int]:
     """Make a file `AGE_NS` older and return its stamp."""
     time_ns = path.stat().st_mtime_ns - AGE_NS
     os.utime(path, ns=(time_ns, time_ns))
     return _stamp(path)
 
 
-def seen_by(description: Description, scenario: Scenario) -> Scenario:
+def restrict_channels(description: Description, scenario: Scenario) -> Scenario:
     """Return ``scenario`` recording the channels that the device declares, and no more."""
     recorded: dict[str, Any] = {n: n in description.capabilities for n in CHANNELS_BY_NEED}
     return replace(scenario, **recorded)
@@ -131,7 +131,7 @@ class Ahead:
 
     No more than `OUTSTANDING` are under way or waiting to be asked for. What is asked for before
     its turn is made at once by the one who asks, so that both work; what was announced before it
-    is not waited for any more. The results are those of `taken_of`, whoever makes them.
+    is not waited for any more. The results are those of `make_taken`, whoever makes them.
     """
 
     def __init__(self, description: Description) -> None:
@@ -143,19 +143,19 @@ class Ahead:
     def announce(self, cases: Iterable[Case]) -> None:
         """Begin on what ``cases`` will ask for, as far as it is not on its way already."""
         for case in cases:
-            self._coming.setdefault(seen_by(self._description, case.scenario), None)
+            self._coming.setdefault(restrict_channels(self._description, case.scenario), None)
         self._begin()
 
     def __call__(self, scenario: Scenario) -> Taken:
         """Return the recording and truth of ``scenario``."""
         if scenario not in self._coming:
-            return taken_of(scenario)
+            return make_taken(scenario)
         for passed in list(takewhile(lambda other: other != scenario, self._coming)):
             self._drop(passed)
         coming = self._coming.pop(scenario)
         at_once = coming is None or coming.cancel()
         self._begin()
-        return taken_of(scenario) if coming is None or at_once else coming.result()
+        return make_taken(scenario) if coming is None or at_once else coming.result()
 
     def close(self) -> None:
         """Drop what has not begun, and wait for what has."""
@@ -166,7 +166,7 @@ class Ahead:
         """Have the first `OUTSTANDING` made, as far as they are not under way."""
         for scenario in list(islice(self._coming, OUTSTANDING)):
             if self._coming[scenario] is None:
-                self._coming[scenario] = self._worker.submit(taken_of, scenario)
+                self._coming[scenario] = self._worker.submit(make_taken, scenario)
 
     def _drop(self, scenario: Scenario) -> None:
         coming = self._coming.pop(scenario)

@@ -28,7 +28,7 @@ Answer = TypeVar("Answer")
 
 def describe(device: Device) -> Description:
     """Return what ``device`` says of itself; DeviceError if it fails to."""
-    return Description.of(_asked(lambda: device.describe()))
+    return Description.of(_ask(lambda: device.describe()))
 
 
 def exercise(device: Device, description: Description, recording: Recording) -> Profile:
@@ -45,7 +45,7 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
         write_recording(given, folder / "recording")
         target = folder / "profile"
         try:
-            _asked(lambda: device.run(folder / "recording" / "recording.json", target))
+            _ask(lambda: device.run(folder / "recording" / "recording.json", target))
             profile = _read(target)
             _check_tracks(profile, given, description.owes)
             _check_axis(profile, given)
@@ -54,7 +54,7 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
     return profile
 
 
-def _asked(question: Callable[[], Answer]) -> Answer:
+def _ask(question: Callable[[], Answer]) -> Answer:
     """Return the device's answer; DeviceError for whatever it raises, sys.exit included.
 
     What it says of itself, DeviceHung and DeviceSkipped, is let through.
@@ -127,7 +127,7 @@ def close(device: Device) -> str:
     if ending is None:
         return ""
     try:
-        _asked(ending)
+        _ask(ending)
     except (DeviceError, DeviceSkipped) as fault:
         return str(fault)
     return ""
@@ -148,7 +148,7 @@ class Closing:
 
 
 @contextmanager
-def closed_on_error(device: Device) -> Iterator[None]:
+def close_on_error(device: Device) -> Iterator[None]:
     """Close ``device`` if what is done with it fails before it is run."""
     try:
         yield

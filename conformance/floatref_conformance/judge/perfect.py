@@ -10,7 +10,7 @@ from floatref_conformance.proving_ground.scenario import STATIONARY
 from floatref_conformance.proving_ground.staging import drive_of
 
 
-def perfect(taken: Taken) -> Profile:
+def make_perfect(taken: Taken) -> Profile:
     """Return the truth of ``taken``, filtered (-3 dB at 91.44 m), on the encoder's axis.
 
     Every point is valid. An encoder that goes back is taken to stand meanwhile.

@@ -11,11 +11,11 @@ from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
-from floatref_conformance.judge.judging import lacking
+from floatref_conformance.judge.judging import describe_missing
 from floatref_conformance.judge.verdict import CaseResult
 
 
-def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
+def judge_case(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
     """Return what the device on ``bench`` makes of ``case``; its faults are in the result."""
     result = CaseResult(case.name, case.parameters)
     try:
@@ -52,7 +52,7 @@ def replay(device: Device, check: Check, case: Case) -> CaseResult:
     """
     try:
         refuse_foreign(check, case)
-        result = _outside_a_run(device, check, case)
+        result = _judge_alone(device, check, case)
     except BaseException:
         close(device)
         raise
@@ -62,12 +62,12 @@ def replay(device: Device, check: Check, case: Case) -> CaseResult:
     return replace(result, fault=f"at its end the device {fault}")
 
 
-def _outside_a_run(device: Device, check: Check, case: Case) -> CaseResult:
+def _judge_alone(device: Device, check: Check, case: Case) -> CaseResult:
     try:
         description = describe(device)
     except DeviceError as fault:
         return CaseResult(case.name, case.parameters, fault=str(fault))
     missing = check.needs - description.meets
     if missing:
-        return CaseResult(case.name, case.parameters, skipped=lacking(missing))
-    return judged(check, case, DeviceBench(device, description))
+        return CaseResult(case.name, case.parameters, skipped=describe_missing(missing))
+    return judge_case(check, case, DeviceBench(device, description))

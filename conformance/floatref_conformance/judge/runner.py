@@ -9,7 +9,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
-from floatref_conformance.checks.interface import Check, fitted
+from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.errors import DeviceError, SuiteError
@@ -29,7 +29,7 @@ from floatref_conformance.judge.judging import (
 )
 from floatref_conformance.judge.trial import Trial
 from floatref_conformance.judge.verdict import CheckResult, Outcome, RunResult
-from floatref_conformance.judge.waivers import waived
+from floatref_conformance.judge.waivers import waive
 
 UNDESCRIBED = Description("unknown", "unknown", "unknown", ())
 """What is said of a device that does not say it itself."""
@@ -88,19 +88,19 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
 
 
 def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResult:
-    description, fault = _described(plan.device)
+    description, fault = _describe(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault)
-    with _simulating(plan, trial) as announce:
-        results, replayed = _judged(plan, trial, announce, closing)
+    with _simulate_ahead(plan, trial) as announce:
+        results, replayed = _judge_all(plan, trial, announce, closing)
     results += [left_out_result(left_out) for left_out in plan.left_out]
-    replayed += _left_out(plan)
+    replayed += _skip_left_out(plan)
     finished = _result(plan, description, results, replayed)
     emit(RunFinished(finished))
     return finished
 
 
-def _judged(
+def _judge_all(
     plan: Plan, trial: Trial, announce: Callable[[Check], None], closing: Closing
 ) -> tuple[list[CheckResult], list[Mapping[str, Any]]]:
     """Return what comes of every check, and of every kept case."""
@@ -109,19 +109,19 @@ def _judged(
     for number, check in enumerate(plan.checks):
         for coming in plan.checks[number : number + 2]:
             announce(coming)
-        result = waived(_checked(plan, check, trial), plan.waivers)
-        for again in _replayed(plan, check, result, trial):
+        result = waive(_check(plan, check, trial), plan.waivers)
+        for again in _replay(plan, check, result, trial):
             replayed.append(again)
             trial.emit(CaseReplayed(again))
         if check is plan.checks[-1]:
-            result = waived(_ended(result, closing.close()), plan.waivers)
+            result = waive(_add_end_fault(result, closing.close()), plan.waivers)
         results.append(result)
         trial.emit(CheckFinished(result))
     return results, replayed
 
 
 @contextmanager
-def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
+def _simulate_ahead(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
     """Yield what has the seeded cases of a check simulated in the background, if it may."""
     if not plan.ahead or trial.fault is not None:
         yield lambda check: None
@@ -131,7 +131,7 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
     try:
         yield (
             lambda check: (
-                ahead.announce(fitted(check, meets).cases(plan.seed, plan.effort))
+                ahead.announce(fit_check(check, meets).cases(plan.seed, plan.effort))
                 if check.needs <= meets
                 else None
             )
@@ -140,7 +140,7 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
         ahead.close()
 
 
-def _ended(result: CheckResult, fault: str) -> CheckResult:
+def _add_end_fault(result: CheckResult, fault: str) -> CheckResult:
     """Return the last ``result``, an error if the device was at fault when it was to stop."""
     if not fault or result.outcome is Outcome.NOT_APPLICABLE:
         return result
@@ -148,17 +148,17 @@ def _ended(result: CheckResult, fault: str) -> CheckResult:
     return replace(result, outcome=Outcome.ERROR, reason=reason, class_reached=None)
 
 
-def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
+def _check(plan: Plan, check: Check, trial: Trial) -> CheckResult:
     missing = check.needs - trial.description.meets
     if missing:
         return not_applicable_result(check, missing)
     if trial.given_up:
         return given_up_result(check, trial.given_up)
-    check = fitted(check, trial.description.meets)
+    check = fit_check(check, trial.description.meets)
     return trial.check(check, plan.seed, plan.effort, plan.searching)
 
 
-def _replayed(
+def _replay(
     plan: Plan, check: Check, result: CheckResult, trial: Trial
 ) -> Iterator[Mapping[str, Any]]:
     """Yield what each kept case of ``check`` comes to, if the check was run at all."""
@@ -166,33 +166,33 @@ def _replayed(
         if kept.case.check != check.id:
             continue
         if not result.cases:
-            yield _not_replayed(kept, result.outcome, result.reason)
+            yield _skipped_case(kept, result.outcome, result.reason)
             continue
         if kept.refused:
-            yield _not_replayed(kept, Outcome.SKIP, kept.refused)
+            yield _skipped_case(kept, Outcome.SKIP, kept.refused)
             continue
         again = trial.replay(check, kept)
         is_waived = check.id in plan.waivers and again["outcome"] == Outcome.FAIL
         yield {**again, "outcome": Outcome.WAIVED.value} if is_waived else again
 
 
-def _left_out(plan: Plan) -> list[Mapping[str, Any]]:
+def _skip_left_out(plan: Plan) -> list[Mapping[str, Any]]:
     """Return the kept cases of checks that are not run; those of unknown checks are among them."""
     run = {check.id for check in plan.checks}
     reasons = {left_out.id: left_out.reason for left_out in plan.left_out}
     return [
-        _not_replayed(kept, Outcome.SKIP, reasons.get(kept.case.check, "unknown check"))
+        _skipped_case(kept, Outcome.SKIP, reasons.get(kept.case.check, "unknown check"))
         for kept in plan.kept
         if kept.case.check not in run
     ]
 
 
-def _not_replayed(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:
+def _skipped_case(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:
     told = {"file": kept.file, "check": kept.case.check, "outcome": outcome.value}
     return {**told, "reason": reason, "value": None, "limit": None, "unit": None}
 
 
-def _described(device: Device) -> tuple[Description, str | None]:
+def _describe(device: Device) -> tuple[Description, str | None]:
     try:
         return describe(device), None
     except InputError:

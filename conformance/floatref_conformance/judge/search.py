@@ -60,14 +60,14 @@ def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) 
             else:
                 target(min(ratio, FARTHEST))
 
-    with _by_the_seed_alone():
+    with _without_constants():
         attempt()
     if raised:
         raise raised[0]
 
 
 @contextmanager
-def _by_the_seed_alone() -> Iterator[None]:
+def _without_constants() -> Iterator[None]:
     """Keep Hypothesis from drawing constants of whatever modules happen to be imported."""
     from hypothesis.internal.conjecture.providers import HypothesisProvider
 
@@ -76,19 +76,19 @@ def _by_the_seed_alone() -> Iterator[None]:
         yield
 
 
-def simplest(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
+def simplify(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
     """Return a case that still ``fails``, with as few numbers unlike those of ``base`` as found.
 
     All numbers are taken from ``base`` at once, then halves of them, down to single ones, until
     nothing more can go or ``budget`` cases have been tried.
     """
     shrinker = _Shrinker(base, budget, fails)
-    names = _unlike(case, base)
+    names = _differing_names(case, base)
     size = len(names)
     while size and shrinker.left:
         for start in range(0, len(names), size):
-            case = shrinker.without(case, names[start : start + size])
-        names = _unlike(case, base)
+            case = shrinker.try_without(case, names[start : start + size])
+        names = _differing_names(case, base)
         size = min(size // 2, len(names)) if size > 1 else 0
     return case
 
@@ -100,10 +100,10 @@ class _Shrinker:
     fails: Callable[[Case], bool]
     tried: set[Case] = field(default_factory=set)
 
-    def without(self, case: Case, names: Sequence[str]) -> Case:
+    def try_without(self, case: Case, names: Sequence[str]) -> Case:
         """Return ``case`` with ``names`` as in the base, if that still fails."""
         try:
-            simpler = _taking(case, self.base, names)
+            simpler = _replace_numbers(case, self.base, names)
         except InputError:
             return case
         if not names or not self.left or simpler == case or simpler in self.tried:
@@ -120,7 +120,7 @@ class _Shrinker:
             return False
 
 
-def _unlike(case: Case, base: Case) -> list[str]:
+def _differing_names(case: Case, base: Case) -> list[str]:
     """Return the names of the numbers in which two cases differ."""
     names = [
         f.name
@@ -132,7 +132,7 @@ def _unlike(case: Case, base: Case) -> list[str]:
     return names + sorted(n for n in own if case.variation.get(n) != base.variation.get(n))
 
 
-def _taking(case: Case, base: Case, names: Sequence[str]) -> Case:
+def _replace_numbers(case: Case, base: Case, names: Sequence[str]) -> Case:
     """Return ``case`` with the numbers called ``names`` of ``base``."""
     known = {f.name for f in fields(case.scenario)}
     scenario = {n: getattr(base.scenario, n) for n in names if n in known}

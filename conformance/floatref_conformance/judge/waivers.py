@@ -39,7 +39,7 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     return waivers
 
 
-def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
+def waive(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
     """Return ``result``, waived if it is beyond a limit and ``waivers`` say so.
 
     A known limit is no excuse for a crash, a hang or garbage: an error stays one.
@@ -63,10 +63,10 @@ def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> Non
         found.setdefault(case["check"], set()).add(Outcome(case["outcome"]))
     for id_ in waivers:
         if not {Outcome.WAIVED, Outcome.ERROR} & found.get(id_, set()):
-            raise InputError(f"{path}: {id_}: {_not_needed(id_, result)}")
+            raise InputError(f"{path}: {id_}: {_describe_unused(id_, result)}")
 
 
-def _not_needed(id_: str, result: RunResult) -> str:
+def _describe_unused(id_: str, result: RunResult) -> str:
     """Return in words why nothing of check ``id_`` was waived."""
     check = next((check for check in result.checks if check.id == id_), None)
     if check is None or (check.outcome is Outcome.SKIP and not check.cases):

@@ -14,7 +14,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.devices.builtin import BuiltinDevice, quietly_processed
+from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.hostile import HOSTILE, hostile_device
@@ -34,7 +34,7 @@ class Mutant:
     def run(self, recording: Path, profile: Path) -> None:
         """Spoil ``recording``, process it, spoil the profile and write it."""
         wrong, recorded = self.mutation, read_recording(recording)
-        made = quietly_processed(wrong.before(recorded), wrong.pipeline, wrong.settings)
+        made = process_quietly(wrong.before(recorded), wrong.pipeline, wrong.settings)
         write_profile(wrong.after(made, recorded), profile)
 
 

@@ -87,7 +87,7 @@ class Drive:
 When = Callable[[Drive], bool]
 
 
-def only(when: When, after: After) -> After:
+def apply_when(when: When, after: After) -> After:
     """Return ``after`` for drives of which ``when`` holds, nothing wrong for others."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:

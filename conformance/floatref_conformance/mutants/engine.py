@@ -48,7 +48,7 @@ Elevations = Callable[[Signals, Profile], FloatArray]
 """What makes the elevation of one wheel path at the points of a sound profile."""
 
 
-def remade(recording: Recording, sound: Profile, elevations: Elevations) -> Profile:
+def replace_elevations(recording: Recording, sound: Profile, elevations: Elevations) -> Profile:
     """Return ``sound`` with every elevation that ``elevations`` makes of ``recording``."""
     names = {track.name: track for track in sound.tracks}
     tracks = tuple(

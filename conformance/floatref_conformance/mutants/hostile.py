@@ -22,7 +22,7 @@ HANG_S = 1.0
 FLOOD_BYTES = 4 << 30
 
 Command = Mapping[str, Any]
-Said = Mapping[str, Any]
+Answer = Mapping[str, Any]
 
 
 class Hostile(NamedTuple):
@@ -51,37 +51,37 @@ def main(name: str) -> None:
         command = json.loads(line)
         if command["cmd"] == "stop":
             return
-        _tell(_described(command) if command["cmd"] == "start" else wrong(command))
+        _print_answer(_describe(command) if command["cmd"] == "start" else wrong(command))
 
 
-def _described(command: Command) -> Said:
+def _describe(command: Command) -> Answer:
     said = {"name": "hostile", "version": "1", "architecture": "temporal", "capabilities": []}
     return {"seq": command["seq"], "version": 1, "device": said}
 
 
-def _tell(said: Said | str) -> None:
+def _print_answer(said: Answer | str) -> None:
     print(said if isinstance(said, str) else json.dumps(said), flush=True)
 
 
-def _sound(command: Command) -> Said:
+def _sound(command: Command) -> Answer:
     from floatref_conformance.devices.builtin import BuiltinDevice
 
     BuiltinDevice(PIPELINE).run(Path(command["recording"]), Path(command["profile"]))
     return {"seq": command["seq"], "ok": True}
 
 
-def _hang(command: Command) -> Said:
+def _hang(command: Command) -> Answer:
     while True:
         time.sleep(3600.0)
 
 
-def _crash(command: Command) -> Said:
+def _crash(command: Command) -> Answer:
     print("out of luck", file=sys.stderr, flush=True)
     os.kill(os.getpid(), signal.SIGTERM)
     return _hang(command)
 
 
-def _flood(command: Command) -> Said:
+def _flood(command: Command) -> Answer:
     for _ in range(FLOOD_BYTES >> 16):
         sys.stdout.write("x" * (1 << 16))
     return _sound(command)
@@ -92,7 +92,7 @@ def _garbage(command: Command) -> str:
     return "Processing finished, 0 errors"
 
 
-def _out_of_order(command: Command) -> Said:
+def _out_of_order(command: Command) -> Answer:
     return {**_sound(command), "seq": command["seq"] - 1}
 
 
@@ -101,11 +101,11 @@ def _not_a_number(command: Command) -> str:
     return f'{{"seq": {command["seq"]}, "ok": true, "elapsed_s": NaN}}'
 
 
-def _nothing(command: Command) -> Said:
+def _nothing(command: Command) -> Answer:
     return {"seq": command["seq"], "ok": True}
 
 
-def _elsewhere(command: Command) -> Said:
+def _elsewhere(command: Command) -> Answer:
     profile = Path(command["profile"])
     elsewhere = profile.with_name("elsewhere")
     answer = _sound({**command, "profile": str(elsewhere)})
@@ -113,7 +113,7 @@ def _elsewhere(command: Command) -> Said:
     return answer
 
 
-BEHAVIOUR: Mapping[str, tuple[Callable[[Command], Said | str], str]] = {
+BEHAVIOUR: Mapping[str, tuple[Callable[[Command], Answer | str], str]] = {
     "exit-at-start": (_sound, "exits before it has said what it is"),
     "hang": (_hang, "never answers"),
     "crash": (_crash, "dies in the middle of a run"),

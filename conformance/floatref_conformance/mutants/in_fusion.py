@@ -39,7 +39,7 @@ Wrong = Callable[[Attitude], Attitude]
 """Returns what is taken for an attitude."""
 
 
-def misled(wrong: Wrong) -> After:
+def add_tilt_error(wrong: Wrong) -> After:
     """Return what adds to every elevation what an attitude taken for a ``wrong`` one brings.
 
     The false acceleration goes the way of one that is measured; drifts are suppressed alike.
@@ -48,7 +48,7 @@ def misled(wrong: Wrong) -> After:
     def spoil(profile: Profile, recording: Recording) -> Profile:
         tracks = tuple(
             ProfileTrack.of(
-                t.name, t.elevation + _false(recording, t.name, profile, wrong), t.valid
+                t.name, t.elevation + _tilt_elevation(recording, t.name, profile, wrong), t.valid
             )
             for t in profile.tracks
         )
@@ -57,7 +57,7 @@ def misled(wrong: Wrong) -> After:
     return spoil
 
 
-def _false(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> FloatArray:
+def _tilt_elevation(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> FloatArray:
     signals = Signals.of(recording, track)
     channels = [recording.channel(name, track) for name in FORCES]
     times = channels[-1].times_s
@@ -84,20 +84,20 @@ LOST_S = 1.0
 """A receiver without a fix for longer than this has an outage."""
 
 
-def _nose_up(told: Attitude) -> Attitude:
+def _invert_pitch(told: Attitude) -> Attitude:
     return Attitude(-told.pitch, told.roll)
 
 
-def _in_degrees(told: Attitude) -> Attitude:
+def _read_degrees(told: Attitude) -> Attitude:
     turned = (angle[0] + np.degrees(angle - angle[0]) for angle in (told.pitch, told.roll))
     return Attitude(*turned)
 
 
-def _swapped(told: Attitude) -> Attitude:
+def _swap(told: Attitude) -> Attitude:
     return Attitude(told.roll, told.pitch)
 
 
-def _stepping(profile: Profile, recording: Recording) -> Profile:
+def _step_after_outage(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with a step of 20 mm, high-pass filtered, where each outage ends."""
     quality = recording.channel("gnss_quality")
     times = quality.times_s[quality.values == 4.0]
@@ -106,7 +106,9 @@ def _stepping(profile: Profile, recording: Recording) -> Profile:
     seen = np.isfinite(encoder.values)
     ends_m = np.interp(ends_s, encoder.times_s[seen], encoder.values[seen])
     step = 0.02 * np.sum(profile.distance_m[:, None] > ends_m[None, :], axis=1)
-    return p.elevation(lambda z, made: z + high_pass(step, made.interval_m))(profile, recording)
+    return p.change_elevation(lambda z, made: z + high_pass(step, made.interval_m))(
+        profile, recording
+    )
 
 
 IN_FUSION = (
@@ -114,28 +116,28 @@ IN_FUSION = (
         "pitch-sign",
         "takes nose up for nose down",
         ("braking", "near-stop", "stop"),
-        after=misled(_nose_up),
+        after=add_tilt_error(_invert_pitch),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "rates-in-degrees",
         "takes deg/s for rad/s",
         ("braking", "near-stop", "stop"),
-        after=misled(_in_degrees),
+        after=add_tilt_error(_read_degrees),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "rates-swapped",
         "takes roll for pitch and pitch for roll",
         ("braking", "near-stop"),
-        after=misled(_swapped),
+        after=add_tilt_error(_swap),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "steps-after-an-outage",
         "steps by 20 mm when the receiver is back",
         ("faults",),
-        after=_stepping,
+        after=_step_after_outage,
         pipeline=AUGMENTED,
     ),
 )

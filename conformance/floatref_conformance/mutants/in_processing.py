@@ -12,7 +12,7 @@ from floatref_conformance.mutants.engine import (
     Signals,
     in_time,
     over_distance,
-    remade,
+    replace_elevations,
 )
 from floatref_conformance.mutants.mutation import (
     RESPONSE,
@@ -24,20 +24,22 @@ from floatref_conformance.mutants.mutation import (
 )
 
 
-def _as_read(signals: Signals) -> Signals:
+def _unchanged(signals: Signals) -> Signals:
     return signals
 
 
-def _by(elevations: Elevations, change: Callable[[Signals], Signals] = _as_read) -> After:
+def _use_engine(elevations: Elevations, change: Callable[[Signals], Signals] = _unchanged) -> After:
     """Return what puts the engine's elevations in place, of signals spoilt by ``change``."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
-        return remade(recording, profile, lambda signals, sound: elevations(change(signals), sound))
+        return replace_elevations(
+            recording, profile, lambda signals, sound: elevations(change(signals), sound)
+        )
 
     return spoil
 
 
-def _gravity_kept(signals: Signals) -> Signals:
+def _keep_gravity(signals: Signals) -> Signals:
     return replace(signals, acceleration=signals.acceleration + STANDARD_GRAVITY)
 
 
@@ -59,13 +61,13 @@ IN_PROCESSING = (
             "waveband",
             "faults",
         ),
-        after=_by(in_time(), _gravity_kept),
+        after=_use_engine(in_time(), _keep_gravity),
     ),
     Mutation(
         "height-in-mm",
         "takes heights in mm for m",
         all_but("low-speed"),
-        after=_by(in_time(), _height_in_mm),
+        after=_use_engine(in_time(), _height_in_mm),
     ),
     Mutation(
         "tilt-ignored",
@@ -77,7 +79,7 @@ IN_PROCESSING = (
         "reverse-pass-missing",
         "leaves out the pass that takes the filter's delay out",
         ("waveband", "faults"),
-        after=_by(in_time(backward=False)),
+        after=_use_engine(in_time(backward=False)),
     ),
     Mutation(
         "cut-off-long",
@@ -95,13 +97,13 @@ IN_PROCESSING = (
         "carry-leaking",
         "keeps 0.9 of an integral from one block of 4096 samples to the next",
         all_but("quiescent", "low-speed", "coasting"),
-        after=_by(in_time(carry=0.9)),
+        after=_use_engine(in_time(carry=0.9)),
     ),
     Mutation(
         "reflection-sign",
         "reflects the height sensor with the wrong sign",
         ("stop", "faults"),
-        after=_by(over_distance(reflection=-1.0)),
+        after=_use_engine(over_distance(reflection=-1.0)),
         pipeline=SPATIAL,
     ),
     Mutation(
@@ -120,7 +122,7 @@ LIGHT = 0.5
 """Share of its parameters that the vehicle of another fleet has."""
 
 
-def _knowing(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
+def _change_vehicle(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
     """Return what changes the vehicle that a recording knows of."""
 
     def spoil(recording: Recording) -> Recording:
@@ -132,17 +134,17 @@ def _knowing(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
     return spoil
 
 
-def _stiff(vehicle: VehicleSetup) -> VehicleSetup:
+def _stiffen_tyre(vehicle: VehicleSetup) -> VehicleSetup:
     tyre = STIFF * vehicle.parameters["tyre_n_per_m"]
     return replace(vehicle, parameters={**vehicle.parameters, "tyre_n_per_m": tyre})
 
 
-def _unsprung_halved(vehicle: VehicleSetup) -> VehicleSetup:
+def _halve_unsprung(vehicle: VehicleSetup) -> VehicleSetup:
     wheel = LIGHT * vehicle.parameters["unsprung_kg"]
     return replace(vehicle, parameters={**vehicle.parameters, "unsprung_kg": wheel})
 
 
-def _at_the_origin(vehicle: VehicleSetup) -> VehicleSetup:
+def _move_to_origin(vehicle: VehicleSetup) -> VehicleSetup:
     return replace(vehicle, x_m=0.0)
 
 
@@ -151,21 +153,21 @@ IN_RESPONSE = (
         "tyre-forgotten",
         "takes the path of the wheel for the road: the tyre does not deflect",
         ("constant-speed", "invariance"),
-        _knowing(_stiff),
+        _change_vehicle(_stiffen_tyre),
         pipeline=RESPONSE,
     ),
     Mutation(
         "wheel-place-forgotten",
         "takes the wheel to be at the point that all offsets are from",
         ("distance", "invariance"),
-        _knowing(_at_the_origin),
+        _change_vehicle(_move_to_origin),
         pipeline=RESPONSE,
     ),
     Mutation(
         "wheel-mass-halved",
         "takes half the mass of wheel and axle",
         ("constant-speed", "invariance"),
-        _knowing(_unsprung_halved),
+        _change_vehicle(_halve_unsprung),
         pipeline=RESPONSE,
     ),
 )

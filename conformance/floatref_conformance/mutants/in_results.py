@@ -29,7 +29,7 @@ class Repeated:
     def __call__(self, profile: Profile, recording: Recording) -> Profile:
         """Return what was kept if ``recording`` begins alike, else keep ``profile``."""
         if self.kept is not None and _begin_alike(self.kept[1], recording):
-            return _moved_over(*self.kept, profile, recording)
+            return _move_over(*self.kept, profile, recording)
         self.kept = profile, recording
         return profile
 
@@ -41,9 +41,7 @@ def _begin_alike(one: Recording, other: Recording) -> bool:
     )
 
 
-def _moved_over(
-    kept: Profile, before: Recording, profile: Profile, recording: Recording
-) -> Profile:
+def _move_over(kept: Profile, before: Recording, profile: Profile, recording: Recording) -> Profile:
     """Return ``kept``, made of ``before``, on the points of ``profile``, made of ``recording``."""
     times, told = _travel(recording)
     told, first = np.unique(told, return_index=True)
@@ -67,72 +65,72 @@ def _travel(recording: Recording) -> tuple[FloatArray, FloatArray]:
 
 
 IN_RESULTS = (
-    Mutation("all-zeros", "delivers a flat profile", all_but("low-speed"), after=p.scaled(0.0)),
+    Mutation("all-zeros", "delivers a flat profile", all_but("low-speed"), after=p.scale(0.0)),
     Mutation(
         "upside-down",
         "delivers the profile upside down",
         all_but("low-speed", "faults"),
-        after=p.scaled(-1.0),
+        after=p.scale(-1.0),
     ),
-    Mutation("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scaled(0.8)),
-    Mutation("in-mm", "delivers mm for m", all_but("low-speed"), after=p.scaled(1000.0)),
-    Mutation("in-feet", "delivers feet for m", all_but("low-speed"), after=p.scaled(1 / 0.3048)),
+    Mutation("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scale(0.8)),
+    Mutation("in-mm", "delivers mm for m", all_but("low-speed"), after=p.scale(1000.0)),
+    Mutation("in-feet", "delivers feet for m", all_but("low-speed"), after=p.scale(1 / 0.3048)),
     Mutation(
         "over-smoothed",
         "averages the profile over 2 m",
         all_but("low-speed"),
-        after=p.averaged(2.0),
+        after=p.average(2.0),
     ),
     Mutation(
         "staircase",
         "holds each elevation for 0.5 m",
         all_but("low-speed", "throttle", "braking", "stop"),
-        after=p.in_steps(0.5),
+        after=p.hold_in_steps(0.5),
     ),
     Mutation(
-        "coarse", "delivers whole millimetres", ("waveband", "invariance"), after=p.rounded(0.001)
+        "coarse", "delivers whole millimetres", ("waveband", "invariance"), after=p.round_to(0.001)
     ),
     Mutation(
         "noisy-where-flat",
         "adds noise of 0.07 m/km to a flat profile",
         ("quiescent",),
-        after=p.noisy_where_flat(0.00008),
+        after=p.add_noise_where_flat(0.00008),
     ),
     Mutation(
         "motion-where-flat",
         "lets 1 % of the body's motion into a flat profile",
         ("bounce",),
-        after=p.moved_where_flat(0.01),
+        after=p.add_motion_where_flat(0.01),
     ),
     Mutation(
         "displaced",
         "delivers every feature 0.3 m late",
         ("quiescent", "bounce", "waveband", "distance"),
-        after=p.moved(0.3),
+        after=p.move(0.3),
     ),
     Mutation(
         "stretched",
         "makes distances 0.3 % too long",
         ("quiescent", "bounce", "waveband", "distance", "invariance"),
-        after=p.stretched(0.003),
+        after=p.stretch(0.003),
     ),
     Mutation(
         "backwards",
         "delivers the last point first",
         all_but("low-speed", "faults"),
-        after=p.backwards,
+        after=p.reverse,
     ),
     Mutation(
         "swapped-tracks",
         "delivers left as right, right as left",
         all_but("low-speed", "invariance"),
-        after=p.swapped,
+        after=p.swap_tracks,
     ),
     Mutation(
         "tracks-alike",
         "delivers the mean of all wheel paths in each",
         all_but("low-speed", "invariance"),
-        after=p.alike,
+        after=p.average_tracks,
     ),
     Mutation("previous-result", "delivers the profile before", all_but(), after=p.Previous()),
     Mutation(
@@ -145,14 +143,14 @@ IN_RESULTS = (
         "nan-at-the-end",
         "leaves out the last 120 m",
         all_but("low-speed", "waveband"),
-        after=p.missing_at_the_end(120.0),
+        after=p.drop_end(120.0),
     ),
-    Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.beginning_late(5.0)),
+    Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.drop_start(5.0)),
     Mutation(
         "vouches-always",
         "says of every point that it is valid",
         ("low-speed", "near-stop", "stop", "faults"),
-        after=p.vouched,
+        after=p.mark_valid,
     ),
     Mutation(
         "vouches-never",
@@ -167,19 +165,19 @@ IN_RESULTS = (
             "dead-start",
             "faults",
         ),
-        after=p.flagged,
+        after=p.flag_all,
     ),
     Mutation(
         "middle-flagged",
         "flags 124 m in the middle of every run",
         ("constant-speed", "braking", "near-stop", "stop", "dead-start", "faults"),
-        after=p.flagged_around(middle_m, 124.0),
+        after=p.flag_around(middle_m, 124.0),
     ),
     Mutation(
         "held-at-the-stop",
         "holds the elevation 20 m to either side of the slowest point, and vouches for it",
         all_but("dead-start", "distance"),
-        after=p.held_at_the_slowest(20.0),
+        after=p.hold_at_slowest(20.0),
     ),
 )
 """What is wrong with all that is delivered."""

@@ -19,12 +19,12 @@ After = Callable[[Profile, Recording], Profile]
 """Spoils the profile that was made of a recording."""
 
 
-def recording_as_it_is(recording: Recording) -> Recording:
+def keep_recording(recording: Recording) -> Recording:
     """Return ``recording``."""
     return recording
 
 
-def profile_as_it_is(profile: Profile, recording: Recording) -> Profile:
+def keep_profile(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile``."""
     return profile
 
@@ -51,7 +51,7 @@ class Mutation:
     name: str
     wrong: str
     fails: tuple[str, ...]
-    before: Before = recording_as_it_is
-    after: After = profile_as_it_is
+    before: Before = keep_recording
+    after: After = keep_profile
     pipeline: str = RECOMMENDED
     settings: Mapping[str, Any] = field(default_factory=dict)

@@ -18,7 +18,7 @@ FLAT_M = 0.001
 """A profile whose standard deviation is less shows no road."""
 
 
-def elevation(change: Elevation) -> After:
+def change_elevation(change: Elevation) -> After:
     """Return what puts ``change`` of it in place of every elevation; flags stay."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
@@ -30,22 +30,24 @@ def elevation(change: Elevation) -> After:
     return spoil
 
 
-def scaled(gain: float) -> After:
+def scale(gain: float) -> After:
     """Return what multiplies every elevation by ``gain``."""
-    return elevation(lambda z, _: gain * z)
+    return change_elevation(lambda z, _: gain * z)
 
 
-def moved(length_m: float) -> After:
+def move(length_m: float) -> After:
     """Return what lets every feature lie ``length_m`` farther along."""
-    return elevation(lambda z, p: _at(z, p, p.distance_m - length_m))
+    return change_elevation(lambda z, p: _sample_at(z, p, p.distance_m - length_m))
 
 
-def stretched(share: float) -> After:
+def stretch(share: float) -> After:
     """Return what makes distances longer by ``share`` of them."""
-    return elevation(lambda z, p: _at(z, p, p.start_m + (p.distance_m - p.start_m) / (1 + share)))
+    return change_elevation(
+        lambda z, p: _sample_at(z, p, p.start_m + (p.distance_m - p.start_m) / (1 + share))
+    )
 
 
-def averaged(length_m: float) -> After:
+def average(length_m: float) -> After:
     """Return what takes the mean over ``length_m`` around every point."""
 
     def smooth(z: FloatArray, profile: Profile) -> FloatArray:
@@ -55,25 +57,25 @@ def averaged(length_m: float) -> After:
         last = np.minimum(np.arange(z.size) + half + 1, z.size)
         return np.where(np.isnan(z), z, (total[last] - total[first]) / (last - first))
 
-    return elevation(smooth)
+    return change_elevation(smooth)
 
 
-def in_steps(length_m: float) -> After:
+def hold_in_steps(length_m: float) -> After:
     """Return what holds an elevation until ``length_m`` are over."""
 
     def hold(z: FloatArray, profile: Profile) -> FloatArray:
         count = round(length_m / profile.interval_m)
         return z[np.arange(z.size) // count * count]
 
-    return elevation(hold)
+    return change_elevation(hold)
 
 
-def rounded(step_m: float) -> After:
+def round_to(step_m: float) -> After:
     """Return what delivers whole multiples of ``step_m``."""
-    return elevation(lambda z, _: step_m * np.round(z / step_m))
+    return change_elevation(lambda z, _: step_m * np.round(z / step_m))
 
 
-def noisy_where_flat(slope: float) -> After:
+def add_noise_where_flat(slope: float) -> After:
     """Return what adds noise to a flat profile: a polygon whose sides climb by ``slope``."""
 
     def add(z: FloatArray, profile: Profile) -> FloatArray:
@@ -84,10 +86,10 @@ def noisy_where_flat(slope: float) -> After:
         draw = np.random.default_rng(NOISE_SEED)
         return z + np.interp(x, corners, draw.normal(0.0, NOISE_STEP_M * slope, corners.size))
 
-    return elevation(add)
+    return change_elevation(add)
 
 
-def moved_where_flat(share: float) -> After:
+def add_motion_where_flat(share: float) -> After:
     """Return what adds ``share`` of the body's motion, by the laser, to a flat profile."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
@@ -107,19 +109,19 @@ def moved_where_flat(share: float) -> After:
     return spoil
 
 
-def missing_at_the_end(length_m: float) -> After:
+def drop_end(length_m: float) -> After:
     """Return what leaves out the elevations of the last ``length_m``."""
-    return elevation(
+    return change_elevation(
         lambda z, p: np.where(p.distance_m > p.start_m + p.length_m - length_m, np.nan, z)
     )
 
 
-def backwards(profile: Profile, recording: Recording) -> Profile:
+def reverse(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with its last point first."""
     return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation[::-1], t.valid[::-1]))
 
 
-def swapped(profile: Profile, recording: Recording) -> Profile:
+def swap_tracks(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with its elevations under the names of other wheel paths."""
     others = (*profile.tracks[1:], profile.tracks[0])
     pairs = zip(profile.tracks, others, strict=True)
@@ -127,13 +129,13 @@ def swapped(profile: Profile, recording: Recording) -> Profile:
     return replace(profile, tracks=tracks)
 
 
-def alike(profile: Profile, recording: Recording) -> Profile:
+def average_tracks(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with the mean of all wheel paths under every name."""
     mean = np.mean([t.elevation for t in profile.tracks], axis=0)
     return _each(profile, lambda t: ProfileTrack.of(t.name, mean, t.valid))
 
 
-def beginning_late(length_m: float) -> After:
+def drop_start(length_m: float) -> After:
     """Return what leaves out the first points, up to ``length_m``."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
@@ -144,17 +146,17 @@ def beginning_late(length_m: float) -> After:
     return spoil
 
 
-def vouched(profile: Profile, recording: Recording) -> Profile:
+def mark_valid(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with every point valid that has an elevation."""
     return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation))
 
 
-def flagged(profile: Profile, recording: Recording) -> Profile:
+def flag_all(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with no point valid."""
     return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation, np.zeros_like(t.valid)))
 
 
-def flagged_around(where: Callable[[Drive], float], length_m: float) -> After:
+def flag_around(where: Callable[[Drive], float], length_m: float) -> After:
     """Return what flags ``length_m`` around the place that ``where`` finds, in m."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
@@ -164,19 +166,19 @@ def flagged_around(where: Callable[[Drive], float], length_m: float) -> After:
     return spoil
 
 
-def held_at_the_slowest(reach_m: float) -> After:
+def hold_at_slowest(reach_m: float) -> After:
     """Return what holds one elevation up to ``reach_m`` from where the vehicle is slowest."""
-    return _replaced_at_the_slowest(reach_m, lambda z, near: np.full(near.size, z[near[0]]))
+    return _replace_at_slowest(reach_m, lambda z, near: np.full(near.size, z[near[0]]))
 
 
-def straight_at_the_slowest(reach_m: float) -> After:
+def straighten_at_slowest(reach_m: float) -> After:
     """Return what draws a straight line up to ``reach_m`` from where the vehicle is slowest."""
-    return _replaced_at_the_slowest(
+    return _replace_at_slowest(
         reach_m, lambda z, near: np.linspace(z[near[0]], z[near[-1]], near.size)
     )
 
 
-def _replaced_at_the_slowest(
+def _replace_at_slowest(
     reach_m: float, make: Callable[[FloatArray, NDArray[np.intp]], FloatArray]
 ) -> After:
     """Return what puts ``make`` of elevations and near points in their place, all valid."""
@@ -195,18 +197,18 @@ def _replaced_at_the_slowest(
     return spoil
 
 
-def lost_at_the_slowest(length_m: float) -> After:
+def lose_at_slowest(length_m: float) -> After:
     """Return what loses ``length_m`` of road where the vehicle is slowest."""
 
     def spoil(profile: Profile, recording: Recording) -> Profile:
         x = profile.distance_m
         places = x + np.where(x > Drive.of(recording).slowest_m, length_m, 0.0)
-        return elevation(lambda z, p: _at(z, p, places))(profile, recording)
+        return change_elevation(lambda z, p: _sample_at(z, p, places))(profile, recording)
 
     return spoil
 
 
-def both(first: After, second: After) -> After:
+def chain(first: After, second: After) -> After:
     """Return ``second`` after ``first``."""
     return lambda profile, recording: second(first(profile, recording), recording)
 
@@ -228,7 +230,7 @@ def _is_flat(z: FloatArray) -> bool:
     return float(np.nanstd(z)) < FLAT_M
 
 
-def _at(z: FloatArray, profile: Profile, places_m: FloatArray) -> FloatArray:
+def _sample_at(z: FloatArray, profile: Profile, places_m: FloatArray) -> FloatArray:
     seen = np.isfinite(z)
     return np.interp(places_m, profile.distance_m[seen], z[seen])
 

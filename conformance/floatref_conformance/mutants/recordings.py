@@ -15,21 +15,21 @@ JITTER = 0.0005
 Change = Callable[[Channel], FloatArray]
 
 
-def changed(name: str, change: Change) -> Before:
+def change_channel(name: str, change: Change) -> Before:
     """Return what puts ``change`` of it in place of every channel ``name`` of a recording."""
 
     def spoil(recording: Recording) -> Recording:
-        return _each(recording, lambda c: _with(c, change(c)) if c.id.name == name else c)
+        return _each(recording, lambda c: _replace_values(c, change(c)) if c.id.name == name else c)
 
     return spoil
 
 
-def at_rest(channel: Channel) -> FloatArray:
+def replace_by_rest(channel: Channel) -> FloatArray:
     """Return 1 g for every sample, to rounding: constant samples would be refused."""
     return _ripple(STANDARD_GRAVITY, channel)
 
 
-def held(channel: Channel) -> FloatArray:
+def hold_first(channel: Channel) -> FloatArray:
     """Return the first sample for every sample, to rounding: constant ones would be found."""
     return _ripple(float(channel.values[0]), channel)
 
@@ -40,37 +40,37 @@ def _ripple(level: float, channel: Channel) -> FloatArray:
     return values
 
 
-def mirrored(channel: Channel) -> FloatArray:
+def mirror(channel: Channel) -> FloatArray:
     """Return the samples with the sign of every change turned."""
     return np.asarray(2.0 * channel.values[0] - channel.values)
 
 
-def upside_down(channel: Channel) -> FloatArray:
+def invert_acceleration(channel: Channel) -> FloatArray:
     """Return the accelerations with their sign turned, gravity as it was."""
     return np.asarray(2.0 * STANDARD_GRAVITY - channel.values)
 
 
-def scaled(gain: float) -> Change:
+def scale(gain: float) -> Change:
     """Return what multiplies a channel by ``gain``."""
     return lambda channel: np.asarray(gain * channel.values)
 
 
-def shaken(gain: float) -> Change:
+def scale_acceleration(gain: float) -> Change:
     """Return what multiplies the acceleration by ``gain`` and leaves gravity as it is."""
     return lambda c: STANDARD_GRAVITY + gain * (c.values - STANDARD_GRAVITY)
 
 
-def raised(offset: float) -> Change:
+def add_offset(offset: float) -> Change:
     """Return what adds ``offset`` to a channel, in its unit."""
     return lambda channel: np.asarray(channel.values + offset)
 
 
-def clipped(reach: float) -> Change:
+def clip(reach: float) -> Change:
     """Return what keeps an accelerometer within ``reach`` in m/s² of 1 g."""
     return lambda c: np.clip(c.values, STANDARD_GRAVITY - reach, STANDARD_GRAVITY + reach)
 
 
-def late(delay_s: float) -> Change:
+def delay_by(delay_s: float) -> Change:
     """Return what makes a channel ``delay_s`` late; the first sample is held before it."""
 
     def delay(channel: Channel) -> FloatArray:
@@ -80,7 +80,7 @@ def late(delay_s: float) -> Change:
     return delay
 
 
-def losing(every: int) -> Change:
+def lose_samples(every: int) -> Change:
     """Return what loses one of ``every`` samples, so that the rest lie ever farther ahead."""
 
     def lose(channel: Channel) -> FloatArray:
@@ -91,7 +91,7 @@ def losing(every: int) -> Change:
     return lose
 
 
-def missing_as(value: float) -> Change:
+def fill_missing(value: float) -> Change:
     """Return what takes ``value``, and the next sample `JITTER` more, for what is missing.
 
     Samples that do not change would be found out as those of a sensor that is stuck.
@@ -104,25 +104,25 @@ def missing_as(value: float) -> Change:
     return fill
 
 
-def bridged(recording: Recording) -> Recording:
+def bridge_missing(recording: Recording) -> Recording:
     """Return ``recording`` with straight lines across what is missing, as if it were measured."""
 
     def bridge(channel: Channel) -> Channel:
         seen = np.flatnonzero(np.isfinite(channel.values))
         index = np.arange(channel.values.size)
-        return _with(channel, np.interp(index, seen, channel.values[seen]))
+        return _replace_values(channel, np.interp(index, seen, channel.values[seen]))
 
     return _each(recording, bridge)
 
 
-def in_single_precision(recording: Recording) -> Recording:
+def round_times(recording: Recording) -> Recording:
     """Return ``recording`` with the samples of times that are rounded to 24 bits, in s."""
 
     def rounded(channel: Channel) -> Channel:
         times = channel.times_s
         known = times.astype(np.float32).astype(np.float64)
         nearest = np.rint(np.interp(known, times, np.arange(times.size)))
-        return _with(channel, channel.values[nearest.astype(np.intp)])
+        return _replace_values(channel, channel.values[nearest.astype(np.intp)])
 
     return _each(recording, rounded)
 
@@ -131,5 +131,5 @@ def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recordi
     return replace(recording, channels=tuple(change(c) for c in recording.channels))
 
 
-def _with(channel: Channel, values: FloatArray) -> Channel:
+def _replace_values(channel: Channel, values: FloatArray) -> Channel:
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)

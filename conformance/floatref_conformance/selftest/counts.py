@@ -7,13 +7,13 @@ from typing import Any
 from floatref_conformance.devices.builtin import CLAIMS
 from floatref_conformance.registry import Registry
 from floatref_conformance.selftest.grading import ALLOWED, TOO_MUCH, Limit
-from floatref_conformance.selftest.trying import Tried, Try
+from floatref_conformance.selftest.trying import Try, TryResult
 
 Killers = Mapping[str, tuple[str, ...]]
 """The checks that each device must fail, by its SPEC."""
 
 
-def killers_of(registry: Registry) -> Killers:
+def find_killers(registry: Registry) -> Killers:
     """Return every device of ``registry`` that must fail checks, with those checks."""
     return {
         f"{kind.prefix}:{entry.name}": entry.fails
@@ -23,7 +23,7 @@ def killers_of(registry: Registry) -> Killers:
     }
 
 
-def named(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_named_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
     """Return every device on each check of ``ids`` that must fail it, with every seed."""
     return tuple(
         Try(spec, id_, seed)
@@ -34,7 +34,7 @@ def named(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[T
     )
 
 
-def unnamed(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_other_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
     """Return every device that must fail one check alone on all other checks of ``ids``."""
     return tuple(
         Try(spec, id_, seed)
@@ -45,7 +45,7 @@ def unnamed(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple
     )
 
 
-def claimed(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_claim_tries(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
     """Return every built-in device that claims a class on each check of ``ids``."""
     return tuple(
         Try(f"builtin:{name}", id_, seed, device_class)
@@ -71,9 +71,9 @@ class Counts:
 
     killers: Killers
     ids: tuple[str, ...]
-    kills: tuple[Tried, ...] = ()
-    others: tuple[Tried, ...] = ()
-    alarms: tuple[Tried, ...] = ()
+    kills: tuple[TryResult, ...] = ()
+    others: tuple[TryResult, ...] = ()
+    alarms: tuple[TryResult, ...] = ()
     limits: tuple[Limit, ...] = ()
     ungraded: tuple[str, ...] = field(default=())
 
@@ -83,7 +83,7 @@ class Counts:
         return tuple(one.tried for one in self.kills if not one.fails)
 
     @property
-    def false_alarms(self) -> tuple[Tried, ...]:
+    def false_alarms(self) -> tuple[TryResult, ...]:
         """The built-in devices that failed the class that they claim."""
         return tuple(one for one in self.alarms if one.fails)
 

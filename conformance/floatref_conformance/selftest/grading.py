@@ -8,17 +8,17 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, Taken
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.judge.bench import seen_by, taken_of
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.judge.bench import make_taken, restrict_channels
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NOMINAL = Description("perfect", "1", "temporal", ())
-Spoil = Callable[[Profile, Taken, str], Profile]
+AddError = Callable[[Profile, Taken, str], Profile]
 """Puts an error into the perfect profile of a recording, which has its label within the case."""
 
 
-def unspoilt(profile: Profile, taken: Taken, label: str) -> Profile:
+def keep_profile(profile: Profile, taken: Taken, label: str) -> Profile:
     """Return ``profile``."""
     return profile
 
@@ -32,7 +32,7 @@ class Roads:
     def of(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario``."""
         if scenario not in self.taken:
-            self.taken[scenario] = taken_of(scenario)
+            self.taken[scenario] = make_taken(scenario)
         return self.taken[scenario]
 
 
@@ -41,16 +41,16 @@ class TruthBench:
     """Answers every recording with its truth, filtered, and ``spoil`` applied to it."""
 
     roads: Roads
-    spoil: Spoil = unspoilt
+    add_error: AddError = keep_profile
     description: Description = NOMINAL
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels of the capabilities."""
-        return self.roads.of(seen_by(self.description, scenario))
+        return self.roads.of(restrict_channels(self.description, scenario))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return the spoilt truth."""
-        return self.spoil(perfect(taken), taken, label)
+        return self.add_error(make_perfect(taken), taken, label)
 
 
 TOO_MUCH, ALLOWED = 1.5, 0.67
@@ -58,7 +58,7 @@ TOLERANCE = 0.15
 """A known error may be read so much too large or too small, as a share of it."""
 UNSPOILT = 0.2
 """Largest reading of the truth itself, as a share of a limit, where a limit is that of an error."""
-Put = Callable[[float], Spoil]
+Put = Callable[[float], AddError]
 """Returns what puts in an error of so much, in the unit of the quantity."""
 
 
@@ -116,7 +116,7 @@ class Limit:
     check: str
     quantity: str
     device_class: DeviceClass
-    unspoilt: float
+    truth_reading: float
     too_much: float
     allowed: float
     beside: tuple[float, str]
@@ -127,8 +127,8 @@ class Limit:
     def faults(self) -> tuple[str, ...]:
         """What does not hold, in words."""
         found = []
-        if self.is_error and self.unspoilt > UNSPOILT:
-            found.append(f"the truth itself reads {self.unspoilt:.2f} of it")
+        if self.is_error and self.truth_reading > UNSPOILT:
+            found.append(f"the truth itself reads {self.truth_reading:.2f} of it")
         if not self.too_much > 1.0:
             found.append(f"{TOO_MUCH} times the limit passes")
         if not self.allowed <= 1.0:
@@ -176,7 +176,7 @@ class _Judge:
     def __call__(self, graded: Graded | None, amount: float) -> Sequence[Measurement]:
         key = ("" if graded is None else graded.names[0], round(amount, 9))
         if key not in self.done:
-            spoil = unspoilt if graded is None else graded.put(amount)
+            spoil = keep_profile if graded is None else graded.put(amount)
             bench = TruthBench(self.roads, spoil, self.situation.description)
             self.done[key] = self.situation.check.judge(self.situation.case, bench)
         return self.done[key]
@@ -203,7 +203,7 @@ def _beside(
     return max(others, default=(0.0, ""))
 
 
-def ungraded(check: Check, limits: Sequence[Limit]) -> tuple[str, ...]:
+def find_ungraded(check: Check, limits: Sequence[Limit]) -> tuple[str, ...]:
     """Return quantity and class of every limit that ``check`` publishes and none of ``limits`` is.
 
     A class that has no number in words has no limit.
@@ -211,12 +211,12 @@ def ungraded(check: Check, limits: Sequence[Limit]) -> tuple[str, ...]:
     done = {(limit.quantity, limit.device_class) for limit in limits if limit.check == check.id}
     return tuple(
         f"{check.id}: {quantity}, class {device_class}"
-        for quantity, device_class in _published(check.limits)
+        for quantity, device_class in _list_published(check.limits)
         if (quantity, device_class) not in done
     )
 
 
-def _published(
+def _list_published(
     limits: Mapping[str, Mapping[DeviceClass, str]],
 ) -> Iterator[tuple[str, DeviceClass]]:
     for quantity, words in limits.items():

@@ -13,7 +13,7 @@ from floatref.measures import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.selftest.grading import Spoil
+from floatref_conformance.selftest.grading import AddError
 
 Window = Callable[[FloatArray], FloatArray]
 """Returns the share, 0 to 1, of an error at each place in m."""
@@ -34,7 +34,7 @@ def between(start_m: float, end_m: float) -> Window:
     return lambda x: np.interp(x, corners, [0.0, 1.0, 1.0, 0.0])
 
 
-def only(spoil: Spoil, *labels: str) -> Spoil:
+def limit_to_labels(spoil: AddError, *labels: str) -> AddError:
     """Return ``spoil`` for the recordings of a case that have one of ``labels``."""
 
     def some(profile: Profile, taken: Taken, label: str) -> Profile:
@@ -43,12 +43,12 @@ def only(spoil: Spoil, *labels: str) -> Spoil:
     return some
 
 
-def higher(share: float, where: Window = everywhere) -> Spoil:
+def make_higher(share: float, where: Window = everywhere) -> AddError:
     """Return what multiplies the elevations by 1 + ``share``: so does every roughness."""
     return _elevation(lambda z, x: z * (1.0 + share * where(x)))
 
 
-def displaced(by_m: Callable[[FloatArray], FloatArray]) -> Spoil:
+def displace(by_m: Callable[[FloatArray], FloatArray]) -> AddError:
     """Return what lets features that belong at x lie ``by_m(x)`` farther along."""
 
     def move(z: FloatArray, x: FloatArray) -> FloatArray:
@@ -57,17 +57,17 @@ def displaced(by_m: Callable[[FloatArray], FloatArray]) -> Spoil:
     return _elevation(move)
 
 
-def moved(length_m: float) -> Spoil:
+def move_features(length_m: float) -> AddError:
     """Return what lets every feature lie ``length_m`` farther along."""
-    return displaced(lambda x: np.full(x.size, length_m))
+    return displace(lambda x: np.full(x.size, length_m))
 
 
-def added(shape: Callable[[FloatArray], FloatArray]) -> Spoil:
+def add_shape(shape: Callable[[FloatArray], FloatArray]) -> AddError:
     """Return what adds ``shape`` of the place, in m."""
     return _elevation(lambda z, x: z + shape(x))
 
 
-def flagged(start_m: float, end_m: float) -> Spoil:
+def flag_points(start_m: float, end_m: float) -> AddError:
     """Return what flags the points from ``start_m`` to ``end_m``."""
 
     def flag(profile: Profile, taken: Taken, label: str) -> Profile:
@@ -77,17 +77,17 @@ def flagged(start_m: float, end_m: float) -> Spoil:
     return flag
 
 
-def flagged_end(length_m: float) -> Spoil:
+def flag_end(length_m: float) -> AddError:
     """Return what flags the last ``length_m``."""
 
     def flag(profile: Profile, taken: Taken, label: str) -> Profile:
         end_m = profile.start_m + profile.length_m
-        return flagged(end_m - length_m, end_m + 1.0)(profile, taken, label)
+        return flag_points(end_m - length_m, end_m + 1.0)(profile, taken, label)
 
     return flag
 
 
-def both(*spoils: Spoil) -> Spoil:
+def chain(*spoils: AddError) -> AddError:
     """Return what applies ``spoils`` one after another."""
 
     def spoil(profile: Profile, taken: Taken, label: str) -> Profile:
@@ -98,7 +98,9 @@ def both(*spoils: Spoil) -> Spoil:
     return spoil
 
 
-def rougher(m_per_km: float, start_m: float, end_m: float, where: Window = everywhere) -> Spoil:
+def make_rougher(
+    m_per_km: float, start_m: float, end_m: float, where: Window = everywhere
+) -> AddError:
     """Return what adds ``m_per_km`` to the IRI from ``start_m`` to ``end_m``.
 
     It makes the road higher by the share that gives as much, ``where`` says.
@@ -110,12 +112,12 @@ def rougher(m_per_km: float, start_m: float, end_m: float, where: Window = every
         track = profile.tracks[0]
         rectified = np.abs(iri_trace(track.elevation, profile.interval_m))
         share = m_per_km / float(np.mean((rectified * where(x))[inside]))
-        return higher(share, where)(profile, taken, label)
+        return make_higher(share, where)(profile, taken, label)
 
     return raised
 
 
-def local(m_per_km: float, at_m: float, base_m: float) -> Spoil:
+def change_locally(m_per_km: float, at_m: float, base_m: float) -> AddError:
     """Return what changes the IRI filter's output from ``at_m`` on.
 
     Its largest mean change over ``base_m`` is ``m_per_km``.
@@ -127,12 +129,12 @@ def local(m_per_km: float, at_m: float, base_m: float) -> Spoil:
         part = iri_trace(track.elevation * where(profile.distance_m), profile.interval_m)
         count = round(base_m / profile.interval_m)
         means = np.convolve(np.abs(part), np.full(count, 1.0 / count), mode="valid")
-        return higher(m_per_km / float(means.max()), where)(profile, taken, label)
+        return make_higher(m_per_km / float(means.max()), where)(profile, taken, label)
 
     return change
 
 
-def mixed(loss: float, start_m: float, end_m: float) -> Spoil:
+def mix_in_road(loss: float, start_m: float, end_m: float) -> AddError:
     """Return what puts another road in, so that (2.16) is 1 - ``loss`` from start to end.
 
     The outputs of the IRI filter keep their standard deviation; the other road's share of them
@@ -179,7 +181,7 @@ def _deviation(z: FloatArray, interval_m: float, inside: BoolArray) -> FloatArra
     return np.asarray(trace - trace.mean())
 
 
-def _elevation(change: Callable[[FloatArray, FloatArray], FloatArray]) -> Spoil:
+def _elevation(change: Callable[[FloatArray, FloatArray], FloatArray]) -> AddError:
     def spoil(profile: Profile, taken: Taken, label: str) -> Profile:
         x = profile.distance_m
         return _each(

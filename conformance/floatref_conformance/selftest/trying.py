@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import cache
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check, fitted
+from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
-from floatref_conformance.judge.judging import why
-from floatref_conformance.judge.replaying import judged
+from floatref_conformance.judge.judging import describe_failure
+from floatref_conformance.judge.replaying import judge_case
 from floatref_conformance.judge.search import search
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
@@ -31,14 +31,14 @@ class Try:
 
 
 @dataclass(frozen=True)
-class Tried:
+class TryResult:
     """What became of a try: in one line why the device fails, empty if it does not."""
 
     tried: Try
     fails: str
 
 
-def try_all(tries: Sequence[Try], processes: int) -> Iterator[Tried]:
+def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
     """Yield what becomes of ``tries``, as they are done; an error of the suite is raised."""
     if processes < 2:
         yield from map(attempt, tries)
@@ -53,17 +53,17 @@ def try_all(tries: Sequence[Try], processes: int) -> Iterator[Tried]:
             pool.shutdown(cancel_futures=True)
 
 
-def attempt(wanted: Try) -> Tried:
+def attempt(wanted: Try) -> TryResult:
     """Return what becomes of ``wanted`` at quick effort, its search included."""
     registry = _registry()
     device = registry.device(wanted.spec)
     try:
-        return Tried(wanted, _why(registry.check(wanted.check), device, wanted))
+        return TryResult(wanted, _describe_failure(registry.check(wanted.check), device, wanted))
     finally:
         close(device)
 
 
-def _why(check: Check, device: Device, wanted: Try) -> str:
+def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
     """Return why ``device`` fails ``check``: of the first case that it fails."""
     found: list[str] = []
     try:
@@ -71,14 +71,16 @@ def _why(check: Check, device: Device, wanted: Try) -> str:
     except DeviceError as fault:
         return str(fault)
 
-    check = fitted(check, description.meets)
+    check = fit_check(check, description.meets)
 
     def ratio(case: Case) -> float:
         if found:
             return 0.0
-        result = judged(check, case, DeviceBench(device, description))
+        result = judge_case(check, case, DeviceBench(device, description))
         if result.ratio(wanted.device_class) > 1.0:
-            found.append(f"{case.name or 'searched'}: {why(result, wanted.device_class)}")
+            found.append(
+                f"{case.name or 'searched'}: {describe_failure(result, wanted.device_class)}"
+            )
         return result.ratio(wanted.device_class)
 
     for case in check.cases(wanted.seed, Effort.QUICK):

@@ -15,7 +15,7 @@ from floatref_conformance.proving_ground.roads.sines import (
     WAVELENGTHS_M,
 )
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
+from floatref_conformance.selftest.grading import AddError, Graded, Put, Situation
 
 OF_THE_FILTER = (QUANTITIES[0][0], QUANTITIES[2][0])
 """What the filter itself, as it is to be, does to the longest wave of the flat band and beyond the
@@ -31,11 +31,11 @@ def situations(check: WavebandCheck) -> tuple[Situation, ...]:
     simplest = check.simplest
     scenario = replace(simplest.scenario, tracks=("left",), rate_hz=4000.0, profile_interval_m=0.01)
     puts: tuple[Put, ...] = (
-        lambda percent: _passed(float(WAVELENGTHS_M[12]), 1.0 + percent / 100.0),
-        lambda decibel: _passed(CUT_OFF_M, 10.0 ** (decibel / 20.0)),
-        lambda gain: _passed(BEYOND_M, gain, of_truth=True),
-        put_in.moved,
-        lambda degrees: _passed(LONGEST_FLAT_M, np.exp(1j * np.deg2rad(degrees))),
+        lambda percent: _change_wave(float(WAVELENGTHS_M[12]), 1.0 + percent / 100.0),
+        lambda decibel: _change_wave(CUT_OFF_M, 10.0 ** (decibel / 20.0)),
+        lambda gain: _change_wave(BEYOND_M, gain, of_truth=True),
+        put_in.move_features,
+        lambda degrees: _change_wave(LONGEST_FLAT_M, np.exp(1j * np.deg2rad(degrees))),
     )
     graded = tuple(
         Graded((name,), put, is_error=name not in OF_THE_FILTER)
@@ -44,7 +44,7 @@ def situations(check: WavebandCheck) -> tuple[Situation, ...]:
     return (Situation(check, replace(simplest, scenario=scenario), graded),)
 
 
-def _passed(wavelength_m: float, gain: complex, of_truth: bool = False) -> Spoil:
+def _change_wave(wavelength_m: float, gain: complex, of_truth: bool = False) -> AddError:
     """Return what passes one wave ``gain`` times as it is, or as large as in the truth."""
 
     def spoil(profile: Profile, taken: Taken, label: str) -> Profile:

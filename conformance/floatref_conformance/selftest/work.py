@@ -13,9 +13,15 @@ from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.checks.stationary.parked_checks import StationaryCheck
 from floatref_conformance.selftest import drives, faults, passes, places, stationary, waves
-from floatref_conformance.selftest.counts import Counts, Killers, claimed, named, unnamed
-from floatref_conformance.selftest.grading import Limit, Roads, Situation, grade, ungraded
-from floatref_conformance.selftest.trying import Tried, Try, try_all
+from floatref_conformance.selftest.counts import (
+    Counts,
+    Killers,
+    list_claim_tries,
+    list_named_tries,
+    list_other_tries,
+)
+from floatref_conformance.selftest.grading import Limit, Roads, Situation, find_ungraded, grade
+from floatref_conformance.selftest.trying import Try, TryResult, try_all
 
 GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
     StationaryCheck: stationary.situations,
@@ -35,7 +41,7 @@ def situations(check: Check) -> tuple[Situation, ...]:
     return () if grader is None else grader(check)
 
 
-def graded(checks: Iterable[Check]) -> Iterator[Limit]:
+def grade_all(checks: Iterable[Check]) -> Iterator[Limit]:
     """Yield every limit of ``checks`` with what became of it."""
     for check in checks:
         roads = Roads()
@@ -43,9 +49,9 @@ def graded(checks: Iterable[Check]) -> Iterator[Limit]:
             yield from grade(situation, roads)
 
 
-def without_grader(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
+def list_ungraded(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
     """Return the published limits of ``checks`` that ``limits`` lack."""
-    return tuple(missing for check in checks for missing in ungraded(check, limits))
+    return tuple(missing for check in checks for missing in find_ungraded(check, limits))
 
 
 Item = TypeVar("Item")
@@ -94,22 +100,22 @@ class Work:
         return Counts(
             self.killers,
             ids,
-            self._tried("mutants", named(self.killers, ids, seeds)),
-            self._tried("only killers", self._others(ids)),
-            self._tried("false alarms", claimed(ids, more)),
+            self._try("mutants", list_named_tries(self.killers, ids, seeds)),
+            self._try("only killers", self._others(ids)),
+            self._try("false alarms", list_claim_tries(ids, more)),
             limits,
-            without_grader(self.checks, limits) if extent.limits else (),
+            list_ungraded(self.checks, limits) if extent.limits else (),
         )
 
     def _limits(self) -> tuple[Limit, ...]:
         if not self.extent.limits:
             return ()
-        return tuple(self.track(graded(self.checks), None, "limits"))
+        return tuple(self.track(grade_all(self.checks), None, "limits"))
 
     def _others(self, ids: tuple[str, ...]) -> tuple[Try, ...]:
         if not self.extent.unique:
             return ()
-        return unnamed(self.killers, ids, range(self.extent.seeds))
+        return list_other_tries(self.killers, ids, range(self.extent.seeds))
 
-    def _tried(self, title: str, tries: tuple[Try, ...]) -> tuple[Tried, ...]:
+    def _try(self, title: str, tries: tuple[Try, ...]) -> tuple[TryResult, ...]:
         return tuple(self.track(try_all(tries, self.extent.processes), len(tries), title))

@@ -55,7 +55,7 @@ class DeviceChecks:
         registry = load_registry()
         if self.checks and check not in self.checks:
             pytest.skip("not selected")
-        spec, device = self._named(registry)
+        spec, device = self._resolve(registry)
         plan = Plan(
             spec=spec,
             device=device,
@@ -70,7 +70,7 @@ class DeviceChecks:
         if judged.outcome in (Outcome.SKIP, Outcome.NOT_APPLICABLE):
             pytest.skip(judged.reason)
         if judged.outcome is not Outcome.PASS:
-            again = self._again(result, request.node)
+            again = self._reproduction(result, request.node)
             pytest.fail(f"{check}: {judged.reason}; reproduce with: {again}", pytrace=False)
 
     def _refuse_unknown(self, registry: Registry) -> None:
@@ -84,7 +84,7 @@ class DeviceChecks:
             return
         raise pytest.Collector.CollectError(f"{type(self).__name__}.checks: {fault}")
 
-    def _named(self, registry: Registry) -> tuple[str, Device]:
+    def _resolve(self, registry: Registry) -> tuple[str, Device]:
         """Return the device's SPEC, or its type's name, and the device."""
         # Not through self, which would be given to a function as its first argument.
         device = type(self).device
@@ -93,7 +93,7 @@ class DeviceChecks:
         own = OwnDevice.of(device)
         return own.name, own
 
-    def _again(self, result: RunResult, test: pytest.Item) -> str:
+    def _reproduction(self, result: RunResult, test: pytest.Item) -> str:
         """Return the command, given where this run was, that runs ``test`` again."""
         if isinstance(type(self).device, str):
             return reproduction(result)

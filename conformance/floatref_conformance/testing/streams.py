@@ -63,7 +63,7 @@ class Stream:
             for a, b in pairwise(edges)
         ]
 
-    def begun(self, blocks: Sequence[Block]) -> Stage:
+    def begin(self, blocks: Sequence[Block]) -> Stage:
         """Return a started stage, which has surveyed ``blocks`` if it does."""
         stage = self.make()
         stage.start(self.header)
@@ -71,23 +71,23 @@ class Stream:
             stage.survey(block)
         return stage
 
-    def ordered(self, blocks: Sequence[Block]) -> list[Block]:
+    def order(self, blocks: Sequence[Block]) -> list[Block]:
         """Return ``blocks`` in the order in which they are pushed."""
         return list(reversed(blocks)) if self.backward else list(blocks)
 
     def run(self, cuts: Iterable[int] = ()) -> Block:
         """Return all that comes out, joined, if the stream is cut at ``cuts``."""
         blocks = self.blocks(cuts)
-        stage = self.begun(blocks)
-        out = [stage.push(block) for block in self.ordered(blocks)]
-        return joined([*out, *stage.finish()])
+        stage = self.begin(blocks)
+        out = [stage.push(block) for block in self.order(blocks)]
+        return join([*out, *stage.finish()])
 
-    def changed(self, change: Callable[[ChannelId, FloatArray], FloatArray]) -> "Stream":
+    def change(self, change: Callable[[ChannelId, FloatArray], FloatArray]) -> "Stream":
         """Return the stream with the samples that ``change`` returns for every channel."""
         return replace(self, samples={c: change(c, x) for c, x in self.samples.items()})
 
 
-def joined(blocks: Sequence[Block]) -> Block:
+def join(blocks: Sequence[Block]) -> Block:
     """Return ``blocks`` as one, in the order of the index; AssertionError without any sample."""
     filled = sorted((block for block in blocks if len(block)), key=lambda block: block.first)
     if not filled:
@@ -106,7 +106,7 @@ def marks_of(block: Block, channel: ChannelId) -> FlagArray:
     return np.zeros(len(block), np.uint8) if marks is None else marks
 
 
-def told(block: Block, channel: ChannelId) -> BoolArray:
+def find_flagged(block: Block, channel: ChannelId) -> BoolArray:
     """Return where ``channel`` is NaN or flagged."""
     either: BoolArray = np.isnan(block[channel]) | (marks_of(block, channel) != 0)
     return either

@@ -97,7 +97,7 @@ def test_the_tail_is_the_end_of_what_was_written(lengths):
     pipe = Pipe(*chunks)
     tail = Tail(pipe.out)
     tail.thread.join()
-    assert tail.kept == b"".join(chunks)[-KEPT:]
+    assert tail.end == b"".join(chunks)[-KEPT:]
     pipe.out.close()
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.devices.protocol import Session, parsed
+from floatref_conformance.devices.protocol import Session, parse_line
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 
 LONG_S = 60.0
@@ -219,8 +219,8 @@ JSON = st.recursive(
 @settings(deadline=None, max_examples=50)
 @given(st.dictionaries(st.text(max_size=5), JSON, max_size=5))
 def test_every_json_object_is_read_as_it_is(said):
-    assert parsed(json.dumps(said, ensure_ascii=False).encode("utf-8", "replace")) is not None
-    assert parsed(json.dumps(said).encode()) == said
+    assert parse_line(json.dumps(said, ensure_ascii=False).encode("utf-8", "replace")) is not None
+    assert parse_line(json.dumps(said).encode()) == said
 
 
 @settings(deadline=None, max_examples=100)
@@ -231,6 +231,6 @@ def test_whatever_else_is_read_is_a_fault_on_one_line(line):
     except ValueError:
         is_object = False
     if is_object:
-        assert parsed(line) == json.loads(line)
+        assert parse_line(line) == json.loads(line)
     else:
-        refused(lambda: parsed(line), "^answered what is not ")
+        refused(lambda: parse_line(line), "^answered what is not ")

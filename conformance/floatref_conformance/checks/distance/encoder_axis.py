@@ -16,7 +16,7 @@ class EncoderAxis:
     """True and told distance of every sample of a drive, both shape (n,), in m."""
 
     true_m: FloatArray
-    told_m: FloatArray
+    encoder_m: FloatArray
 
     @classmethod
     def of(cls, taken: Taken) -> "EncoderAxis":
@@ -27,19 +27,19 @@ class EncoderAxis:
         """
         encoder = taken.recording.channel("distance")
         motion = drive_of(taken.scenario).motion(encoder.times_s)
-        ahead_m = seen_ahead_m(taken.recording)
+        ahead_m = sensing_ahead_m(taken.recording)
         return cls(motion.distance + ahead_m, encoder.values + ahead_m)
 
-    def true(self, told_m: FloatArray) -> FloatArray:
+    def to_true(self, told_m: FloatArray) -> FloatArray:
         """Return the true distance in m where the encoder told ``told_m``."""
-        return np.interp(told_m, self.told_m, self.true_m)
+        return np.interp(told_m, self.encoder_m, self.true_m)
 
-    def told(self, true_m: FloatArray) -> FloatArray:
+    def to_encoder(self, true_m: FloatArray) -> FloatArray:
         """Return what the encoder told, in m, at the true distance ``true_m``."""
-        return np.interp(true_m, self.true_m, self.told_m)
+        return np.interp(true_m, self.true_m, self.encoder_m)
 
 
-def seen_ahead_m(recording: Recording) -> float:
+def sensing_ahead_m(recording: Recording) -> float:
     """Return how far ahead of the laser's place the road is seen, in m; 0 by a height sensor."""
     setup = recording.setup
     if setup.vehicle is None or any(c.id.name == HEIGHT for c in recording.channels):

@@ -17,15 +17,15 @@ from floatref_conformance.checks.distance.features import (
     FEATURE_M,
     Feature,
     event_of,
-    featured,
+    feature_stretches,
     find_features,
     middles,
     place,
     scenario_of,
 )
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.rounded import rounded, seeds
-from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.rounded import rounded_numbers, seeds
+from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.staging import drive_of
@@ -96,7 +96,7 @@ class DistanceCheck:
         source = np.random.SeedSequence([seed, *self.id.encode()])
         roads = source.generate_state(COUNT[effort])
         return tuple(
-            self._seeded(number, int(road), drive)
+            self._make_case(number, int(road), drive)
             for number, (road, drive) in enumerate(zip(roads, cycle(DRIVES), strict=False))
         )
 
@@ -107,14 +107,17 @@ class DistanceCheck:
         shared = {
             "seed": seeds(),
             "vehicle": st.sampled_from(VEHICLES),
-            "iri_m_per_km": rounded(SMOOTHEST, ROUGHEST),
-            "speed_kmh": rounded(40, 90, 0),
-            "encoder_error_percent": rounded(-1.0, 1.0),
-            "slip_percent_per_g": rounded(0.0, 3.0),
+            "iri_m_per_km": rounded_numbers(SMOOTHEST, ROUGHEST),
+            "speed_kmh": rounded_numbers(40, 90, 0),
+            "encoder_error_percent": rounded_numbers(-1.0, 1.0),
+            "slip_percent_per_g": rounded_numbers(0.0, 3.0),
         }
-        slowing = {"deceleration_g": rounded(0.1, 0.4, 2)}
-        after = {"dwell_s": rounded(0.5, 20.0), "final_speed_kmh": rounded(30, 70, 0)}
-        release = {"event_speed_kmh": rounded(20, 30, 0)}
+        slowing = {"deceleration_g": rounded_numbers(0.1, 0.4, 2)}
+        after = {
+            "dwell_s": rounded_numbers(0.5, 20.0),
+            "final_speed_kmh": rounded_numbers(30, 70, 0),
+        }
+        release = {"event_speed_kmh": rounded_numbers(20, 30, 0)}
         drives = (
             {"manoeuvre": st.just("constant"), **shared},
             {"manoeuvre": st.just("stop"), **shared, **slowing, **after},
@@ -129,7 +132,7 @@ class DistanceCheck:
         Raises InputError for a drive that leaves no room for them.
         """
         length_m = drive_of(case.scenario).length_m
-        return fitting(featured(length_m, event_of(case.scenario)), length_m)
+        return verify_stretches(feature_stretches(length_m, event_of(case.scenario)), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far from their places the features of every wheel path lie.
@@ -142,14 +145,14 @@ class DistanceCheck:
         profile = bench.run(taken)
         axis, event_m = EncoderAxis.of(taken), event_of(case.scenario)
         at = middles(drive_of(case.scenario).length_m, event_m)
-        told_m = None if event_m is None else float(axis.told(np.array([event_m]))[0])
+        told_m = None if event_m is None else float(axis.to_encoder(np.array([event_m]))[0])
         measured: list[Measurement] = []
         for track in taken.truth.tracks:
             features = find_features(profile, taken.truth, track.name, axis, at)
-            measured += _measured(track.name, features, told_m)
+            measured += _measure(track.name, features, told_m)
         return tuple(measured)
 
-    def _seeded(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
+    def _make_case(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
         roughness = np.random.default_rng(road).uniform(SMOOTHEST, ROUGHEST)
         numbers = {
             **drive,
@@ -160,9 +163,7 @@ class DistanceCheck:
         return Case(self.id, scenario_of(numbers), name=f"{self.id}-{number + 1}")
 
 
-def _measured(
-    track: str, features: tuple[Feature, ...], event_m: float | None
-) -> list[Measurement]:
+def _measure(track: str, features: tuple[Feature, ...], event_m: float | None) -> list[Measurement]:
     placed = place(features, event_m)
     values = (
         abs(placed.start_m),

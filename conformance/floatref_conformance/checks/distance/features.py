@@ -12,7 +12,7 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
-from floatref_conformance.checks.scoring import bridged
+from floatref_conformance.checks.scoring import bridge
 from floatref_conformance.checks.stretches import Stretches, points, stretch
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -61,19 +61,19 @@ class Placement:
     rest_m: float
 
 
-def featured(length_m: float, event_m: float | None) -> Stretches:
+def feature_stretches(length_m: float, event_m: float | None) -> Stretches:
     """Return the stretches of a drive that features fill, one beside the other."""
     end_m = length_m - END_M
     if event_m is None:
-        return (_filled(END_M, end_m),)
+        return (_fill(END_M, end_m),)
     ahead, behind = event_m - BESIDE_EVENT_M, event_m + BESIDE_EVENT_M
-    return _filled(END_M, ahead), _filled(behind, end_m)
+    return _fill(END_M, ahead), _fill(behind, end_m)
 
 
 def middles(length_m: float, event_m: float | None) -> FloatArray:
     """Return where the middles of the features of a drive truly lie, in m."""
-    filled = featured(length_m, event_m)
-    return np.concatenate([_side_by_side(start, end) for start, end in filled])
+    filled = feature_stretches(length_m, event_m)
+    return np.concatenate([_split_middles(start, end) for start, end in filled])
 
 
 def find_features(
@@ -85,13 +85,13 @@ def find_features(
     """
     wanted = _on_encoder_axis(truth, track, axis)
     true, found = on_common_grid(wanted, profile)
-    places = [float(told) for told in axis.told(middles_m)]
+    places = [float(told) for told in axis.to_encoder(middles_m)]
     for at in places:
         stretch(found, track, at - FEATURE_M / 2, at + FEATURE_M / 2)
     z = true.track(track).elevation
-    both = (z, bridged(found.track(track).elevation, z))
+    both = (z, bridge(found.track(track).elevation, z))
     slopes = [waveband_slope(elevation, true.interval_m, BAND) for elevation in both]
-    return tuple(_found(slopes, true, at) for at in places)
+    return tuple(_find_feature(slopes, true, at) for at in places)
 
 
 def place(features: Sequence[Feature], event_m: float | None) -> Placement:
@@ -107,12 +107,12 @@ def place(features: Sequence[Feature], event_m: float | None) -> Placement:
     return Placement(float(line[0]), float(line[1]), step, rest)
 
 
-def _filled(start_m: float, end_m: float) -> tuple[float, float]:
+def _fill(start_m: float, end_m: float) -> tuple[float, float]:
     """Return the stretch from ``start_m`` on that features fill, none beyond ``end_m``."""
     return start_m, start_m + FEATURE_M * max(0, int((end_m - start_m) / FEATURE_M + 1e-6))
 
 
-def _side_by_side(start_m: float, end_m: float) -> FloatArray:
+def _split_middles(start_m: float, end_m: float) -> FloatArray:
     """Return the middles of the features that fill the stretch between two distances, in m."""
     count = round((end_m - start_m) / FEATURE_M)
     return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
@@ -120,13 +120,13 @@ def _side_by_side(start_m: float, end_m: float) -> FloatArray:
 
 def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:
     """Return one wheel path of ``truth`` against the distance that the encoder told."""
-    count = int((axis.told_m[-1] - axis.told_m[0]) / truth.interval_m) + 1
-    told = axis.told_m[0] + truth.interval_m * np.arange(count)
-    z = np.interp(axis.true(told), truth.distance_m, truth.track(track).elevation)
-    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.told_m[0]))
+    count = int((axis.encoder_m[-1] - axis.encoder_m[0]) / truth.interval_m) + 1
+    told = axis.encoder_m[0] + truth.interval_m * np.arange(count)
+    z = np.interp(axis.to_true(told), truth.distance_m, truth.track(track).elevation)
+    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.encoder_m[0]))
 
 
-def _found(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
+def _find_feature(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
     inside = points(profile, at_m - FEATURE_M / 2, at_m + FEATURE_M / 2)
     true, found = (slope[inside] for slope in slopes)
     agreed = cross_correlation(true, found, profile.interval_m, FARTHEST_M)

@@ -15,7 +15,7 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
-from floatref_conformance.checks.stretches import Stretches, fitting, points, stretch
+from floatref_conformance.checks.stretches import Stretches, points, stretch, verify_stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.roads.sines import (
@@ -141,7 +141,7 @@ class WavebandCheck:
         if case.scenario.road != "sines":
             raise InputError(f"road {case.scenario.road}: {self.id} needs sines")
         length_m = drive_of(case.scenario).length_m
-        return fitting(((START_M, START_M + PERIOD_M),), length_m)
+        return verify_stretches(((START_M, START_M + PERIOD_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the errors of gain and phase of every wheel path.
@@ -155,8 +155,8 @@ class WavebandCheck:
         axis = EncoderAxis.of(taken)
         measured: list[Measurement] = []
         for name in (track.name for track in taken.truth.tracks):
-            true = _fitted(taken.truth, name, None)
-            measured += _measured(name, _fitted(profile, name, axis) / true)
+            true = _fit_waves(taken.truth, name, None)
+            measured += _measure(name, _fit_waves(profile, name, axis) / true)
         return tuple(measured)
 
     def _case(self, seed: int, vehicle: str, rate_hz: float, name: str = "") -> Case:
@@ -172,18 +172,18 @@ class WavebandCheck:
         return Case(self.id, scenario, name=name)
 
 
-def _fitted(profile: Profile, track: str, axis: EncoderAxis | None) -> ComplexArray:
+def _fit_waves(profile: Profile, track: str, axis: EncoderAxis | None) -> ComplexArray:
     """Return the waves of a wheel path, its points where the vehicle truly was."""
     ends = np.array([START_M, START_M + PERIOD_M])
-    start, end = ends if axis is None else axis.told(ends)
+    start, end = ends if axis is None else axis.to_encoder(ends)
     elevation = stretch(profile, track, start, end)
     x = profile.distance_m[points(profile, start, end)]
     chosen = slice(None, None, max(1, int(SPACING_M / profile.interval_m)))
-    at = x[chosen] if axis is None else axis.true(x[chosen])
+    at = x[chosen] if axis is None else axis.to_true(x[chosen])
     return waves_of(at, elevation[chosen], WAVELENGTHS_M)
 
 
-def _measured(track: str, passed: ComplexArray) -> list[Measurement]:
+def _measure(track: str, passed: ComplexArray) -> list[Measurement]:
     """Return the errors of a complex gain per wave."""
     gain, turned = np.abs(passed), np.abs(np.angle(passed, deg=True))
     flat = WAVELENGTHS_M <= LONGEST_FLAT_M + 1e-9

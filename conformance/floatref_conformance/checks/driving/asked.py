@@ -13,7 +13,7 @@ LOSS, ERROR = "correlation loss", "IRI error"
 
 
 @dataclass(frozen=True)
-class Asked:
+class Requirement:
     """One quantity of a stretch.
 
     Attributes:
@@ -27,7 +27,7 @@ class Asked:
     measure: Callable[[Pair, str], Measurement]
 
 
-def asked_of(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Asked:
+def read_requirement(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Requirement:
     """Return what an ``entry`` of the edition asks for, its limits by class.
 
     ``in_m_per_km`` and ``in_percent`` are the names of an IRI error in these units.
@@ -48,22 +48,22 @@ def limits_of(table: Table) -> Limits:
     return {DeviceClass(name): limit for name, limit in table.items()}
 
 
-def loss(limits: Limits) -> Asked:
+def loss(limits: Limits) -> Requirement:
     """Ask for one minus (2.16), the agreement of the IRI filter's outputs."""
     words = {c: f"{limit:g}" for c, limit in limits.items()}
-    return Asked(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
+    return Requirement(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
 
 
-def percent(limits: Limits, quantity: str = ERROR) -> Asked:
+def percent(limits: Limits, quantity: str = ERROR) -> Requirement:
     """Ask for the IRI's error in percent of the road's."""
 
     def measure(pair: Pair, track: str) -> Measurement:
         return replace(scoring.roughness_percent(pair, track, limits), quantity=quantity)
 
-    return Asked(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
+    return Requirement(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
 
 
-def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Asked:
+def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Requirement:
     """Ask for the one of both that is farther within its limit, of one class alone."""
 
     def measure(pair: Pair, track: str) -> Measurement:
@@ -74,12 +74,12 @@ def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -
         )
 
     words = {device_class: f"{loss_limit:g}, or the IRI within {error_percent:g} %"}
-    return Asked(LOSS, words, measure)
+    return Requirement(LOSS, words, measure)
 
 
 def within(
     quantity: str, device_class: DeviceClass, error_percent: float, m_per_km: float
-) -> Asked:
+) -> Requirement:
     """Ask for the IRI's error in m/km: percent of the road's, or m/km if that is more."""
     limits = {device_class: (error_percent, m_per_km)}
 
@@ -87,4 +87,4 @@ def within(
         return scoring.roughness_within(pair, track, quantity, limits)
 
     words = {device_class: f"{error_percent:g} % of the road's or {m_per_km:g} m/km"}
-    return Asked(quantity, words, measure)
+    return Requirement(quantity, words, measure)

@@ -13,7 +13,7 @@ from floatref_conformance.checks.driving.edition import (
     edition,
     floor_of,
 )
-from floatref_conformance.checks.driving.layout import layout_of, placed
+from floatref_conformance.checks.driving.layout import layout_of, place
 from floatref_conformance.checks.driving.rules import RULES, Rule, rule_of
 from floatref_conformance.checks.driving.strategies import drives
 from floatref_conformance.checks.interface import Bench
@@ -101,8 +101,8 @@ class DrivingCheck:
         )
 
     def _case(self, seed: int, number: int, row: Scenario) -> Case:
-        scenario = self.roads.drawn_for(row, (seed, number, *self.id.encode()))
-        return Case(self.id, placed(scenario), name=f"{self.id}-{number}")
+        scenario = self.roads.draw_for(row, (seed, number, *self.id.encode()))
+        return Case(self.id, place(scenario), name=f"{self.id}-{number}")
 
 
 def _check(table: Table) -> DrivingCheck:
@@ -117,7 +117,7 @@ def _check(table: Table) -> DrivingCheck:
         tuple(Scenario.from_dict({**common, **row}) for row in table["rows"]),
         table["quick"],
         ROADS[table["roads"]],
-        placed(Scenario.from_dict(table["simplest"])),
+        place(Scenario.from_dict(table["simplest"])),
         {condition: RULES[name] for condition, name in table["rules"].items()},
     )
 

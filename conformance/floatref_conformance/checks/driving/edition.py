@@ -28,7 +28,7 @@ class Roads:
     roughest: float
     kinds: tuple[str, ...]
 
-    def drawn_for(self, scenario: Scenario, entropy: tuple[int, ...]) -> Scenario:
+    def draw_for(self, scenario: Scenario, entropy: tuple[int, ...]) -> Scenario:
         """Return ``scenario`` with road and seed of its errors drawn by ``entropy``."""
         source = np.random.default_rng(np.random.SeedSequence(entropy))
         seed, kind = int(source.integers(2**32)), int(source.integers(len(self.kinds)))

@@ -69,7 +69,7 @@ def layout_of(scenario: Scenario) -> Layout:
     if scenario.manoeuvre in (*STATIONARY, *RUNS):
         raise InputError(f"manoeuvre {scenario.manoeuvre}: not one that a driving check scores")
     events = _events(scenario)
-    around = [event - AHEAD_M for event in (*events, *_also_scored(scenario))]
+    around = [event - AHEAD_M for event in (*events, *_extra_scored(scenario))]
     starts = around or [_steady_start(scenario)]
     layout = Layout(events, tuple((start, start + STRETCH_M) for start in starts))
     scored = [place for stretch in layout.stretches for place in stretch]
@@ -83,20 +83,20 @@ def layout_of(scenario: Scenario) -> Layout:
     return layout
 
 
-def placed(scenario: Scenario) -> Scenario:
+def place(scenario: Scenario) -> Scenario:
     """Return ``scenario`` with its bump, event and length such that all that counts fits in."""
     clear = BUMP_AT_M + BUMP_REACH_M + CALM_M
-    event = max(EVENT_M, ceil(clear + braked_m(scenario)))
+    event = max(EVENT_M, ceil(clear + brake_length_m(scenario)))
     there = replace(scenario, bump_mm=BUMP_MM, bump_at_m=BUMP_AT_M, event_at_m=event)
     if scenario.manoeuvre == "dead-start":
         there = replace(there, event_at_m=EVENT_M, bump_at_m=_steady_start(there) + 175.0)
-    ends = [*_events(there), *_also_scored(there)] or [_steady_start(there) + AHEAD_M]
+    ends = [*_events(there), *_extra_scored(there)] or [_steady_start(there) + AHEAD_M]
     scored = max(*ends, there.bump_at_m) - AHEAD_M + STRETCH_M
-    driven = max(_events(there), default=0.0) + driven_on_m(there)
+    driven = max(_events(there), default=0.0) + speed_change_after_m(there)
     return replace(there, length_m=float(ceil(max(scored + RUN_OUT_M, driven + 1.0))))
 
 
-def braked_m(s: Scenario) -> float:
+def brake_length_m(s: Scenario) -> float:
     """Return the length in m of the brake ahead of the scenario's event."""
     speed, deceleration = s.speed_kmh * KMH, s.deceleration_g * STANDARD_GRAVITY
     if s.manoeuvre == "stop":
@@ -112,7 +112,7 @@ def least_spacing_m(s: Scenario) -> float:
     return _set_off_m(s) + extent(speed, brake_to_stop(speed, deceleration))[0]
 
 
-def driven_on_m(s: Scenario) -> float:
+def speed_change_after_m(s: Scenario) -> float:
     """Return how far behind its last event a drive changes its speed, in m."""
     length = _DRIVEN_ON.get(s.manoeuvre)
     return length(s) if length else 0.0
@@ -149,10 +149,10 @@ def _events(s: Scenario) -> tuple[float, ...]:
     return tuple(s.event_at_m + n * s.stop_spacing_m for n in range(count))
 
 
-def _also_scored(s: Scenario) -> tuple[float, ...]:
+def _extra_scored(s: Scenario) -> tuple[float, ...]:
     """Return where a slow change of speed ends: little happens near its start."""
     if s.manoeuvre in ("coasting", "throttle"):
-        return (s.event_at_m + driven_on_m(s),)
+        return (s.event_at_m + speed_change_after_m(s),)
     return ()
 
 

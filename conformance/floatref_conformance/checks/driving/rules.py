@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref_conformance.checks import flags
 from floatref_conformance.checks.driving import bump
-from floatref_conformance.checks.driving.asked import Asked, asked_of, limits_of
+from floatref_conformance.checks.driving.asked import Requirement, limits_of, read_requirement
 from floatref_conformance.checks.driving.edition import Table, edition
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
 from floatref_conformance.checks.flags import SLOW_MPS
@@ -36,8 +36,8 @@ class Rule:
             is not limited, and class nominal answers for nothing that it flags.
     """
 
-    whole: tuple[Asked, ...]
-    unflagged: tuple[Asked, ...]
+    whole: tuple[Requirement, ...]
+    unflagged: tuple[Requirement, ...]
     flagged_elsewhere: Limits
     slow: bool
 
@@ -66,7 +66,7 @@ class Rule:
         if trusted is not None:
             found += [asked.measure(trusted, compared.track) for asked in self.unflagged]
         if not self.slow:
-            ends, away = flags.flagged(compared, scenario, layout.events_m)
+            ends, away = flags.measure_flags(compared, scenario, layout.events_m)
             found += [ends, replace(away, quantity=ELSEWHERE, limits=self.flagged_elsewhere)]
         if scenario.bump_mm:
             found.append(self._bump(compared, scenario))
@@ -111,8 +111,10 @@ def _rule(table: Table) -> Rule:
     """Return the rule of a table of the edition."""
     elsewhere = table.get("flagged_elsewhere")
     return Rule(
-        tuple(asked_of(entry, WHOLE) for entry in table["whole"]),
-        tuple(asked_of(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())),
+        tuple(read_requirement(entry, WHOLE) for entry in table["whole"]),
+        tuple(
+            read_requirement(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())
+        ),
         limits_of(elsewhere) if elsewhere else flags.EVENT_LIMITS,
         table.get("slow", False),
     )

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.driving.edition import ROADS, STEP_M_PER_KM, Roads
-from floatref_conformance.checks.driving.layout import least_spacing_m, placed
+from floatref_conformance.checks.driving.layout import least_spacing_m, place
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -96,7 +96,7 @@ def drives(check: str) -> "SearchStrategy[Scenario]":
 
     @st.composite
     def scenarios(draw: "DrawFn") -> Scenario:
-        return placed(_DRIVES[check](draw))
+        return place(_DRIVES[check](draw))
 
     return scenarios()
 

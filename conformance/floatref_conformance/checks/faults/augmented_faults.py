@@ -13,17 +13,22 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.faults.injection import (
     Fault,
     Faulty,
-    Spoil,
+    SampleFault,
+    change_samples,
     dropout,
-    faulty_until,
     hold,
     lose,
+    measure_extent,
     saturation,
-    spoilt,
     stuck,
     times_of,
 )
-from floatref_conformance.checks.sameness.change import Numbers, each, number, with_samples
+from floatref_conformance.checks.sameness.change import (
+    Numbers,
+    change_each,
+    number,
+    replace_samples,
+)
 from floatref_conformance.devices.interface import CAPABILITIES
 
 HEIGHT, QUALITY = "gnss_height", "gnss_quality"
@@ -73,16 +78,16 @@ def never_fixed(recording: Recording, numbers: Numbers) -> Faulty:
 
     def change(channel: Channel) -> Channel:
         if channel.id.name == QUALITY:
-            return with_samples(channel, np.full(channel.values.size, FLOAT))
+            return replace_samples(channel, np.full(channel.values.size, FLOAT))
         if channel.id.name == HEIGHT:
             turns = channel.times_s / WANDER_S
             wander = size_m * np.sin(2 * np.pi * turns)
-            return with_samples(channel, channel.values + wander)
+            return replace_samples(channel, channel.values + wander)
         return channel
 
     if recording.find(QUALITY) is None:
         return Faulty(recording, 0.0, 0.0)
-    return Faulty(each(recording, change), 0.0, 0.0)
+    return Faulty(change_each(recording, change), 0.0, 0.0)
 
 
 def jump(recording: Recording, numbers: Numbers) -> Faulty:
@@ -132,24 +137,26 @@ AUGMENTED: Mapping[str, Fault] = MappingProxyType(
 """Injuries of sensors that a device has by a capability, which their names begin with."""
 
 
-def _to(quality: float) -> Spoil:
+def _to(quality: float) -> SampleFault:
     def worsen(values: FloatArray, where: slice) -> None:
         values[where] = quality
 
     return worsen
 
 
-def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Spoil]) -> Faulty:
+def _for_a_while(
+    recording: Recording, numbers: Numbers, spoils: Mapping[str, SampleFault]
+) -> Faulty:
     """Return ``recording`` with the channels named in ``spoils`` spoilt for ``length_s``."""
     begin_s, end_s = times_of(recording, numbers)
 
     def spoil(channel: Channel) -> Channel:
         how = spoils.get(channel.id.name)
-        return channel if how is None else spoilt(channel, begin_s, end_s, how)
+        return channel if how is None else change_samples(channel, begin_s, end_s, how)
 
     there = any(channel.id.name in spoils for channel in recording.channels)
-    hurt = each(recording, spoil) if there else recording
-    return faulty_until(hurt, recording, numbers, end_s)
+    hurt = change_each(recording, spoil) if there else recording
+    return measure_extent(hurt, recording, numbers, end_s)
 
 
 WHEEL, BODY = "unsprung_specific_force", "sprung_specific_force"

@@ -13,11 +13,11 @@ from floatref_conformance.checks.faults.fault_scores import (
     LOCAL_LIMITS,
     ROUGHNESS,
     WHOLE_M,
-    beside,
-    fault_measurements,
+    compare_everywhere,
+    measure_fault,
 )
-from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needed_by
-from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needs_of
+from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, measure_flags
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.sameness.change import check_equipped
 from floatref_conformance.checks.scoring import Compared, compare
@@ -80,12 +80,12 @@ class FaultsCheck:
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every fault once, in a certification three times; ``seed`` draws the roads."""
-        cases = faulty_drives.fixed(seed, effort)
+        cases = faulty_drives.seeded_cases(seed, effort)
         return tuple(c for c in cases if c.variation["fault"] in self._faults)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any fault of any length, size and place in any drive."""
-        return faulty_drives.drawn(self._faults)
+        return faulty_drives.case_strategy(self._faults)
 
     def fitted(self, meets: Iterable[str]) -> "FaultsCheck":
         """Return the check without the faults of sensors that are not among ``meets``."""
@@ -93,7 +93,7 @@ class FaultsCheck:
 
     @property
     def _faults(self) -> tuple[str, ...]:
-        return tuple(f for f in SENSOR_FAULTS if needed_by(f) <= self.meets)
+        return tuple(f for f in SENSOR_FAULTS if needs_of(f) <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
         """Return all of the drive: every point counts that the device vouches for."""
@@ -108,30 +108,33 @@ class FaultsCheck:
         """
         taken = bench.simulate(case.scenario)
         inject, fault = fault_of(case.variation), str(case.variation["fault"])
-        check_equipped(taken.recording, needed_by(fault), f"fault {fault}")
+        check_equipped(taken.recording, needs_of(fault), f"fault {fault}")
         faulty = inject(taken.recording, case.variation)
         hurt = replace(taken, recording=faulty.recording)
         after = bench.run(hurt, "with the fault")
         before = bench.run(taken, "without the fault")
         part = fault.partition("-")[0]
-        alike = (beside(taken.truth, before), beside(taken.truth, after, faulty))
+        alike = (
+            compare_everywhere(taken.truth, before),
+            compare_everywhere(taken.truth, after, faulty),
+        )
         # What the encoder never told lies on no device's axis: nobody has flagged it.
         delivered = compare(taken.truth, before)
         return tuple(
             m
             for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
-                *fault_measurements(one, other, faulty, part),
-                *_flagged_without(whole, case.scenario),
+                *measure_fault(one, other, faulty, part),
+                *_measure_flags_without_fault(whole, case.scenario),
             )
         )
 
 
-def _flagged_without(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
+def _measure_flags_without_fault(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
     """Return what is flagged of a drive without a fault: a steady one gives no cause inside."""
     if scenario.manoeuvre == "stop":
-        return flagged(whole, scenario, (scenario.event_at_m,))
-    ends, elsewhere = flagged(whole, scenario, ())
+        return measure_flags(whole, scenario, (scenario.event_at_m,))
+    ends, elsewhere = measure_flags(whole, scenario, ())
     return ends, replace(elsewhere, quantity=ELSEWHERE, limits=UNPROVOKED)
 
 

@@ -11,7 +11,7 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.faults.injection import Faulty
 from floatref_conformance.checks.flags import EVENT_LIMITS
-from floatref_conformance.checks.scoring import Compared, bridged, compare, roughness_within
+from floatref_conformance.checks.scoring import Compared, bridge, compare, roughness_within
 from floatref_conformance.classes import DeviceClass, Limits
 from floatref_conformance.judge.evidence import Pair, Reference
 from floatref_conformance.judge.verdict import Measurement
@@ -55,7 +55,9 @@ class LocalDifference:
         return _largest_mean(outputs[1] - outputs[0], self.pair)
 
 
-def beside(truth: Profile, profile: Profile, faulty: Faulty | None = None) -> tuple[Compared, ...]:
+def compare_everywhere(
+    truth: Profile, profile: Profile, faulty: Faulty | None = None
+) -> tuple[Compared, ...]:
     """Return every wheel path on all of the truth's points, with the encoder's error undone.
 
     What the device did not deliver, or the encoder did not count, has no elevation.
@@ -66,10 +68,10 @@ def beside(truth: Profile, profile: Profile, faulty: Faulty | None = None) -> tu
     moved = replace(profile, start_m=profile.start_m - faulty.shift_m)
     late = _everywhere(truth, moved)
     behind_m = faulty.at_m + max(-faulty.shift_m, 0.0)
-    return tuple(_joined(*both, faulty.at_m, behind_m) for both in zip(early, late, strict=True))
+    return tuple(_join(*both, faulty.at_m, behind_m) for both in zip(early, late, strict=True))
 
 
-def fault_measurements(
+def measure_fault(
     before: Compared, after: Compared, faulty: Faulty, part: str
 ) -> tuple[Measurement, ...]:
     """Return what a fault of ``part`` did: wrong and not flagged, or flagged too far.
@@ -95,8 +97,8 @@ def fault_measurements(
 
 def _local(before: Compared, after: Compared) -> Measurement:
     pair = Pair(
-        _vouched(before),
-        _vouched(after),
+        _fill_flagged(before),
+        _fill_flagged(after),
         before.interval_m,
         _both(before.valid) & _both(after.valid),
     )
@@ -108,9 +110,9 @@ def _local(before: Compared, after: Compared) -> Measurement:
     )
 
 
-def _vouched(compared: Compared) -> FloatArray:
+def _fill_flagged(compared: Compared) -> FloatArray:
     """Return the elevations with the truth's shape where the device does not vouch for them."""
-    return bridged(np.where(compared.valid, compared.result, np.nan), compared.truth)
+    return bridge(np.where(compared.valid, compared.result, np.nan), compared.truth)
 
 
 def _both(valid: BoolArray) -> BoolArray:
@@ -139,7 +141,7 @@ def _everywhere(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
     return tuple(made)
 
 
-def _joined(early: Compared, late: Compared, at_m: float, behind_m: float) -> Compared:
+def _join(early: Compared, late: Compared, at_m: float, behind_m: float) -> Compared:
     x = early.distance_m
     result = np.where(x <= at_m, early.result, np.where(x > behind_m, late.result, np.nan))
     valid = np.where(x <= at_m, early.valid, (x > behind_m) & late.valid)

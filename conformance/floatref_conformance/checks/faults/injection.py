@@ -11,7 +11,7 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.sameness.change import Numbers, number
 
 DISTANCE = "distance"
-Spoil = Callable[[FloatArray, slice], None]
+SampleFault = Callable[[FloatArray, slice], None]
 """What changes the samples of a slice, or more, in place."""
 
 
@@ -48,12 +48,12 @@ def hold(values: FloatArray, where: slice) -> None:
 
 def dropout(name: str) -> Fault:
     """Return the injury of a channel that is missing for ``length_s``, for one sample at least."""
-    return lambda recording, numbers: faulty_locally(recording, numbers, name, lose)
+    return lambda recording, numbers: inject_locally(recording, numbers, name, lose)
 
 
 def stuck(name: str) -> Fault:
     """Return the injury of a channel that repeats one reading for ``length_s``."""
-    return lambda recording, numbers: faulty_locally(recording, numbers, name, hold)
+    return lambda recording, numbers: inject_locally(recording, numbers, name, hold)
 
 
 def saturation(name: str) -> Fault:
@@ -68,7 +68,7 @@ def saturation(name: str) -> Fault:
         def pin(values: FloatArray, where: slice) -> None:
             values[where] = end
 
-        return faulty_locally(recording, numbers, name, pin)
+        return inject_locally(recording, numbers, name, pin)
 
     return inject
 
@@ -81,17 +81,17 @@ def times_of(recording: Recording, numbers: Numbers) -> tuple[float, float]:
     return begin_s, begin_s + number(numbers, "length_s")
 
 
-def faulty_locally(recording: Recording, numbers: Numbers, name: str, spoil: Spoil) -> Faulty:
+def inject_locally(recording: Recording, numbers: Numbers, name: str, spoil: SampleFault) -> Faulty:
     """Return ``recording`` with channel ``name`` of the first wheel path spoilt."""
     begin_s, end_s = times_of(recording, numbers)
     channel = recording.channel(name, recording.tracks[0])
-    hurt = with_values(
-        recording, name, channel.id.track, spoilt(channel, begin_s, end_s, spoil).values
+    hurt = replace_values(
+        recording, name, channel.id.track, change_samples(channel, begin_s, end_s, spoil).values
     )
-    return faulty_until(hurt, recording, numbers, end_s)
+    return measure_extent(hurt, recording, numbers, end_s)
 
 
-def spoilt(channel: Channel, begin_s: float, end_s: float, spoil: Spoil) -> Channel:
+def change_samples(channel: Channel, begin_s: float, end_s: float, spoil: SampleFault) -> Channel:
     """Return ``channel`` with its samples from ``begin_s`` up to ``end_s`` spoilt, one at least."""
     times = channel.times_s
     first = int(np.searchsorted(times, begin_s))
@@ -102,14 +102,14 @@ def spoilt(channel: Channel, begin_s: float, end_s: float, spoil: Spoil) -> Chan
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
 
 
-def faulty_until(hurt: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Faulty:
+def measure_extent(hurt: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Faulty:
     """Return ``hurt``, made of ``whole``, with the distance travelled until ``end_s``."""
     encoder, at_m = whole.channel(DISTANCE), number(numbers, "at_m")
     extent_m = float(np.interp(end_s, encoder.times_s, encoder.values)) - at_m
     return Faulty(hurt, max(extent_m, 0.0), at_m)
 
 
-def with_values(
+def replace_values(
     recording: Recording, name: str, track: str | None, values: FloatArray
 ) -> Recording:
     """Return ``recording`` with other ``values`` in channel ``name`` of ``track``."""

@@ -19,16 +19,16 @@ from floatref_conformance.checks.faults.injection import (
     DISTANCE,
     Fault,
     Faulty,
+    change_samples,
     dropout,
-    faulty_locally,
-    faulty_until,
     hold,
+    inject_locally,
     lose,
+    measure_extent,
+    replace_values,
     saturation,
-    spoilt,
     stuck,
     times_of,
-    with_values,
 )
 from floatref_conformance.checks.sameness.change import Numbers, number
 from floatref_conformance.devices.interface import HEIGHT, NEEDS
@@ -49,7 +49,7 @@ def flicker(recording: Recording, numbers: Numbers) -> Faulty:
     hurt = recording
     for n in range(count):
         there = {**numbers, "at_m": at_m + n * span_m / count}
-        hurt = faulty_locally(hurt, there, HEIGHT, lose).recording
+        hurt = inject_locally(hurt, there, HEIGHT, lose).recording
     return Faulty(hurt, span_m, at_m)
 
 
@@ -61,14 +61,14 @@ def out_of_range(recording: Recording, numbers: Numbers) -> Faulty:
         end = np.nanmax(values) if side > 0 else np.nanmin(values)
         values[where] = end + side * BEYOND_M
 
-    return faulty_locally(recording, numbers, HEIGHT, pin)
+    return inject_locally(recording, numbers, HEIGHT, pin)
 
 
 def gap(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose all channels for ``length_s``: their samples are missing."""
     begin_s, end_s = times_of(recording, numbers)
-    channels = tuple(spoilt(c, begin_s, end_s, lose) for c in recording.channels)
-    return faulty_until(replace(recording, channels=channels), recording, numbers, end_s)
+    channels = tuple(change_samples(c, begin_s, end_s, lose) for c in recording.channels)
+    return measure_extent(replace(recording, channels=channels), recording, numbers, end_s)
 
 
 def gap_in_time(recording: Recording, numbers: Numbers) -> Faulty:
@@ -81,7 +81,7 @@ def gap_in_time(recording: Recording, numbers: Numbers) -> Faulty:
         return replace(channel, values=channel.values[kept], clock=StampedClock.of(times[kept]))
 
     channels = tuple(cut(c) for c in recording.channels)
-    return faulty_until(replace(recording, channels=channels), recording, numbers, end_s)
+    return measure_extent(replace(recording, channels=channels), recording, numbers, end_s)
 
 
 def leap(recording: Recording, numbers: Numbers) -> Faulty:
@@ -91,13 +91,13 @@ def leap(recording: Recording, numbers: Numbers) -> Faulty:
     def add(values: FloatArray, where: slice) -> None:
         values[where.start :] += size_m
 
-    hurt = faulty_locally(recording, {**numbers, "length_s": 0.0}, DISTANCE, add)
+    hurt = inject_locally(recording, {**numbers, "length_s": 0.0}, DISTANCE, add)
     return replace(hurt, extent_m=0.0, shift_m=size_m)
 
 
 def silence(recording: Recording, numbers: Numbers) -> Faulty:
     """Hold the encoder for ``length_s``; then it tells the true distance again."""
-    return faulty_locally(recording, numbers, DISTANCE, hold)
+    return inject_locally(recording, numbers, DISTANCE, hold)
 
 
 def lost_counts(recording: Recording, numbers: Numbers) -> Faulty:
@@ -107,7 +107,7 @@ def lost_counts(recording: Recording, numbers: Numbers) -> Faulty:
         values[where.stop :] -= values[min(where.stop, values.size - 1)] - values[where.start]
         hold(values, where)
 
-    hurt = faulty_locally(recording, numbers, DISTANCE, lose)
+    hurt = inject_locally(recording, numbers, DISTANCE, lose)
     return replace(hurt, shift_m=-hurt.extent_m)
 
 
@@ -119,7 +119,7 @@ def counts_back(recording: Recording, numbers: Numbers) -> Faulty:
     values = np.array(encoder.values)
     back = np.searchsorted(encoder.values, at_m + COUNTS_APART_M * np.arange(count))
     values[back[back < values.size]] -= size_m
-    hurt = with_values(recording, DISTANCE, None, values)
+    hurt = replace_values(recording, DISTANCE, None, values)
     return Faulty(hurt, COUNTS_APART_M * count, at_m)
 
 
@@ -133,7 +133,7 @@ def rolling_back(recording: Recording, numbers: Numbers) -> Faulty:
     values = np.array(encoder.values)
     there = np.linspace(0.0, np.pi, values[stands].size)
     values[stands] -= number(numbers, "size_m") * np.sin(there) ** 2
-    return Faulty(with_values(recording, DISTANCE, None, values), 0.0, float(values[first]))
+    return Faulty(replace_values(recording, DISTANCE, None, values), 0.0, float(values[first]))
 
 
 SENSOR_FAULTS: Mapping[str, Fault] = MappingProxyType(
@@ -167,7 +167,7 @@ def fault_of(numbers: Numbers) -> Fault:
     return SENSOR_FAULTS[str(name)]
 
 
-def needed_by(fault: str) -> frozenset[str]:
+def needs_of(fault: str) -> frozenset[str]:
     """Return what of `NEEDS` the injured sensor is; empty for what every device has."""
     part = fault.partition("-")[0]
     return frozenset({HEIGHT if part == "laser" else part}).intersection(NEEDS)

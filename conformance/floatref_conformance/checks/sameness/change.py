@@ -78,16 +78,16 @@ def check_equipped(recording: Recording, needs: frozenset[str], what: str) -> No
             raise InputError(f"variation {what}: needs {NEEDS[need]}, which the device lacks")
 
 
-def each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
+def change_each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
     """Return ``recording`` with what ``change`` makes of its channels."""
     return replace(recording, channels=tuple(change(c) for c in recording.channels))
 
 
-def raised(channel: Channel, offset: float) -> Channel:
+def add_offset(channel: Channel, offset: float) -> Channel:
     """Return ``channel`` with ``offset`` added to its samples, in its unit."""
-    return with_samples(channel, channel.values + offset)
+    return replace_samples(channel, channel.values + offset)
 
 
-def with_samples(channel: Channel, values: FloatArray) -> Channel:
+def replace_samples(channel: Channel, values: FloatArray) -> Channel:
     """Return ``channel`` with other ``values`` at the same times."""
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)

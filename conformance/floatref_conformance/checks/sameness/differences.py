@@ -6,7 +6,7 @@ import numpy as np
 
 from floatref.measures import iri_trace
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.scoring import Compared, correlation, not_flat, roughness_within
+from floatref_conformance.checks.scoring import Compared, correlation, refuse_flat, roughness_within
 from floatref_conformance.classes import DeviceClass, Limits, same_limit
 from floatref_conformance.judge.evidence import CorrelationLoss, Pair, Reference, RoughnessError
 from floatref_conformance.judge.verdict import Measurement
@@ -50,7 +50,7 @@ class ErrorRise:
         return max(errors[1] - errors[0], 0.0)
 
 
-def differences(
+def measure_differences(
     before: Compared, after: Compared, start_m: float, end_m: float
 ) -> tuple[Measurement, ...]:
     """Return how far two results differ from ``start_m`` to ``end_m``: shape, IRI, place.
@@ -69,7 +69,7 @@ def differences(
     )
 
 
-def rise(before: Pair, after: Pair, track: str) -> Measurement:
+def measure_rise(before: Pair, after: Pair, track: str) -> Measurement:
     """Return by how much more the IRI of ``after`` is wrong than that of ``before``, in m/km."""
     errors = [roughness_within(pair, track, "", {}).value for pair in (before, after)]
     share = RISE_PERCENT / 100.0 * errors[0]
@@ -89,7 +89,7 @@ def _roughness_difference(first: Pair, second: Pair, track: str) -> Measurement:
         _mean(iri_trace(z, first.interval_m)[first.counted])
         for z in (first.truth, first.result, second.result)
     )
-    value = 100.0 * abs(other - one) / not_flat(true)
+    value = 100.0 * abs(other - one) / refuse_flat(true)
     evidence = RoughnessDifference(first, second)
     return Measurement("IRI difference of both", track, value, "%", ROUGHNESS_LIMITS, evidence)
 

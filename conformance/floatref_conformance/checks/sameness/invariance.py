@@ -22,11 +22,11 @@ from floatref_conformance.checks.sameness.differences import (
     RISE_LIMITS,
     RISE_PERCENT,
     ROUGHNESS_LIMITS,
-    differences,
-    rise,
+    measure_differences,
+    measure_rise,
 )
 from floatref_conformance.checks.scoring import Compared, compare, correlation
-from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.judge.verdict import Measurement
@@ -86,12 +86,12 @@ class InvarianceCheck:
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every change once, in a certification three times, each on a road of its own."""
-        cases = changed_drives.fixed(seed, effort)
+        cases = changed_drives.seeded_cases(seed, effort)
         return tuple(c for c in cases if c.variation["change"] in self._changes)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any change of any drive."""
-        return changed_drives.drawn(self._changes)
+        return changed_drives.case_strategy(self._changes)
 
     def fitted(self, meets: Iterable[str]) -> "InvarianceCheck":
         """Return the check without changes of what is not among ``meets``."""
@@ -108,12 +108,12 @@ class InvarianceCheck:
         """
         if case.variation.get("change") == STOP:
             stretches = (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
-            return fitting(stretches, drive_of(case.scenario).length_m)
+            return verify_stretches(stretches, drive_of(case.scenario).length_m)
         start_m = FROM_M
         if case.variation.get("change") == LATER:
             start_m += changed_drives.later_m(case.scenario, case.variation)
         length_m = drive_of(case.scenario).length_m
-        return fitting(((start_m, length_m - END_M),), length_m)
+        return verify_stretches(((start_m, length_m - END_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far both results differ, and how well the unchanged one shows the road.
@@ -126,7 +126,7 @@ class InvarianceCheck:
         self.scored(case)
         before = bench.simulate(case.scenario)
         check_equipped(before.recording, change.needs, f"change {case.variation['change']}")
-        after = _changed(case, change, before, bench)
+        after = _change(case, change, before, bench)
         undone = change.profile(bench.run(after, "changed"), case.variation)
         result = bench.run(before, "unchanged")
         if case.variation["change"] == STOP:
@@ -139,11 +139,14 @@ class InvarianceCheck:
         return tuple(
             m
             for one, other in pairs
-            for m in (*differences(one, other, start_m, end_m), _shown(one, start_m, end_m))
+            for m in (
+                *measure_differences(one, other, start_m, end_m),
+                _measure_floor(one, start_m, end_m),
+            )
         )
 
 
-def _changed(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
+def _change(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
     """Return the changed recording; a drive that stays as it is is not simulated again."""
     scenario = change.scenario(case.scenario, case.variation)
     taken = before if scenario == case.scenario else bench.simulate(scenario)
@@ -154,7 +157,7 @@ def _changed(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
     )
 
 
-def _shown(compared: Compared, start_m: float, end_m: float) -> Measurement:
+def _measure_floor(compared: Compared, start_m: float, end_m: float) -> Measurement:
     return correlation(compared.whole(start_m, end_m), compared.track, TRUTH_LIMITS)
 
 
@@ -165,8 +168,8 @@ def _around_the_stop(scenario: Scenario) -> tuple[float, float]:
 def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
     stretch = _around_the_stop(scenario)
     return (
-        rise(before.whole(*stretch), after.whole(*stretch), before.track),
-        _shown(before, RAN_IN_M, FREE_M),
+        measure_rise(before.whole(*stretch), after.whole(*stretch), before.track),
+        _measure_floor(before, RAN_IN_M, FREE_M),
     )
 
 

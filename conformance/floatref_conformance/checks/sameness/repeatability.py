@@ -12,9 +12,9 @@ from floatref.measures import iri_trace, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.rounded import rounded_numbers, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
-from floatref_conformance.checks.stretches import Stretches, fitting, stretch
+from floatref_conformance.checks.stretches import Stretches, stretch, verify_stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.judge.verdict import Measurement
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -48,7 +48,7 @@ def passes_of(case: Case) -> tuple[Scenario, Scenario]:
     return first, second
 
 
-def on_road(profile: Profile, scenario: Scenario) -> Profile:
+def move_to_road(profile: Profile, scenario: Scenario) -> Profile:
     """Return ``profile`` on the road's axis: the lasers lie ahead of the vehicle's own point."""
     ahead_m = vehicle_called(scenario.vehicle).sensor_x_m
     return replace(profile, start_m=profile.start_m + ahead_m)
@@ -127,19 +127,19 @@ class RepeatabilityCheck:
         """Return the cases: speeds and vehicles in turn, roads and sensors' errors drawn."""
         source = np.random.SeedSequence([seed, *self.id.encode()])
         drawn = source.generate_state(3 * COUNT[effort]).reshape(-1, 3)
-        return tuple(self._seeded(n, *map(int, seeds)) for n, seeds in enumerate(drawn))
+        return tuple(self._make_case(n, *map(int, seeds)) for n, seeds in enumerate(drawn))
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any two passes at 24 to 97 km/h, the speeds in whole km/h."""
         from hypothesis import strategies as st
 
-        speed = rounded(SLOWEST_KMH, FASTEST_KMH, 0)
+        speed = rounded_numbers(SLOWEST_KMH, FASTEST_KMH, 0)
         vehicle = st.sampled_from(ALL_VEHICLES)
         scenarios = st.builds(
             Scenario,
             seed=seeds(),
             road=st.sampled_from(ROADS),
-            iri_m_per_km=rounded(SMOOTHEST, ROUGHEST),
+            iri_m_per_km=rounded_numbers(SMOOTHEST, ROUGHEST),
             vehicle=vehicle,
             speed_kmh=speed,
             length_m=st.just(LENGTH_M),
@@ -153,7 +153,7 @@ class RepeatabilityCheck:
 
     def scored(self, case: Case) -> Stretches:
         """Return the stretch that is compared; InputError for a drive that is too short."""
-        return fitting(((START_M, END_M),), drive_of(case.scenario).length_m)
+        return verify_stretches(((START_M, END_M),), drive_of(case.scenario).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return how far the passes differ from each other and from the truth.
@@ -168,17 +168,17 @@ class RepeatabilityCheck:
         for label, scenario in zip(LABELS, passes_of(case), strict=True):
             taken = bench.simulate(scenario)
             profile = bench.run(taken, label)
-            profiles.append(on_road(profile, scenario))
+            profiles.append(move_to_road(profile, scenario))
             for compared in compare(taken.truth, profile):
                 pair = compared.whole(START_M, END_M)
                 loss = correlation(pair, compared.track, TRUTH_LIMITS)
                 losses.setdefault(compared.track, []).append(loss)
         for track, found in losses.items():
-            measured += _between(profiles[0], profiles[1], track)
+            measured += _compare_passes(profiles[0], profiles[1], track)
             measured.append(replace(max(found, key=lambda m: m.value), quantity=TO_TRUTH))
         return tuple(measured)
 
-    def _seeded(self, number: int, road: int, first: int, second: int) -> Case:
+    def _make_case(self, number: int, road: int, first: int, second: int) -> Case:
         turn = number % len(SPEEDS_KMH)
         speeds, vehicles = SPEEDS_KMH[turn], VEHICLES[(turn + number // len(SPEEDS_KMH)) % 4]
         rng = np.random.default_rng(road)
@@ -199,7 +199,7 @@ class RepeatabilityCheck:
         return Case(self.id, scenario, changes, f"{self.id}-{number + 1}")
 
 
-def _between(first: Profile, second: Profile, track: str) -> list[Measurement]:
+def _compare_passes(first: Profile, second: Profile, track: str) -> list[Measurement]:
     """Return correlation loss, and difference in IRI in percent of the rougher pass's.
 
     Two flat profiles have no difference.

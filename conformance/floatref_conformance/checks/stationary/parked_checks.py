@@ -13,7 +13,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stationary import plate
-from floatref_conformance.checks.stretches import END_M, Stretches, fitting, stretch
+from floatref_conformance.checks.stretches import END_M, Stretches, stretch, verify_stretches
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.devices.interface import HEIGHT
 from floatref_conformance.judge.evidence import Roughness
@@ -90,7 +90,7 @@ class StationaryCheck:
         manoeuvre, speed_mps = case.scenario.manoeuvre, case.scenario.speed_kmh * KMH
         if manoeuvre != self.id:
             raise InputError(f"manoeuvre {manoeuvre}: in {self.id} the vehicle is parked")
-        return fitting(((self.start_m, self.end_m),), artificial_drive(speed_mps).length_m)
+        return verify_stretches(((self.start_m, self.end_m),), artificial_drive(speed_mps).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.

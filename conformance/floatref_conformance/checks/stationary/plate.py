@@ -40,7 +40,7 @@ class Plate:
     behind: tuple[float, float]
 
     @classmethod
-    def found(cls, truth: Profile, track: str) -> "Plate":
+    def find(cls, truth: Profile, track: str) -> "Plate":
         """Return where the plate lies in ``truth``; SuiteError if there is none."""
         elevation = truth.track(track).elevation
         ground = float(np.median(elevation))
@@ -95,7 +95,7 @@ def measure_plate(profile: Profile, truth: Profile, track: str) -> tuple[Measure
     within which points do not tell the place of an edge, is no displacement. A profile that
     shows less than half of an edge has no place of the plate: its height fails.
     """
-    plate = Plate.found(truth, track)
+    plate = Plate.find(truth, track)
     filtered = high_pass(truth.track(track).elevation, truth.interval_m)
     alike = replace(truth, tracks=(ProfileTrack.of(track, filtered),))
     error = abs(plate.rise(profile, track) - plate.rise(alike, track))
