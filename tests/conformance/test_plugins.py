@@ -104,8 +104,8 @@ def test_what_is_no_check_or_kind_is_reported(kind):
         ({"id": None}, "id is None"),
         ({"needs": ("imu",)}, "needs is ('imu',), not a set"),
         ({"needs": frozenset({"radar"})}, "not a set of height, imu, gnss"),
-        ({"limits": None}, "limits do not give"),
-        ({"limits": {"IRI": {"nominal": "1"}}}, "limits do not give"),
+        ({"limits": None}, "limits has no text"),
+        ({"limits": {"IRI": {"nominal": "1"}}}, "limits has no text"),
     ],
 )
 def test_a_check_with_an_unusable_member_is_left_out_and_reported(toy_check, changes, words):

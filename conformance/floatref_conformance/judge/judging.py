@@ -22,8 +22,8 @@ def check_result(
 ) -> CheckResult:
     """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
 
-    A faulty device is an error; else the worst measurement decides. ``simpler`` is the simplest
-    failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
+    A fault of the device is an error; otherwise the worst measurement decides. ``simpler`` is the
+    simplest failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
     """
     worst, worst_case = max(
         ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
@@ -54,9 +54,9 @@ def check_result(
 
 
 def find_scored(check: Check, case: Case) -> Stretches:
-    """Return the stretches that ``check`` scores of ``case``; none if it fails to say.
+    """Return the stretches that ``check`` scores in ``case``; empty if it raises.
 
-    They are for pictures, which no verdict waits for.
+    They are only for pictures and do not affect the verdict.
     """
     try:
         return tuple((float(start), float(end)) for start, end in check.scored(case))
@@ -65,13 +65,13 @@ def find_scored(check: Check, case: Case) -> Stretches:
 
 
 def find_failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:
-    """Return the worst of ``cases`` that fails; None if none does."""
+    """Return the worst failing case of ``cases``; None if all pass."""
     worst = max(cases, key=lambda case: case.ratio(device_class))
     return worst if worst.ratio(device_class) > 1.0 else None
 
 
 def describe_failure(case: CaseResult, device_class: DeviceClass) -> str:
-    """Return in one line what is wrong with ``case``; empty if nothing is."""
+    """Return in one line why ``case`` fails; empty if it passes."""
     if case.fault is not None:
         return case.fault
     worst = case.worst(device_class)
@@ -89,11 +89,11 @@ def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
 
 
 def describe_missing(missing: frozenset[str]) -> str:
-    """Return in words that a device lacks ``missing`` of what a check needs."""
+    """Return the sentence that a check needs ``missing``, which the device does not have."""
     undeclared = ", ".join(sorted(missing - {HEIGHT}))
     parts = [f"needs {undeclared}, which the device does not declare"] if undeclared else []
     if HEIGHT in missing:
-        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does without")
+        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does not have")
     return "; ".join(parts)
 
 
@@ -103,7 +103,7 @@ def left_out_result(left_out: LeftOut) -> CheckResult:
 
 
 def given_up_result(check: Check, reason: str) -> CheckResult:
-    """Return the result of a check whose device is not asked any more."""
+    """Return the result of a check that is not run because the device hung too often."""
     return CheckResult(check.id, check.clause, Outcome.ERROR, reason)
 
 

@@ -25,20 +25,20 @@ from floatref_conformance.judge.verdict import CaseResult, CheckResult, Measurem
 from floatref_conformance.proving_ground.scenario import Scenario
 
 MOST_HANGS = 3
-"""A device that has hung so often in a run is not asked any more: a run has to end."""
+"""Number of hangs after which a device gets no more cases, so that the run ends."""
 
 
 @dataclass
 class Trial:
-    """A device on its way through the checks.
+    """The state of a device during the checks of a run.
 
     Attributes:
         device, description: what is judged.
-        device_class: whose limits decide.
-        emit: is told of every case.
-        fault: why the device could not describe itself, which every case is then charged with.
+        device_class: the class whose limits decide.
+        emit: is called with every event.
+        fault: why the device could not describe itself; it is then the fault of every case.
         hangs: how often the device has not answered in time.
-        make: how a scenario becomes a recording.
+        make: simulates a scenario.
     """
 
     device: Device
@@ -52,11 +52,11 @@ class Trial:
 
     @property
     def given_up(self) -> str:
-        """Why nothing more is asked of the device; empty as long as it is."""
-        return f"not asked: the device hung {self.hangs} times" if self._is_hopeless() else ""
+        """Why the device gets no more cases; empty while it gets them."""
+        return f"not run: the device hung {self.hangs} times" if self._is_hopeless() else ""
 
     def check(self, check: Check, seed: int, effort: Effort, searching: bool) -> CheckResult:
-        """Return what the device makes of ``check``."""
+        """Return the result of ``check`` for the device."""
         self._judged = {}
         seeded = check.cases(seed, effort)
         self.emit(CheckStarted(check.id, len(seeded)))
@@ -70,9 +70,9 @@ class Trial:
         return check_result(check, tuple(cases.values()), self.device_class, simpler)
 
     def replay(self, check: Check, kept: KeptCase) -> Mapping[str, Any]:
-        """Return what the device makes of a case that was kept, by the limits of this run.
+        """Return the result of a stored case, by the limits of this run.
 
-        Numbers that make no drive in this edition are skipped.
+        A case whose numbers make no drive in this edition is skipped.
         """
         try:
             refuse_foreign(check, kept.case)
@@ -93,7 +93,7 @@ class Trial:
         return self._try(check, named).ratio(self.device_class)
 
     def _try(self, check: Check, case: Case) -> CaseResult:
-        """Return the result of ``case``, judged once; pictures are kept of the worst alone."""
+        """Return the result of ``case``, judged once; only the worst case stores its passes."""
         if case in self._judged:
             return self._judged[case]
         result, worst = self._judge(check, case), self._find_failing()
@@ -139,7 +139,7 @@ class Trial:
         return simpler, self._run_again(check, simpler, found[simpler])
 
     def _run_again(self, check: Check, case: Case, failed: CaseResult) -> CaseResult:
-        """Return ``failed``, which says so if the device does not fail ``case`` every time."""
+        """Return ``failed`` with the outcome of a second run, if that does not fail."""
         if self._is_hopeless():
             return failed
         result = self._judge(check, replace(case, name=f"{case.name}, again"))

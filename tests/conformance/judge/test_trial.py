@@ -21,7 +21,7 @@ def test_a_device_that_hangs_is_given_up_and_every_check_fails(plan, result_of, 
     assert [c.outcome for c in result.checks] == 3 * [Outcome.ERROR]
     reasons = [c.reason for c in result.checks]
     assert reasons[0] == "one-1: no answer within 1 s"
-    assert reasons[1:] == 2 * ["not asked: the device hung 3 times"]
+    assert reasons[1:] == 2 * ["not run: the device hung 3 times"]
     assert device.closed == 1
 
 
