@@ -23,7 +23,7 @@ def check_result(
     """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
 
     A fault of the device is an error; otherwise the worst measurement decides. ``simpler`` is the
-    simplest failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
+    simplest failing case. Raises SuiteError if the oracle does not confirm the worst measurement.
     """
     worst, worst_case = max(
         ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),

@@ -125,9 +125,9 @@ class CaseResult:
         return max((m.ratio(device_class) for m in self.measurements), default=0.0)
 
     def worst(self, device_class: DeviceClass) -> Measurement | None:
-        """Return the measurement nearest to its limit, or farthest beyond; None without measurements.
+        """Return the measurement nearest to its limit, or farthest beyond; None without any.
 
-        A measurement that ``device_class`` does not limit is returned only without a limited one.
+        One without a limit of ``device_class`` is returned only if no other has one.
         """
         return max(self.measurements, key=lambda m: m.rank(device_class), default=None)
 

@@ -1,4 +1,4 @@
-"""Mistakes that are made in one kind of drive alone."""
+"""Mutations of one kind of drive only."""
 
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -65,7 +65,7 @@ IN_DRIVES = (
     ),
     Mutation(
         "crawl-low",
-        "delivers 0.9 of the profile of a drive below 16 km/h, and vouches for it",
+        "delivers 0.9 of the profile of a drive below 16 km/h, and marks it valid",
         ("low-speed",),
         after=apply_when(_crawls, p.chain(p.scale(0.9), p.mark_valid)),
     ),
@@ -77,31 +77,31 @@ IN_DRIVES = (
     ),
     Mutation(
         "throttle-flagged",
-        "flags 200 m of a drive that wins speed",
+        "flags 200 m of a drive that gains speed",
         ("throttle",),
         after=apply_when(_speeds_up, p.flag_around(middle_m, 200.0)),
     ),
     Mutation(
         "straight-at-the-release",
-        "draws a straight line 30 m to either side of the end of a hard brake, and vouches for it",
+        "draws a straight line 30 m to either side of the end of a hard brake, and marks it valid",
         ("braking",),
         after=apply_when(_brakes, p.straighten_at_slowest(30.0)),
     ),
     Mutation(
         "straight-at-a-near-stop",
-        "draws a straight line 30 m to either side of a near stop, and vouches for it",
+        "draws a straight line 30 m to either side of a near stop, and marks it valid",
         ("near-stop",),
         after=apply_when(_nearly_stops, p.straighten_at_slowest(30.0)),
     ),
     Mutation(
         "straight-at-a-stop-from-speed",
-        "draws a straight line 30 m to either side of a stop from 62 km/h or more, vouched for",
+        "draws a straight line 30 m to either side of a stop from 62 km/h or more, marked valid",
         ("stop",),
         after=apply_when(_stops_from_high_speed, p.straighten_at_slowest(30.0)),
     ),
     Mutation(
         "straight-at-the-start",
-        "draws a straight line 60 m behind a start from rest, and vouches for it",
+        "draws a straight line 60 m behind a start from rest, and marks it valid",
         ("dead-start",),
         after=apply_when(_sets_off, p.straighten_at_slowest(60.0)),
     ),
@@ -118,4 +118,4 @@ IN_DRIVES = (
         after=_scale_by_speed,
     ),
 )
-"""What is wrong in some drives, and right in all others."""
+"""Mutations with an error in some drives only."""

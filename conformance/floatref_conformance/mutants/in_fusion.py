@@ -1,4 +1,4 @@
-"""What a profiler with an inertial unit and a GNSS receiver can get wrong."""
+"""Errors of a profiler with an inertial unit and a GNSS receiver."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ from floatref_conformance.mutants.mutation import AUGMENTED, After, Mutation
 ANGLES = ("gnss_pitch", "gnss_roll")
 FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_specific_force")
 SMOOTH = 9
-"""The angles are means over so many readings: noise of a receiver is not what is wrong."""
+"""Number of readings over which the angles are averaged, to remove the receiver's noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,16 +36,16 @@ class Attitude:
 
 
 Wrong = Callable[[Attitude], Attitude]
-"""Returns what is taken for an attitude."""
+"""Returns the wrong attitude for a true one."""
 
 
 def add_tilt_error(wrong: Wrong) -> After:
-    """Return what adds to every elevation what an attitude taken for a ``wrong`` one brings.
+    """Return a mutation that adds the elevation error of a ``wrong`` attitude.
 
-    The false acceleration goes the way of one that is measured; drifts are suppressed alike.
+    The false acceleration is processed like a measured one; its drift is suppressed too.
     """
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         tracks = tuple(
             ProfileTrack.of(
                 t.name, t.elevation + _tilt_elevation(recording, t.name, profile, wrong), t.valid
@@ -54,7 +54,7 @@ def add_tilt_error(wrong: Wrong) -> After:
         )
         return replace(profile, tracks=tracks)
 
-    return spoil
+    return mutate
 
 
 def _tilt_elevation(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> FloatArray:
@@ -69,7 +69,7 @@ def _tilt_elevation(recording: Recording, track: str, sound: Profile, wrong: Wro
 
 
 def _attitude(recording: Recording, times: FloatArray) -> Attitude:
-    """Return the attitude that the receiver tells; a receiver that is silent has a level one."""
+    """Return the attitude measured by the receiver; level while it is silent."""
     weights = np.full(SMOOTH, 1.0 / SMOOTH)
     rows = []
     for channel in (recording.channel(name) for name in ANGLES):
@@ -84,17 +84,17 @@ LOST_S = 1.0
 """A receiver without a fix for longer than this has an outage."""
 
 
-def _invert_pitch(told: Attitude) -> Attitude:
-    return Attitude(-told.pitch, told.roll)
+def _invert_pitch(true: Attitude) -> Attitude:
+    return Attitude(-true.pitch, true.roll)
 
 
-def _read_degrees(told: Attitude) -> Attitude:
-    turned = (angle[0] + np.degrees(angle - angle[0]) for angle in (told.pitch, told.roll))
+def _read_degrees(true: Attitude) -> Attitude:
+    turned = (angle[0] + np.degrees(angle - angle[0]) for angle in (true.pitch, true.roll))
     return Attitude(*turned)
 
 
-def _swap(told: Attitude) -> Attitude:
-    return Attitude(told.roll, told.pitch)
+def _swap(true: Attitude) -> Attitude:
+    return Attitude(true.roll, true.pitch)
 
 
 def _step_after_outage(profile: Profile, recording: Recording) -> Profile:
@@ -141,4 +141,4 @@ IN_FUSION = (
         pipeline=AUGMENTED,
     ),
 )
-"""What is wrong where several sensors are put together."""
+"""Mutations of the fusion of several sensors."""

@@ -1,4 +1,4 @@
-"""Stages that are missing or wrong, and vehicles known wrongly."""
+"""Missing or wrong stages, and wrong parameters of the vehicle."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -29,14 +29,14 @@ def _unchanged(signals: Signals) -> Signals:
 
 
 def _use_engine(elevations: Elevations, change: Callable[[Signals], Signals] = _unchanged) -> After:
-    """Return what puts the engine's elevations in place, of signals spoilt by ``change``."""
+    """Return a mutation with the engine's elevations of signals that ``change`` has changed."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         return replace_elevations(
             recording, profile, lambda signals, sound: elevations(change(signals), sound)
         )
 
-    return spoil
+    return mutate
 
 
 def _keep_gravity(signals: Signals) -> Signals:
@@ -50,7 +50,7 @@ def _height_in_mm(signals: Signals) -> Signals:
 IN_PROCESSING = (
     Mutation(
         "gravity-kept",
-        "does not take gravity from the acceleration",
+        "does not subtract gravity from the acceleration",
         (
             "constant-speed",
             "coasting",
@@ -71,25 +71,25 @@ IN_PROCESSING = (
     ),
     Mutation(
         "tilt-ignored",
-        "does nothing against what tilt under braking adds to the acceleration",
+        "does not suppress the acceleration that tilt adds under braking",
         ("throttle", "braking", "near-stop", "stop", "invariance"),
         pipeline="temporal-basic",
     ),
     Mutation(
         "reverse-pass-missing",
-        "leaves out the pass that takes the filter's delay out",
+        "leaves out the pass that removes the filter's delay",
         ("waveband", "faults"),
         after=_use_engine(in_time(backward=False)),
     ),
     Mutation(
         "cut-off-long",
-        "filters 10 % too far up in wavelength",
+        "filters at a cut-off wavelength 10 % too long",
         ("waveband",),
         settings={"cutoff_wavelength_m": 1.1 * 105.91},
     ),
     Mutation(
         "cut-off-short",
-        "filters 10 % too far down in wavelength",
+        "filters at a cut-off wavelength 10 % too short",
         ("waveband",),
         settings={"cutoff_wavelength_m": 0.9 * 105.91},
     ),
@@ -108,30 +108,30 @@ IN_PROCESSING = (
     ),
     Mutation(
         "stop-uncontained",
-        "integrates over distance through a stop as if it took no time limit",
+        "integrates over distance through a stop without a limit of time",
         ("throttle", "braking", "near-stop", "stop", "dead-start", "invariance", "faults"),
         pipeline="spatial-basic",
     ),
 )
-"""What is wrong inside."""
+"""Mutations with an internal error."""
 
 
 STIFF = 100.0
-"""A tyre so many times as stiff hardly deflects."""
+"""Factor of the tyre's stiffness; such a tyre hardly deflects."""
 LIGHT = 0.5
-"""Share of its parameters that the vehicle of another fleet has."""
+"""Factor of a parameter of the vehicle."""
 
 
 def _change_vehicle(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
-    """Return what changes the vehicle that a recording knows of."""
+    """Return a mutation that changes the vehicle in the setup of a recording."""
 
-    def spoil(recording: Recording) -> Recording:
+    def mutate(recording: Recording) -> Recording:
         vehicle = recording.setup.vehicle
         if vehicle is None:
             return recording
         return replace(recording, setup=replace(recording.setup, vehicle=change(vehicle)))
 
-    return spoil
+    return mutate
 
 
 def _stiffen_tyre(vehicle: VehicleSetup) -> VehicleSetup:
@@ -158,7 +158,7 @@ IN_RESPONSE = (
     ),
     Mutation(
         "wheel-place-forgotten",
-        "takes the wheel to be at the point that all offsets are from",
+        "takes the wheel to be at the origin of all offsets",
         ("distance", "invariance"),
         _change_vehicle(_move_to_origin),
         pipeline=RESPONSE,
@@ -171,4 +171,4 @@ IN_RESPONSE = (
         pipeline=RESPONSE,
     ),
 )
-"""What is wrong with what is known of the vehicle."""
+"""Mutations of the vehicle's parameters."""

@@ -1,4 +1,4 @@
-"""Profiles changed on their way out: shape, place, flags, or an older result."""
+"""Mutations of the delivered profile: shape, place, flags, or an older result."""
 
 from dataclasses import replace
 
@@ -12,14 +12,14 @@ from floatref_conformance.mutants.drive_conditions import middle_m
 from floatref_conformance.mutants.mutation import Mutation, all_but
 
 BEGINNING = 2000
-"""So many samples of every channel tell whether two recordings begin alike."""
+"""Number of first samples by which two recordings are compared."""
 
 
 class Repeated:
-    """Delivers the profile before when a recording begins like the one before.
+    """Delivers the previous profile if a recording begins like the previous one.
 
-    It lies over the distances of the new recording: what the vehicle passed at the same time has
-    the same elevation, whatever became of the sensors since.
+    The profile is moved to the distances of the new recording: points that the vehicle passes at
+    the same time have the same elevation.
     """
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class Repeated:
         self.kept: tuple[Profile, Recording] | None = None
 
     def __call__(self, profile: Profile, recording: Recording) -> Profile:
-        """Return what was kept if ``recording`` begins alike, else keep ``profile``."""
+        """Return the stored profile if ``recording`` begins alike, else store ``profile``."""
         if self.kept is not None and _begin_alike(self.kept[1], recording):
             return _move_over(*self.kept, profile, recording)
         self.kept = profile, recording
@@ -43,9 +43,9 @@ def _begin_alike(one: Recording, other: Recording) -> bool:
 
 def _move_over(kept: Profile, before: Recording, profile: Profile, recording: Recording) -> Profile:
     """Return ``kept``, made of ``before``, on the points of ``profile``, made of ``recording``."""
-    times, told = _travel(recording)
-    told, first = np.unique(told, return_index=True)
-    passed_s = np.interp(profile.distance_m, told, times[first])
+    times, travelled = _travel(recording)
+    travelled, first = np.unique(travelled, return_index=True)
+    passed_s = np.interp(profile.distance_m, travelled, times[first])
     places_m = np.interp(passed_s, *_travel(before))
 
     def move(track: ProfileTrack) -> ProfileTrack:
@@ -57,7 +57,7 @@ def _move_over(kept: Profile, before: Recording, profile: Profile, recording: Re
 
 
 def _travel(recording: Recording) -> tuple[FloatArray, FloatArray]:
-    """Return times from the beginning in s and the farthest distance told by then in m."""
+    """Return times from the beginning in s, and the largest encoder reading so far in m."""
     encoder = recording.channel("distance")
     seen = np.isfinite(encoder.values)
     farthest = np.maximum.accumulate(encoder.values[seen])
@@ -132,10 +132,10 @@ IN_RESULTS = (
         all_but("low-speed", "invariance"),
         after=p.average_tracks,
     ),
-    Mutation("previous-result", "delivers the profile before", all_but(), after=p.Previous()),
+    Mutation("previous-result", "delivers the previous profile", all_but(), after=p.Previous()),
     Mutation(
         "repeated-result",
-        "delivers the profile before when a recording begins like the one before",
+        "delivers the previous profile if a recording begins like the previous one",
         ("faults",),
         after=Repeated(),
     ),
@@ -148,13 +148,13 @@ IN_RESULTS = (
     Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.drop_start(5.0)),
     Mutation(
         "vouches-always",
-        "says of every point that it is valid",
+        "marks every point valid",
         ("low-speed", "near-stop", "stop", "faults"),
         after=p.mark_valid,
     ),
     Mutation(
         "vouches-never",
-        "says of no point that it is valid",
+        "marks no point valid",
         (
             "constant-speed",
             "coasting",
@@ -175,9 +175,9 @@ IN_RESULTS = (
     ),
     Mutation(
         "held-at-the-stop",
-        "holds the elevation 20 m to either side of the slowest point, and vouches for it",
+        "holds the elevation 20 m to either side of the slowest point, and marks it valid",
         all_but("dead-start", "distance"),
         after=p.hold_at_slowest(20.0),
     ),
 )
-"""What is wrong with all that is delivered."""
+"""Mutations of all delivered profiles."""

@@ -1,4 +1,4 @@
-"""Sensors read wrongly: signs, scales, units, delays, samples that are lost."""
+"""Wrong readings of sensors: signs, scales, units, delays, lost samples."""
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.mutants import recordings as r
@@ -97,7 +97,7 @@ IN_SENSORS = (
         ("bounce", "stop"),
         r.change_channel(r.FORCE, r.clip(0.5 * STANDARD_GRAVITY)),
     ),
-    Mutation("time-rounded", "keeps times in single precision", ("invariance",), r.round_times),
+    Mutation("time-rounded", "stores times in single precision", ("invariance",), r.round_times),
     Mutation(
         "missing-height-zero",
         "takes a missing height for 0",
@@ -111,7 +111,10 @@ IN_SENSORS = (
         r.change_channel(r.FORCE, r.fill_missing(0.0)),
     ),
     Mutation(
-        "gaps-vouched", "bridges what is missing and vouches for it", ("faults",), r.bridge_missing
+        "gaps-vouched",
+        "bridges missing samples and marks them valid",
+        ("faults",),
+        r.bridge_missing,
     ),
 )
-"""What is wrong before anything is processed."""
+"""Mutations of the recording."""

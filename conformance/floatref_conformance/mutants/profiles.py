@@ -1,4 +1,4 @@
-"""What spoils a profile after it was made."""
+"""Mutations of a finished profile."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,40 +15,40 @@ from floatref_conformance.mutants.mutation import After
 Elevation = Callable[[FloatArray, Profile], FloatArray]
 NOISE_SEED, NOISE_STEP_M = 20, 0.5
 FLAT_M = 0.001
-"""A profile whose standard deviation is less shows no road."""
+"""A profile with a smaller standard deviation, in m, is flat."""
 
 
 def change_elevation(change: Elevation) -> After:
-    """Return what puts ``change`` of it in place of every elevation; flags stay."""
+    """Return a mutation that applies ``change`` to every elevation; flags do not change."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         return _each(
             profile,
             lambda t: ProfileTrack.of(t.name, change(np.array(t.elevation), profile), t.valid),
         )
 
-    return spoil
+    return mutate
 
 
 def scale(gain: float) -> After:
-    """Return what multiplies every elevation by ``gain``."""
+    """Return a mutation that multiplies every elevation by ``gain``."""
     return change_elevation(lambda z, _: gain * z)
 
 
 def move(length_m: float) -> After:
-    """Return what lets every feature lie ``length_m`` farther along."""
+    """Return a mutation that moves every feature forward by ``length_m``."""
     return change_elevation(lambda z, p: _sample_at(z, p, p.distance_m - length_m))
 
 
 def stretch(share: float) -> After:
-    """Return what makes distances longer by ``share`` of them."""
+    """Return a mutation that lengthens distances by ``share``."""
     return change_elevation(
         lambda z, p: _sample_at(z, p, p.start_m + (p.distance_m - p.start_m) / (1 + share))
     )
 
 
 def average(length_m: float) -> After:
-    """Return what takes the mean over ``length_m`` around every point."""
+    """Return a mutation that averages over ``length_m`` around every point."""
 
     def smooth(z: FloatArray, profile: Profile) -> FloatArray:
         half = round(length_m / profile.interval_m / 2)
@@ -61,7 +61,7 @@ def average(length_m: float) -> After:
 
 
 def hold_in_steps(length_m: float) -> After:
-    """Return what holds an elevation until ``length_m`` are over."""
+    """Return a mutation that holds an elevation for ``length_m``."""
 
     def hold(z: FloatArray, profile: Profile) -> FloatArray:
         count = round(length_m / profile.interval_m)
@@ -71,12 +71,12 @@ def hold_in_steps(length_m: float) -> After:
 
 
 def round_to(step_m: float) -> After:
-    """Return what delivers whole multiples of ``step_m``."""
+    """Return a mutation that rounds to multiples of ``step_m``."""
     return change_elevation(lambda z, _: step_m * np.round(z / step_m))
 
 
 def add_noise_where_flat(slope: float) -> After:
-    """Return what adds noise to a flat profile: a polygon whose sides climb by ``slope``."""
+    """Return a mutation that adds noise to a flat profile: a polygon with sides of ``slope``."""
 
     def add(z: FloatArray, profile: Profile) -> FloatArray:
         if not _is_flat(z):
@@ -90,9 +90,9 @@ def add_noise_where_flat(slope: float) -> After:
 
 
 def add_motion_where_flat(share: float) -> After:
-    """Return what adds ``share`` of the body's motion, by the laser, to a flat profile."""
+    """Return a mutation that adds ``share`` of the laser's height to a flat profile."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         encoder = recording.channel("distance")
 
         def add(track: ProfileTrack) -> ProfileTrack:
@@ -100,17 +100,17 @@ def add_motion_where_flat(share: float) -> After:
             if not _is_flat(z):
                 return track
             laser = recording.channel("height", track.name)
-            told = np.interp(laser.times_s, encoder.times_s, encoder.values)
-            motion = np.interp(profile.distance_m, told, laser.values - laser.values[0])
+            travelled = np.interp(laser.times_s, encoder.times_s, encoder.values)
+            motion = np.interp(profile.distance_m, travelled, laser.values - laser.values[0])
             return ProfileTrack.of(track.name, z + share * motion, track.valid)
 
         return _each(profile, add)
 
-    return spoil
+    return mutate
 
 
 def drop_end(length_m: float) -> After:
-    """Return what leaves out the elevations of the last ``length_m``."""
+    """Return a mutation that removes the elevations of the last ``length_m``."""
     return change_elevation(
         lambda z, p: np.where(p.distance_m > p.start_m + p.length_m - length_m, np.nan, z)
     )
@@ -122,7 +122,7 @@ def reverse(profile: Profile, recording: Recording) -> Profile:
 
 
 def swap_tracks(profile: Profile, recording: Recording) -> Profile:
-    """Return ``profile`` with its elevations under the names of other wheel paths."""
+    """Return ``profile`` with the elevations of other wheel paths under each name."""
     others = (*profile.tracks[1:], profile.tracks[0])
     pairs = zip(profile.tracks, others, strict=True)
     tracks = tuple(ProfileTrack.of(t.name, other.elevation, other.valid) for t, other in pairs)
@@ -136,18 +136,18 @@ def average_tracks(profile: Profile, recording: Recording) -> Profile:
 
 
 def drop_start(length_m: float) -> After:
-    """Return what leaves out the first points, up to ``length_m``."""
+    """Return a mutation that removes the points of the first ``length_m``."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         count = round(length_m / profile.interval_m)
         later = replace(profile, start_m=profile.start_m + count * profile.interval_m)
         return _each(later, lambda t: ProfileTrack.of(t.name, t.elevation[count:], t.valid[count:]))
 
-    return spoil
+    return mutate
 
 
 def mark_valid(profile: Profile, recording: Recording) -> Profile:
-    """Return ``profile`` with every point valid that has an elevation."""
+    """Return ``profile`` with all points valid that have an elevation."""
     return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation))
 
 
@@ -157,22 +157,22 @@ def flag_all(profile: Profile, recording: Recording) -> Profile:
 
 
 def flag_around(where: Callable[[Drive], float], length_m: float) -> After:
-    """Return what flags ``length_m`` around the place that ``where`` finds, in m."""
+    """Return a mutation that flags ``length_m`` around the place that ``where`` returns, in m."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         near = np.abs(profile.distance_m - where(Drive.of(recording))) < length_m / 2
         return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation, t.valid & ~near))
 
-    return spoil
+    return mutate
 
 
 def hold_at_slowest(reach_m: float) -> After:
-    """Return what holds one elevation up to ``reach_m`` from where the vehicle is slowest."""
+    """Return a mutation with constant elevation within ``reach_m`` of the slowest place."""
     return _replace_at_slowest(reach_m, lambda z, near: np.full(near.size, z[near[0]]))
 
 
 def straighten_at_slowest(reach_m: float) -> After:
-    """Return what draws a straight line up to ``reach_m`` from where the vehicle is slowest."""
+    """Return a mutation with a straight line within ``reach_m`` of the slowest place."""
     return _replace_at_slowest(
         reach_m, lambda z, near: np.linspace(z[near[0]], z[near[-1]], near.size)
     )
@@ -181,9 +181,9 @@ def straighten_at_slowest(reach_m: float) -> After:
 def _replace_at_slowest(
     reach_m: float, make: Callable[[FloatArray, NDArray[np.intp]], FloatArray]
 ) -> After:
-    """Return what puts ``make`` of elevations and near points in their place, all valid."""
+    """Return a mutation that replaces elevations by those of ``make`` and marks all valid."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         away = np.abs(profile.distance_m - Drive.of(recording).slowest_m)
         near = np.flatnonzero(away < reach_m)
 
@@ -194,34 +194,34 @@ def _replace_at_slowest(
 
         return _each(profile, change)
 
-    return spoil
+    return mutate
 
 
 def lose_at_slowest(length_m: float) -> After:
-    """Return what loses ``length_m`` of road where the vehicle is slowest."""
+    """Return a mutation that loses ``length_m`` of road where the vehicle is slowest."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         x = profile.distance_m
         places = x + np.where(x > Drive.of(recording).slowest_m, length_m, 0.0)
         return change_elevation(lambda z, p: _sample_at(z, p, places))(profile, recording)
 
-    return spoil
+    return mutate
 
 
 def chain(first: After, second: After) -> After:
-    """Return ``second`` after ``first``."""
+    """Return a mutation that applies ``first``, then ``second``."""
     return lambda profile, recording: second(first(profile, recording), recording)
 
 
 class Previous:
-    """Delivers the profile before; the first is itself."""
+    """Delivers the previous profile; the first time, the profile itself."""
 
     def __init__(self) -> None:
         """Begin with no profile."""
         self.last: Profile | None = None
 
     def __call__(self, profile: Profile, recording: Recording) -> Profile:
-        """Return what was last given, and keep ``profile``."""
+        """Return the previous profile, and store ``profile``."""
         delivered, self.last = self.last or profile, profile
         return delivered
 

@@ -21,15 +21,15 @@ from floatref_conformance.testing.own_device import OwnDevice
 class DeviceChecks:
     """Subclass it under a name that pytest collects, and name the device.
 
-    Every check, of the suite or of an installed plug-in, is a test of its own. One that is not
-    among ``checks``, that the device skips, or that does not apply to it, is skipped: what was
-    not run never counts as passed. A check that there is none of ends the collection.
+    Every check, of the suite or of an installed plug-in, is a separate test. A check that is not
+    among ``checks``, that the device skips, or that does not apply to it, is skipped: a check that
+    was not run never counts as passed. An unknown check is a collection error.
 
     Attributes:
-        device: its SPEC, as `conformance run --device` takes it; or what makes the object, a
-            class or a function without arguments, called for each check and closed after it;
-            or one object for all checks, which is never closed.
-        device_class: whose limits decide.
+        device: its SPEC, as for `conformance run --device`; or a class or a function without
+            arguments, whose object is made for each check and closed after it; or one object
+            for all checks, which is never closed.
+        device_class: the class whose limits decide.
         checks: the ids of the checks to run; all of them if empty.
         seed: draws roads and noise.
         effort: sets the number of cases.
@@ -74,7 +74,7 @@ class DeviceChecks:
             pytest.fail(f"{check}: {judged.reason}; reproduce with: {again}", pytrace=False)
 
     def _refuse_unknown(self, registry: Registry) -> None:
-        """Raise CollectError, one line, for a check that there is none of."""
+        """Raise CollectError, one line, for an unknown check."""
         if isinstance(self.checks, str):
             fault = f"{self.checks!r} is a string; write ({self.checks!r},)"
         elif unknown := [id_ for id_ in self.checks if id_ not in registry.checks]:
@@ -86,7 +86,7 @@ class DeviceChecks:
 
     def _resolve(self, registry: Registry) -> tuple[str, Device]:
         """Return the device's SPEC, or its type's name, and the device."""
-        # Not through self, which would be given to a function as its first argument.
+        # Not through self, which would be passed to a function as its first argument.
         device = type(self).device
         if isinstance(device, str):
             return device, registry.device(device)
@@ -94,7 +94,7 @@ class DeviceChecks:
         return own.name, own
 
     def _reproduction(self, result: RunResult, test: pytest.Item) -> str:
-        """Return the command, given where this run was, that runs ``test`` again."""
+        """Return the command that runs ``test`` again in the folder of this run."""
         if isinstance(type(self).device, str):
             return reproduction(result)
         path = os.path.relpath(test.path, test.config.invocation_params.dir)
@@ -103,4 +103,4 @@ class DeviceChecks:
 
 
 def _ignore(event: Event) -> None:
-    """Take no note of ``event``."""
+    """Ignore ``event``."""

@@ -27,20 +27,20 @@ laws = settings(
 
 
 class StageLaws:
-    """Subclass it under a name that pytest collects, and say how the stage is made.
+    """Subclass it under a name that pytest collects, and write `make`.
 
     Attributes:
-        reads: names of the channels of every wheel path that the stage computes from.
-        shared: names of the channels that belong to no wheel path, and that steer it.
+        reads: names of the channels of each wheel path from which the stage computes.
+        shared: names of the channels that belong to no wheel path and control the stage.
         ranges: smallest and largest sample by channel name; others are standard normal.
         tracks: the wheel paths.
         axis: of the stream.
         keeps_index: whether an output sample has the index of an input sample.
-        reach: how many samples from a flagged one a result may be wrong for want of an input
-            sample, and not be flagged itself; None for a memory that never ends, such as that
-            of an integral or a recursive filter.
-        tolerance: of linearity and of what a missing sample changes, relative to the largest
-            output.
+        reach: largest distance, in samples, from a flagged result to an unflagged one that
+            differs because of a missing input sample; None for an unlimited memory, such as
+            that of an integral or a recursive filter.
+        tolerance: largest error of linearity, and largest unflagged change by a missing sample,
+            relative to the largest output.
     """
 
     reads: ClassVar[tuple[str, ...]] = ()
@@ -79,7 +79,7 @@ class StageLaws:
     @laws
     @given(seed=SEEDS, cuts=CUTS)
     def test_2_indices_are_contiguous_and_totals_equal(self, seed: int, cuts: list[int]) -> None:
-        """Law 2: nothing is held back longer than declared, and all is out after finish."""
+        """Law 2: samples are held back no longer than declared; after finish all are output."""
         stream = self.stream(seed)
         blocks = stream.blocks(cuts)
         stage = stream.begin(blocks)
@@ -106,14 +106,14 @@ class StageLaws:
     @laws
     @given(seed=SEEDS, at=st.integers(1, 3))
     def test_4_saving_and_restoring_changes_nothing(self, seed: int, at: int) -> None:
-        """Law 4: a state that was saved in the middle starts another stage there."""
+        """Law 4: another stage continues from a state that was saved in the middle."""
         stream = self.stream(seed)
         assert_same(resume(stream, [60, 120, 180], at), stream.run())
 
     @laws
     @given(seed=SEEDS, at=st.integers(1, LENGTH - 2))
     def test_5_a_missing_sample_is_flagged_on_the_way_out(self, seed: int, at: int) -> None:
-        """Law 5: whatever differs for want of it is NaN or flagged, but for ``reach``."""
+        """Law 5: results that differ because of it are NaN or flagged, except within ``reach``."""
         stream = self.stream(seed)
         whole = stream.run()
         for lost in (c for c in stream.samples if c.track is not None):
@@ -121,16 +121,16 @@ class StageLaws:
             for channel in out.values:
                 wrong = _find_wrong(out, whole, channel, self.tolerance)
                 assert not _find_unflagged(wrong, find_flagged(out, channel), self.reach).any(), (
-                    f"{channel}: differs for want of a sample of {lost}, and is not flagged there; "
+                    f"{channel}: differs without a sample of {lost}, and is not flagged there; "
                     "flag it, or declare the reach"
                 )
 
     @laws
     @given(seed=SEEDS, at=st.integers(LENGTH // 4, 3 * LENGTH // 4))
     def test_5_a_flag_comes_out_again(self, seed: int, at: int) -> None:
-        """Law 5: what was not to be trusted before is not afterwards; tried away from the ends.
+        """Law 5: an invalid input sample makes an invalid output sample; tested away from the ends.
 
-        The flag of a channel must be on each of its wheel path that is computed from it.
+        A flag of a channel must be on each output of its wheel path that is computed from it.
         """
         stream, other = self.stream(seed), self.stream(seed + 1)
         whole = stream.run()
@@ -162,7 +162,7 @@ class StageLaws:
     @laws
     @given(seed=SEEDS, other=SEEDS, factor=st.floats(-3.0, 3.0))
     def test_7_it_is_linear_if_it_says_so(self, seed: int, other: int, factor: float) -> None:
-        """Law 7: the output of a sum is the sum of the outputs; what steers it is held fixed."""
+        """Law 7: the output of a sum is the sum of the outputs, with fixed control channels."""
         if not self.make().declared.linear:
             return
         one, two = self.stream(seed), self.stream(other)
@@ -198,7 +198,7 @@ class StageLaws:
 
 
 def resume(stream: Stream, cuts: list[int], at: int) -> Block:
-    """Return what comes out if block ``at`` and those after it go to a stage with a saved state."""
+    """Return the output if a restored stage processes block ``at`` and those after it."""
     blocks = stream.blocks(cuts)
     order, stage = stream.order(blocks), stream.begin(blocks)
     out = [stage.push(block) for block in order[:at]]
@@ -231,13 +231,13 @@ def _find_wrong(out: Block, whole: Block, channel: ChannelId, tolerance: float) 
     return ~close
 
 
-def _find_unflagged(wrong: BoolArray, told_at: BoolArray, reach: int | None) -> BoolArray:
-    """Return what of ``wrong`` is not told, nor within ``reach`` of what is told."""
-    if not told_at.any():
+def _find_unflagged(wrong: BoolArray, flagged: BoolArray, reach: int | None) -> BoolArray:
+    """Return where ``wrong`` is neither ``flagged`` nor within ``reach`` of a flagged sample."""
+    if not flagged.any():
         return wrong
     if reach is None:
         return np.zeros_like(wrong)
-    near = np.convolve(told_at, np.ones(2 * reach + 1))[reach : reach + told_at.size] > 0
+    near = np.convolve(flagged, np.ones(2 * reach + 1))[reach : reach + flagged.size] > 0
     return wrong & ~near
 
 

@@ -92,7 +92,7 @@ def test_a_device_that_cannot_describe_itself_fails(replay, devices):
     devices["good"].said = "a fine device"
     answer = replay("good")
     assert answer.exit_code == 1
-    assert "describes itself" in answer.stdout
+    assert "gives a description that is a str" in answer.stdout
     assert devices["good"].closed == 1
 
 
