@@ -152,11 +152,11 @@ def test_a_class_in_place_of_a_check_is_left_out(toy_check):
     ("changes", "words"),
     [
         ({"prefix": ""}, "prefix is ''"),
-        ({"prefix": "a:b"}, "no colon"),
+        ({"prefix": "a:b"}, "a colon"),
         ({"argument": None}, "argument is None"),
         ({"make": None}, "make cannot be called"),
         ({"entries": ()}, "entries cannot be called"),
-        ({"entries": lambda: ("one",)}, "gives a str, not a DeviceEntry"),
+        ({"entries": lambda: ("one",)}, "returns a str, not a DeviceEntry"),
         ({"entries": lambda: 1 / 0}, "ZeroDivisionError"),
     ],
 )

@@ -112,7 +112,7 @@ IN_SENSORS = (
     ),
     Mutation(
         "gaps-vouched",
-        "bridges missing samples and marks them valid",
+        "bridges gaps and marks them valid",
         ("faults",),
         r.bridge_missing,
     ),

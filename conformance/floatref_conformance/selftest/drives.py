@@ -1,4 +1,4 @@
-"""Graded errors of the checks that drive over a road."""
+"""Graded errors of the driving checks."""
 
 from collections.abc import Iterator
 
@@ -22,16 +22,16 @@ from floatref_conformance.selftest.grading import AddError, Graded, Put, Situati
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 IRI_M_PER_KM = 3.0
-"""On such a road 5 % of the IRI are more than 0.1 m/km, and 50 % more than 1 m/km."""
+"""IRI of the road: 5 % of it are more than 0.1 m/km, and 50 % more than 1 m/km."""
 EITHER_PERCENT = 10.0
-"""A profile lower by so much has lost 0.1 of the correlation, more than may be lost beside it."""
+"""Percent by which the profile is lowered: it loses 0.1 of the correlation, beyond that limit."""
 AROUND_M = 60.0
-"""An error is flagged so far to both sides of an event: in all less than 125 m."""
-SPOILT_M = 40.0
-"""It lies so far to both sides, so that the car has come to rest where the flags end."""
+"""Length in m flagged on each side of an event: less than 125 m in total."""
+ERROR_M = 40.0
+"""Length in m of the error on each side; the IRI's car has settled where the flags end."""
 FAST_KMH = 20.0
 AWAY_M = 60.0
-"""So far from an event no vehicle is slower than 16 km/h any more."""
+"""Distance from an event in m beyond which every vehicle drives at 16 km/h or more."""
 
 
 def situations(check: DrivingCheck) -> tuple[Situation, ...]:
@@ -63,7 +63,7 @@ def _case(check: DrivingCheck, rule: Rule) -> Case:
 
 
 def _stays_fast(row: Scenario) -> bool:
-    """Return whether both ends of the drive can be flagged: none is slower than 16 km/h."""
+    """Return whether both ends of the drive are driven at 16 km/h or more."""
     return row.manoeuvre != "braking" or row.event_speed_kmh > FAST_KMH
 
 
@@ -98,16 +98,16 @@ def _make_rougher(start_m: float, end_m: float) -> Put:
 
 
 def _around_event(layout: Layout) -> Put:
-    """Return what puts all of an error near an event, and flags it."""
+    """Return a function that puts the whole error near an event, and flags it."""
     start_m, end_m = layout.stretches[0]
     event_m = layout.events_m[0] if layout.events_m else (start_m + end_m) / 2
-    there = put_in.between(event_m - SPOILT_M, event_m + SPOILT_M)
+    there = put_in.between(event_m - ERROR_M, event_m + ERROR_M)
     flags = put_in.flag_points(event_m - AROUND_M, event_m + AROUND_M)
     return lambda v: put_in.chain(put_in.make_rougher(v, start_m, end_m, there), flags)
 
 
 def _flag_away(scenario: Scenario, layout: Layout) -> Put:
-    """Return what flags a length ahead of the event, or in the middle of a drive without one."""
+    """Return a function that flags a length before the event, or in the middle without one."""
     middle_m = scenario.length_m / 2
 
     def put(length_m: float) -> AddError:

@@ -14,15 +14,15 @@ from floatref_conformance.selftest.grading import AddError, Graded, Put, Situati
 
 INTERVAL_M = 0.02
 LOCAL_AT_M = 400.0
-"""A local error lies here, away from the fault."""
+"""Place of a local error in m, away from the fault."""
 EQUIPPED = Description("perfect", "1", "temporal", tuple(CAPABILITIES))
 LABEL = "with the fault"
 CLEAR_M = 30.0
-"""Farther than this from a stop no vehicle travels below 16 km/h."""
+"""Distance from a stop in m beyond which every vehicle drives at 16 km/h or more."""
 
 
 def situations(check: FaultsCheck) -> tuple[Situation, ...]:
-    """Return one fault of each part, in a drive of its own, with ideal sensors."""
+    """Return one fault of each part, each in a separate drive, with ideal sensors."""
     parts: dict[str, Case] = {}
     for case in check.cases(0, Effort.QUICK):
         parts.setdefault(str(case.variation["fault"]).partition("-")[0], case)
@@ -60,7 +60,7 @@ def _simplify(case: Case) -> Case:
 
 
 def _shared_graded(scenario: Scenario) -> tuple[Graded, ...]:
-    """Return the quantities that do not depend on what is injured."""
+    """Return the quantities that do not depend on the faulty sensor."""
     middle_m = scenario.length_m / 2
     return (
         Graded(("IRI error, unflagged",), lambda v: put_in.make_rougher(v, 0.0, scenario.length_m)),
@@ -78,12 +78,12 @@ def _with_fault_only(put: Put) -> Put:
 
 
 def _local(m_per_km: float) -> AddError:
-    """Return what changes the IRI filter's output by ``m_per_km`` over the base length."""
+    """Return an error of the IRI filter's output by ``m_per_km`` over the base length."""
     return put_in.change_locally(m_per_km, LOCAL_AT_M, BASE_M)
 
 
 def _flag_from(case: Case) -> Put:
-    """Return what flags the distance travelled during the fault, and a length around it."""
+    """Return a function that flags the distance of the fault, and a length around it."""
     at_m, speed = float(case.variation["at_m"]), case.scenario.speed_kmh / 3.6
     extent_m = speed * float(case.variation["length_s"])
     return _with_fault_only(lambda v: put_in.flag_points(at_m - v / 2, at_m + extent_m + v / 2))

@@ -19,7 +19,7 @@ from floatref_conformance.selftest.grading import Graded, Put, Situation
 
 INTERVAL_M = 0.01
 FINE_M = 0.0025
-"""Displacements are read in whole intervals."""
+"""Profile interval in m; displacements are measured in whole intervals."""
 
 
 def situations_of_repeatability(check: RepeatabilityCheck) -> tuple[Situation, ...]:
@@ -48,7 +48,7 @@ def situations_of_repeatability(check: RepeatabilityCheck) -> tuple[Situation, .
 
 
 def situations_of_invariance(check: InvarianceCheck) -> tuple[Situation, ...]:
-    """Return a drive whose storage changes, and one with a stop that is twice as long."""
+    """Return a drive with another storage of its clock, and one with a stop twice as long."""
     steady = replace(
         check.simplest.scenario, sensors=0.0, rate_hz=4000.0, profile_interval_m=FINE_M
     )

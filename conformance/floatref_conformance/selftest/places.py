@@ -1,4 +1,4 @@
-"""Graded errors of `distance`: features that are out of place, or lost."""
+"""Graded errors of `distance`: displaced or lost features."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from floatref_conformance.selftest import put_in
 from floatref_conformance.selftest.grading import Graded, Put, Situation
 
 INTERVAL_M = 0.0025
-"""Displacements are read in whole intervals."""
+"""Profile interval in m; displacements are measured in whole intervals."""
 
 
 def situations(check: DistanceCheck) -> tuple[Situation, ...]:

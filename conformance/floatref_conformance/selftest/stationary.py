@@ -30,7 +30,7 @@ def situations(check: StationaryCheck) -> tuple[Situation, ...]:
 
 
 def _add_wave(m_per_km: float, end_m: float) -> AddError:
-    """Return what adds a wave with an IRI of ``m_per_km``, up to ``end_m``."""
+    """Return an error that adds a wave with an IRI of ``m_per_km``, up to ``end_m``."""
     wave = _wave(np.arange(0.0, SETTLED_M, 0.05))
     height_m = m_per_km / iri(wave, 0.05)
     fade = put_in.between(0.0, end_m)
@@ -42,7 +42,7 @@ def _wave(x: FloatArray) -> FloatArray:
 
 
 def _move_plate(length_m: float) -> AddError:
-    """Return what moves the plate by ``length_m`` beyond the half interval that is let pass."""
+    """Return an error that moves the plate by ``length_m`` plus the tolerated half interval."""
 
     def move(profile: Profile, taken: Taken, label: str) -> Profile:
         return put_in.move_features(length_m + profile.interval_m / 2)(profile, taken, label)

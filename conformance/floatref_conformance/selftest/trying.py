@@ -1,4 +1,4 @@
-"""Devices tried on checks, in several processes: only whether one fails is asked."""
+"""Run devices on checks, in several processes, to find out which devices fail."""
 
 import multiprocessing
 from collections.abc import Iterator, Sequence
@@ -22,7 +22,7 @@ from floatref_conformance.registry import Registry
 
 @dataclass(frozen=True)
 class Try:
-    """A device by its SPEC, a check by its id, a seed, and whose limits decide."""
+    """A device by its SPEC, a check by its id, a seed, and the class whose limits decide."""
 
     spec: str
     check: str
@@ -32,18 +32,18 @@ class Try:
 
 @dataclass(frozen=True)
 class TryResult:
-    """What became of a try: in one line why the device fails, empty if it does not."""
+    """The result of a try: in one line why the device fails; empty if it passes."""
 
     tried: Try
     fails: str
 
 
 def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
-    """Yield what becomes of ``tries``, as they are done; an error of the suite is raised."""
+    """Yield the results of ``tries`` as they finish; an error of the suite is raised."""
     if processes < 2:
         yield from map(attempt, tries)
         return
-    # A fork would share whatever threads and children this process has.
+    # A fork would share the threads and children of this process.
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(processes, mp_context=spawn) as pool:
         try:
@@ -54,7 +54,7 @@ def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
 
 
 def attempt(wanted: Try) -> TryResult:
-    """Return what becomes of ``wanted`` at quick effort, its search included."""
+    """Return the result of ``wanted`` at quick effort, including the search."""
     registry = _registry()
     device = registry.device(wanted.spec)
     try:
@@ -64,7 +64,7 @@ def attempt(wanted: Try) -> TryResult:
 
 
 def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
-    """Return why ``device`` fails ``check``: of the first case that it fails."""
+    """Return why ``device`` fails ``check``, from the first failing case."""
     found: list[str] = []
     try:
         description = describe(device)

@@ -1,4 +1,4 @@
-"""The work of the self-test, step by step, with its progress, and all limits to be graded."""
+"""The steps of the self-test, with progress, and the limits to grade."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -32,17 +32,17 @@ GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
     InvarianceCheck: passes.situations_of_invariance,
     FaultsCheck: faults.situations,
 }
-"""How the cases of each kind of check are made whose quantities are graded."""
+"""The functions that make the graded cases of each kind of check."""
 
 
 def situations(check: Check) -> tuple[Situation, ...]:
-    """Return the graded cases of ``check``; none for one that did not come with the suite."""
+    """Return the graded cases of ``check``; empty for a check of a plug-in."""
     grader = GRADERS.get(type(check))
     return () if grader is None else grader(check)
 
 
 def grade_all(checks: Iterable[Check]) -> Iterator[Limit]:
-    """Yield every limit of ``checks`` with what became of it."""
+    """Yield the result of every limit of ``checks``."""
     for check in checks:
         roads = Roads()
         for situation in situations(check):
@@ -50,7 +50,7 @@ def grade_all(checks: Iterable[Check]) -> Iterator[Limit]:
 
 
 def list_ungraded(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
-    """Return the published limits of ``checks`` that ``limits`` lack."""
+    """Return the published limits of ``checks`` that are missing in ``limits``."""
     return tuple(missing for check in checks for missing in find_ungraded(check, limits))
 
 
@@ -58,22 +58,22 @@ Item = TypeVar("Item")
 
 
 class Track(Protocol):
-    """Returns what it is given, one after another, and tells that it is done."""
+    """Returns its items one after another, and shows the progress."""
 
     def __call__(self, items: Iterable[Item], count: int | None, title: str) -> Iterable[Item]:
-        """Return ``items``, ``count`` of them, which ``title`` names."""
+        """Return ``items``; ``count`` is their number, ``title`` their name."""
 
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is tested.
+    """The extent of the self-test.
 
     Attributes:
-        seeds: with so many seeds, from 0 on, every mutant is tried.
-        false_alarms: with so many, every built-in device that claims a class.
+        seeds: number of seeds, from 0 on, for every mutant.
+        false_alarms: number of seeds for every built-in device that claims a class.
         limits: whether limits are graded.
-        unique: whether the only killers are looked for.
-        processes: how many devices are tried at a time.
+        unique: whether the only killers are determined.
+        processes: number of devices that are run in parallel.
     """
 
     seeds: int
@@ -85,7 +85,7 @@ class Extent:
 
 @dataclass(frozen=True)
 class Work:
-    """The self-test of ``checks``, whose progress ``track`` tells."""
+    """The self-test of ``checks``; ``track`` shows its progress."""
 
     checks: tuple[Check, ...]
     killers: Killers
@@ -93,7 +93,7 @@ class Work:
     track: Track
 
     def count(self) -> Counts:
-        """Return what all of it comes to; an error of the suite is raised."""
+        """Return all counts; an error of the suite is raised."""
         extent, ids = self.extent, tuple(check.id for check in self.checks)
         seeds, more = range(extent.seeds), range(extent.false_alarms)
         limits = self._limits()

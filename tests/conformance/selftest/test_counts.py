@@ -58,14 +58,14 @@ def test_a_survivor_is_told_with_its_seed():
 
 def test_a_check_that_is_the_only_killer_of_nothing_is_told():
     counts = Counts(KILLERS, IDS, KILLED, SPARED)
-    assert counts.complaints == ("bounce is the only killer of no device",)
+    assert counts.complaints == ("bounce is not the only killer of a device",)
 
 
 def test_a_second_killer_with_one_seed_is_enough_to_lose_the_first():
     others = (*SPARED[:-1], TryResult(SPARED[-1].tried, "too rough"))
     counts = Counts(KILLERS, ("quiescent",), KILLED, others)
     assert counts.only_killed_by("quiescent") == ()
-    assert counts.complaints == ("quiescent is the only killer of no device",)
+    assert counts.complaints == ("quiescent is not the only killer of a device",)
 
 
 def test_a_survivor_is_nobodys_only_victim():
