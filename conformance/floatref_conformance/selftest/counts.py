@@ -110,9 +110,7 @@ class Counts:
     def complaints(self) -> tuple[str, ...]:
         """All faults, one line each; empty if the suite holds."""
         lines = [f"{t.spec} passes {t.check} with seed {t.seed}" for t in self.survivors]
-        lines += [
-            f"{id_} is not the only killer of any device" for id_ in self.without_unique_killer
-        ]
+        lines += [f"{id_} is not the only killer of a device" for id_ in self.without_unique_killer]
         lines += [
             f"{limit.check}: {limit.quantity}, class {limit.device_class}: {fault}"
             for limit in self.broken

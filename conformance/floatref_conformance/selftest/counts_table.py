@@ -52,8 +52,8 @@ def _totals(counts: Counts) -> tuple[str, ...]:
     totals = counts.to_dict()
     seeds = {one.tried.seed for one in counts.kills}
     return (
-        f"Mutants: {totals['mutants']}; {totals['kills']} of {totals['kills_asked']} times killed by "
-        f"a check that they name, with {len(seeds)} seeds",
+        f"Mutants: {totals['mutants']}; {totals['kills']} of {totals['kills_asked']} times killed "
+        f"by a check that they name, with {len(seeds)} seeds",
         f"Limits: {totals['limits']} of {totals['limits_asked']} fail an error of "
         f"{totals['limit_factors'][0]:g} times as much and pass one of "
         f"{totals['limit_factors'][1]:g} times",

@@ -1,4 +1,4 @@
-"""Quantities of a stretch of profile that a rule asks for, each with its limits."""
+"""The quantities of a stretch of profile that a rule limits."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -14,12 +14,12 @@ LOSS, ERROR = "correlation loss", "IRI error"
 
 @dataclass(frozen=True)
 class Requirement:
-    """One quantity of a stretch.
+    """A limited quantity of a stretch.
 
     Attributes:
         quantity: its name.
-        words: the limit of each class that has one.
-        measure: returns it of a pair of truth and result, and of the name of the wheel path.
+        words: the text of each class's limit, if it has one.
+        measure: measures it, from a pair of truth and result and the name of the wheel path.
     """
 
     quantity: str
@@ -28,7 +28,7 @@ class Requirement:
 
 
 def read_requirement(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Requirement:
-    """Return what an ``entry`` of the edition asks for, its limits by class.
+    """Return the requirement of an ``entry`` of the edition, with its limits by class.
 
     ``in_m_per_km`` and ``in_percent`` are the names of an IRI error in these units.
     """
@@ -49,13 +49,13 @@ def limits_of(table: Table) -> Limits:
 
 
 def loss(limits: Limits) -> Requirement:
-    """Ask for one minus (2.16), the agreement of the IRI filter's outputs."""
+    """Return the requirement on one minus (2.16), the agreement of the IRI filter's outputs."""
     words = {c: f"{limit:g}" for c, limit in limits.items()}
     return Requirement(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
 
 
 def percent(limits: Limits, quantity: str = ERROR) -> Requirement:
-    """Ask for the IRI's error in percent of the road's."""
+    """Return the requirement on the IRI's error in percent of the road's IRI."""
 
     def measure(pair: Pair, track: str) -> Measurement:
         return replace(scoring.roughness_percent(pair, track, limits), quantity=quantity)
@@ -64,7 +64,7 @@ def percent(limits: Limits, quantity: str = ERROR) -> Requirement:
 
 
 def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Requirement:
-    """Ask for the one of both that is farther within its limit, of one class alone."""
+    """Return the requirement that either quantity is within its limit, for one class."""
 
     def measure(pair: Pair, track: str) -> Measurement:
         return scoring.better(
@@ -80,7 +80,7 @@ def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -
 def within(
     quantity: str, device_class: DeviceClass, error_percent: float, m_per_km: float
 ) -> Requirement:
-    """Ask for the IRI's error in m/km: percent of the road's, or m/km if that is more."""
+    """Return the requirement on the IRI's error: percent of the road's, or m/km if larger."""
     limits = {device_class: (error_percent, m_per_km)}
 
     def measure(pair: Pair, track: str) -> Measurement:

@@ -1,4 +1,4 @@
-"""What is asked of every wheel path of a drive, and the rule of each kind of drive."""
+"""The rules: the requirements for every wheel path, by the kind of drive."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -26,14 +26,14 @@ UNFLAGGED, WHOLE = "IRI error, unflagged part", "IRI error, 160.9 m"
 
 @dataclass(frozen=True)
 class Rule:
-    """What is asked of a drive.
+    """The requirements for a drive.
 
     Attributes:
-        whole: of every scored stretch, whose points all count.
-        unflagged: of all points that the device vouches for.
+        whole: requirements for every scored stretch, over all its points.
+        unflagged: requirements for all points that the device marks valid.
         flagged_elsewhere: limits of the flagged length in m around an event.
-        slow: whether the vehicle stays below 16 km/h, where any length may be flagged: then it
-            is not limited, and class nominal answers for nothing that it flags.
+        slow: whether the vehicle stays below 16 km/h. The flagged length is then not limited, and
+            flagged points do not count in class nominal.
     """
 
     whole: tuple[Requirement, ...]
@@ -57,7 +57,7 @@ class Rule:
     def measure(
         self, compared: Compared, scenario: Scenario, layout: Layout
     ) -> tuple[Measurement, ...]:
-        """Return what is asked of one wheel path.
+        """Return the measurements of one wheel path.
 
         Raises DeviceError for a point without elevation where every point counts.
         """
@@ -93,7 +93,7 @@ class Rule:
 
 
 def _missing(quantity: str, compared: Compared) -> Measurement:
-    """Return what no class above nominal passes: a quantity of points without elevation."""
+    """Return NaN for a quantity of points without elevation; only class nominal passes it."""
     return Measurement(
         quantity, compared.track, nan, "", _above_nominal(dict.fromkeys(DeviceClass, 1.0))
     )
@@ -121,11 +121,11 @@ def _rule(table: Table) -> Rule:
 
 
 RULES: Mapping[str, Rule] = {name: _rule(table) for name, table in edition()["rules"].items()}
-"""Those of the edition, by name."""
+"""The rules of the edition, by name."""
 
 
 def rule_of(scenario: Scenario) -> Rule:
-    """Return the rule for the scenario's drive, one that a driving check scores."""
+    """Return the rule of the scenario's drive, which a driving check scores."""
     named = edition()["manoeuvres"][scenario.manoeuvre]
     if "below_16_kmh" in named and scenario.speed_kmh * KMH < SLOW_MPS:
         return RULES[named["below_16_kmh"]]

@@ -1,4 +1,4 @@
-"""How long, how large and how often: the numbers of every fault, fixed by the edition or drawn."""
+"""Length, size and count of every fault, fixed by the edition or drawn."""
 
 from collections.abc import Mapping
 from types import MappingProxyType

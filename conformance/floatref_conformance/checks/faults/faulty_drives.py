@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CHECK = "faults"
 ROLLING = "encoder-rolling-back"
 AT_A_STOP = (ROLLING, "gnss-outage-at-a-stop", "imu-gyro-gap")
-"""Faults of drives with a stop; in the others the vehicle does not change its speed."""
+"""Faults in drives with a stop; in the others the speed is constant."""
 LENGTH_M = 560.0
 STOP_M = 320.0
 ROUNDS: tuple[tuple[Mapping[str, Any], ...], ...] = (
@@ -45,10 +45,10 @@ STOP: Mapping[str, Any] = {
     "event_at_m": STOP_M,
 }
 SLOPES_PERCENT: Mapping[str, tuple[float, ...]] = MappingProxyType({"gnss-stuck": (3.0, -2.0, 4.0)})
-"""Grades of seeded cases: on a level road a height that is stuck would nearly be right."""
+"""Grades of seeded cases: on a level road a stuck height would be nearly right."""
 PLACES_M = (285.3, 251.7, 316.0)
 NEAREST_M, FARTHEST_M = 230.0, 330.0
-"""Where faults begin: far enough from both ends for what they spread."""
+"""Range in m where faults begin; their effect does not reach the ends."""
 ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 RATES_HZ = (16000.0, 8000.0, 4000.0)
@@ -57,12 +57,12 @@ RATES_HZ = (16000.0, 8000.0, 4000.0)
 def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     """Return every fault once, in a certification three times; ``seed`` draws their roads.
 
-    No two cases share a road: whoever has seen the one knows nothing of the other.
+    No two cases have the same road, so that a device cannot use what it stored.
     """
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(SENSOR_FAULTS)).tolist())
-    # What was there first comes first: its roads are the same for whatever device is judged.
+    # Faults of nominal sensors come first: their roads are the same for every device.
     nominal = [fault for fault in SENSOR_FAULTS if fault not in {*AUGMENTED, *RESPONSE}]
     return tuple(
         Case(

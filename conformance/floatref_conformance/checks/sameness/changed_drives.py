@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 CHECK = "invariance"
 STOP = "longer-stop"
 FREE_M, STOP_M = 200.0, 316.0
-"""The brake for a stop begins so far into the recording, or farther; the stop lies here, or
-farther: the adaptive cut-off of section 5.7 takes some 20 s to settle."""
+"""Smallest distances in m of the begin of a brake and of its stop: the adaptive cut-off of
+section 5.7 needs about 20 s to settle."""
 BEFORE_M, BEHIND_M = 96.0, 64.9
-"""The 160.9 m around a stop."""
+"""Lengths in m before and behind a stop: 160.9 m in total."""
 END_M = 110.0
-"""The recording goes on for so long behind what counts."""
+"""Length in m of the recording after the scored stretch."""
 LENGTH_M = 500.0
 ROUNDS: tuple[Mapping[str, Any], ...] = (
     {"speed_kmh": 65.0, "rate_hz": 8000.0, "iri_m_per_km": 1.4},
@@ -55,7 +55,7 @@ THROTTLES: tuple[Mapping[str, Any], ...] = tuple(
         {"speed_kmh": 50.0, "rate_hz": 4000.0, "deceleration_g": 0.18, "vehicle": "pickup"},
     )
 )
-"""Drives of the seeded cases in which the body pitches, and changes its speed."""
+"""Drives of the seeded cases in which the body pitches and the speed changes."""
 UNSTEADY: Mapping[str, tuple[Mapping[str, Any], ...]] = MappingProxyType(
     {STOP: STOPS, SLOPE: THROTTLES, UNIT_BIAS: THROTTLES}
 )
@@ -89,15 +89,15 @@ RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 LATEST_S = 1.4
-"""A recording begins up to so much later: 38 m at 97 km/h."""
+"""Largest delay of a recording's begin in s: 38 m at 97 km/h."""
 
 
 def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
-    """Return every change once, in a certification three times, each on a road of its own."""
+    """Return every change once, in a certification three times, each on another road."""
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(CHANGES)).tolist())
-    # Nominal changes come first: their roads are the same for whatever device is judged.
+    # Nominal changes come first: their roads are the same for every device.
     nominal = [change for change in CHANGES if change not in AUGMENTED_CHANGES]
     return tuple(
         Case(
@@ -113,7 +113,7 @@ def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
 
 
 def drive(change: str, seed: int, **numbers: Any) -> Scenario:
-    """Return a drive of one wheel path for ``change``, long enough for what counts."""
+    """Return a drive of one wheel path for ``change``, long enough for the scored stretch."""
     fields: dict[str, Any] = {"length_m": LENGTH_M, "tracks": ("left",), **numbers}
     if change == "road-height":
         fields["sensors"] = 0.0
@@ -127,9 +127,9 @@ def drive(change: str, seed: int, **numbers: Any) -> Scenario:
 
 
 def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
-    """Return the distance in m that is driven before a recording that begins later.
+    """Return the distance in m that is driven before a delayed recording begins.
 
-    Raises InputError for numbers that do not tell how many samples later.
+    Raises InputError for numbers without a valid count of samples.
     """
     begin_s = number(numbers, "samples") / scenario.rate_hz
     return float(drive_of(scenario).motion(np.array([begin_s])).distance[0])
@@ -175,7 +175,7 @@ def _steady(highest_iri: float = 4.0) -> "SearchStrategy[dict[str, Any]]":
 def _smooth() -> "SearchStrategy[dict[str, Any]]":
     """Return a strategy of drives over roads that can be made higher.
 
-    Their speed is constant: the tilt under throttle does not grow with the road.
+    Their speed is constant: the tilt under throttle does not increase with the road.
     """
     return _steady(1.5)
 

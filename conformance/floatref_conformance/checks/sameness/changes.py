@@ -1,4 +1,4 @@
-"""What must not matter: changes of a recording, or of a drive, that leave the road alone."""
+"""Changes of a recording or a drive, but not of the road; they must not affect the result."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -81,7 +81,7 @@ AUGMENTED_CHANGES: Mapping[str, Change] = MappingProxyType(
         SLOPE: Change("a road that climbs and leans", scenario=change_slope, needs=IMU | GNSS),
     }
 )
-"""Changes of sensors that a device has by a capability, or of what these have to see."""
+"""Changes of sensors that a device has by a capability, or of what they measure."""
 
 
 LATER = "later-start"
@@ -89,13 +89,13 @@ VERTICAL_FORCES = frozenset(
     {"vertical_specific_force", *(c for c in CAPABILITIES["response"] if c.endswith("_force"))}
 )
 EARLY = 1e-6
-"""A sample so much before a time, in steps, was taken at that time: times are rounded."""
+"""Tolerance for rounded times, in steps: an earlier sample counts as taken at that time."""
 
 
 def start_later(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` without the first ``samples`` of the accelerometers' clock.
 
-    What other channels recorded before that time goes, too.
+    Earlier samples of other channels are removed too.
     """
     force = next(c for c in recording.channels if c.id.name == "vertical_specific_force")
     begin_s = float(force.clock.times(1, int(number(numbers, "samples")))[0])
@@ -148,12 +148,12 @@ def shift_back(profile: Profile, numbers: Numbers) -> Profile:
 
 
 def raise_road(scenario: Scenario, numbers: Numbers) -> Scenario:
-    """Return ``scenario`` on its road, ``factor`` times as high."""
+    """Return ``scenario`` with the height of its road multiplied by ``factor``."""
     return replace(scenario, iri_m_per_km=scenario.iri_m_per_km * number(numbers, "factor"))
 
 
 def lower_profile(profile: Profile, numbers: Numbers) -> Profile:
-    """Return ``profile``, which saw a `raise_road`, scaled back."""
+    """Return ``profile``, which saw a `raise_road`, scaled back to the original road."""
     tracks = tuple(
         ProfileTrack.of(t.name, t.elevation / number(numbers, "factor"), t.valid)
         for t in profile.tracks
@@ -167,7 +167,7 @@ def change_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
 
 
 def lengthen_stop(scenario: Scenario, numbers: Numbers) -> Scenario:
-    """Return ``scenario`` standing twice as long."""
+    """Return ``scenario`` with twice the time at a standstill."""
     return replace(scenario, dwell_s=2.0 * scenario.dwell_s)
 
 
@@ -184,7 +184,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
             profile=shift_back,
         ),
         "road-height": Change(
-            "a road so many times as high, ideal sensors", raise_road, profile=lower_profile
+            "a road multiplied in height, ideal sensors", raise_road, profile=lower_profile
         ),
         "sample-rate": Change("another rate of the accelerometers", change_rate),
         "longer-stop": Change("twice the time at a standstill", lengthen_stop),
@@ -195,7 +195,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
 
 
 def change_of(numbers: Numbers) -> Change:
-    """Return the change that a case's variation names; InputError if there is none."""
+    """Return the change that a case's variation names; InputError if it is unknown."""
     name = numbers.get("change")
     if name not in CHANGES:
         raise InputError(f"variation change {name!r}: unknown; known: {', '.join(CHANGES)}")
@@ -203,7 +203,7 @@ def change_of(numbers: Numbers) -> Change:
 
 
 def begins_later_m(before: Recording, after: Recording) -> float:
-    """Return the distance in m that ``after`` lacks at its beginning."""
+    """Return the distance in m that is missing at the beginning of ``after``."""
     return float(np.diff([r.channel("distance").values[0] for r in (before, after)])[0])
 
 

@@ -1,4 +1,4 @@
-"""`repeatability`: two passes over one road agree at any speed, in any vehicle, with any noise."""
+"""`repeatability`: two passes over one road agree, with other speeds, vehicles and noise."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 CHANGES: Mapping[str, str] = MappingProxyType(
     {"second_seed": "seed", "second_speed_kmh": "speed_kmh", "second_vehicle": "vehicle"}
 )
-"""What a case's variation says of the second pass, and the number of the scenario that it is."""
+"""The names of a variation for the second pass, and the fields of the scenario they change."""
 
 
 def passes_of(case: Case) -> tuple[Scenario, Scenario]:
-    """Return both passes of ``case``; what its variation does not name is as in the first.
+    """Return both passes of ``case``; the second has the changes of its variation.
 
-    Raises InputError, naming what it is, for what makes no second pass.
+    Raises InputError, with the name of the number, for an invalid second pass.
     """
     first = case.scenario
     second = replace(first, road_seed=first.seed if first.road_seed < 0 else first.road_seed)
@@ -49,7 +49,7 @@ def passes_of(case: Case) -> tuple[Scenario, Scenario]:
 
 
 def move_to_road(profile: Profile, scenario: Scenario) -> Profile:
-    """Return ``profile`` on the road's axis: the lasers lie ahead of the vehicle's own point."""
+    """Return ``profile`` on the road's axis: the lasers are ahead of the vehicle's origin."""
     ahead_m = vehicle_called(scenario.vehicle).sensor_x_m
     return replace(profile, start_m=profile.start_m + ahead_m)
 
@@ -70,7 +70,7 @@ DIFFERENCE_LIMITS: Limits = {
 }
 TRUTH_LIMITS: Limits = {c: 2.0 * limit for c, limit in LOSS_LIMITS.items()}
 START_M, END_M, LENGTH_M = 220.0, 380.9, 490.0
-"""The stretch that is compared, and the length of a pass, in m."""
+"""Start and end of the compared stretch, and length of a pass, in m."""
 SPEEDS_KMH = ((60.0, 80.0), (30.0, 72.0), (97.0, 50.0), (72.0, 72.0))
 """Of the two passes of a case, in turn."""
 VEHICLES = (
@@ -101,7 +101,7 @@ class RepeatabilityCheck:
 
     @property
     def derivation(self) -> str:
-        """What differs between two passes, and how far they may differ for it."""
+        """The differences of two passes, and their limits."""
         return DERIVATION
 
     @property
@@ -156,9 +156,9 @@ class RepeatabilityCheck:
         return verify_stretches(((START_M, END_M),), drive_of(case.scenario).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return how far the passes differ from each other and from the truth.
+        """Return the differences of the passes from each other and from the truth.
 
-        Raises InputError for numbers that make no two passes, DeviceError for a point without
+        Raises InputError for numbers that make no second pass, DeviceError for a point without
         elevation in the stretch that is compared.
         """
         self.scored(case)
@@ -236,15 +236,15 @@ DERIVATION = (
     "the same path. Adequate is the 0.95 that is asked at constant speed. Two encoders whose "
     "scales differ by 0.06 % lie 0.05 m off at the ends of the stretch when its middle fits, a "
     "phase of 8 degrees at 2.1 m: 0.003 of correlation is lost at the car's axle hop, less "
-    "elsewhere, and the noise of sound sensors costs 0.002. IRI: as much as one pass may be off "
-    "the truth at constant speed, 5, 3 and 2 %; what is wrong alike in both passes cancels."
+    "elsewhere, and the noise of sound sensors costs 0.002. IRI: the limits of one pass to the "
+    "truth at constant speed, 5, 3 and 2 %; equal errors of both passes cancel."
 )
-"""What differs between two passes, and how far they may differ for it."""
+"""The differences of two passes, and their limits."""
 FLOOR = (
-    "Agreement alone would pass two flat profiles: either pass has to correlate with the truth, "
-    "filtered alike (HPF_B3x2, -3 dB at 91.44 m), within twice what the passes may differ by: two "
-    "errors that are not alike add up in their difference. The score contains the ratio of the "
+    "Two flat profiles would agree: each pass has to correlate with the truth, filtered in the "
+    "same way (HPF_B3x2, -3 dB at 91.44 m), within twice the limit between the passes: two "
+    "different errors add up in their difference. The score contains the ratio of the "
     "heights: a profile that is flat loses 1."
 )
-"""What both passes must show."""
+"""What both passes must contain."""
 REPEATABILITY = RepeatabilityCheck()
