@@ -1,4 +1,4 @@
-"""Cases as files, `floatref-case/1`: what failed once is kept and run again."""
+"""Cases as files, `floatref-case/1`: a case that failed once is stored and run again."""
 
 import json
 from collections.abc import Mapping
@@ -21,10 +21,10 @@ LARGEST_BYTES = 1 << 20
 
 @dataclass(frozen=True)
 class KeptCase:
-    """A case in a file; ``device_class`` is the one whose limits it broke.
+    """A case in a file; ``device_class`` is the one whose limits it exceeded.
 
-    ``refused`` says why this edition cannot run it, and then none of its numbers were read; it is
-    empty otherwise.
+    ``refused`` is the reason why this edition cannot run the case; its numbers are then not read.
+    It is empty for a case that can be run.
     """
 
     file: str
@@ -34,12 +34,12 @@ class KeptCase:
 
 
 def name_of(case: Case) -> str:
-    """Return the name in a report directory of the file that keeps ``case``."""
+    """Return the name in a report directory of the file that stores ``case``."""
     return f"{FOLDER}/{case.check}-{case.digest}.json"
 
 
 def document(case: Case, device_class: DeviceClass, device: str, reason: str) -> dict[str, Any]:
-    """Return the JSON object that keeps ``case``, which ``device`` failed for ``reason``."""
+    """Return the JSON object that stores ``case``, which ``device`` failed for ``reason``."""
     return {
         "format": FORMAT,
         "edition": EDITION,
@@ -52,9 +52,9 @@ def document(case: Case, device_class: DeviceClass, device: str, reason: str) ->
 
 
 def read_case(path: Path) -> KeptCase:
-    """Return the case in file ``path``; InputError, naming the file, if it holds none.
+    """Return the case in file ``path``; InputError, naming the file, if it holds no case.
 
-    One of another edition is `refused`.
+    A case of another edition is `refused`.
     """
     try:
         if path.stat().st_size > LARGEST_BYTES:
@@ -65,31 +65,33 @@ def read_case(path: Path) -> KeptCase:
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not JSON ({error}); name a case file") from error
     try:
-        return _kept(path.name, found)
+        return _parse_case(path.name, found)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
 
 
 def read_cases(folder: Path) -> tuple[KeptCase, ...]:
-    """Return the cases kept in report directory ``folder``, by name; none if there are none."""
+    """Return the cases stored in report directory ``folder``, by name; empty without cases."""
     return tuple(read_case(path) for path in sorted((folder / FOLDER).glob("*.json")))
 
 
-def _kept(name: str, found: object) -> KeptCase:
+def _parse_case(name: str, found: object) -> KeptCase:
     if not isinstance(found, Mapping) or found.get("format") != FORMAT:
-        told = found.get("format") if isinstance(found, Mapping) else type(found).__name__
-        raise InputError(f"format {told!r}: unknown, expected {FORMAT!r}")
-    check, told = found.get("check"), found.get("class", DeviceClass.NOMINAL.value)
+        given = found.get("format") if isinstance(found, Mapping) else type(found).__name__
+        raise InputError(f"format {given!r}: unknown, expected {FORMAT!r}")
+    check, class_name = found.get("check"), found.get("class", DeviceClass.NOMINAL.value)
     if not isinstance(check, str):
         raise InputError("has no check; give its id")
     edition = found.get("edition")
     if edition != EDITION:
-        return KeptCase(name, Case(check, Scenario()), DeviceClass.NOMINAL, _of_another(edition))
-    if told not in list(DeviceClass):
-        raise InputError(f"class {told!r}: unknown; choose from {', '.join(DeviceClass)}")
-    return KeptCase(name, Case.of(check, found, Path(name).stem), DeviceClass(told))
+        return KeptCase(
+            name, Case(check, Scenario()), DeviceClass.NOMINAL, _describe_edition(edition)
+        )
+    if class_name not in list(DeviceClass):
+        raise InputError(f"class {class_name!r}: unknown; choose from {', '.join(DeviceClass)}")
+    return KeptCase(name, Case.of(check, found, Path(name).stem), DeviceClass(class_name))
 
 
-def _of_another(edition: object) -> str:
-    told = "has no edition" if edition is None else f"is of edition {shortened(edition)}"
-    return f"the case {told}, and its numbers may mean something else in {EDITION}; take it out"
+def _describe_edition(edition: object) -> str:
+    state = "has no edition" if edition is None else f"is of edition {shortened(edition)}"
+    return f"the case {state}, and its numbers may mean something else in {EDITION}; take it out"

@@ -18,28 +18,28 @@ class DeviceClass(StrEnum):
 
 
 class Effort(StrEnum):
-    """How many cases a check draws: a number, never a time."""
+    """The number of cases that a check draws; it does not depend on time."""
 
     QUICK = "quick"
     CERTIFICATION = "certification"
 
     @property
     def searched(self) -> int:
-        """How many cases the search draws for each check."""
+        """The number of cases that the search draws for each check."""
         return {Effort.QUICK: 3, Effort.CERTIFICATION: 30}[self]
 
     @property
     def shrunk(self) -> int:
-        """How many cases at most are tried to make a failing one simpler."""
+        """The largest number of cases tried to simplify a failing one."""
         return {Effort.QUICK: 12, Effort.CERTIFICATION: 60}[self]
 
 
 Limits = Mapping[DeviceClass, float]
-"""The largest value allowed in each class, above zero; a class that is missing has no limit."""
+"""The largest allowed value of each class, above zero; a class without an entry has no limit."""
 
 
 def same_limit(nominal: float, reference: float) -> Limits:
-    """Return the limits of a check that nominal and adequate profilers share."""
+    """Return limits where nominal and adequate profilers have the same one."""
     return {
         DeviceClass.NOMINAL: nominal,
         DeviceClass.ADEQUATE: nominal,
@@ -48,7 +48,7 @@ def same_limit(nominal: float, reference: float) -> Limits:
 
 
 def lowest(classes: list[DeviceClass | None]) -> DeviceClass | None:
-    """Return the easiest of ``classes``; None if there are none or one of them is None."""
+    """Return the easiest of ``classes``; None if the list is empty or contains None."""
     reached = [c for c in classes if c is not None]
     if not reached or len(reached) < len(classes):
         return None

@@ -1,6 +1,6 @@
-"""Whose fault it is: the device's, or the suite's own.
+"""Errors of the device under test, and errors of the suite itself.
 
-What the user can mend by another command line is a `floatref.errors.InputError`.
+An error that the user can correct on the command line is a `floatref.errors.InputError`.
 """
 
 
@@ -13,8 +13,8 @@ class DeviceHung(DeviceError):
 
 
 class DeviceSkipped(Exception):
-    """The device does not take this recording, for the reason that it gives in one line."""
+    """The device does not process this recording; the text is its reason, in one line."""
 
 
 class SuiteError(Exception):
-    """The suite cannot judge because it is itself at fault; there is no verdict."""
+    """The suite cannot judge because of its own error; there is no verdict."""

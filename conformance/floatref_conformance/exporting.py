@@ -1,4 +1,4 @@
-"""Recordings for devices that are not at hand: written now, their profiles judged later."""
+"""Export of recordings for a device on another machine; its profiles are judged later."""
 
 import shutil
 import tempfile
@@ -11,21 +11,21 @@ from floatref.errors import InputError
 from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check, Taken, fitted
+from floatref_conformance.checks.interface import Check, Taken, fit_check
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.bench import seen_by, taken_of
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.judge.bench import make_taken, restrict_channels
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NAME_LENGTH = 12
-"""Digits of a recording's name: from its content, so that it tells nothing."""
+"""Digits of a recording's name. They come from its content and do not reveal the case."""
 
 
 @dataclass
 class ExportBench:
-    """A bench whose device writes down what it is given and answers with the truth."""
+    """A bench that writes every recording into a folder and returns the true profile."""
 
     folder: Path
     description: Description
@@ -33,11 +33,11 @@ class ExportBench:
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels of the capabilities."""
-        taken = taken_of(seen_by(self.description, scenario))
+        taken = make_taken(restrict_channels(self.description, scenario))
         return replace(taken, recording=visible(taken.recording, self.description.channels))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
-        """Write ``taken.recording`` into the folder unless it is there, and return its truth."""
+        """Write ``taken.recording`` unless it is already in the folder, and return its truth."""
         beside = Path(tempfile.mkdtemp(prefix=".new-", dir=self.folder))
         try:
             made = beside / "recording"
@@ -48,11 +48,11 @@ class ExportBench:
             self.written.add(name)
         finally:
             shutil.rmtree(beside, ignore_errors=True)
-        return perfect(taken)
+        return make_perfect(taken)
 
 
 def content_name(recording: Path) -> str:
-    """Return the name of a recording directory that follows from its content alone."""
+    """Return the name of a recording directory, computed from its content alone."""
     digests = fingerprint(recording)
     text = "\n".join(f"{Path(name).name} {digests[name]}" for name in sorted(digests))
     return sha256(text.encode()).hexdigest()[:NAME_LENGTH]
@@ -64,26 +64,26 @@ def export(
     description: Description,
     seed: int,
     effort: Effort,
-    told: Callable[[str, int], None],
+    report: Callable[[str, int], None],
 ) -> int:
     """Write every recording that the seeded cases of ``checks`` need, and return how many.
 
-    ``told`` is given each check's id and how many recordings there are by then. Checks whose
-    needs ``description`` does not meet are left out. Raises InputError if
-    ``folder`` cannot be made or is there.
+    ``report`` is called with each check's id and the number of recordings so far. Checks whose
+    needs ``description`` does not meet are left out. Raises InputError if ``folder`` exists or
+    cannot be created.
     """
     _make(folder)
     bench = ExportBench(folder, description)
     for check in checks:
         if check.needs <= description.meets:
-            for case in fitted(check, description.meets).cases(seed, effort):
+            for case in fit_check(check, description.meets).cases(seed, effort):
                 _record(check, case, bench)
-        told(check.id, len(bench.written))
+        report(check.id, len(bench.written))
     return len(bench.written)
 
 
 def _record(check: Check, case: Case, bench: ExportBench) -> None:
-    """Have ``check`` ask for all it needs; what it thinks of the truth does not matter."""
+    """Let ``check`` request its recordings; its result for the truth is not used."""
     try:
         check.judge(case, bench)
     except DeviceError:

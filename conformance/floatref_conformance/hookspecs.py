@@ -1,7 +1,7 @@
 """The hooks of a plug-in, found in the entry-point group `floatref_conformance`.
 
-A hook registers; it is called once per command, plug-in by plug-in. The suite's own devices
-and checks come from such a plug-in too.
+A hook registers devices or checks. It is called once per command, plug-in by plug-in. The suite
+registers its own devices and checks by such a plug-in too.
 """
 
 from collections.abc import Callable
@@ -25,4 +25,4 @@ def conformance_register_devices(register: Callable[[DeviceKind], None]) -> None
 
 @hookspec
 def conformance_register_checks(register: Callable[[Check], None]) -> None:
-    """Call ``register`` with each check, in the order they are to run; its id must be new."""
+    """Call ``register`` with each check, in the order in which they run; its id must be new."""

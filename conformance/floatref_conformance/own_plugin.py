@@ -1,4 +1,4 @@
-"""The suite's own devices and checks: a plug-in like any other."""
+"""The suite's own devices and checks, registered like those of any other plug-in."""
 
 from collections.abc import Callable
 
@@ -31,7 +31,7 @@ def conformance_register_devices(register: Callable[[DeviceKind], None]) -> None
 
 @hookimpl
 def conformance_register_checks(register: Callable[[Check], None]) -> None:
-    """Register the checks that are built, in the order of the suite's list."""
+    """Register the implemented checks, in the order of the suite's list."""
     register(QUIESCENT)
     register(BOUNCE)
     for check in DRIVING_CHECKS.values():

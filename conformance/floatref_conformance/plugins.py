@@ -1,4 +1,4 @@
-"""Finding the plug-ins, one at a time, and checking what they register."""
+"""Find the plug-ins, load them one by one, and verify what they register."""
 
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
@@ -15,8 +15,8 @@ from floatref_conformance.devices.interface import NEEDS, DeviceEntry, DeviceKin
 from floatref_conformance.registry import Registry
 
 
-def sound_check(check: Check) -> Check:
-    """Return ``check``; TypeError that names the first member that is missing or unusable."""
+def verify_check(check: Check) -> Check:
+    """Return ``check``; TypeError with the name of the first missing or unusable member."""
     what = f"check {_text(check, 'id', 'a check')}"
     for name in ("title", "clause", "derivation", "floor"):
         _text(check, name, what)
@@ -29,22 +29,24 @@ def sound_check(check: Check) -> Check:
         raise TypeError(f"{what}: needs is {needs!r}, not a set of {', '.join(NEEDS)}")
     limits = _member(check, "limits", what)
     if not isinstance(limits, Mapping) or not all(map(_is_per_class, limits.values())):
-        raise TypeError(f"{what}: limits do not give a text for each class of each quantity")
+        raise TypeError(f"{what}: limits has no text for some class of some quantity")
     return check
 
 
-def sound_kind(kind: DeviceKind) -> DeviceKind:
-    """Return ``kind``; TypeError that names the first member that is missing or unusable."""
+def verify_kind(kind: DeviceKind) -> DeviceKind:
+    """Return ``kind``; TypeError with the name of the first missing or unusable member."""
     what = f"device kind {_text(kind, 'prefix', 'a device kind')}"
     if ":" in kind.prefix:
-        raise TypeError(f"{what}: a prefix holds no colon")
+        raise TypeError(f"{what}: a prefix may not contain a colon")
     for name in ("argument", "usage"):
         _text(kind, name, what)
     for name in ("make", "entries"):
         _function(kind, name, what)
     for entry in kind.entries():
         if not isinstance(entry, DeviceEntry):
-            raise TypeError(f"{what}: entries() gives a {type(entry).__name__}, not a DeviceEntry")
+            raise TypeError(
+                f"{what}: entries() returns a {type(entry).__name__}, not a DeviceEntry"
+            )
     return kind
 
 
@@ -87,10 +89,10 @@ def load_registry() -> Registry:
 
 
 def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
-    """Return what each of ``plugins`` registers, wholly or not at all.
+    """Return what the ``plugins`` register, given by name as the function that loads each.
 
-    Each is given as the function that loads it. One that raises or ends the process, registers
-    something incomplete, or takes a name that an earlier one has, is left out and reported.
+    A plug-in is left out as a whole, and reported, if it raises or exits, registers something
+    incomplete, or uses a name that an earlier plug-in has registered.
     """
     kinds: dict[str, DeviceKind] = {}
     checks: dict[str, Check] = {}
@@ -98,7 +100,7 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
     broken: list[str] = []
     for name, load in plugins.items():
         try:
-            new_kinds, new_checks = _registered(name, load())
+            new_kinds, new_checks = _call_hooks(name, load())
             _refuse_taken(owners, (*new_kinds, *new_checks))
         except (Exception, SystemExit) as error:
             text = " ".join(str(error).split())
@@ -110,16 +112,16 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
     return Registry(kinds, checks, tuple(broken))
 
 
-def _registered(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[str, Check]]:
-    """Return what ``plugin`` registers; it has a manager of its own, so it breaks alone."""
+def _call_hooks(name: str, plugin: object) -> tuple[dict[str, DeviceKind], dict[str, Check]]:
+    """Return what ``plugin`` registers; its own manager isolates it from the other plug-ins."""
     manager = pluggy.PluginManager(hookspecs.GROUP)
     manager.add_hookspecs(hookspecs)
     manager.register(plugin, name)
     kinds: list[DeviceKind] = []
     checks: list[Check] = []
-    manager.hook.conformance_register_devices(register=lambda kind: kinds.append(sound_kind(kind)))
+    manager.hook.conformance_register_devices(register=lambda kind: kinds.append(verify_kind(kind)))
     manager.hook.conformance_register_checks(
-        register=lambda check: checks.append(sound_check(check))
+        register=lambda check: checks.append(verify_check(check))
     )
     _refuse_repeated([*(kind.prefix for kind in kinds), *(check.id for check in checks)])
     return {kind.prefix: kind for kind in kinds}, {check.id: check for check in checks}

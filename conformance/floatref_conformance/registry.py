@@ -13,7 +13,7 @@ from floatref_conformance.devices.interface import Device, DeviceKind
 class Registry:
     """What can be run: kinds of devices by prefix, checks by id, and plug-ins left out.
 
-    ``broken`` says of each plug-in that was skipped, in one line, why.
+    ``broken`` has one line with the reason for each plug-in that was left out.
     """
 
     kinds: Mapping[str, DeviceKind]
@@ -37,14 +37,14 @@ class Registry:
             raise InputError(f"device {spec}: {type(error).__name__}: {error}") from error
 
     def check(self, id_: str) -> Check:
-        """Return check ``id_``; InputError if there is none, or it is not built yet."""
+        """Return check ``id_``; InputError if it is unknown or not built yet."""
         if id_ in self.checks:
             return self.checks[id_]
         state = "not built yet" if id_ in IDS else "unknown check"
         raise InputError(f"check {id_}: {state}; these can be run: {', '.join(self.checks)}")
 
     def select(self, ids: Sequence[str]) -> tuple[tuple[Check, ...], tuple[LeftOut, ...]]:
-        """Return the checks to run, and every other with the reason why it is not run.
+        """Return the checks to run, and every other check with the reason why it is not run.
 
         Without ``ids`` every check runs. Raises InputError for an id that cannot be run.
         """

@@ -6,7 +6,7 @@ import numpy as np
 
 import floatref
 from floatref.values.arrays import FloatArray
-from floatref_conformance.checks.faults.injection import with_values
+from floatref_conformance.checks.faults.injection import replace_values
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.roads.shaping import cosine_rise, scale_to
@@ -115,7 +115,7 @@ def with_added(recording: floatref.Recording, name: str, values: FloatArray) -> 
     for channel in recording.channels:
         if channel.id.name == name:
             changed = channel.values + values
-            recording = with_values(recording, name, channel.id.track, changed)
+            recording = replace_values(recording, name, channel.id.track, changed)
     return recording
 
 
@@ -136,7 +136,7 @@ def injured(fault: str, seconds: float, ahead_m: float = 0.0) -> Change:
         for track in others:
             values = np.array(whole.channel(HEIGHT, track).values)
             values[held & ~alike], values[alike] = values[begin], np.nan
-            spoilt = with_values(spoilt, HEIGHT, track, values)
+            spoilt = replace_values(spoilt, HEIGHT, track, values)
         return spoilt
 
     return hurt

@@ -104,8 +104,8 @@ def test_what_is_no_check_or_kind_is_reported(kind):
         ({"id": None}, "id is None"),
         ({"needs": ("imu",)}, "needs is ('imu',), not a set"),
         ({"needs": frozenset({"radar"})}, "not a set of height, imu, gnss"),
-        ({"limits": None}, "limits do not give"),
-        ({"limits": {"IRI": {"nominal": "1"}}}, "limits do not give"),
+        ({"limits": None}, "limits has no text"),
+        ({"limits": {"IRI": {"nominal": "1"}}}, "limits has no text"),
     ],
 )
 def test_a_check_with_an_unusable_member_is_left_out_and_reported(toy_check, changes, words):
@@ -152,11 +152,11 @@ def test_a_class_in_place_of_a_check_is_left_out(toy_check):
     ("changes", "words"),
     [
         ({"prefix": ""}, "prefix is ''"),
-        ({"prefix": "a:b"}, "no colon"),
+        ({"prefix": "a:b"}, "a colon"),
         ({"argument": None}, "argument is None"),
         ({"make": None}, "make cannot be called"),
         ({"entries": ()}, "entries cannot be called"),
-        ({"entries": lambda: ("one",)}, "gives a str, not a DeviceEntry"),
+        ({"entries": lambda: ("one",)}, "returns a str, not a DeviceEntry"),
         ({"entries": lambda: 1 / 0}, "ZeroDivisionError"),
     ],
 )

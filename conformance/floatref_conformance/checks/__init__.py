@@ -1,1 +1,1 @@
-"""The checks: what each asks of a device, why, and how much is allowed."""
+"""The checks: the requirements for a device, their reasons and their limits."""

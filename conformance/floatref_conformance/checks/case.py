@@ -1,4 +1,4 @@
-"""A case: the few numbers of a scenario and of a check's own, from which all else follows."""
+"""A case: the few numbers of a scenario and of a check that define a simulated test."""
 
 import hashlib
 import json
@@ -14,21 +14,21 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 Number = float | int | str | bool
 CHANNELS_BY_NEED = ("imu", "gnss", "response")
-"""Fields of a scenario that follow from the device's capabilities, and are no part of a case."""
+"""Fields of a scenario that follow from the device's capabilities, not from the case."""
 DEFAULT = Scenario()
 LARGEST = 2**64
-"""Whole numbers of a variation are no larger: they have to have a counterpart among floats."""
+"""Largest whole number in a variation: larger ones may have no equal float."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """One thing that a check asks of a device; cases are equal by their numbers alone.
+    """One test of a device by a check; two cases are equal if their numbers are equal.
 
     Attributes:
         check: id of the check.
         scenario: what is simulated.
-        variation: numbers of the check's own: which fault, where, how long.
-        name: within its check, for the user; a device never sees it.
+        variation: further numbers of the check: which fault, where, how long.
+        name: name within its check, for the user; a device never sees it.
     """
 
     check: str
@@ -37,27 +37,30 @@ class Case:
     name: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
-        """Keep the variation from being changed."""
+        """Make the variation immutable."""
         object.__setattr__(self, "variation", MappingProxyType(dict(self.variation)))
 
     def __hash__(self) -> int:
-        """A variation, which cannot be hashed, is left to the comparison."""
+        """A variation cannot be hashed; it takes part only in the comparison."""
         return hash((self.check, self.scenario))
 
     @property
     def parameters(self) -> Mapping[str, Any]:
-        """The numbers that make the case again: those that differ from the defaults."""
-        return {"scenario": _differing(self.scenario), "variation": dict(self.variation)}
+        """The numbers that define the case: those that differ from the defaults."""
+        return {
+            "scenario": _differences_from_default(self.scenario),
+            "variation": dict(self.variation),
+        }
 
     @property
     def digest(self) -> str:
-        """Eight hexadecimal digits that tell the case from others."""
+        """Eight hexadecimal digits that identify the case."""
         text = json.dumps([self.check, self.parameters], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:8]
 
     @classmethod
     def of(cls, check: str, parameters: object, name: str = "") -> "Case":
-        """Return the case that ``parameters`` make; InputError if they make none."""
+        """Return the case with ``parameters``; InputError if they define no case."""
         if not isinstance(parameters, Mapping):
             raise InputError("a case is a JSON object with scenario and variation")
         variation = parameters.get("variation", {})
@@ -75,7 +78,7 @@ def _is_plain(value: object) -> bool:
     return isinstance(value, str) or (isinstance(value, float) and isfinite(value))
 
 
-def _differing(scenario: Scenario) -> dict[str, Any]:
+def _differences_from_default(scenario: Scenario) -> dict[str, Any]:
     values = scenario.to_dict()
     return {
         f.name: values[f.name]

@@ -1,4 +1,4 @@
-"""The ids of the whole suite in the order of its list, and what each asks."""
+"""The ids of the whole suite in the order of its list, and the requirement of each."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ IDS: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A check that is not run, why, and the clause that it would have judged by."""
+    """A check that is not run, the reason, and the clause of the check."""
 
     id: str
     reason: str

@@ -1,7 +1,7 @@
-"""What the oracle needs to measure a value again.
+"""The data from which the oracle measures a value again.
 
-Each kind of evidence is given the functions of the reference implementation and returns what
-the measured value should have been.
+Each kind of evidence computes the expected value with the functions of the reference
+implementation.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Reference(Protocol):
 
 
 class Evidence(Protocol):
-    """Something from which a value follows again."""
+    """Data from which a measured value can be computed again."""
 
     def value(self, reference: Reference) -> float:
         """Return the value by ``reference``."""
@@ -34,7 +34,7 @@ class Evidence(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Roughness:
-    """The elevations in m, at ``interval_m``, whose IRI in m/km was taken."""
+    """The elevations in m, at ``interval_m``, whose IRI in m/km was measured."""
 
     elevation: FloatArray
     interval_m: float
@@ -46,13 +46,13 @@ class Roughness:
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Truth and result in m on the same points, and the intervals between them that count.
+    """Truth and result in m on the same points, and the intervals that are counted.
 
     Attributes:
         truth: filtered as the result is, shape (n,).
         result: as delivered, shape (n,).
         interval_m: between points.
-        counted: which of the n - 1 intervals count.
+        counted: which of the n - 1 intervals are counted.
     """
 
     truth: FloatArray
@@ -61,7 +61,7 @@ class Pair:
     counted: BoolArray
 
     def traces(self, reference: Reference) -> tuple[FloatArray, FloatArray]:
-        """Return the signed IRI filter outputs of both where they count, in m/km."""
+        """Return the signed IRI filter outputs of both over the counted intervals, in m/km."""
         true, found = (
             np.asarray(reference.iri_trace(z, self.interval_m), dtype=np.float64)
             for z in (self.truth, self.result)
@@ -71,7 +71,7 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class RoughnessError:
-    """How far the mean of the rectified outputs differs, in m/km or in percent of the truth's."""
+    """The difference of the mean rectified outputs, in m/km or in percent of the truth's mean."""
 
     pair: Pair
     percent: bool

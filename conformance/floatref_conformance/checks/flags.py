@@ -1,4 +1,4 @@
-"""How much of a profile a device flags: at the ends of the run, and around its events."""
+"""The lengths that a device flags: at the ends of the run, and around its events."""
 
 from collections.abc import Sequence
 
@@ -12,22 +12,21 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 
 SLOW_MPS = 16 / 3.6
-"""Below 16 km/h any length may be flagged."""
+"""Speed in m/s, 16 km/h, below which any length may be flagged."""
 EVENT_LIMITS: Limits = {
     DeviceClass.NOMINAL: 125.0,
     DeviceClass.ADEQUATE: 10.0,
     DeviceClass.REFERENCE: 5.0,
 }
-"""Longest flagged length of an event in m: 47 m before and 76 m behind a stop (3.3.7) and the
-length that no profile shorter than it can miss."""
+"""Largest flagged length around an event in m; 47 m before and 76 m behind a stop (3.3.7)."""
 END_LIMITS: Limits = {
     DeviceClass.NOMINAL: 106.0,
     DeviceClass.ADEQUATE: 106.0,
     DeviceClass.REFERENCE: 53.0,
 }
-"""Longest flagged length of an end in m: a cut-off wavelength, or half of it."""
+"""Largest flagged length at an end in m: a cut-off wavelength, or half of it."""
 STEP_S = 0.01
-"""The true speed is looked at in such steps."""
+"""Time step in s of the true speed."""
 
 
 def speed_at(scenario: Scenario, distance_m: FloatArray) -> FloatArray:
@@ -38,14 +37,14 @@ def speed_at(scenario: Scenario, distance_m: FloatArray) -> FloatArray:
     return np.interp(distance_m, motion.distance, motion.speed)
 
 
-def flagged(
+def measure_flags(
     compared: Compared, scenario: Scenario, events_m: Sequence[float]
 ) -> tuple[Measurement, ...]:
     """Return the longest flagged length at an end, and around one of ``events_m``, in m.
 
-    What is flagged in one piece with an end belongs to the end, unless an event lies within it;
-    all else belongs to the nearest event, and counts in one sum if there is none. Travel below
-    16 km/h does not count.
+    Flagged points connected to an end belong to the end, unless an event lies within them. All
+    others belong to the nearest event; without events their total length is returned. Points
+    driven below 16 km/h do not count.
     """
     fast = speed_at(scenario, compared.distance_m) >= SLOW_MPS
     x, bad = compared.distance_m, ~compared.valid
@@ -64,7 +63,7 @@ def flagged(
 
 
 def _at_end(bad: BoolArray, x: FloatArray, events_m: Sequence[float]) -> BoolArray:
-    """Return the flagged points in one piece with the first, up to the first event at most."""
+    """Return the flagged points connected to the first one, up to the first event at most."""
     count = bad.size if bad.all() else int(np.argmin(bad))
     piece = np.zeros(bad.size, dtype=np.bool_)
     piece[:count] = True

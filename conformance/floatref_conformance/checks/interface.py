@@ -1,4 +1,4 @@
-"""What a check is: it draws cases and measures the profiles that a device makes of them."""
+"""The interface of a check: it draws cases and measures the profiles of a device."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Taken:
-    """A recording as the sensors made it, and the road that was under the laser.
+    """A simulated recording of the sensors, and the true road under the laser.
 
     Attributes:
-        recording: what the device is given, of it the channels that it may have.
+        recording: the channels that the device may receive.
         truth: unfiltered elevation in m along the laser's path, one track per wheel path.
-        scenario: what was simulated.
+        scenario: the simulated scenario.
     """
 
     recording: Recording
@@ -32,21 +32,21 @@ class Taken:
 
 
 class Bench(Protocol):
-    """Where a check has its recordings made, and processed by the device under test."""
+    """Simulates recordings for a check, and lets the device under test process them."""
 
     def simulate(self, scenario: Scenario) -> Taken:
-        """Return the recording of ``scenario``, with the channels that the device may have."""
+        """Return the recording of ``scenario``, with the channels that the device may receive."""
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return the profile that the device makes of ``taken.recording``.
 
-        Raises DeviceError if it delivers none that can be used, DeviceSkipped if it does not
-        take the recording. ``label`` names the recording among those of one case.
+        Raises DeviceError if it delivers no usable profile, DeviceSkipped if it skips the
+        recording. ``label`` identifies the recording in its case.
         """
 
 
 class Check(Protocol):
-    """A check. Every limit has a clause or a derivation, and every check a floor."""
+    """A check. Every limit has a clause or a derivation; every check has a floor."""
 
     @property
     def id(self) -> str:
@@ -54,19 +54,19 @@ class Check(Protocol):
 
     @property
     def title(self) -> str:
-        """What is asked, in one line."""
+        """The requirement, in one line."""
 
     @property
     def clause(self) -> str:
-        """Standard and clause, or the derivation's name, that the limit comes from."""
+        """Standard and clause, or the derivation's name, that the limits come from."""
 
     @property
     def derivation(self) -> str:
-        """How the cases are made and why the limits are what they are."""
+        """How the cases are made, and the reasons of the limits."""
 
     @property
     def floor(self) -> str:
-        """What must be in the profile, so that one that shows nothing fails."""
+        """What the profile must contain, so that a flat profile fails."""
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -74,36 +74,36 @@ class Check(Protocol):
 
     @property
     def needs(self) -> frozenset[str]:
-        """What of `devices.interface.NEEDS` a device must have for the check to apply to it."""
+        """The `devices.interface.NEEDS` that a device must meet for the check to apply."""
 
     @property
     def simplest(self) -> Case:
-        """The simplest case of all: a failing one is made simpler by taking its numbers."""
+        """The simplest case: a failing case is simplified towards its numbers."""
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
-        """Return the cases whose manoeuvres the edition fixes; ``seed`` draws road and noise."""
+        """Return the cases with the manoeuvres of the edition; ``seed`` draws road and noise."""
 
     def strategy(self) -> "SearchStrategy[Case]":
-        """Return the Hypothesis strategy of all cases that the check may ask for."""
+        """Return the Hypothesis strategy of all possible cases of the check."""
 
     def scored(self, case: Case) -> Stretches:
-        """Return the stretches whose points count in ``case``, to be shown in pictures.
+        """Return the scored stretches of ``case``, which are shown in pictures.
 
         Raises InputError for numbers that make no drive.
         """
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Have ``case`` processed and measure it; DeviceError if a point that counts lacks."""
+        """Run ``case`` and measure it; DeviceError if a scored point is missing."""
 
 
 @runtime_checkable
 class Fitting(Protocol):
-    """A check with cases that say nothing of a device without some sensor."""
+    """A check with cases that do not apply to a device without some sensor."""
 
     def fitted(self, meets: Iterable[str]) -> Check:
-        """Return the check without such cases for a device that has ``meets`` of `NEEDS`."""
+        """Return the check without such cases, for a device that ``meets`` these `NEEDS`."""
 
 
-def fitted(check: Check, meets: Iterable[str]) -> Check:
-    """Return ``check`` with the cases for a device that ``meets`` so much: most have one kind."""
+def fit_check(check: Check, meets: Iterable[str]) -> Check:
+    """Return ``check`` for a device that ``meets`` these `NEEDS`; most checks do not change."""
     return check.fitted(meets) if isinstance(check, Fitting) else check

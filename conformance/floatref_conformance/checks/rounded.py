@@ -1,4 +1,4 @@
-"""Strategies of numbers that people would write down: few digits."""
+"""Strategies of numbers with few digits, so that cases are easy to read."""
 
 import json
 import zlib
@@ -9,11 +9,11 @@ if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
 SEED = 2**32 - 1
-"""Largest seed that is drawn."""
+"""Largest seed."""
 
 
-def rounded(low: float, high: float, digits: int = 1) -> "SearchStrategy[float]":
-    """Return a strategy of numbers from ``low`` to ``high`` with so many ``digits`` decimals."""
+def rounded_numbers(low: float, high: float, digits: int = 1) -> "SearchStrategy[float]":
+    """Return a strategy of numbers from ``low`` to ``high`` with ``digits`` decimals."""
     from hypothesis import strategies as st
 
     scale = 10**digits
@@ -29,8 +29,8 @@ def seeds() -> "SearchStrategy[int]":
 
 
 def seed_of_its_own(seed: int, *numbers: Mapping[str, Any]) -> int:
-    """Return a seed that is another one for other ``numbers``, so that no two cases share a road.
+    """Return a seed that depends on ``numbers``, so that no two cases have the same road.
 
-    The search keeps ``seed`` while it changes the rest of a case.
+    The search may change other numbers of a case and not ``seed``.
     """
     return zlib.crc32(json.dumps([seed, *numbers], sort_keys=True).encode())

@@ -1,4 +1,4 @@
-"""How a profile is compared with the truth: on the same points, filtered alike."""
+"""Compare a profile with the truth: on the same points, with the same filter."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -15,21 +15,21 @@ from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
 
 LEAD_M = 120.0
-"""The car of the IRI starts so far ahead of the stretch that counts: at the section's start."""
+"""Distance in m from the start of the IRI's car to the scored stretch."""
 MAX_OFFSET_M = 1.0
 """Largest lag of a correlation, in m."""
 
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """One wheel path of a result beside its truth, on the truth's points; all of shape (n,).
+    """One wheel path of a result and of the truth, on the truth's points; all of shape (n,).
 
     Attributes:
         track: its name.
         distance_m: of the points.
         truth: elevation along the laser's path in m, high-pass filtered (-3 dB at 91.44 m).
-        result: as delivered, in m; NaN where there is none.
-        valid: which points the device vouches for.
+        result: delivered elevation in m; NaN where it is missing.
+        valid: which points the device marks valid.
         interval_m: between points.
     """
 
@@ -41,7 +41,7 @@ class Compared:
     interval_m: float
 
     def whole(self, start_m: float, end_m: float) -> Pair:
-        """Return both from ahead of ``start_m`` to ``end_m``, between which every point counts.
+        """Return both up to ``end_m``, with a lead before ``start_m``; all points between count.
 
         Raises DeviceError for a point without elevation there.
         """
@@ -56,17 +56,17 @@ class Compared:
         return self._pair(inside, counted)
 
     def unflagged(self) -> Pair | None:
-        """Return both where the device vouches for its points; None if it does so nowhere."""
+        """Return both, counted where points are valid; None if no two adjacent ones are."""
         counted = self.valid[:-1] & self.valid[1:]
         return self._pair(slice(None), counted) if counted.any() else None
 
     def _pair(self, inside: slice, counted: BoolArray) -> Pair:
         truth = self.truth[inside]
-        return Pair(truth, bridged(self.result[inside], truth), self.interval_m, counted)
+        return Pair(truth, bridge(self.result[inside], truth), self.interval_m, counted)
 
 
 def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
-    """Return every wheel path of ``truth``, which is unfiltered, beside that of ``profile``."""
+    """Return every wheel path of the unfiltered ``truth`` with that of ``profile``."""
     tracks = tuple(
         ProfileTrack.of(t.name, high_pass(t.elevation, truth.interval_m)) for t in truth.tracks
     )
@@ -84,11 +84,11 @@ def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
     )
 
 
-def bridged(result: FloatArray, truth: FloatArray) -> FloatArray:
+def bridge(result: FloatArray, truth: FloatArray) -> FloatArray:
     """Return ``result`` with the shape of ``truth`` where it has no elevation.
 
-    The car of the IRI runs over what was not measured, too; this way it brings nothing along
-    from there that the device could be blamed for.
+    The car of the IRI also drives over points that were not measured. With this shape they add no
+    error of the device.
     """
     missing = np.isnan(result)
     if not missing.any() or missing.all():
@@ -129,18 +129,18 @@ def roughness_within(
 
 
 def better(first: Measurement, second: Measurement, device_class: DeviceClass) -> Measurement:
-    """Return the one of two that is farther from its limit of ``device_class``, limited there."""
+    """Return the one that is farther within its limit of ``device_class``, with that limit."""
     chosen = min((first, second), key=lambda m: m.ratio(device_class))
     return replace(chosen, limits={device_class: chosen.limits[device_class]})
 
 
 def _roughness(pair: Pair) -> tuple[float, float]:
     true, found = (float(np.abs(trace).mean()) for trace in _traces(pair))
-    return not_flat(true), found
+    return refuse_flat(true), found
 
 
-def not_flat(true_m_per_km: float) -> float:
-    """Return the IRI of a true road; InputError for 0, of which no error is a share."""
+def refuse_flat(true_m_per_km: float) -> float:
+    """Return the IRI of a true road; InputError for 0, where a relative error is undefined."""
     if true_m_per_km == 0:
         raise InputError("the road that is judged is flat; give one with an IRI above 0")
     return true_m_per_km

@@ -1,4 +1,4 @@
-"""Cutting from a profile the points that count."""
+"""Cut the scored points from a profile."""
 
 import numpy as np
 
@@ -10,11 +10,11 @@ from floatref_conformance.errors import DeviceError
 Stretches = tuple[tuple[float, float], ...]
 """Start and end of each of several stretches, in m of true distance."""
 END_M = 106.0
-"""What counts is so far from both ends: the high-pass (105.91 m) may leave points out."""
+"""Distance in m of scored points from both ends: the high-pass (105.91 m) may omit points."""
 
 
-def fitting(stretches: Stretches, length_m: float) -> Stretches:
-    """Return the ``stretches`` of a run of ``length_m`` that are to be judged.
+def verify_stretches(stretches: Stretches, length_m: float) -> Stretches:
+    """Return the ``stretches`` of a run of ``length_m``.
 
     Raises InputError if one is empty, or lies within `END_M` of an end of the run.
     """
@@ -37,7 +37,7 @@ def points(profile: Profile, start_m: float, end_m: float) -> slice:
 def stretch(profile: Profile, track: str, start_m: float, end_m: float) -> FloatArray:
     """Return the elevations in m of ``track`` from ``start_m`` to ``end_m``.
 
-    Valid or not, every point counts: raises DeviceError if one has no elevation.
+    Every point counts, valid or not: raises DeviceError if one has no elevation.
     """
     elevation = profile.track(track).elevation[points(profile, start_m, end_m)]
     missing = int(np.isnan(elevation).sum())

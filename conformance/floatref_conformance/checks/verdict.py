@@ -1,4 +1,4 @@
-"""What is measured, what a check makes of it, and what the run makes of its checks."""
+"""Measurements, results of cases and checks, and the verdict of a run."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 
 class Outcome(StrEnum):
-    """What became of one check."""
+    """The outcome of one check."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -25,7 +25,7 @@ class Outcome(StrEnum):
 
 
 class Verdict(StrEnum):
-    """What the run says of the device."""
+    """The verdict of a run on the device."""
 
     PASS = "PASS"
     FAIL = "FAIL"
@@ -41,7 +41,7 @@ class Verdict(StrEnum):
 class Measurement:
     """One number of one wheel path against the largest value allowed in each class.
 
-    A class that ``limits`` lacks does not limit this quantity.
+    A class that is missing in ``limits`` does not limit this quantity.
     """
 
     quantity: str
@@ -52,7 +52,7 @@ class Measurement:
     evidence: Evidence | None = None
 
     def ratio(self, device_class: DeviceClass) -> float:
-        """Return value over limit: above 1 is a failure; a value that is NaN is one too.
+        """Return value over limit: above 1 is a failure; NaN is a failure too.
 
         0 where ``device_class`` has no limit.
         """
@@ -61,16 +61,16 @@ class Measurement:
         return inf if isnan(self.value) else self.value / self.limits[device_class]
 
     def rank(self, device_class: DeviceClass) -> tuple[float, bool]:
-        """Return what sorts measurements towards the worst: the ratio, then whether limited."""
+        """Return the sort key, the worst last: the ratio, then whether the class has a limit."""
         return self.ratio(device_class), device_class in self.limits
 
     def within(self, device_class: DeviceClass) -> bool:
-        """Return whether the value keeps the limit of ``device_class``."""
+        """Return whether the value is within the limit of ``device_class``."""
         return self.ratio(device_class) <= 1.0
 
     @property
     def class_reached(self) -> DeviceClass | None:
-        """The strictest class whose limit, and those of all easier ones, the value keeps."""
+        """The strictest class for which the value is within its limit and all easier ones."""
         reached = None
         for device_class in DeviceClass:
             if not self.within(device_class):
@@ -81,7 +81,7 @@ class Measurement:
 
 @dataclass(frozen=True, eq=False)
 class Pass:
-    """One recording that the device processed: what it should have found, and what it found.
+    """One recording that the device processed: the true profile and the delivered one.
 
     ``truth`` is the unfiltered elevation along the laser's path.
     """
@@ -94,18 +94,18 @@ class Pass:
 
 @dataclass(frozen=True, eq=False)
 class CaseResult:
-    """What one case came to.
+    """The result of one case.
 
     Attributes:
         name: within its check.
-        parameters: the numbers that make the case again.
+        parameters: the numbers that define the case.
         measurements: of every wheel path.
-        fault: what the device did wrong, if it did.
+        fault: the fault of the device, if there was one.
         hung: whether it did not answer in time.
-        skipped: why the device did not take the case, if it did not.
+        skipped: why the device skipped the case, if it did.
         flagged_m: largest length of a wheel path that the device flagged invalid, in m.
-        passes: what it processed, kept for the pictures of a case that fails.
-        again: what a second run of a case that failed came to, if it did not fail.
+        passes: what it processed, stored for the pictures of a failing case.
+        again: outcome of a second run of a failing case, if that run did not fail.
     """
 
     name: str
@@ -127,29 +127,29 @@ class CaseResult:
     def worst(self, device_class: DeviceClass) -> Measurement | None:
         """Return the measurement nearest to its limit, or farthest beyond; None without any.
 
-        One that ``device_class`` does not limit is returned only if it limits none.
+        One without a limit of ``device_class`` is returned only if no other has one.
         """
         return max(self.measurements, key=lambda m: m.rank(device_class), default=None)
 
 
 @dataclass(frozen=True, eq=False)
 class CheckResult:
-    """What one check came to; ``reason`` says in one line why it did not pass.
+    """The result of one check.
 
     Attributes:
         id, clause: of the check.
-        outcome: what became of it.
+        outcome: whether it passed, failed or was not judged.
         reason: in one line why it did not pass.
-        class_reached: the strictest class whose limits every case keeps.
-        cases: how many were judged, seeded and found by the search.
+        class_reached: the strictest class whose limits every case is within.
+        cases: number of judged cases, seeded and drawn by the search.
         worst: the measurement nearest to its limit, or farthest beyond.
         worst_case: name of its case.
         counterexample: the simplest case found that fails: ``case``, ``parameters``,
             ``reason``, and ``file``, its name in a report directory.
-        flagged_m: the largest of its cases'.
+        flagged_m: the largest value of its cases.
         passes: of the counterexample.
-        worst_track: the wheel path that fails it, empty if none was measured.
-        scored_m: start and end of each stretch whose points count in it, in m.
+        worst_track: the wheel path that fails it, empty without measurements.
+        scored_m: start and end of each stretch that it scores, in m.
     """
 
     id: str
@@ -169,12 +169,12 @@ class CheckResult:
 
 @dataclass(frozen=True, eq=False)
 class RunResult:
-    """The verdict on a device, and the checks that it rests on.
+    """The verdict on a device, and the results of the checks.
 
-    ``replayed`` says of every case kept from an earlier run what it came to: ``file``, ``check``,
+    ``replayed`` has for every case stored by an earlier run: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
-    user gave them, and None if not given.
+    user gave them; None if not given.
     """
 
     device: Mapping[str, Any]
@@ -200,7 +200,7 @@ class RunResult:
 
 
 def verdict_on(outcomes: Sequence[Outcome]) -> Verdict:
-    """Return the verdict that ``outcomes`` make together; nothing judged is INCOMPLETE."""
+    """Return the common verdict of ``outcomes``; INCOMPLETE if no check was judged."""
     if Outcome.FAIL in outcomes or Outcome.ERROR in outcomes:
         return Verdict.FAIL
     if Outcome.SKIP in outcomes or Outcome.WAIVED in outcomes or Outcome.PASS not in outcomes:

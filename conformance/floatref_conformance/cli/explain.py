@@ -7,7 +7,7 @@ import click
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import NEEDS
-from floatref_conformance.judge.judging import scored_by
+from floatref_conformance.judge.judging import find_scored
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.drawing import drawing
 
@@ -41,7 +41,7 @@ def _draw_case(check: Check) -> list[str]:
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return []
-    drawn = drawing(cases[0].scenario, scored_by(check, cases[0]))
+    drawn = drawing(cases[0].scenario, find_scored(check, cases[0]))
     return [f"Drawing of {cases[0].name}", *drawn]
 
 

@@ -12,7 +12,7 @@ from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.checks.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
-from floatref_conformance.judge.exercise import closed_on_error
+from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.replaying import replay as replayed
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
@@ -52,7 +52,7 @@ def replay(
     registry = load_registry()
     check = registry.check(kept.case.check)
     device = registry.device(spec)
-    with closed_on_error(device):
+    with close_on_error(device):
         limit_time(device, device_timeout)
         decisive = kept.device_class if device_class is None else class_of(device, device_class)
     try:
@@ -72,9 +72,9 @@ def _verdict(result: CaseResult, device_class: DeviceClass) -> Verdict:
 
 
 def _reason(result: CaseResult, device_class: DeviceClass) -> str:
-    from floatref_conformance.judge.judging import why
+    from floatref_conformance.judge.judging import describe_failure
 
-    return result.skipped or why(result, device_class) or "every limit is kept"
+    return result.skipped or describe_failure(result, device_class) or "every limit is kept"
 
 
 def _show(kept: KeptCase, result: CaseResult, device_class: DeviceClass) -> None:

@@ -8,7 +8,7 @@ from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
-from floatref_conformance.judge.exercise import closed_on_error
+from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
@@ -84,7 +84,7 @@ def run(
     waivers = {} if waive is None else read_waivers(waive, registry.checks)
     kept = () if report is None else read_cases(report)
     device = registry.device(spec)
-    with closed_on_error(device):
+    with close_on_error(device):
         limit_time(device, device_timeout)
         plan = Plan(
             spec,

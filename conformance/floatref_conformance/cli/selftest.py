@@ -8,7 +8,7 @@ from rich.progress import Progress
 
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
-from floatref_conformance.selftest.counts import Counts, killers_of
+from floatref_conformance.selftest.counts import Counts, find_killers
 from floatref_conformance.selftest.counts_table import show
 from floatref_conformance.selftest.work import Extent, Work
 
@@ -86,7 +86,7 @@ def _count(ids: tuple[str, ...], extent: Extent) -> Counts:
     with Progress(console=Console(stderr=True), transient=True) as progress:
         work = Work(
             checks,
-            killers_of(registry),
+            find_killers(registry),
             extent,
             lambda items, count, title: progress.track(items, count, description=title),
         )

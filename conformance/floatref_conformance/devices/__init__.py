@@ -1,1 +1,1 @@
-"""Devices under test: what the judge calls, and the kinds that come with the suite."""
+"""Devices under test: the interface that the judge calls, and the kinds of the suite."""

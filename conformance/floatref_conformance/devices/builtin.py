@@ -15,29 +15,29 @@ from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
 
 RECOMMENDED = "road-prior-smoother"
-"""What is judged unless another device is named: suppression for a temporal profiler."""
+"""The default device: suppression for a temporal profiler."""
 CLAIMS: Mapping[str, DeviceClass] = {
     RECOMMENDED: DeviceClass.NOMINAL,
     "temporal-adaptive-hpf-spatial-backward": DeviceClass.NOMINAL,
     "spatial-hpf-timer-distortion-reflection": DeviceClass.NOMINAL,
     "kalman-smoother-reflection": DeviceClass.ADEQUATE,
 }
-"""The classes that pipelines claim to keep; the others claim none."""
+"""The classes that pipelines claim to reach; other pipelines make no claim."""
 
 
 @dataclass(frozen=True)
 class BuiltinDevice:
-    """Pipeline ``pipeline`` of floatref with its own settings and the channels that it needs."""
+    """Pipeline ``pipeline`` of floatref with default settings and the channels that it needs."""
 
     pipeline: str
 
     @property
     def claims(self) -> DeviceClass:
-        """The class by whose limits the pipeline is judged unless another is asked for."""
+        """The class by whose limits the pipeline is judged by default."""
         return CLAIMS.get(self.pipeline, DeviceClass.NOMINAL)
 
     def describe(self) -> Mapping[str, Any]:
-        """Return what the pipeline is; its name tells the architecture, unless it is temporal."""
+        """Return the pipeline's description; its name shows an architecture but temporal."""
         named = [part for part in self.pipeline.split("-") if part in ARCHITECTURES]
         return {
             "name": self.pipeline,
@@ -48,13 +48,13 @@ class BuiltinDevice:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Process ``recording`` and write the profile directory ``profile``."""
-        write_profile(quietly_processed(read_recording(recording), self.pipeline), profile)
+        write_profile(process_quietly(read_recording(recording), self.pipeline), profile)
 
 
-def quietly_processed(
+def process_quietly(
     recording: Recording, pipeline: str, settings: Mapping[str, Any] | None = None
 ) -> Profile:
-    """Return what ``pipeline`` makes of ``recording``; what it repairs or flags is no news here."""
+    """Return the profile that ``pipeline`` makes of ``recording``, without its warnings."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         return floatref.process(recording, pipeline, settings)

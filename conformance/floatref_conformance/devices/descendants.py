@@ -1,8 +1,8 @@
-"""The processes that come from a device, wherever they hide, and their end.
+"""Find and kill all processes that a device has started.
 
-On Linux the judge adopts them while a device runs: whoever outlives its parent becomes a child
-of the judge, however often it forked, and is found there. Elsewhere the device's process group
-is ended, which a process can leave.
+On Linux the judge adopts them while a device runs: a process that outlives its parent becomes a
+child of the judge, even after several forks, and is found there. On other systems the device's
+process group is killed, which a process can leave.
 """
 
 import ctypes
@@ -21,9 +21,9 @@ from threading import Lock
 from floatref_conformance.proving_ground.cache import FOLDER_VARIABLE
 
 MARK = "FLOATREF_DEVICE"
-"""Environment variable by which a device's processes are told from those of another device."""
+"""Environment variable that identifies the device to which a process belongs."""
 PATIENCE_S = 10.0
-"""How long processes that do not die, or fork as fast as they die, are hunted."""
+"""Time in s to kill processes that do not end, or that fork as fast as they end."""
 PROC = Path("/proc")
 PR_SET_CHILD_SUBREAPER = 36
 
@@ -33,7 +33,7 @@ _marks: set[bytes] = set()
 
 @dataclass(frozen=True)
 class Process:
-    """A line of /proc: who it is, whose child, and in which session."""
+    """A process in /proc: its id, the id of its parent, and its session."""
 
     pid: int
     parent: int
@@ -41,11 +41,11 @@ class Process:
 
 
 class Descendants:
-    """What comes from one device, which is to be started with `environment`.
+    """The processes of one device, which has to be started with `environment`.
 
-    Made before the device is started: children that the judge has by then are not the device's.
-    A child that it gets later is, unless it shares the judge's session, which no process can
-    enter, or bears another device's mark.
+    Create the object before the device starts: children that the judge has at that time do not
+    belong to the device. A later child belongs to it, unless it is in the judge's session, which
+    no process can enter, or has the mark of another device.
     """
 
     def __init__(self) -> None:
@@ -58,13 +58,13 @@ class Descendants:
 
     @property
     def environment(self) -> dict[str, str]:
-        """The environment for the device: ours and its mark, but not where the cache is."""
+        """The environment for the device: the judge's and the mark, without the cache folder."""
         name, _, value = self._mark.decode().partition("=")
         ours = {n: v for n, v in os.environ.items() if n != FOLDER_VARIABLE}
         return {**ours, name: value}
 
     def end(self, device: "subprocess.Popen[bytes] | None") -> None:
-        """Kill ``device`` and all that comes from it, and wait until they are gone."""
+        """Kill ``device`` and its descendants, and wait until they have ended."""
         try:
             if device is not None:
                 self._end(device)
@@ -79,15 +79,15 @@ class Descendants:
         limit = time.monotonic() + PATIENCE_S
         while time.monotonic() < limit:
             has_ended = device.poll() is not None
-            left = self._left(device)
-            if has_ended and not left:
+            remaining = self._remaining(device)
+            if has_ended and not remaining:
                 return
-            for process in left:
+            for process in remaining:
                 _kill(process, device.pid)
             time.sleep(0.002)
 
-    def _left(self, device: "subprocess.Popen[bytes]") -> list[Process]:
-        """Return the device's processes that are still there, dead ones that wait for us too."""
+    def _remaining(self, device: "subprocess.Popen[bytes]") -> list[Process]:
+        """Return the device's processes that still exist, also ended ones to be waited for."""
         table = processes()
         running = {device.pid} if device.returncode is None else set()
         ours = running | {p.pid for p in table if self._is_orphan(p) and p.pid != device.pid}
@@ -98,11 +98,11 @@ class Descendants:
     def _is_orphan(self, process: Process) -> bool:
         if process.parent != os.getpid() or process.pid in self._others:
             return False
-        return process.session != os.getsid(0) and not _bears(process, _marks - {self._mark})
+        return process.session != os.getsid(0) and not _has_mark(process, _marks - {self._mark})
 
 
 def processes() -> list[Process]:
-    """Return all processes that /proc tells of; none where there is no such folder."""
+    """Return all processes in /proc; empty where this folder does not exist."""
     if not sys.platform.startswith("linux") or not PROC.is_dir():
         return []
     found = []
@@ -116,7 +116,7 @@ def processes() -> list[Process]:
     return found
 
 
-def _bears(process: Process, marks: Iterable[bytes]) -> bool:
+def _has_mark(process: Process, marks: Iterable[bytes]) -> bool:
     with suppress(OSError):
         return not set(marks).isdisjoint(
             (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")
@@ -125,7 +125,7 @@ def _bears(process: Process, marks: Iterable[bytes]) -> bool:
 
 
 def _kill(process: Process, device: int) -> None:
-    """Kill ``process``, and let it go if it is a child of ours that nobody else waits for."""
+    """Kill ``process``, and wait for it if it is an adopted child of this process."""
     with suppress(ProcessLookupError, PermissionError):
         os.kill(process.pid, signal.SIGKILL)
     if process.parent == os.getpid() and process.pid != device:
@@ -144,7 +144,7 @@ def _kill_group(device: "subprocess.Popen[bytes]") -> None:
 
 
 def _adopt(wanted: bool) -> None:
-    """Have orphans come to this process, or no longer."""
+    """Make this process adopt orphans, or stop adopting them."""
     if sys.platform.startswith("linux"):
         with suppress(OSError, AttributeError):
             ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, int(wanted), 0, 0, 0)

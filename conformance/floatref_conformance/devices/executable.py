@@ -24,13 +24,13 @@ from floatref_conformance.errors import DeviceError
 
 @dataclass(eq=False)
 class ExecDevice:
-    """A program that follows the protocol; after a fault it is started again for the next run.
+    """A program that follows the protocol; after a fault it is restarted for the next run.
 
     Attributes:
-        argv: the program and its arguments; no shell sees them.
-        folder: where it is started.
-        timeout_s: time for `run`; None for 60 s and twice the recording's length.
-        start_s, stop_s: time for `start` and `stop`.
+        argv: the program and its arguments, started without a shell.
+        folder: the folder in which it is started.
+        timeout_s: time for `run` in s; None for 60 s plus twice the recording's length.
+        start_s, stop_s: times for `start` and `stop`, in s.
     """
 
     argv: tuple[str, ...]
@@ -39,31 +39,31 @@ class ExecDevice:
     start_s: float = START_S
     stop_s: float = STOP_S
     _session: Session | None = field(default=None, init=False, repr=False)
-    _said: Mapping[str, Any] | None = field(default=None, init=False, repr=False)
+    _description: Mapping[str, Any] | None = field(default=None, init=False, repr=False)
 
     def describe(self) -> Mapping[str, Any]:
-        """Return what the program says of itself; DeviceError if it does not."""
-        return self._started().device
+        """Return the program's description of itself; DeviceError without a usable one."""
+        return self._start().device
 
     def run(self, recording: Path, profile: Path) -> None:
-        """Have ``recording`` processed; DeviceError, DeviceHung or DeviceSkipped if it is not."""
+        """Let the program process ``recording``; DeviceError, DeviceHung or DeviceSkipped."""
         limit_s = self.timeout_s
         if limit_s is None:
             limit_s = RUN_S + RUN_PER_LENGTH * length_s(recording)
-        self._started().run(recording, profile, limit_s)
+        self._start().run(recording, profile, limit_s)
 
     def close(self) -> None:
-        """Stop the program; DeviceError if it does not stop well. No process of it is left."""
+        """Stop the program and all its processes; DeviceError if it does not stop properly."""
         session, self._session = self._session, None
         if session is not None:
             session.stop(self.stop_s)
 
-    def _started(self) -> Session:
+    def _start(self) -> Session:
         if self._session is None or self._session.is_over:
             self._session = Session(self.argv, self.folder, self.start_s)
-            self._said = self._said or self._session.device
-        if self._session.device != self._said:
-            raise DeviceError("start: describes itself otherwise than at its first start")
+            self._description = self._description or self._session.device
+        if self._session.device != self._description:
+            raise DeviceError("start: the description differs from that at the first start")
         return self._session
 
 
@@ -97,7 +97,7 @@ def _words(command_line: str) -> list[str]:
 
 def _missing(command: str) -> str:
     if os.path.isdir(command):
-        return f"{command} is a folder; name the program in it"
+        return f"{command} is a folder; give the program in it"
     if os.path.isfile(command) and os.path.dirname(command):
         return f"{command} may not be executed; make it executable (chmod +x)"
     if os.path.isfile(command):

@@ -1,7 +1,7 @@
-"""The process of a `python:` device: a vendor's object behind the protocol of programs.
+"""The process of a `python:` device: it runs a vendor's object by the protocol of programs.
 
-`python -m floatref_conformance.devices.host package.module:factory`. Whatever the vendor's code
-prints goes to standard error, and it reads nothing from standard input.
+`python -m floatref_conformance.devices.host package.module:factory`. Output of the vendor's code
+goes to standard error; its standard input is empty.
 """
 
 import json
@@ -19,7 +19,7 @@ from typing import Any
 from floatref_conformance.errors import DeviceSkipped
 
 FIND = "--find"
-"""Option that has the host say whether it finds the factory, and end."""
+"""Option: the host only answers whether it finds the factory."""
 
 
 class Missing(Exception):
@@ -27,13 +27,13 @@ class Missing(Exception):
 
 
 def main(words: Sequence[str]) -> None:
-    """Answer commands, or with `FIND` whether the factory that ``words`` name is there."""
+    """Answer commands, or with `FIND` whether the factory named in ``words`` exists."""
     spec, *options = words
     commands, answers = _pipes()
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())
     if FIND in options:
-        _write(answers, {"missing": missing(spec)})
+        _write(answers, {"missing": describe_missing(spec)})
         return
     serve(spec, map(json.loads, commands), partial(_write, answers))
 
@@ -43,30 +43,30 @@ def serve(
     commands: Iterable[Mapping[str, Any]],
     answer: Callable[[Mapping[str, Any]], None],
 ) -> None:
-    """Answer ``commands`` with what the object of the factory ``spec`` does, until `stop`."""
+    """Let the object of the factory ``spec`` answer ``commands``, until `stop`."""
     device: Any = None
-    told: Mapping[str, Any]
+    reply: Mapping[str, Any]
     for command in commands:
         if command["cmd"] == "stop":
             break
         try:
             if command["cmd"] == "start":
-                device = found(spec)()
-                told = {"version": 1, "device": dict(device.describe())}
+                device = find_factory(spec)()
+                reply = {"version": 1, "device": dict(device.describe())}
             else:
                 paths = Path(command["recording"]), Path(command["profile"])
-                told = outcome(device.run(*paths))
-            answer({"seq": command["seq"], **told})
+                reply = outcome(device.run(*paths))
+            answer({"seq": command["seq"], **reply})
         except BaseException as error:
             answer({"seq": command["seq"], **_fault(error)})
     if hasattr(device, "close"):
         device.close()
 
 
-def found(spec: str) -> Callable[[], Any]:
-    """Return the factory that ``spec`` names; Missing if there is none.
+def find_factory(spec: str) -> Callable[[], Any]:
+    """Return the factory that ``spec`` names; Missing if it does not exist.
 
-    What the vendor's module raises while it is imported is let through.
+    Exceptions of the vendor's module during its import are passed on.
     """
     name, _, attribute = spec.partition(":")
     try:
@@ -85,10 +85,10 @@ def found(spec: str) -> Callable[[], Any]:
     return made
 
 
-def missing(spec: str) -> str | None:
-    """Return why there is no factory of that name; None if there is, or if it cannot be told."""
+def describe_missing(spec: str) -> str | None:
+    """Return why the factory does not exist; None if it exists, or if that is unknown."""
     try:
-        found(spec)
+        find_factory(spec)
     except Missing as reason:
         return str(reason)
     except BaseException:
@@ -97,7 +97,7 @@ def missing(spec: str) -> str | None:
 
 
 def outcome(done: object) -> Mapping[str, Any]:
-    """Return the answer to a command whose run returned ``done``: skipped and why, or ok."""
+    """Return the answer to a run that returned ``done``: skipped with the reason, or ok."""
     if isinstance(done, Mapping) and "skipped" in done:
         return {"skipped": str(done["skipped"])}
     return {"ok": True}
@@ -112,7 +112,7 @@ def _fault(error: BaseException) -> Mapping[str, Any]:
 
 
 def _pipes() -> tuple[TextIOWrapper, TextIOWrapper]:
-    """Return standard input and output, and put others in their place."""
+    """Return standard input and output, and replace them: empty input, output to stderr."""
     commands = os.fdopen(os.dup(0), encoding="utf-8")
     answers = os.fdopen(os.dup(1), "w", encoding="ascii")
     empty = os.open(os.devnull, os.O_RDONLY)

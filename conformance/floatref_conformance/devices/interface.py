@@ -1,4 +1,4 @@
-"""The device interface: a device says what it is, and turns a recording into a profile."""
+"""The device interface: a device describes itself, and turns a recording into a profile."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
@@ -54,19 +54,19 @@ CAPABILITIES: Mapping[str, frozenset[str]] = {
         }
     ),
 }
-"""The channels that each capability gives a device beside the nominal ones."""
+"""The channels that each capability adds to the nominal ones."""
 RESPONSE = "response"
-"""The architecture without a height sensor, and the capability that it has to declare."""
+"""The architecture without a height sensor, and the capability that it must declare."""
 HEIGHT = "height"
-"""The height sensor: its channel, and what a check needs that asks for it."""
+"""The height sensor: the name of its channel, and of the need of a check."""
 WHEEL = "unsprung_specific_force"
-"""The channel of every wheel path whose profile is owed without a height sensor."""
+"""Without a height sensor, a profile is required of each wheel path with this channel."""
 NEEDS: Mapping[str, str] = {HEIGHT: "a height sensor", **{c: c for c in CAPABILITIES}}
-"""What a check may need of a device, and in words."""
+"""Everything that a check may need of a device, with its description."""
 
 
 class Device(Protocol):
-    """What is judged. Whatever these two raise is a fault of the device."""
+    """The object that is judged. An exception of either method is a fault of the device."""
 
     def describe(self) -> Mapping[str, Any]:
         """Return ``name``, ``version``, ``architecture`` and ``capabilities``."""
@@ -77,7 +77,7 @@ class Device(Protocol):
 
 @dataclass(frozen=True)
 class Description:
-    """What a device says of itself, once it has been found sound."""
+    """A device's description of itself, verified."""
 
     name: str
     version: str
@@ -85,40 +85,42 @@ class Description:
     capabilities: tuple[str, ...]
 
     @classmethod
-    def of(cls, said: object) -> "Description":
-        """Return the description that ``said`` holds; DeviceError if it is unusable."""
-        if not isinstance(said, Mapping):
-            raise DeviceError(f"describes itself by a {type(said).__name__}, not by an object")
-        for key in ("name", "version", "architecture"):
-            if not isinstance(said.get(key), str):
-                raise DeviceError(f"describes itself without a {key}")
-        if said["architecture"] not in ARCHITECTURES:
+    def of(cls, answer: object) -> "Description":
+        """Return the description in ``answer``; DeviceError if it is unusable."""
+        if not isinstance(answer, Mapping):
             raise DeviceError(
-                f"architecture {said['architecture']!r}; known: {', '.join(ARCHITECTURES)}"
+                f"gives a description that is a {type(answer).__name__}, not an object"
             )
-        capabilities = _capabilities(said.get("capabilities"))
-        check_response(said["architecture"], capabilities)
-        return cls(said["name"], said["version"], said["architecture"], capabilities)
+        for key in ("name", "version", "architecture"):
+            if not isinstance(answer.get(key), str):
+                raise DeviceError(f"gives a description without a {key}")
+        if answer["architecture"] not in ARCHITECTURES:
+            raise DeviceError(
+                f"architecture {answer['architecture']!r}; known: {', '.join(ARCHITECTURES)}"
+            )
+        capabilities = _capabilities(answer.get("capabilities"))
+        check_response(answer["architecture"], capabilities)
+        return cls(answer["name"], answer["version"], answer["architecture"], capabilities)
 
     @property
     def has_height(self) -> bool:
-        """Whether the device has a height sensor: one of architecture response has none."""
+        """Whether the device has a height sensor: all architectures except response."""
         return self.architecture != RESPONSE
 
     @property
     def channels(self) -> frozenset[str]:
-        """Names of the channels that the device may have."""
+        """Names of the channels that the device may receive."""
         channels = NOMINAL_CHANNELS.union(*(CAPABILITIES[c] for c in self.capabilities))
         return channels if self.has_height else channels - {HEIGHT}
 
     @property
     def meets(self) -> frozenset[str]:
-        """What of `NEEDS` the device has: its capabilities, and most have a height sensor."""
+        """The `NEEDS` that the device meets: its capabilities, and the height sensor."""
         return frozenset(self.capabilities).union((HEIGHT,) if self.has_height else ())
 
     @property
     def owes(self) -> str:
-        """The channel whose wheel paths the device has to deliver."""
+        """The channel of the wheel paths that the device has to deliver."""
         return HEIGHT if self.has_height else WHEEL
 
 
@@ -131,19 +133,19 @@ def check_response(architecture: str, capabilities: Collection[str]) -> None:
         )
 
 
-def _capabilities(said: object) -> tuple[str, ...]:
-    if not isinstance(said, (list, tuple)):
-        raise DeviceError("describes itself without a list of capabilities")
-    for capability in said:
+def _capabilities(declared: object) -> tuple[str, ...]:
+    if not isinstance(declared, (list, tuple)):
+        raise DeviceError("gives a description without a list of capabilities")
+    for capability in declared:
         if not isinstance(capability, str) or capability not in CAPABILITIES:
             raise DeviceError(f"capability {capability!r}; known: {', '.join(CAPABILITIES)}")
-    return tuple(said)
+    return tuple(declared)
 
 
 def visible(recording: Recording, channels: frozenset[str]) -> Recording:
-    """Return what a device may see of ``recording``: its channels, and no telling name.
+    """Return the part of ``recording`` that a device may see: its channels, without a name.
 
-    What is known of the vehicle goes with the channels of its response.
+    The setup contains the vehicle only for a device with channels of the vehicle's response.
     """
     seen = tuple(c for c in recording.channels if c.id.name in channels)
     setup = recording.setup
@@ -154,7 +156,7 @@ def visible(recording: Recording, channels: frozenset[str]) -> Recording:
 
 @dataclass(frozen=True)
 class DeviceEntry:
-    """One device that comes with a kind, and the checks that it must fail, if any."""
+    """One device of a kind, and the ids of the checks that it must fail, if any."""
 
     name: str
     summary: str
@@ -163,10 +165,10 @@ class DeviceEntry:
 
 @dataclass(frozen=True)
 class DeviceKind:
-    """A kind of device: the part of a SPEC before its colon, and how to make one.
+    """A kind of device: the part of a SPEC before its colon, and the function that makes one.
 
-    ``make`` gets the part after the colon and raises InputError if it names nothing;
-    ``entries`` lists the devices that can be named, empty if they are the user's own.
+    ``make`` gets the part after the colon and raises InputError if it names no device;
+    ``entries`` lists the devices that can be named; empty if they are the user's own.
     """
 
     prefix: str

@@ -1,4 +1,4 @@
-"""The three pipes of a device: each has a thread, so that neither side ever waits for the other."""
+"""The three pipes of a device: each has a thread, so that neither side blocks the other."""
 
 import os
 from collections import deque
@@ -10,21 +10,21 @@ from typing import IO
 MAX_LINE = 1 << 20
 """Longest line that a device may write, in bytes."""
 MAX_OUTPUT = 64 << 20
-"""Most that a device may write to its standard output from start to stop, in bytes."""
+"""Largest standard output of a device from start to stop, in bytes."""
 MAX_UNREAD = 2 * MAX_LINE
-"""Most that it may write before it is asked again, in bytes."""
-KEPT = 64 << 10
-"""How much is kept of the end of standard error, in bytes."""
+"""Largest output of a device before the next command, in bytes."""
+TAIL_BYTES = 64 << 10
+"""Length of the end of standard error that is stored, in bytes."""
 CHUNK = 64 << 10
 
 
 class Lines:
-    """Lines of a stream, taken one by one; a stream that goes too far is read no further.
+    """Lines of a stream, taken one by one; reading stops when the stream exceeds a limit.
 
     Attributes:
-        ended: nothing more will come.
-        fault: how the stream went too far; empty if it did not.
-        rest: what has come since the last line's end.
+        ended: whether the stream has ended.
+        fault: which limit the stream exceeded; empty if it did not.
+        rest: bytes since the end of the last line.
     """
 
     def __init__(self, stream: IO[bytes]) -> None:
@@ -40,7 +40,7 @@ class Lines:
         self.thread.start()
 
     def take(self, wait_s: float) -> bytes | None:
-        """Return the next line without its end; None if none comes within ``wait_s``."""
+        """Return the next line without its end; None if no line comes within ``wait_s``."""
         with self._changed:
             self._changed.wait_for(lambda: self._lines or self.ended, wait_s)
             if not self._lines:
@@ -70,22 +70,22 @@ class Lines:
         elif self._total > MAX_OUTPUT:
             self.fault = f"wrote more than {MAX_OUTPUT >> 20} MiB"
         elif self._unread > MAX_UNREAD:
-            self.fault = "wrote far more than it was asked for"
+            self.fault = f"wrote more than {MAX_UNREAD >> 20} MiB for one command"
 
 
 class Tail:
-    """The last of a stream, which is read for as long as it lasts."""
+    """The last bytes of a stream, which is read until its end."""
 
     def __init__(self, stream: IO[bytes]) -> None:
         """Begin to read ``stream``."""
-        self.kept = b""
+        self.end = b""
         self._stream = stream
         self._last_s = monotonic()
         self.thread = Thread(target=self._follow, daemon=True)
         self.thread.start()
 
     def settle(self, quiet_s: float = 0.02, limit_s: float = 0.2) -> None:
-        """Wait until nothing has come for ``quiet_s``, but no longer than ``limit_s``."""
+        """Wait until no bytes have come for ``quiet_s``, but no longer than ``limit_s``."""
         begin = monotonic()
         while self.thread.is_alive() and monotonic() < begin + limit_s:
             if monotonic() > max(begin, self._last_s) + quiet_s:
@@ -94,26 +94,26 @@ class Tail:
 
     def _follow(self) -> None:
         while chunk := _read(self._stream):
-            self.kept = (self.kept + chunk)[-KEPT:]
+            self.end = (self.end + chunk)[-TAIL_BYTES:]
             self._last_s = monotonic()
 
 
 class Feed:
-    """Writes to a stream without ever keeping the caller; a reader that is gone is no error."""
+    """Writes to a stream without blocking the caller; a closed stream is no error."""
 
     def __init__(self, stream: IO[bytes]) -> None:
-        """Begin to wait for what is to be written to ``stream``."""
+        """Begin to wait for lines to write to ``stream``."""
         self._stream = stream
         self._waiting: SimpleQueue[bytes | None] = SimpleQueue()
         self.thread = Thread(target=self._follow, daemon=True)
         self.thread.start()
 
     def put(self, line: bytes) -> None:
-        """Write ``line`` as soon as the reader takes it."""
+        """Write ``line`` as soon as the stream accepts it."""
         self._waiting.put(line)
 
     def close(self) -> None:
-        """Close the stream after what has been put."""
+        """Close the stream after all lines are written."""
         self._waiting.put(None)
 
     def _follow(self) -> None:
@@ -123,7 +123,7 @@ class Feed:
                     line = line[self._stream.write(line) :]
             self._stream.close()
         except OSError:
-            # Whoever does not read does not answer either, and that is noticed.
+            # A process that does not read does not answer either, and that is detected.
             return
 
 

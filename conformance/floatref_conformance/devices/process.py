@@ -1,4 +1,4 @@
-"""A device's process: lines in and out within time limits, and an end that leaves nothing."""
+"""A device's process: lines in and out within time limits, and an end without remains."""
 
 import atexit
 import signal
@@ -15,9 +15,9 @@ from floatref_conformance.devices.pipes import Feed, Lines, Tail
 from floatref_conformance.errors import DeviceError, DeviceHung
 
 STEP_S = 0.05
-"""How often a silent process is looked after, in s."""
+"""Interval in which a silent process is inspected, in s."""
 GRACE_S = 1.0
-"""How long a pipe or process may take to end after whatever held it has ended, in s."""
+"""Time that a pipe or process may take to end after the processes that use it, in s."""
 SHOWN_LINES = 5
 SHOWN_LENGTH = 200
 
@@ -25,7 +25,7 @@ SHOWN_LENGTH = 200
 def start(argv: Sequence[str], folder: Path) -> "Child":
     """Start ``argv`` in ``folder`` without a shell, in a session of its own.
 
-    Raises DeviceError if that cannot be done.
+    Raises DeviceError if it cannot be started.
     """
     descendants, process = Descendants(), None
     try:
@@ -49,7 +49,7 @@ def start(argv: Sequence[str], folder: Path) -> "Child":
 
 
 class Child:
-    """A process that is running with three pipes, and those that come from it."""
+    """A running process with three pipes, and its descendants."""
 
     def __init__(self, process: "subprocess.Popen[bytes]", descendants: Descendants) -> None:
         """Begin to read what ``process`` writes."""
@@ -66,21 +66,21 @@ class Child:
         atexit.register(self.kill)
 
     def conceal(self, folder: str) -> None:
-        """Have ``folder``, which has another name in every run, be "…" in all that comes.
+        """Replace ``folder``, whose name differs from run to run, by "…" in all output.
 
-        Then whatever of it is shown is cut at the same place in every run.
+        The output that is shown is then cut at the same place in every run.
         """
         if Path(folder).name:
             self._concealed.append(folder.encode())
 
     def send(self, line: bytes) -> None:
-        """Have ``line`` written to standard input, as soon as it is read there."""
+        """Write ``line`` to standard input as soon as the process reads it."""
         self._feed.put(line)
 
     def receive(self, limit_s: float) -> bytes:
         """Return the next line of standard output without its end.
 
-        Raises DeviceHung if none comes within ``limit_s``, DeviceError if none will come.
+        Raises DeviceHung if no line comes within ``limit_s``, DeviceError if no line can come.
         """
         limit = monotonic() + limit_s
         while (line := self._lines.take(max(0.0, min(STEP_S, limit - monotonic())))) is None:
@@ -93,15 +93,15 @@ class Child:
         return self._neutral(line)
 
     def finish(self, limit_s: float) -> tuple[bytes, ...]:
-        """Close standard input, wait for the end, and return the lines that are left.
+        """Close standard input, wait for the end, and return the remaining lines.
 
-        Raises DeviceHung if it does not end within ``limit_s``, DeviceError if it ends badly.
+        Raises DeviceHung if it does not end within ``limit_s``, DeviceError for a faulty end.
         """
         self._feed.close()
         limit = monotonic() + limit_s
         while self._process.poll() is None and not self._lines.fault:
             if monotonic() >= limit:
-                raise DeviceHung(f"still there after {limit_s:g} s")
+                raise DeviceHung(f"still running after {limit_s:g} s")
             with suppress(subprocess.TimeoutExpired):
                 self._process.wait(min(STEP_S, limit_s))
         fate = self._fate or _fate(self._process.returncode)
@@ -111,7 +111,7 @@ class Child:
         return tuple(map(self._neutral, iter(partial(self._lines.take, 0.0), None)))
 
     def kill(self) -> None:
-        """End the process and all that come from it; harmless if they have ended."""
+        """Kill the process and its descendants; harmless if they have ended."""
         if self._is_gone:
             return
         self._feed.close()
@@ -119,24 +119,24 @@ class Child:
         threads = (self._feed.thread, self._lines.thread, self._tail.thread)
         for thread in threads:
             thread.join(GRACE_S)
-        # A thread that still reads, from a process that cannot be killed, keeps its pipe.
+        # A thread that still reads from a process that cannot be killed needs its pipe.
         if not any(thread.is_alive() for thread in threads):
             for stream in self._streams:
                 stream.close()
         self._is_gone = True
         atexit.unregister(self.kill)
 
-    def said(self) -> str:
-        """Return the last lines of standard error, to be put behind a fault; empty without."""
+    def describe_stderr(self) -> str:
+        """Return the last lines of standard error, to append to a fault; or an empty text."""
         self._tail.settle()
-        shown = map(readable, self._neutral(self._tail.kept).splitlines())
+        shown = map(readable, self._neutral(self._tail.end).splitlines())
         lines = [line for line in shown if any(map(str.isalnum, line))]
         return f" ; stderr: {' | '.join(lines[-SHOWN_LINES:])}" if lines else ""
 
     def _last(self) -> bytes:
         """Return a line that the process wrote before its end; DeviceError without one.
 
-        Whoever else holds its standard output is ended, so that nothing is missed.
+        Other processes with its standard output are killed, so that no output is missed.
         """
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(GRACE_S)
@@ -149,10 +149,10 @@ class Child:
             )
         return self._neutral(line)
 
-    def _neutral(self, said: bytes) -> bytes:
+    def _neutral(self, output: bytes) -> bytes:
         for folder in self._concealed:
-            said = said.replace(folder, "…".encode())
-        return said
+            output = output.replace(folder, "…".encode())
+        return output
 
     def _unfinished(self) -> str:
         rest = readable(self._neutral(self._lines.rest))
@@ -160,7 +160,7 @@ class Child:
 
 
 def readable(text: bytes | str, longest: int = SHOWN_LENGTH) -> str:
-    """Return ``text`` on one line of at most ``longest`` characters that can all be printed."""
+    """Return ``text`` on one line of at most ``longest`` printable characters."""
     known = text if isinstance(text, str) else text[: 4 * longest].decode("utf-8", "replace")
     words = "".join(c if c.isprintable() else " " for c in known[: 4 * longest]).split()
     line = " ".join(words)

@@ -11,11 +11,11 @@ from floatref_conformance.errors import DeviceError, DeviceSkipped
 
 VERSION = 1
 START_S = 10.0
-"""Time for `start`."""
+"""Time for `start`, in s."""
 STOP_S = 5.0
-"""Time for `stop`."""
+"""Time for `stop`, in s."""
 RUN_S = 60.0
-"""Time for `run`, beside `RUN_PER_LENGTH` times the length of the recording."""
+"""Time for `run` in s, in addition to `RUN_PER_LENGTH` times the length of the recording."""
 RUN_PER_LENGTH = 2.0
 
 
@@ -23,12 +23,12 @@ class Session:
     """A started device from `start` to `stop`; any fault ends it at once.
 
     Attributes:
-        device: what the device says of itself.
-        is_over: nothing more can be asked.
+        device: the device's description of itself.
+        is_over: whether the session has ended.
     """
 
     def __init__(self, argv: Sequence[str], folder: Path, limit_s: float = START_S) -> None:
-        """Start ``argv`` in ``folder`` and have it describe itself within ``limit_s``.
+        """Start ``argv`` in ``folder`` and request its description within ``limit_s``.
 
         Raises DeviceError, in one line, or DeviceHung.
         """
@@ -45,9 +45,9 @@ class Session:
             self.device = _description(answer)
 
     def run(self, recording: Path, profile: Path, limit_s: float) -> None:
-        """Have ``recording`` processed into ``profile`` within ``limit_s``.
+        """Let the device process ``recording`` into ``profile`` within ``limit_s``.
 
-        Raises DeviceSkipped if the device does not take it, DeviceError if it fails, in one
+        Raises DeviceSkipped if the device skips it, DeviceError if it fails, in one
         line, or DeviceHung.
         """
         self._child.conceal(str(Path(profile).parent))
@@ -59,12 +59,12 @@ class Session:
             if failed is None and skipped is None and answer.get("ok") is not True:
                 raise DeviceError("answered neither ok, nor skipped, nor error")
         if failed is not None:
-            raise DeviceError(f"run: answered an error: {failed}{self._child.said()}")
+            raise DeviceError(f"run: answered an error: {failed}{self._child.describe_stderr()}")
         if skipped is not None:
             raise DeviceSkipped(skipped)
 
     def stop(self, limit_s: float = STOP_S) -> None:
-        """Have the device end within ``limit_s``; afterwards none of its processes is left.
+        """Stop the device within ``limit_s``; afterwards no process of it exists.
 
         It may answer before it ends. Raises DeviceError, in one line, or DeviceHung.
         """
@@ -78,14 +78,14 @@ class Session:
 
     @contextmanager
     def _step(self, name: str) -> Iterator[None]:
-        """Put ``name`` before a fault and standard error behind it; end the device."""
+        """On a fault, kill the device; put ``name`` before the fault and its stderr behind it."""
         try:
             yield
         except BaseException as fault:
             self.is_over = True
             self._child.kill()
             if isinstance(fault, DeviceError):
-                raise type(fault)(f"{name}: {fault}{self._child.said()}") from fault
+                raise type(fault)(f"{name}: {fault}{self._child.describe_stderr()}") from fault
             raise
 
     def _ask(self, command: Mapping[str, Any], limit_s: float) -> Mapping[str, Any]:
@@ -98,37 +98,35 @@ class Session:
 
     def _check(self, line: bytes) -> Mapping[str, Any]:
         """Return the object on ``line``; DeviceError unless it answers the last command."""
-        answer = parsed(line)
+        answer = parse_line(line)
         seq = answer.get("seq")
         if isinstance(seq, bool) or not isinstance(seq, int) or seq != self._seq:
-            told = f"seq {readable(repr(seq), 40)}" if "seq" in answer else "without a seq"
-            raise DeviceError(f"answered {told}, asked {self._seq}")
+            given = f"seq {readable(repr(seq), 40)}" if "seq" in answer else "without a seq"
+            raise DeviceError(f"answered {given}, expected {self._seq}")
         return answer
 
 
-def parsed(line: bytes) -> Mapping[str, Any]:
+def parse_line(line: bytes) -> Mapping[str, Any]:
     """Return the JSON object on ``line``; DeviceError, in one line, for anything else."""
     try:
-        found = json.loads(line.decode("utf-8"), parse_constant=_refused)
+        found = json.loads(line.decode("utf-8"), parse_constant=_refuse)
     except UnicodeDecodeError as error:
-        raise DeviceError(f"answered what is not UTF-8: {readable(line)}") from error
+        raise DeviceError(f"the answer is not UTF-8: {readable(line)}") from error
     except (ValueError, RecursionError) as error:
-        raise DeviceError(
-            f"answered what is not JSON: {readable(line) or 'an empty line'}"
-        ) from error
+        raise DeviceError(f"the answer is not JSON: {readable(line) or 'an empty line'}") from error
     if not isinstance(found, Mapping):
-        raise DeviceError(f"answered what is not a JSON object: {readable(line)}")
+        raise DeviceError(f"the answer is not a JSON object: {readable(line)}")
     return found
 
 
-def _refused(literal: str) -> NoReturn:
+def _refuse(literal: str) -> NoReturn:
     raise ValueError(f"{literal} is not JSON")
 
 
 def _description(answer: Mapping[str, Any]) -> Mapping[str, Any]:
     version, device = answer.get("version"), answer.get("device")
     if version != VERSION or isinstance(version, bool):
-        raise DeviceError(f"answered version {readable(repr(version), 40)}, asked {VERSION}")
+        raise DeviceError(f"answered version {readable(repr(version), 40)}, expected {VERSION}")
     if not isinstance(device, Mapping):
         raise DeviceError("answered without a device")
     for key in ("name", "version"):
@@ -142,5 +140,5 @@ def _text(answer: Mapping[str, Any], key: str) -> str:
     """Return the reason in ``answer``; DeviceError unless it is a text."""
     text = answer[key]
     if not isinstance(text, str) or not readable(text):
-        raise DeviceError(f"answered {key} without saying why")
+        raise DeviceError(f"answered {key} without a reason")
     return readable(text, 500)

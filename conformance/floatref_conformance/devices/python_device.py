@@ -1,4 +1,4 @@
-"""Devices that are Python objects of a vendor, in a process of their own."""
+"""Devices that are Python objects of a vendor, each in its own process."""
 
 import sys
 from pathlib import Path
@@ -8,7 +8,7 @@ from floatref_conformance.devices import process
 from floatref_conformance.devices.executable import ExecDevice
 from floatref_conformance.devices.host import FIND
 from floatref_conformance.devices.interface import DeviceKind
-from floatref_conformance.devices.protocol import START_S, parsed
+from floatref_conformance.devices.protocol import START_S, parse_line
 from floatref_conformance.errors import DeviceError
 
 HOST = (sys.executable, "-m", "floatref_conformance.devices.host")
@@ -17,8 +17,8 @@ HOST = (sys.executable, "-m", "floatref_conformance.devices.host")
 def make(spec: str) -> ExecDevice:
     """Return the device that the factory ``spec``, as `package.module:factory`, makes.
 
-    Raises InputError if there is no such module or factory. The vendor's code runs in the
-    device's process alone, and the factory is not called yet.
+    Raises InputError if the module or factory does not exist. The vendor's code runs only in the
+    device's process, and the factory is not called yet.
     """
     module, _, factory = spec.partition(":")
     if not all(word.isidentifier() for word in (*module.split("."), *factory.split("."))):
@@ -30,13 +30,13 @@ def make(spec: str) -> ExecDevice:
 
 
 def _missing(spec: str) -> str | None:
-    """Return why there is no such factory; None if there is, or if starting it has to tell."""
+    """Return why the factory does not exist; None if it exists or this is not known yet."""
     try:
         child = process.start((*HOST, spec, FIND), Path.cwd())
     except DeviceError as error:
         raise InputError(f"device python:{spec}: {error}") from error
     try:
-        missing = parsed(child.receive(START_S)).get("missing")
+        missing = parse_line(child.receive(START_S)).get("missing")
     except DeviceError:
         return None
     finally:

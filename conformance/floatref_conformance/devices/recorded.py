@@ -1,4 +1,4 @@
-"""Devices that are not at hand: their profiles of exported recordings, from a folder."""
+"""Devices on another machine: their profiles of exported recordings, from a folder."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -21,33 +21,33 @@ Digests = Mapping[str, str]
 
 @dataclass(eq=False)
 class RecordedDevice:
-    """Profiles in ``folder``, beside the recordings that they were made of.
+    """Profiles in ``folder``, next to the recordings that they were made of.
 
-    Which is whose is told by the recording's content, whatever its folder is called.
+    A recording is identified by its content, not by the name of its folder.
 
     Attributes:
-        folder: holds `<case>/recording.json`, `<case>/profile.json` and their files.
-        said: what the device says of itself.
-        searchable: no; a search asks for recordings that follow from the answers.
+        folder: contains `<case>/recording.json`, `<case>/profile.json` and their files.
+        description: the device's description of itself.
+        searchable: False; a search needs recordings that depend on the answers.
     """
 
     folder: Path
-    said: Mapping[str, Any]
+    description: Mapping[str, Any]
     searchable: bool = field(default=False, init=False)
     _digests: dict[Path, Digests] = field(default_factory=dict, init=False, repr=False)
 
     def describe(self) -> Mapping[str, Any]:
         """Return the content of device.json, or the folder's name and nominal sensors."""
-        return self.said
+        return self.description
 
     def run(self, recording: Path, profile: Path) -> None:
-        """Copy what was made of ``recording`` to ``profile``; DeviceSkipped if nothing was."""
+        """Copy the profile of ``recording`` to ``profile``; DeviceSkipped without one."""
         wanted = fingerprint(recording)
         case = next((c for c in self._like(recording, wanted) if self._of(c) == wanted), None)
         if case is None:
-            raise DeviceSkipped(f"{self.folder}: holds no such recording; export with this seed")
+            raise DeviceSkipped(f"{self.folder}: no such recording in it; export with this seed")
         if not (case / PROFILE).is_file():
-            raise DeviceSkipped(f"{case}: holds no {PROFILE}; process its {RECORDING}")
+            raise DeviceSkipped(f"{case}: no {PROFILE} in it; process its {RECORDING}")
         take(case, profile, without=wanted)
 
     def _like(self, recording: Path, wanted: Digests) -> Iterator[Path]:
@@ -69,14 +69,14 @@ class RecordedDevice:
 
 
 def cases(folder: Path) -> list[Path]:
-    """Return the folders in ``folder`` that hold a recording, sorted by name."""
+    """Return the folders in ``folder`` that contain a recording, sorted by name."""
     return sorted(path.parent for path in folder.glob(f"*/{RECORDING}"))
 
 
 def make(name: str) -> RecordedDevice:
     """Return the device of folder ``name``.
 
-    Raises InputError if there is no such folder, if it holds no recording, or if its
+    Raises InputError if there is no such folder, if it contains no recording, or if its
     device.json is unusable.
     """
     folder = Path(name).absolute()
@@ -86,14 +86,14 @@ def make(name: str) -> RecordedDevice:
         raise InputError(
             f"device files:{name}: no <case>/{RECORDING} in it; give the folder of an export"
         )
-    said = _said(folder)
-    if not isinstance(said, Mapping):
+    description = _read_description(folder)
+    if not isinstance(description, Mapping):
         raise InputError(f"{folder / DESCRIPTION}: not a JSON object; give name and version in one")
     default = {"version": "unknown", "architecture": "temporal", "capabilities": []}
-    return RecordedDevice(folder, {"name": folder.name, **default, **said})
+    return RecordedDevice(folder, {"name": folder.name, **default, **description})
 
 
-def _said(folder: Path) -> Any:
+def _read_description(folder: Path) -> Any:
     return read_document(folder / DESCRIPTION) if (folder / DESCRIPTION).exists() else {}
 
 

@@ -1,4 +1,4 @@
-"""What happens during a run, one value after another; renderers turn them into output."""
+"""The events of a run, one value each; renderers turn them into output."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from floatref_conformance.devices.interface import Description
 
 @dataclass(frozen=True)
 class RunStarted:
-    """The run begins; nothing is said of the checks ``left_out``."""
+    """The run begins; there are no more events of the checks ``left_out``."""
 
     spec: str
     description: Description
@@ -30,7 +30,7 @@ class CheckStarted:
 
 @dataclass(frozen=True)
 class CaseFinished:
-    """One case of check ``id`` has been judged: seeded, drawn by the search, or a simpler one."""
+    """One case of check ``id`` has been judged: seeded, drawn by the search, or simplified."""
 
     id: str
     result: CaseResult
@@ -46,7 +46,7 @@ class SearchStarted:
 
 @dataclass(frozen=True)
 class ShrinkStarted:
-    """A case of check ``id`` fails; up to ``cases`` are tried to make it simpler."""
+    """A case of check ``id`` fails; up to ``cases`` cases are tried to simplify it."""
 
     id: str
     cases: int
@@ -54,7 +54,7 @@ class ShrinkStarted:
 
 @dataclass(frozen=True)
 class CaseReplayed:
-    """A case kept from an earlier run has been judged."""
+    """A case stored by an earlier run has been judged."""
 
     replayed: Mapping[str, Any]
 
@@ -68,7 +68,7 @@ class CheckFinished:
 
 @dataclass(frozen=True)
 class RunFinished:
-    """The verdict is there."""
+    """The run has its verdict."""
 
     result: RunResult
 
@@ -89,4 +89,4 @@ class Renderer(Protocol):
     """Turns the events of a run into one form of output."""
 
     def handle(self, event: Event) -> None:
-        """Take note of ``event``; write what it brings."""
+        """Record ``event`` and write its output."""

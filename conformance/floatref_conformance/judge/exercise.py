@@ -1,4 +1,4 @@
-"""One run of a device: what it is given, where, and what it must have delivered."""
+"""One run of a device: its input folder, and the verification of its output."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -17,27 +17,27 @@ from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.errors import DeviceError, DeviceSkipped
 
 MAX_INTERVAL_M = 0.25
-"""Widest profile interval that still carries the IRI, in m."""
+"""Largest profile interval from which the IRI can be computed, in m."""
 MIN_INTERVAL_M = 0.001
-"""Closest profile interval, in m: as close as a recording may ask for, and one can be judged."""
+"""Smallest profile interval, in m; a recording cannot request a smaller one."""
 MAX_ELEVATION_M = 1e6
-"""An elevation beyond this, in m, is garbage and not drift."""
+"""A larger elevation, in m, is an error of the device and not drift."""
 
 Answer = TypeVar("Answer")
 
 
 def describe(device: Device) -> Description:
-    """Return what ``device`` says of itself; DeviceError if it fails to."""
-    return Description.of(_asked(lambda: device.describe()))
+    """Return the description of ``device``; DeviceError if it gives no usable one."""
+    return Description.of(_ask(lambda: device.describe()))
 
 
 def exercise(device: Device, description: Description, recording: Recording) -> Profile:
     """Return the profile that ``device`` makes of ``recording``.
 
-    Raises DeviceError if it is unusable, DeviceHung if there is none in time, DeviceSkipped if
-    the device does not take the recording.
+    Raises DeviceError if the profile is unusable, DeviceHung if it does not come in time,
+    DeviceSkipped if the device does not process the recording.
 
-    The device sees a fresh folder of neutral name with the channels that it may have.
+    The device sees a new folder with a neutral name and the channels that it may receive.
     """
     with TemporaryDirectory(ignore_cleanup_errors=True) as name:
         folder = Path(name).resolve()
@@ -45,7 +45,7 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
         write_recording(given, folder / "recording")
         target = folder / "profile"
         try:
-            _asked(lambda: device.run(folder / "recording" / "recording.json", target))
+            _ask(lambda: device.run(folder / "recording" / "recording.json", target))
             profile = _read(target)
             _check_tracks(profile, given, description.owes)
             _check_axis(profile, given)
@@ -54,10 +54,10 @@ def exercise(device: Device, description: Description, recording: Recording) -> 
     return profile
 
 
-def _asked(question: Callable[[], Answer]) -> Answer:
-    """Return the device's answer; DeviceError for whatever it raises, sys.exit included.
+def _ask(question: Callable[[], Answer]) -> Answer:
+    """Return the device's answer; DeviceError for any exception, sys.exit included.
 
-    What it says of itself, DeviceHung and DeviceSkipped, is let through.
+    DeviceError, DeviceHung and DeviceSkipped are passed on unchanged.
     """
     try:
         return question()
@@ -86,7 +86,7 @@ def _read(target: Path) -> Profile:
 
 
 def _check_tracks(profile: Profile, recording: Recording, owed: str) -> None:
-    """Raise DeviceError unless every wheel path with channel ``owed`` came back, within reason."""
+    """Raise DeviceError unless each wheel path with channel ``owed`` has usable elevations."""
     here = {track.name: track for track in profile.tracks}
     for name in recording.tracks:
         if recording.find(owed, name) is None:
@@ -99,7 +99,7 @@ def _check_tracks(profile: Profile, recording: Recording, owed: str) -> None:
 
 
 def _check_axis(profile: Profile, recording: Recording) -> None:
-    """Raise DeviceError unless the points cover the recorded distance, and no more."""
+    """Raise DeviceError unless the points cover exactly the recorded distance."""
     if profile.interval_m > MAX_INTERVAL_M:
         raise DeviceError(
             f"interval_m is {profile.interval_m:g}; an IRI needs {MAX_INTERVAL_M} m or less"
@@ -107,7 +107,7 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
     if profile.interval_m < MIN_INTERVAL_M:
         raise DeviceError(
             f"interval_m is {profile.interval_m:g}; at most 1000 points per metre are judged, "
-            f"and {recording.setup.profile_interval_m:g} was asked for"
+            f"and the recording requests {recording.setup.profile_interval_m:g}"
         )
     distance = recording.channel("distance").values
     first, farthest = distance[~np.isnan(distance)][0], np.nanmax(distance)
@@ -122,12 +122,12 @@ def _check_axis(profile: Profile, recording: Recording) -> None:
 
 
 def close(device: Device) -> str:
-    """Let ``device`` end what it has started, and return what went wrong, empty if nothing."""
+    """Close ``device`` and return its fault; empty if it closed without one."""
     ending = getattr(device, "close", None)
     if ending is None:
         return ""
     try:
-        _asked(ending)
+        _ask(ending)
     except (DeviceError, DeviceSkipped) as fault:
         return str(fault)
     return ""
@@ -135,21 +135,21 @@ def close(device: Device) -> str:
 
 @dataclass
 class Closing:
-    """Closes ``device`` once; one that was interrupted meanwhile is closed again."""
+    """Closes ``device`` once; an interrupted closing is repeated."""
 
     device: Device
     done: bool = False
 
     def close(self) -> str:
-        """Return what went wrong, empty if nothing did or the device is closed already."""
+        """Return the fault; empty without one or if the device is closed already."""
         fault = "" if self.done else close(self.device)
         self.done = True
         return fault
 
 
 @contextmanager
-def closed_on_error(device: Device) -> Iterator[None]:
-    """Close ``device`` if what is done with it fails before it is run."""
+def close_on_error(device: Device) -> Iterator[None]:
+    """Close ``device`` if the body of the with statement raises."""
     try:
         yield
     except BaseException:

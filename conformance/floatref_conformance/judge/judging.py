@@ -22,8 +22,8 @@ def check_result(
 ) -> CheckResult:
     """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
 
-    A faulty device is an error; else the worst measurement decides. ``simpler`` is the simplest
-    failing case found. Raises SuiteError if the oracle does not confirm the worst measurement.
+    A fault of the device is an error; otherwise the worst measurement decides. ``simpler`` is the
+    simplest failing case. Raises SuiteError if the oracle does not confirm the worst measurement.
     """
     worst, worst_case = max(
         ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
@@ -35,7 +35,7 @@ def check_result(
     outcome, reason = _outcome(cases, worst, device_class)
     failed = outcome in (Outcome.FAIL, Outcome.ERROR)
     if failed and simpler and simpler[1].again:
-        reason = f"{reason}; the simplest case {_unsteady(simpler[1])}"
+        reason = f"{reason}; the simplest case {_describe_unsteady(simpler[1])}"
     return CheckResult(
         id=check.id,
         clause=check.clause,
@@ -48,15 +48,15 @@ def check_result(
         counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
         flagged_m=max(case.flagged_m for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
-        scored_m=scored_by(check, simpler[0]) if failed and simpler else (),
+        scored_m=find_scored(check, simpler[0]) if failed and simpler else (),
         worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",
     )
 
 
-def scored_by(check: Check, case: Case) -> Stretches:
-    """Return the stretches that ``check`` scores of ``case``; none if it fails to say.
+def find_scored(check: Check, case: Case) -> Stretches:
+    """Return the stretches that ``check`` scores in ``case``; empty if it raises.
 
-    They are for pictures, which no verdict waits for.
+    They are only for pictures and do not affect the verdict.
     """
     try:
         return tuple((float(start), float(end)) for start, end in check.scored(case))
@@ -64,14 +64,14 @@ def scored_by(check: Check, case: Case) -> Stretches:
         return ()
 
 
-def failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:
-    """Return the worst of ``cases`` that fails; None if none does."""
+def find_failing(cases: Sequence[CaseResult], device_class: DeviceClass) -> CaseResult | None:
+    """Return the worst failing case of ``cases``; None if all pass."""
     worst = max(cases, key=lambda case: case.ratio(device_class))
     return worst if worst.ratio(device_class) > 1.0 else None
 
 
-def why(case: CaseResult, device_class: DeviceClass) -> str:
-    """Return in one line what is wrong with ``case``; empty if nothing is."""
+def describe_failure(case: CaseResult, device_class: DeviceClass) -> str:
+    """Return in one line why ``case`` fails; empty if it passes."""
     if case.fault is not None:
         return case.fault
     worst = case.worst(device_class)
@@ -85,15 +85,15 @@ def why(case: CaseResult, device_class: DeviceClass) -> str:
 
 def not_applicable_result(check: Check, missing: frozenset[str]) -> CheckResult:
     """Return the result of a check that needs ``missing`` of `NEEDS` from the device."""
-    return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, lacking(missing))
+    return CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, describe_missing(missing))
 
 
-def lacking(missing: frozenset[str]) -> str:
-    """Return in words that a device lacks ``missing`` of what a check needs."""
+def describe_missing(missing: frozenset[str]) -> str:
+    """Return the sentence that a check needs ``missing``, which the device does not have."""
     undeclared = ", ".join(sorted(missing - {HEIGHT}))
     parts = [f"needs {undeclared}, which the device does not declare"] if undeclared else []
     if HEIGHT in missing:
-        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does without")
+        parts.append(f"needs {NEEDS[HEIGHT]}, which architecture {RESPONSE} does not have")
     return "; ".join(parts)
 
 
@@ -103,7 +103,7 @@ def left_out_result(left_out: LeftOut) -> CheckResult:
 
 
 def given_up_result(check: Check, reason: str) -> CheckResult:
-    """Return the result of a check whose device is not asked any more."""
+    """Return the result of a check that is not run because the device hung too often."""
     return CheckResult(check.id, check.clause, Outcome.ERROR, reason)
 
 
@@ -119,9 +119,9 @@ def _outcome(
     faults = [case for case in cases if case.fault is not None]
     if faults:
         return Outcome.ERROR, f"{faults[0].name}: {faults[0].fault}"
-    failed = failing(cases, device_class)
+    failed = find_failing(cases, device_class)
     if failed is not None:
-        return Outcome.FAIL, why(failed, device_class)
+        return Outcome.FAIL, describe_failure(failed, device_class)
     skipped = [case for case in cases if case.skipped is not None]
     if skipped:
         return Outcome.SKIP, f"{skipped[0].name}: {skipped[0].skipped}"
@@ -131,11 +131,11 @@ def _outcome(
 
 
 def _counterexample(case: Case, result: CaseResult, device_class: DeviceClass) -> Mapping[str, Any]:
-    reason = why(result, device_class)
+    reason = describe_failure(result, device_class)
     return {
         "case": result.name,
         "parameters": dict(result.parameters),
-        "reason": f"{reason}; {_unsteady(result)}" if result.again else reason,
+        "reason": f"{reason}; {_describe_unsteady(result)}" if result.again else reason,
         "file": name_of(case),
     }
 
@@ -145,5 +145,5 @@ def _worst_track(case: CaseResult, device_class: DeviceClass) -> str:
     return "" if worst is None else worst.track
 
 
-def _unsteady(result: CaseResult) -> str:
+def _describe_unsteady(result: CaseResult) -> str:
     return f"{result.again} when run again: the device does not fail it every time"

@@ -1,7 +1,7 @@
-"""The second opinion: what was measured, measured again by the reference implementation.
+"""The second opinion: the reference implementation measures the same value again.
 
-An error in the measures of the SDK, by which the checks judge and with which a pipeline could
-have been tuned, would otherwise pass on both sides.
+The checks and the pipelines both use the measures of the SDK. An error in these measures would
+otherwise remain undetected.
 """
 
 import numpy as np
@@ -15,12 +15,12 @@ from floatref_reference.chapter_2 import section_2_1_5_comparison as section_2_1
 TOLERANCE = 1e-3
 """Largest difference between the two values, relative to the value or to `SMALLEST` units."""
 SMALLEST = {"m/km": 1e-3, "%": 1e-1}
-"""Values below this are compared as if they were so large: they are differences of larger ones."""
+"""Smallest scale of the comparison: a smaller value is a difference of larger ones."""
 DIMENSIONLESS = 1e-3
 
 
 class PrintedMeasures:
-    """The reference's measures, in plain numbers."""
+    """The measures of the reference implementation, as Python floats."""
 
     def iri(self, elevation: FloatArray, interval_m: float) -> float:
         """Return the IRI of section 2.1.1 in m/km."""
@@ -39,10 +39,9 @@ class PrintedMeasures:
 
 
 def confirm(check: str, measured: Measurement) -> None:
-    """Raise SuiteError unless the reference gives ``measured`` too.
+    """Raise SuiteError unless the reference measures the same value as ``measured``.
 
-    A measurement without evidence is of a kind that the reference does not have, and is left
-    alone.
+    A measurement without evidence is not verified: the reference does not have its measure.
     """
     if measured.evidence is None:
         return

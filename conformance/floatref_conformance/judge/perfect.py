@@ -1,4 +1,4 @@
-"""The profile that a profiler without error would deliver: the truth, filtered, as encoded."""
+"""The profile of a profiler without errors: the filtered truth on the encoder's axis."""
 
 import numpy as np
 
@@ -10,10 +10,10 @@ from floatref_conformance.proving_ground.scenario import STATIONARY
 from floatref_conformance.proving_ground.staging import drive_of
 
 
-def perfect(taken: Taken) -> Profile:
+def make_perfect(taken: Taken) -> Profile:
     """Return the truth of ``taken``, filtered (-3 dB at 91.44 m), on the encoder's axis.
 
-    Every point is valid. An encoder that goes back is taken to stand meanwhile.
+    Every point is valid. While the encoder goes back, the vehicle is treated as stationary.
     """
     encoder, travelled = _travel(taken)
     truth = taken.truth
@@ -33,7 +33,7 @@ def _travel(taken: Taken) -> tuple[FloatArray, FloatArray]:
     """Return the encoder's readings and the true distance at the first of each, both in m."""
     channel = taken.recording.channel("distance")
     seen = np.isfinite(channel.values)
-    # A reading counts from where it is first seen: a silent encoder tells it on and on.
+    # A reading is used from its first sample on: a silent encoder repeats its last one.
     encoder, first = np.unique(np.maximum.accumulate(channel.values[seen]), return_index=True)
     if taken.scenario.manoeuvre in STATIONARY:
         return encoder, encoder

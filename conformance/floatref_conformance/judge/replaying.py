@@ -1,4 +1,4 @@
-"""One case on one device: what a check measures of it, and what the device did wrong."""
+"""One case on one device: the measurements of the check, and the faults of the device."""
 
 from dataclasses import replace
 
@@ -12,11 +12,11 @@ from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
-from floatref_conformance.judge.judging import lacking
+from floatref_conformance.judge.judging import describe_missing
 
 
-def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
-    """Return what the device on ``bench`` makes of ``case``; its faults are in the result."""
+def judge_case(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
+    """Return the result of ``case`` for the device on ``bench``, with the device's faults."""
     result = CaseResult(case.name, case.parameters)
     try:
         measured = check.judge(case, bench)
@@ -30,9 +30,9 @@ def judged(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
 
 
 def refuse_foreign(check: Check, case: Case) -> None:
-    """Raise InputError for a number that no case of ``check`` has, which it would not look at.
+    """Raise InputError for a number that no case of ``check`` has, and that it would ignore.
 
-    The edition's cases have between them every number of its checks; a plug-in's may not.
+    The cases of the edition together use every number of their check; those of a plug-in may not.
     """
     if check.id not in IDS:
         return
@@ -40,34 +40,34 @@ def refuse_foreign(check: Check, case: Case) -> None:
     known = sorted({name for one in cases for name in one.variation})
     for name in case.variation:
         if name not in known:
-            others = f"known: {', '.join(known)}" if known else f"{check.id} has none"
+            others = f"known: {', '.join(known)}" if known else f"{check.id} has no variation"
             raise InputError(f"variation {name}: unknown; {others}")
 
 
 def replay(device: Device, check: Check, case: Case) -> CaseResult:
-    """Return what ``device`` makes of ``case`` outside any run, and close the device.
+    """Return the result of ``case`` for ``device`` outside any run, and close the device.
 
-    It is skipped for a device without what ``check`` needs. Raises InputError
-    for numbers that make no case of it.
+    The case is skipped for a device that does not meet the needs of ``check``. Raises InputError
+    for numbers that make no case of the check.
     """
     try:
         refuse_foreign(check, case)
-        result = _outside_a_run(device, check, case)
+        result = _judge_alone(device, check, case)
     except BaseException:
         close(device)
         raise
     fault = close(device)
     if not fault or result.fault is not None:
         return result
-    return replace(result, fault=f"at its end the device {fault}")
+    return replace(result, fault=f"when it was stopped, the device {fault}")
 
 
-def _outside_a_run(device: Device, check: Check, case: Case) -> CaseResult:
+def _judge_alone(device: Device, check: Check, case: Case) -> CaseResult:
     try:
         description = describe(device)
     except DeviceError as fault:
         return CaseResult(case.name, case.parameters, fault=str(fault))
     missing = check.needs - description.meets
     if missing:
-        return CaseResult(case.name, case.parameters, skipped=lacking(missing))
-    return judged(check, case, DeviceBench(device, description))
+        return CaseResult(case.name, case.parameters, skipped=describe_missing(missing))
+    return judge_case(check, case, DeviceBench(device, description))

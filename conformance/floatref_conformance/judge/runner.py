@@ -1,4 +1,4 @@
-"""Running checks on a device: events on the way, a result at the end."""
+"""Run checks on a device: events during the run, a result at the end."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -9,7 +9,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
-from floatref_conformance.checks.interface import Check, fitted
+from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
@@ -29,29 +29,30 @@ from floatref_conformance.judge.judging import (
     not_applicable_result,
 )
 from floatref_conformance.judge.trial import Trial
-from floatref_conformance.judge.waivers import waived
+from floatref_conformance.judge.waivers import waive
 
 UNDESCRIBED = Description("unknown", "unknown", "unknown", ())
-"""What is said of a device that does not say it itself."""
+"""The description of a device that gives no usable one."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A device, the checks to run on it, and those that are left out.
+    """A device, the checks to run on it, and the checks that are left out.
 
     Attributes:
-        spec: how the user names the device.
-        device: what is judged.
-        checks: what is run, in order.
-        left_out: what is not, and why.
-        device_class: whose limits decide.
+        spec: the SPEC by which the user names the device.
+        device: the one that is judged.
+        checks: those that are run, in order.
+        left_out: those that are not run, with the reason.
+        device_class: the class whose limits decide.
         seed: draws roads, noise and the search.
         effort: sets the number of cases.
-        kept: cases from earlier runs, to be run again.
+        kept: cases stored by earlier runs, to be run again.
         searching: whether cases are drawn that depend on the device's answers.
-        waivers: why a failure of a check is known, by its id.
+        waivers: reasons of known failures, by the id of the check.
         ahead: whether the next cases are simulated while the device works.
-        timeout_s, report: time for a recording and folder of the report, told to reproduce it.
+        timeout_s, report: time for a recording in s, and folder of the report; the report names
+            both, so that the run can be reproduced.
     """
 
     spec: str
@@ -70,10 +71,10 @@ class Plan:
 
 
 def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
-    """Return the result of ``plan``; ``emit`` is given what happens on the way.
+    """Return the result of ``plan``; ``emit`` is called with every event.
 
-    Raises SuiteError, for sys.exit in a check as well, and then there is no verdict. Whatever
-    happens, the device is closed once.
+    Raises SuiteError, also for sys.exit in a check; there is then no verdict. The device is
+    closed once in every case.
     """
     closing = Closing(plan.device)
     try:
@@ -88,41 +89,41 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
 
 
 def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResult:
-    description, fault = _described(plan.device)
+    description, fault = _describe(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault)
-    with _simulating(plan, trial) as announce:
-        results, replayed = _judged(plan, trial, announce, closing)
+    with _simulate_ahead(plan, trial) as announce:
+        results, replayed = _judge_all(plan, trial, announce, closing)
     results += [left_out_result(left_out) for left_out in plan.left_out]
-    replayed += _left_out(plan)
+    replayed += _skip_left_out(plan)
     finished = _result(plan, description, results, replayed)
     emit(RunFinished(finished))
     return finished
 
 
-def _judged(
+def _judge_all(
     plan: Plan, trial: Trial, announce: Callable[[Check], None], closing: Closing
 ) -> tuple[list[CheckResult], list[Mapping[str, Any]]]:
-    """Return what comes of every check, and of every kept case."""
+    """Return the results of all checks, and of all stored cases."""
     results: list[CheckResult] = []
     replayed: list[Mapping[str, Any]] = []
     for number, check in enumerate(plan.checks):
         for coming in plan.checks[number : number + 2]:
             announce(coming)
-        result = waived(_checked(plan, check, trial), plan.waivers)
-        for again in _replayed(plan, check, result, trial):
+        result = waive(_check(plan, check, trial), plan.waivers)
+        for again in _replay(plan, check, result, trial):
             replayed.append(again)
             trial.emit(CaseReplayed(again))
         if check is plan.checks[-1]:
-            result = waived(_ended(result, closing.close()), plan.waivers)
+            result = waive(_add_end_fault(result, closing.close()), plan.waivers)
         results.append(result)
         trial.emit(CheckFinished(result))
     return results, replayed
 
 
 @contextmanager
-def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
-    """Yield what has the seeded cases of a check simulated in the background, if it may."""
+def _simulate_ahead(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
+    """Yield a function that starts to simulate a check's seeded cases in the background."""
     if not plan.ahead or trial.fault is not None:
         yield lambda check: None
         return
@@ -131,7 +132,7 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
     try:
         yield (
             lambda check: (
-                ahead.announce(fitted(check, meets).cases(plan.seed, plan.effort))
+                ahead.announce(fit_check(check, meets).cases(plan.seed, plan.effort))
                 if check.needs <= meets
                 else None
             )
@@ -140,59 +141,61 @@ def _simulating(plan: Plan, trial: Trial) -> Iterator[Callable[[Check], None]]:
         ahead.close()
 
 
-def _ended(result: CheckResult, fault: str) -> CheckResult:
-    """Return the last ``result``, an error if the device was at fault when it was to stop."""
+def _add_end_fault(result: CheckResult, fault: str) -> CheckResult:
+    """Return the last ``result``; it is an error if the device did not stop without a fault."""
     if not fault or result.outcome is Outcome.NOT_APPLICABLE:
         return result
-    reason = "; ".join(part for part in (result.reason, f"at its end the device {fault}") if part)
+    reason = "; ".join(
+        part for part in (result.reason, f"when it was stopped, the device {fault}") if part
+    )
     return replace(result, outcome=Outcome.ERROR, reason=reason, class_reached=None)
 
 
-def _checked(plan: Plan, check: Check, trial: Trial) -> CheckResult:
+def _check(plan: Plan, check: Check, trial: Trial) -> CheckResult:
     missing = check.needs - trial.description.meets
     if missing:
         return not_applicable_result(check, missing)
     if trial.given_up:
         return given_up_result(check, trial.given_up)
-    check = fitted(check, trial.description.meets)
+    check = fit_check(check, trial.description.meets)
     return trial.check(check, plan.seed, plan.effort, plan.searching)
 
 
-def _replayed(
+def _replay(
     plan: Plan, check: Check, result: CheckResult, trial: Trial
 ) -> Iterator[Mapping[str, Any]]:
-    """Yield what each kept case of ``check`` comes to, if the check was run at all."""
+    """Yield the result of each stored case of ``check``, if the check was run."""
     for kept in plan.kept:
         if kept.case.check != check.id:
             continue
         if not result.cases:
-            yield _not_replayed(kept, result.outcome, result.reason)
+            yield _skipped_case(kept, result.outcome, result.reason)
             continue
         if kept.refused:
-            yield _not_replayed(kept, Outcome.SKIP, kept.refused)
+            yield _skipped_case(kept, Outcome.SKIP, kept.refused)
             continue
         again = trial.replay(check, kept)
         is_waived = check.id in plan.waivers and again["outcome"] == Outcome.FAIL
         yield {**again, "outcome": Outcome.WAIVED.value} if is_waived else again
 
 
-def _left_out(plan: Plan) -> list[Mapping[str, Any]]:
-    """Return the kept cases of checks that are not run; those of unknown checks are among them."""
+def _skip_left_out(plan: Plan) -> list[Mapping[str, Any]]:
+    """Return the results of stored cases whose checks are not run or unknown."""
     run = {check.id for check in plan.checks}
     reasons = {left_out.id: left_out.reason for left_out in plan.left_out}
     return [
-        _not_replayed(kept, Outcome.SKIP, reasons.get(kept.case.check, "unknown check"))
+        _skipped_case(kept, Outcome.SKIP, reasons.get(kept.case.check, "unknown check"))
         for kept in plan.kept
         if kept.case.check not in run
     ]
 
 
-def _not_replayed(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:
-    told = {"file": kept.file, "check": kept.case.check, "outcome": outcome.value}
-    return {**told, "reason": reason, "value": None, "limit": None, "unit": None}
+def _skipped_case(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str, Any]:
+    case = {"file": kept.file, "check": kept.case.check, "outcome": outcome.value}
+    return {**case, "reason": reason, "value": None, "limit": None, "unit": None}
 
 
-def _described(device: Device) -> tuple[Description, str | None]:
+def _describe(device: Device) -> tuple[Description, str | None]:
     try:
         return describe(device), None
     except InputError:

@@ -1,10 +1,10 @@
 """The search for failing cases, and the simplest case that still fails.
 
-A case that fails is judged like any other, and made simpler by `shrinking`; an error of the suite
-ends the search. The number of cases is fixed, and the same seed draws the same ones.
+A failing case is judged like any other case, and simplified by `simplify`; an error of the suite
+ends the search. The number of cases is fixed, and the same seed draws the same cases.
 
-The budget is a number of cases, so that the same run gives the same case on any machine;
-Hypothesis' own shrinking stops by the clock, and does not count numbers.
+The budget is a number of cases, so that the same run finds the same case on any machine.
+Hypothesis' own shrinking is limited by time, and does not minimise the count of changed numbers.
 """
 
 import zlib
@@ -19,13 +19,13 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.errors import SuiteError
 
 FARTHEST = 1e3
-"""Ratios of value to limit beyond this, and faults, are all as bad."""
+"""Largest ratio of value to limit that the search distinguishes; faults count as this ratio."""
 
 
 def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) -> None:
-    """Have ``judge`` try ``count`` cases of ``check``, drawn towards the largest it returns.
+    """Call ``judge`` with ``count`` cases of ``check``, drawn towards its largest value.
 
-    ``judge`` returns the largest ratio of value to limit that it found; what it raises is raised.
+    ``judge`` returns the largest ratio of value to limit of a case; its exceptions are passed on.
     """
     if count < 1:
         return
@@ -60,15 +60,15 @@ def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) 
             else:
                 target(min(ratio, FARTHEST))
 
-    with _by_the_seed_alone():
+    with _without_constants():
         attempt()
     if raised:
         raise raised[0]
 
 
 @contextmanager
-def _by_the_seed_alone() -> Iterator[None]:
-    """Keep Hypothesis from drawing constants of whatever modules happen to be imported."""
+def _without_constants() -> Iterator[None]:
+    """Prevent Hypothesis from drawing constants of the modules that are imported."""
     from hypothesis.internal.conjecture.providers import HypothesisProvider
 
     nothing = mock.Mock(return_value=None)
@@ -76,19 +76,19 @@ def _by_the_seed_alone() -> Iterator[None]:
         yield
 
 
-def simplest(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
-    """Return a case that still ``fails``, with as few numbers unlike those of ``base`` as found.
+def simplify(case: Case, base: Case, budget: int, fails: Callable[[Case], bool]) -> Case:
+    """Return a case that still ``fails``, with few numbers that differ from those of ``base``.
 
-    All numbers are taken from ``base`` at once, then halves of them, down to single ones, until
-    nothing more can go or ``budget`` cases have been tried.
+    First all numbers are taken from ``base`` at once, then halves of them, down to single ones,
+    until no more can be replaced or ``budget`` cases have been tried.
     """
     shrinker = _Shrinker(base, budget, fails)
-    names = _unlike(case, base)
+    names = _differing_names(case, base)
     size = len(names)
     while size and shrinker.left:
         for start in range(0, len(names), size):
-            case = shrinker.without(case, names[start : start + size])
-        names = _unlike(case, base)
+            case = shrinker.try_without(case, names[start : start + size])
+        names = _differing_names(case, base)
         size = min(size // 2, len(names)) if size > 1 else 0
     return case
 
@@ -100,10 +100,10 @@ class _Shrinker:
     fails: Callable[[Case], bool]
     tried: set[Case] = field(default_factory=set)
 
-    def without(self, case: Case, names: Sequence[str]) -> Case:
-        """Return ``case`` with ``names`` as in the base, if that still fails."""
+    def try_without(self, case: Case, names: Sequence[str]) -> Case:
+        """Return ``case`` with ``names`` as in the base, if that case still fails."""
         try:
-            simpler = _taking(case, self.base, names)
+            simpler = _replace_numbers(case, self.base, names)
         except InputError:
             return case
         if not names or not self.left or simpler == case or simpler in self.tried:
@@ -113,15 +113,15 @@ class _Shrinker:
         return simpler if self._fails(simpler) else case
 
     def _fails(self, case: Case) -> bool:
-        """Return whether a case fails; numbers that make no drive do not."""
+        """Return whether a case fails; numbers that make no drive do not fail."""
         try:
             return self.fails(case)
         except InputError:
             return False
 
 
-def _unlike(case: Case, base: Case) -> list[str]:
-    """Return the names of the numbers in which two cases differ."""
+def _differing_names(case: Case, base: Case) -> list[str]:
+    """Return the names of the numbers that differ between two cases."""
     names = [
         f.name
         for f in fields(case.scenario)
@@ -132,8 +132,8 @@ def _unlike(case: Case, base: Case) -> list[str]:
     return names + sorted(n for n in own if case.variation.get(n) != base.variation.get(n))
 
 
-def _taking(case: Case, base: Case, names: Sequence[str]) -> Case:
-    """Return ``case`` with the numbers called ``names`` of ``base``."""
+def _replace_numbers(case: Case, base: Case, names: Sequence[str]) -> Case:
+    """Return ``case`` with the numbers ``names`` taken from ``base``."""
     known = {f.name for f in fields(case.scenario)}
     scenario = {n: getattr(base.scenario, n) for n in names if n in known}
     variation = dict(case.variation)

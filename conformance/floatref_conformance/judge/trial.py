@@ -11,7 +11,7 @@ from floatref_conformance.checks.interface import Check, Taken
 from floatref_conformance.checks.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
-from floatref_conformance.judge.bench import DeviceBench, taken_of
+from floatref_conformance.judge.bench import DeviceBench, make_taken
 from floatref_conformance.judge.events import (
     CaseFinished,
     CheckStarted,
@@ -19,26 +19,26 @@ from floatref_conformance.judge.events import (
     SearchStarted,
     ShrinkStarted,
 )
-from floatref_conformance.judge.judging import check_result, failing, why
-from floatref_conformance.judge.replaying import judged, refuse_foreign
-from floatref_conformance.judge.search import search, simplest
+from floatref_conformance.judge.judging import check_result, describe_failure, find_failing
+from floatref_conformance.judge.replaying import judge_case, refuse_foreign
+from floatref_conformance.judge.search import search, simplify
 from floatref_conformance.proving_ground.scenario import Scenario
 
 MOST_HANGS = 3
-"""A device that has hung so often in a run is not asked any more: a run has to end."""
+"""Number of hangs after which a device gets no more cases, so that the run ends."""
 
 
 @dataclass
 class Trial:
-    """A device on its way through the checks.
+    """The state of a device during the checks of a run.
 
     Attributes:
         device, description: what is judged.
-        device_class: whose limits decide.
-        emit: is told of every case.
-        fault: why the device could not describe itself, which every case is then charged with.
+        device_class: the class whose limits decide.
+        emit: is called with every event.
+        fault: why the device could not describe itself; it is then the fault of every case.
         hangs: how often the device has not answered in time.
-        make: how a scenario becomes a recording.
+        make: simulates a scenario.
     """
 
     device: Device
@@ -47,39 +47,39 @@ class Trial:
     emit: Callable[[Event], None]
     fault: str | None = None
     hangs: int = 0
-    make: Callable[[Scenario], Taken] = taken_of
+    make: Callable[[Scenario], Taken] = make_taken
     _judged: dict[Case, CaseResult] = field(default_factory=dict)
 
     @property
     def given_up(self) -> str:
-        """Why nothing more is asked of the device; empty as long as it is."""
-        return f"not asked: the device hung {self.hangs} times" if self._is_hopeless() else ""
+        """Why the device gets no more cases; empty while it gets them."""
+        return f"not run: the device hung {self.hangs} times" if self._is_hopeless() else ""
 
     def check(self, check: Check, seed: int, effort: Effort, searching: bool) -> CheckResult:
-        """Return what the device makes of ``check``."""
+        """Return the result of ``check`` for the device."""
         self._judged = {}
         seeded = check.cases(seed, effort)
         self.emit(CheckStarted(check.id, len(seeded)))
         for case in seeded:
-            self._tried(check, case)
-        if searching and not self._failing() and not self._skipping():
+            self._try(check, case)
+        if searching and not self._find_failing() and not self._has_skipped():
             self.emit(SearchStarted(check.id, effort.searched))
-            search(check, seed, effort.searched, lambda case: self._found(check, case))
+            search(check, seed, effort.searched, lambda case: self._judge_found(check, case))
         cases = dict(self._judged)
-        simpler = self._simplest(check, effort.shrunk if searching else 0)
+        simpler = self._simplify(check, effort.shrunk if searching else 0)
         return check_result(check, tuple(cases.values()), self.device_class, simpler)
 
     def replay(self, check: Check, kept: KeptCase) -> Mapping[str, Any]:
-        """Return what the device makes of a case that was kept, by the limits of this run.
+        """Return the result of a stored case, by the limits of this run.
 
-        Numbers that make no drive in this edition are skipped.
+        A case whose numbers make no drive in this edition is skipped.
         """
         try:
             refuse_foreign(check, kept.case)
             result = self._judge(check, kept.case)
         except InputError as error:
             result = CaseResult(kept.case.name, kept.case.parameters, skipped=str(error))
-        reason = result.skipped or why(result, self.device_class)
+        reason = result.skipped or describe_failure(result, self.device_class)
         return {
             "file": kept.file,
             "check": check.id,
@@ -88,15 +88,15 @@ class Trial:
             **_figures(result.worst(self.device_class), self.device_class),
         }
 
-    def _found(self, check: Check, case: Case) -> float:
+    def _judge_found(self, check: Check, case: Case) -> float:
         named = replace(case, name=f"{check.id}-search-{len(self._judged) + 1}")
-        return self._tried(check, named).ratio(self.device_class)
+        return self._try(check, named).ratio(self.device_class)
 
-    def _tried(self, check: Check, case: Case) -> CaseResult:
-        """Return the result of ``case``, judged once; pictures are kept of the worst alone."""
+    def _try(self, check: Check, case: Case) -> CaseResult:
+        """Return the result of ``case``, judged once; only the worst case stores its passes."""
         if case in self._judged:
             return self._judged[case]
-        result, worst = self._judge(check, case), self._failing()
+        result, worst = self._judge(check, case), self._find_failing()
         ratio = result.ratio(self.device_class)
         if ratio > max(1.0, worst.ratio(self.device_class) if worst else 0.0):
             for other, judged in self._judged.items():
@@ -111,13 +111,13 @@ class Trial:
             fault = self.fault or self.given_up
             result = CaseResult(case.name, case.parameters, fault=fault)
         else:
-            result = judged(check, case, DeviceBench(self.device, self.description, self.make))
+            result = judge_case(check, case, DeviceBench(self.device, self.description, self.make))
             self.hangs += result.hung
         self.emit(CaseFinished(check.id, result))
         return result
 
-    def _simplest(self, check: Check, budget: int) -> tuple[Case, CaseResult] | None:
-        worst = self._failing()
+    def _simplify(self, check: Check, budget: int) -> tuple[Case, CaseResult] | None:
+        worst = self._find_failing()
         if worst is None:
             return None
         start = next(case for case, result in self._judged.items() if result is worst)
@@ -135,11 +135,11 @@ class Trial:
                 found[case] = result
             return failed
 
-        simpler = simplest(start, check.simplest, budget, fails)
-        return simpler, self._once_more(check, simpler, found[simpler])
+        simpler = simplify(start, check.simplest, budget, fails)
+        return simpler, self._run_again(check, simpler, found[simpler])
 
-    def _once_more(self, check: Check, case: Case, failed: CaseResult) -> CaseResult:
-        """Return ``failed``, which says so if the device does not fail ``case`` every time."""
+    def _run_again(self, check: Check, case: Case, failed: CaseResult) -> CaseResult:
+        """Return ``failed`` with the outcome of a second run, if that does not fail."""
         if self._is_hopeless():
             return failed
         result = self._judge(check, replace(case, name=f"{case.name}, again"))
@@ -147,10 +147,12 @@ class Trial:
             return failed
         return replace(failed, again="passed" if result.skipped is None else "skipped")
 
-    def _failing(self) -> CaseResult | None:
-        return failing(tuple(self._judged.values()), self.device_class) if self._judged else None
+    def _find_failing(self) -> CaseResult | None:
+        return (
+            find_failing(tuple(self._judged.values()), self.device_class) if self._judged else None
+        )
 
-    def _skipping(self) -> bool:
+    def _has_skipped(self) -> bool:
         return any(result.skipped is not None for result in self._judged.values())
 
     def _is_hopeless(self) -> bool:

@@ -1,4 +1,4 @@
-"""Waivers: failures that the user knows of. One a line: the check's id, then why."""
+"""Waivers of known failures, one per line: the id of the check, then the reason."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -14,9 +14,9 @@ MOST_BYTES = 1 << 20
 def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     """Return why each check in file ``path`` is waived.
 
-    A line holds an id and, after white space, the reason; what follows a # is a comment, and the
-    reason if there is no other. Raises InputError for a check that is not in ``known``, named
-    twice, or no text.
+    A line holds an id and, after white space, the reason. Text after a # is a comment; it is used
+    as the reason if there is no other. Raises InputError for a check that is not in ``known`` or
+    is named twice, and for a file that is not text.
     """
     try:
         if path.stat().st_size > MOST_BYTES:
@@ -25,7 +25,9 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not UTF-8; write a check's id and why, one a line") from error
+        raise InputError(
+            f"{path}: not UTF-8; write one check per line: its id, then the reason"
+        ) from error
     waivers: dict[str, str] = {}
     for number, line in enumerate(lines, start=1):
         text, _, comment = line.partition("#")
@@ -39,10 +41,10 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     return waivers
 
 
-def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
-    """Return ``result``, waived if it is beyond a limit and ``waivers`` say so.
+def waive(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
+    """Return ``result``; a failure that ``waivers`` name becomes waived.
 
-    A known limit is no excuse for a crash, a hang or garbage: an error stays one.
+    A waiver applies to a limit only: a crash, a hang or an unusable profile remains an error.
     """
     if result.id not in waivers or result.outcome is not Outcome.FAIL:
         return result
@@ -56,23 +58,23 @@ def waived(result: CheckResult, waivers: Mapping[str, str]) -> CheckResult:
 def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> None:
     """Raise InputError naming a waiver of ``path`` that no failure of ``result`` needed.
 
-    Of a check that ended in an error nobody knows whether it still needs its waiver.
+    For a check that ended in an error it is unknown whether its waiver is still needed.
     """
     found = {check.id: {check.outcome} for check in result.checks}
     for case in result.replayed:
         found.setdefault(case["check"], set()).add(Outcome(case["outcome"]))
     for id_ in waivers:
         if not {Outcome.WAIVED, Outcome.ERROR} & found.get(id_, set()):
-            raise InputError(f"{path}: {id_}: {_not_needed(id_, result)}")
+            raise InputError(f"{path}: {id_}: {_describe_unused(id_, result)}")
 
 
-def _not_needed(id_: str, result: RunResult) -> str:
-    """Return in words why nothing of check ``id_`` was waived."""
+def _describe_unused(id_: str, result: RunResult) -> str:
+    """Return why no failure of check ``id_`` was waived."""
     check = next((check for check in result.checks if check.id == id_), None)
     if check is None or (check.outcome is Outcome.SKIP and not check.cases):
-        return "was not run: nothing to waive; run it too, or take the line out"
+        return "was not run: nothing to waive; run it too, or delete the line"
     if check.outcome is Outcome.SKIP:
-        return "was skipped by the device: nothing to waive; take the line out"
+        return "was skipped by the device: nothing to waive; delete the line"
     if check.outcome is Outcome.NOT_APPLICABLE:
-        return "does not apply to the device: nothing to waive; take the line out"
-    return "did not fail: nothing to waive; take the line out"
+        return "does not apply to the device: nothing to waive; delete the line"
+    return "did not fail: nothing to waive; delete the line"

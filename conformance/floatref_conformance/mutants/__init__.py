@@ -1,4 +1,4 @@
-"""What a profiler's software can get wrong: one mistake each, in an otherwise sound pipeline."""
+"""Errors of a profiler's software: each mutation puts one error into a sound pipeline."""
 
 from floatref_conformance.mutants.in_drives import IN_DRIVES
 from floatref_conformance.mutants.in_fusion import IN_FUSION
@@ -7,4 +7,4 @@ from floatref_conformance.mutants.in_results import IN_RESULTS
 from floatref_conformance.mutants.in_sensors import IN_SENSORS
 
 MUTATIONS = (*IN_SENSORS, *IN_PROCESSING, *IN_RESULTS, *IN_DRIVES, *IN_FUSION, *IN_RESPONSE)
-"""All mistakes in the order in which they are listed."""
+"""All mutations in the order in which they are listed."""

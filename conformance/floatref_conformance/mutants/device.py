@@ -1,8 +1,8 @@
-"""Mutants: devices wrong on purpose, each with the checks that must fail it.
+"""Mutants: devices that are wrong on purpose, each with the checks that must fail it.
 
-A mutant is a sound pipeline with one thing wrong, before it or after it, so that a check
-that passes the pipeline and fails the mutant has seen just that; or a program that delivers
-what is sound and behaves badly.
+A mutant is a sound pipeline with one error before or after it. A check that passes the pipeline
+and fails the mutant has detected just this error. Hostile programs are also mutants: they deliver
+a sound profile and behave badly.
 """
 
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.devices.builtin import BuiltinDevice, quietly_processed
+from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.hostile import HOSTILE, hostile_device
@@ -23,23 +23,23 @@ from floatref_conformance.mutants.mutation import Mutation
 
 @dataclass(frozen=True)
 class Mutant:
-    """A device with one mistake."""
+    """A device with one mutation."""
 
     mutation: Mutation
 
     def describe(self) -> Mapping[str, Any]:
-        """Return the description of a device like the sound pipeline."""
+        """Return the description of the sound pipeline, with the mutation's name."""
         return {**BuiltinDevice(self.mutation.pipeline).describe(), "name": self.mutation.name}
 
     def run(self, recording: Path, profile: Path) -> None:
-        """Spoil ``recording``, process it, spoil the profile and write it."""
+        """Mutate ``recording``, process it, mutate the profile and write it."""
         wrong, recorded = self.mutation, read_recording(recording)
-        made = quietly_processed(wrong.before(recorded), wrong.pipeline, wrong.settings)
+        made = process_quietly(wrong.before(recorded), wrong.pipeline, wrong.settings)
         write_profile(wrong.after(made, recorded), profile)
 
 
 def make(name: str) -> Device:
-    """Return mutant ``name``, which remembers nothing yet; InputError if there is none."""
+    """Return mutant ``name`` in its initial state; InputError if it is unknown."""
     for mutation in MUTATIONS:
         if mutation.name == name:
             return Mutant(deepcopy(mutation))
@@ -50,7 +50,7 @@ def make(name: str) -> Device:
 
 
 def entries() -> tuple[DeviceEntry, ...]:
-    """Return one entry per mutant; a program that behaves badly fails whatever is asked of it."""
+    """Return one entry per mutant; a hostile program must fail all checks."""
     wrong = tuple(DeviceEntry(m.name, m.wrong, m.fails) for m in MUTATIONS)
     return wrong + tuple(DeviceEntry(h.name, h.wrong, tuple(IDS)) for h in HOSTILE)
 

@@ -1,4 +1,4 @@
-"""What a recording tells of its drive, for mistakes that are made in some drives only."""
+"""Properties of a recorded drive, for mutations of some drives only."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from floatref_conformance.mutants.mutation import After
 
 KMH = 1 / 3.6
 STEP_S = 0.1
-"""Speed is known in such steps, of the distance from half a second before to half a one after."""
+"""Time step of the speed, which is measured over the second around each instant."""
 STANDING_KMH = 0.5
 
 
@@ -31,11 +31,11 @@ class Drive:
         encoder = recording.channel("distance")
         seen = np.isfinite(encoder.values)
         times = encoder.times_s[seen]
-        told = np.maximum.accumulate(encoder.values[seen])
+        distance = np.maximum.accumulate(encoder.values[seen])
         at = np.arange(times[0] + 0.5, times[-1] - 0.5, STEP_S)
-        speed = np.interp(at + 0.5, times, told) - np.interp(at - 0.5, times, told)
+        speed = np.interp(at + 0.5, times, distance) - np.interp(at - 0.5, times, distance)
         acceleration = np.gradient(speed, STEP_S) / STANDARD_GRAVITY
-        return cls(np.interp(at, times, told), speed / KMH, acceleration)
+        return cls(np.interp(at, times, distance), speed / KMH, acceleration)
 
     @property
     def slowest_kmh(self) -> float:
@@ -54,30 +54,30 @@ class Drive:
 
     @property
     def begins_standing(self) -> bool:
-        """Whether the vehicle stands when the recording begins."""
+        """Whether the vehicle is stationary when the recording begins."""
         return float(self.speed_kmh[0]) < STANDING_KMH
 
     @property
     def is_steady(self) -> bool:
-        """Whether the speed stays within 3 km/h."""
+        """Whether the speed varies by less than 3 km/h."""
         return self.fastest_kmh - self.slowest_kmh < 3.0
 
     @property
     def lost_kmh(self) -> float:
-        """How much slower the drive ends than it begins."""
+        """Speed at the begin of the drive less that at its end."""
         return float(self.speed_kmh[0] - self.speed_kmh[-1])
 
     def slow_s(self, below_kmh: float) -> float:
-        """Return for how long in one go the vehicle is slower than ``below_kmh``.
+        """Return the longest time in s without break in which the speed is below ``below_kmh``.
 
-        An encoder that is silent for a second seems to stand for less than a second.
+        With an encoder that is silent for a second, this time is less than a second.
         """
         return _longest(self.speed_kmh < below_kmh) * STEP_S
 
     def gained_kmh(self, least_g: float, most_g: float, above_kmh: float) -> float:
-        """Return the most speed won in one go between two accelerations and above a speed.
+        """Return the largest gain of speed between two accelerations, above a speed.
 
-        Negative accelerations are decelerations, and what they lose counts alike.
+        Negative accelerations are decelerations; their loss of speed is returned as positive.
         """
         inside = (self.acceleration_g >= least_g) & (self.acceleration_g <= most_g)
         inside &= self.speed_kmh > above_kmh
@@ -87,21 +87,21 @@ class Drive:
 When = Callable[[Drive], bool]
 
 
-def only(when: When, after: After) -> After:
-    """Return ``after`` for drives of which ``when`` holds, nothing wrong for others."""
+def apply_when(when: When, after: After) -> After:
+    """Return ``after`` for the drives for which ``when`` is true; others remain unchanged."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         return after(profile, recording) if when(Drive.of(recording)) else profile
 
-    return spoil
+    return mutate
 
 
 def middle_m(drive: Drive) -> float:
-    """Return where half of ``drive`` is done, in m."""
+    """Return the distance of the middle of ``drive``, in m."""
     return float(drive.distance_m[0] + drive.distance_m[-1]) / 2
 
 
 def _longest(marked: BoolArray) -> int:
-    """Return how many marked values lie in one piece."""
+    """Return the length of the longest run of marked values."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0]))))
     return int(np.max(edges[1::2] - edges[::2], initial=0))

@@ -1,7 +1,7 @@
-"""An engine of its own for mutants that are wrong inside: plain arrays, stages from the SDK.
+"""A separate engine for mutants with an internal error: plain arrays, stages from the SDK.
 
-The elevation alone comes from here; interval, validity and all else are those of the sound
-pipeline whose profile it replaces.
+Only the elevations come from it; interval, validity and everything else are those of the sound
+pipeline.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
 CARRY_EVERY = 4096
-"""Samples after which an integral's carry is kept for the next block."""
+"""Length of a block in samples; an integral's carry goes from one block to the next."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +45,11 @@ class Signals:
 
 
 Elevations = Callable[[Signals, Profile], FloatArray]
-"""What makes the elevation of one wheel path at the points of a sound profile."""
+"""Computes the elevation of one wheel path at the points of a sound profile."""
 
 
-def remade(recording: Recording, sound: Profile, elevations: Elevations) -> Profile:
-    """Return ``sound`` with every elevation that ``elevations`` makes of ``recording``."""
+def replace_elevations(recording: Recording, sound: Profile, elevations: Elevations) -> Profile:
+    """Return ``sound`` with the elevations that ``elevations`` computes from ``recording``."""
     names = {track.name: track for track in sound.tracks}
     tracks = tuple(
         ProfileTrack.of(name, elevations(Signals.of(recording, name), sound), track.valid)
@@ -61,8 +61,8 @@ def remade(recording: Recording, sound: Profile, elevations: Elevations) -> Prof
 def in_time(carry: float = 1.0, backward: bool = True) -> Elevations:
     """Return the adaptive high-pass in time, backward over distance.
 
-    ``carry`` is the share of an integral that is kept every `CARRY_EVERY` samples; without
-    ``backward`` the pass that takes the delay out is missing.
+    ``carry`` is the share of an integral that remains after every `CARRY_EVERY` samples; without
+    ``backward`` the pass that removes the delay is missing.
     """
 
     def elevations(signals: Signals, sound: Profile) -> FloatArray:
@@ -82,7 +82,7 @@ def in_time(carry: float = 1.0, backward: bool = True) -> Elevations:
 
 
 def over_distance(reflection: float = 1.0) -> Elevations:
-    """Return timer distortion with height-sensor reflection, ``reflection`` times as it is."""
+    """Return timer distortion with height-sensor reflection, multiplied by ``reflection``."""
 
     def elevations(signals: Signals, sound: Profile) -> FloatArray:
         at = np.searchsorted(signals.distance, sound.distance_m - 1e-9)
@@ -111,6 +111,6 @@ def _integral(x: FloatArray, step: float | FloatArray, carry: float = 1.0) -> Fl
 
 
 def at_times(times: FloatArray, own: FloatArray, values: FloatArray) -> FloatArray:
-    """Return ``values`` of the instants ``own`` at ``times``, across what is missing."""
+    """Return ``values`` of the times ``own`` at ``times``, interpolated across gaps."""
     seen = np.isfinite(values)
     return np.interp(times, own[seen], values[seen])

@@ -1,7 +1,7 @@
-"""Programs that are wrong on purpose in how they behave, each a process of its own.
+"""Programs that behave badly on purpose, each in its own process.
 
-`python -m floatref_conformance.mutants.hostile NAME` follows the protocol of programs, and what
-it delivers is sound, but for what its entry in `HOSTILE` says.
+`python -m floatref_conformance.mutants.hostile NAME` follows the protocol of programs and
+delivers a sound profile, except for the behaviour that its entry in `HOSTILE` describes.
 """
 
 import json
@@ -18,11 +18,11 @@ from floatref_conformance.devices.executable import ExecDevice
 
 PIPELINE = "temporal-adaptive-hpf-spatial-backward"
 HANG_S = 1.0
-"""Time for a recording that the hanging program gets: it would use up any."""
+"""Time in s for a recording of the hanging program, which never answers."""
 FLOOD_BYTES = 4 << 30
 
 Command = Mapping[str, Any]
-Said = Mapping[str, Any]
+Answer = Mapping[str, Any]
 
 
 class Hostile(NamedTuple):
@@ -34,7 +34,7 @@ class Hostile(NamedTuple):
 
 
 def hostile_device(name: str) -> ExecDevice:
-    """Return the device of hostile program ``name``; InputError if there is none."""
+    """Return the device of hostile program ``name``; InputError if it is unknown."""
     for hostile in HOSTILE:
         if hostile.name == name:
             return ExecDevice(hostile.argv, Path.cwd(), HANG_S if name == "hang" else None)
@@ -43,7 +43,7 @@ def hostile_device(name: str) -> ExecDevice:
 
 
 def main(name: str) -> None:
-    """Follow the protocol but for what is wrong with ``name``."""
+    """Follow the protocol, with the wrong behaviour of ``name``."""
     if name == "exit-at-start":
         sys.exit(3)
     wrong, _ = BEHAVIOUR[name]
@@ -51,37 +51,37 @@ def main(name: str) -> None:
         command = json.loads(line)
         if command["cmd"] == "stop":
             return
-        _tell(_described(command) if command["cmd"] == "start" else wrong(command))
+        _print_answer(_describe(command) if command["cmd"] == "start" else wrong(command))
 
 
-def _described(command: Command) -> Said:
-    said = {"name": "hostile", "version": "1", "architecture": "temporal", "capabilities": []}
-    return {"seq": command["seq"], "version": 1, "device": said}
+def _describe(command: Command) -> Answer:
+    device = {"name": "hostile", "version": "1", "architecture": "temporal", "capabilities": []}
+    return {"seq": command["seq"], "version": 1, "device": device}
 
 
-def _tell(said: Said | str) -> None:
-    print(said if isinstance(said, str) else json.dumps(said), flush=True)
+def _print_answer(answer: Answer | str) -> None:
+    print(answer if isinstance(answer, str) else json.dumps(answer), flush=True)
 
 
-def _sound(command: Command) -> Said:
+def _sound(command: Command) -> Answer:
     from floatref_conformance.devices.builtin import BuiltinDevice
 
     BuiltinDevice(PIPELINE).run(Path(command["recording"]), Path(command["profile"]))
     return {"seq": command["seq"], "ok": True}
 
 
-def _hang(command: Command) -> Said:
+def _hang(command: Command) -> Answer:
     while True:
         time.sleep(3600.0)
 
 
-def _crash(command: Command) -> Said:
+def _crash(command: Command) -> Answer:
     print("out of luck", file=sys.stderr, flush=True)
     os.kill(os.getpid(), signal.SIGTERM)
     return _hang(command)
 
 
-def _flood(command: Command) -> Said:
+def _flood(command: Command) -> Answer:
     for _ in range(FLOOD_BYTES >> 16):
         sys.stdout.write("x" * (1 << 16))
     return _sound(command)
@@ -92,7 +92,7 @@ def _garbage(command: Command) -> str:
     return "Processing finished, 0 errors"
 
 
-def _out_of_order(command: Command) -> Said:
+def _out_of_order(command: Command) -> Answer:
     return {**_sound(command), "seq": command["seq"] - 1}
 
 
@@ -101,11 +101,11 @@ def _not_a_number(command: Command) -> str:
     return f'{{"seq": {command["seq"]}, "ok": true, "elapsed_s": NaN}}'
 
 
-def _nothing(command: Command) -> Said:
+def _nothing(command: Command) -> Answer:
     return {"seq": command["seq"], "ok": True}
 
 
-def _elsewhere(command: Command) -> Said:
+def _elsewhere(command: Command) -> Answer:
     profile = Path(command["profile"])
     elsewhere = profile.with_name("elsewhere")
     answer = _sound({**command, "profile": str(elsewhere)})
@@ -113,15 +113,15 @@ def _elsewhere(command: Command) -> Said:
     return answer
 
 
-BEHAVIOUR: Mapping[str, tuple[Callable[[Command], Said | str], str]] = {
-    "exit-at-start": (_sound, "exits before it has said what it is"),
+BEHAVIOUR: Mapping[str, tuple[Callable[[Command], Answer | str], str]] = {
+    "exit-at-start": (_sound, "exits before it has described itself"),
     "hang": (_hang, "never answers"),
     "crash": (_crash, "dies in the middle of a run"),
     "flood": (_flood, "writes gigabytes to standard output"),
     "garbage": (_garbage, "answers in prose"),
     "out-of-order": (_out_of_order, "answers with the number of another command"),
     "nan-answer": (_not_a_number, "answers with a number that JSON does not have"),
-    "nothing-delivered": (_nothing, "says that all is well and delivers nothing"),
+    "nothing-delivered": (_nothing, "answers ok and delivers nothing"),
     "delivered-elsewhere": (_elsewhere, "delivers a symbolic link to a profile elsewhere"),
 }
 HOSTILE = tuple(

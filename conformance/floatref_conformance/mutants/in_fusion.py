@@ -1,4 +1,4 @@
-"""What a profiler with an inertial unit and a GNSS receiver can get wrong."""
+"""Errors of a profiler with an inertial unit and a GNSS receiver."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ from floatref_conformance.mutants.mutation import AUGMENTED, After, Mutation
 ANGLES = ("gnss_pitch", "gnss_roll")
 FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_specific_force")
 SMOOTH = 9
-"""The angles are means over so many readings: noise of a receiver is not what is wrong."""
+"""Number of readings over which the angles are averaged, to remove the receiver's noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,28 +36,28 @@ class Attitude:
 
 
 Wrong = Callable[[Attitude], Attitude]
-"""Returns what is taken for an attitude."""
+"""Returns the wrong attitude for a true one."""
 
 
-def misled(wrong: Wrong) -> After:
-    """Return what adds to every elevation what an attitude taken for a ``wrong`` one brings.
+def add_tilt_error(wrong: Wrong) -> After:
+    """Return a mutation that adds the elevation error of a ``wrong`` attitude.
 
-    The false acceleration goes the way of one that is measured; drifts are suppressed alike.
+    The false acceleration is processed like a measured one; its drift is suppressed too.
     """
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
+    def mutate(profile: Profile, recording: Recording) -> Profile:
         tracks = tuple(
             ProfileTrack.of(
-                t.name, t.elevation + _false(recording, t.name, profile, wrong), t.valid
+                t.name, t.elevation + _tilt_elevation(recording, t.name, profile, wrong), t.valid
             )
             for t in profile.tracks
         )
         return replace(profile, tracks=tracks)
 
-    return spoil
+    return mutate
 
 
-def _false(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> FloatArray:
+def _tilt_elevation(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> FloatArray:
     signals = Signals.of(recording, track)
     channels = [recording.channel(name, track) for name in FORCES]
     times = channels[-1].times_s
@@ -69,7 +69,7 @@ def _false(recording: Recording, track: str, sound: Profile, wrong: Wrong) -> Fl
 
 
 def _attitude(recording: Recording, times: FloatArray) -> Attitude:
-    """Return the attitude that the receiver tells; a receiver that is silent has a level one."""
+    """Return the attitude measured by the receiver; level while it is silent."""
     weights = np.full(SMOOTH, 1.0 / SMOOTH)
     rows = []
     for channel in (recording.channel(name) for name in ANGLES):
@@ -84,20 +84,20 @@ LOST_S = 1.0
 """A receiver without a fix for longer than this has an outage."""
 
 
-def _nose_up(told: Attitude) -> Attitude:
-    return Attitude(-told.pitch, told.roll)
+def _invert_pitch(true: Attitude) -> Attitude:
+    return Attitude(-true.pitch, true.roll)
 
 
-def _in_degrees(told: Attitude) -> Attitude:
-    turned = (angle[0] + np.degrees(angle - angle[0]) for angle in (told.pitch, told.roll))
+def _read_degrees(true: Attitude) -> Attitude:
+    turned = (angle[0] + np.degrees(angle - angle[0]) for angle in (true.pitch, true.roll))
     return Attitude(*turned)
 
 
-def _swapped(told: Attitude) -> Attitude:
-    return Attitude(told.roll, told.pitch)
+def _swap(true: Attitude) -> Attitude:
+    return Attitude(true.roll, true.pitch)
 
 
-def _stepping(profile: Profile, recording: Recording) -> Profile:
+def _step_after_outage(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with a step of 20 mm, high-pass filtered, where each outage ends."""
     quality = recording.channel("gnss_quality")
     times = quality.times_s[quality.values == 4.0]
@@ -106,7 +106,9 @@ def _stepping(profile: Profile, recording: Recording) -> Profile:
     seen = np.isfinite(encoder.values)
     ends_m = np.interp(ends_s, encoder.times_s[seen], encoder.values[seen])
     step = 0.02 * np.sum(profile.distance_m[:, None] > ends_m[None, :], axis=1)
-    return p.elevation(lambda z, made: z + high_pass(step, made.interval_m))(profile, recording)
+    return p.change_elevation(lambda z, made: z + high_pass(step, made.interval_m))(
+        profile, recording
+    )
 
 
 IN_FUSION = (
@@ -114,29 +116,29 @@ IN_FUSION = (
         "pitch-sign",
         "takes nose up for nose down",
         ("braking", "near-stop", "stop"),
-        after=misled(_nose_up),
+        after=add_tilt_error(_invert_pitch),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "rates-in-degrees",
         "takes deg/s for rad/s",
         ("braking", "near-stop", "stop"),
-        after=misled(_in_degrees),
+        after=add_tilt_error(_read_degrees),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "rates-swapped",
         "takes roll for pitch and pitch for roll",
         ("braking", "near-stop"),
-        after=misled(_swapped),
+        after=add_tilt_error(_swap),
         pipeline=AUGMENTED,
     ),
     Mutation(
         "steps-after-an-outage",
         "steps by 20 mm when the receiver is back",
         ("faults",),
-        after=_stepping,
+        after=_step_after_outage,
         pipeline=AUGMENTED,
     ),
 )
-"""What is wrong where several sensors are put together."""
+"""Mutations of the fusion of several sensors."""

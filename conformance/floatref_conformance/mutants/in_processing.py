@@ -1,4 +1,4 @@
-"""Stages that are missing or wrong, and vehicles known wrongly."""
+"""Missing or wrong stages, and wrong parameters of the vehicle."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,7 +12,7 @@ from floatref_conformance.mutants.engine import (
     Signals,
     in_time,
     over_distance,
-    remade,
+    replace_elevations,
 )
 from floatref_conformance.mutants.mutation import (
     RESPONSE,
@@ -24,20 +24,22 @@ from floatref_conformance.mutants.mutation import (
 )
 
 
-def _as_read(signals: Signals) -> Signals:
+def _unchanged(signals: Signals) -> Signals:
     return signals
 
 
-def _by(elevations: Elevations, change: Callable[[Signals], Signals] = _as_read) -> After:
-    """Return what puts the engine's elevations in place, of signals spoilt by ``change``."""
+def _use_engine(elevations: Elevations, change: Callable[[Signals], Signals] = _unchanged) -> After:
+    """Return a mutation with the engine's elevations of signals that ``change`` has changed."""
 
-    def spoil(profile: Profile, recording: Recording) -> Profile:
-        return remade(recording, profile, lambda signals, sound: elevations(change(signals), sound))
+    def mutate(profile: Profile, recording: Recording) -> Profile:
+        return replace_elevations(
+            recording, profile, lambda signals, sound: elevations(change(signals), sound)
+        )
 
-    return spoil
+    return mutate
 
 
-def _gravity_kept(signals: Signals) -> Signals:
+def _keep_gravity(signals: Signals) -> Signals:
     return replace(signals, acceleration=signals.acceleration + STANDARD_GRAVITY)
 
 
@@ -48,7 +50,7 @@ def _height_in_mm(signals: Signals) -> Signals:
 IN_PROCESSING = (
     Mutation(
         "gravity-kept",
-        "does not take gravity from the acceleration",
+        "does not subtract gravity from the acceleration",
         (
             "constant-speed",
             "coasting",
@@ -59,35 +61,35 @@ IN_PROCESSING = (
             "waveband",
             "faults",
         ),
-        after=_by(in_time(), _gravity_kept),
+        after=_use_engine(in_time(), _keep_gravity),
     ),
     Mutation(
         "height-in-mm",
         "takes heights in mm for m",
         all_but("low-speed"),
-        after=_by(in_time(), _height_in_mm),
+        after=_use_engine(in_time(), _height_in_mm),
     ),
     Mutation(
         "tilt-ignored",
-        "does nothing against what tilt under braking adds to the acceleration",
+        "does not suppress the acceleration that tilt adds under braking",
         ("throttle", "braking", "near-stop", "stop", "invariance"),
         pipeline="temporal-basic",
     ),
     Mutation(
         "reverse-pass-missing",
-        "leaves out the pass that takes the filter's delay out",
+        "leaves out the pass that removes the filter's delay",
         ("waveband", "faults"),
-        after=_by(in_time(backward=False)),
+        after=_use_engine(in_time(backward=False)),
     ),
     Mutation(
         "cut-off-long",
-        "filters 10 % too far up in wavelength",
+        "filters at a cut-off wavelength 10 % too long",
         ("waveband",),
         settings={"cutoff_wavelength_m": 1.1 * 105.91},
     ),
     Mutation(
         "cut-off-short",
-        "filters 10 % too far down in wavelength",
+        "filters at a cut-off wavelength 10 % too short",
         ("waveband",),
         settings={"cutoff_wavelength_m": 0.9 * 105.91},
     ),
@@ -95,54 +97,54 @@ IN_PROCESSING = (
         "carry-leaking",
         "keeps 0.9 of an integral from one block of 4096 samples to the next",
         all_but("quiescent", "low-speed", "coasting"),
-        after=_by(in_time(carry=0.9)),
+        after=_use_engine(in_time(carry=0.9)),
     ),
     Mutation(
         "reflection-sign",
         "reflects the height sensor with the wrong sign",
         ("stop", "faults"),
-        after=_by(over_distance(reflection=-1.0)),
+        after=_use_engine(over_distance(reflection=-1.0)),
         pipeline=SPATIAL,
     ),
     Mutation(
         "stop-uncontained",
-        "integrates over distance through a stop as if it took no time limit",
+        "integrates over distance through a stop without a limit of time",
         ("throttle", "braking", "near-stop", "stop", "dead-start", "invariance", "faults"),
         pipeline="spatial-basic",
     ),
 )
-"""What is wrong inside."""
+"""Mutations with an internal error."""
 
 
 STIFF = 100.0
-"""A tyre so many times as stiff hardly deflects."""
+"""Factor of the tyre's stiffness; such a tyre hardly deflects."""
 LIGHT = 0.5
-"""Share of its parameters that the vehicle of another fleet has."""
+"""Factor of a parameter of the vehicle."""
 
 
-def _knowing(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
-    """Return what changes the vehicle that a recording knows of."""
+def _change_vehicle(change: Callable[[VehicleSetup], VehicleSetup]) -> Before:
+    """Return a mutation that changes the vehicle in the setup of a recording."""
 
-    def spoil(recording: Recording) -> Recording:
+    def mutate(recording: Recording) -> Recording:
         vehicle = recording.setup.vehicle
         if vehicle is None:
             return recording
         return replace(recording, setup=replace(recording.setup, vehicle=change(vehicle)))
 
-    return spoil
+    return mutate
 
 
-def _stiff(vehicle: VehicleSetup) -> VehicleSetup:
+def _stiffen_tyre(vehicle: VehicleSetup) -> VehicleSetup:
     tyre = STIFF * vehicle.parameters["tyre_n_per_m"]
     return replace(vehicle, parameters={**vehicle.parameters, "tyre_n_per_m": tyre})
 
 
-def _unsprung_halved(vehicle: VehicleSetup) -> VehicleSetup:
+def _halve_unsprung(vehicle: VehicleSetup) -> VehicleSetup:
     wheel = LIGHT * vehicle.parameters["unsprung_kg"]
     return replace(vehicle, parameters={**vehicle.parameters, "unsprung_kg": wheel})
 
 
-def _at_the_origin(vehicle: VehicleSetup) -> VehicleSetup:
+def _move_to_origin(vehicle: VehicleSetup) -> VehicleSetup:
     return replace(vehicle, x_m=0.0)
 
 
@@ -151,22 +153,22 @@ IN_RESPONSE = (
         "tyre-forgotten",
         "takes the path of the wheel for the road: the tyre does not deflect",
         ("constant-speed", "invariance"),
-        _knowing(_stiff),
+        _change_vehicle(_stiffen_tyre),
         pipeline=RESPONSE,
     ),
     Mutation(
         "wheel-place-forgotten",
-        "takes the wheel to be at the point that all offsets are from",
+        "takes the wheel to be at the origin of all offsets",
         ("distance", "invariance"),
-        _knowing(_at_the_origin),
+        _change_vehicle(_move_to_origin),
         pipeline=RESPONSE,
     ),
     Mutation(
         "wheel-mass-halved",
         "takes half the mass of wheel and axle",
         ("constant-speed", "invariance"),
-        _knowing(_unsprung_halved),
+        _change_vehicle(_halve_unsprung),
         pipeline=RESPONSE,
     ),
 )
-"""What is wrong with what is known of the vehicle."""
+"""Mutations of the vehicle's parameters."""

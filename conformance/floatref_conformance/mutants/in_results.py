@@ -1,4 +1,4 @@
-"""Profiles changed on their way out: shape, place, flags, or an older result."""
+"""Mutations of the delivered profile: shape, place, flags, or an older result."""
 
 from dataclasses import replace
 
@@ -12,14 +12,14 @@ from floatref_conformance.mutants.drive_conditions import middle_m
 from floatref_conformance.mutants.mutation import Mutation, all_but
 
 BEGINNING = 2000
-"""So many samples of every channel tell whether two recordings begin alike."""
+"""Number of first samples by which two recordings are compared."""
 
 
 class Repeated:
-    """Delivers the profile before when a recording begins like the one before.
+    """Delivers the previous profile if a recording begins like the previous one.
 
-    It lies over the distances of the new recording: what the vehicle passed at the same time has
-    the same elevation, whatever became of the sensors since.
+    The profile is moved to the distances of the new recording: points that the vehicle passes at
+    the same time have the same elevation.
     """
 
     def __init__(self) -> None:
@@ -27,9 +27,9 @@ class Repeated:
         self.kept: tuple[Profile, Recording] | None = None
 
     def __call__(self, profile: Profile, recording: Recording) -> Profile:
-        """Return what was kept if ``recording`` begins alike, else keep ``profile``."""
+        """Return the stored profile if ``recording`` begins alike, else store ``profile``."""
         if self.kept is not None and _begin_alike(self.kept[1], recording):
-            return _moved_over(*self.kept, profile, recording)
+            return _move_over(*self.kept, profile, recording)
         self.kept = profile, recording
         return profile
 
@@ -41,13 +41,11 @@ def _begin_alike(one: Recording, other: Recording) -> bool:
     )
 
 
-def _moved_over(
-    kept: Profile, before: Recording, profile: Profile, recording: Recording
-) -> Profile:
+def _move_over(kept: Profile, before: Recording, profile: Profile, recording: Recording) -> Profile:
     """Return ``kept``, made of ``before``, on the points of ``profile``, made of ``recording``."""
-    times, told = _travel(recording)
-    told, first = np.unique(told, return_index=True)
-    passed_s = np.interp(profile.distance_m, told, times[first])
+    times, travelled = _travel(recording)
+    travelled, first = np.unique(travelled, return_index=True)
+    passed_s = np.interp(profile.distance_m, travelled, times[first])
     places_m = np.interp(passed_s, *_travel(before))
 
     def move(track: ProfileTrack) -> ProfileTrack:
@@ -59,7 +57,7 @@ def _moved_over(
 
 
 def _travel(recording: Recording) -> tuple[FloatArray, FloatArray]:
-    """Return times from the beginning in s and the farthest distance told by then in m."""
+    """Return times from the beginning in s, and the largest encoder reading so far in m."""
     encoder = recording.channel("distance")
     seen = np.isfinite(encoder.values)
     farthest = np.maximum.accumulate(encoder.values[seen])
@@ -67,77 +65,77 @@ def _travel(recording: Recording) -> tuple[FloatArray, FloatArray]:
 
 
 IN_RESULTS = (
-    Mutation("all-zeros", "delivers a flat profile", all_but("low-speed"), after=p.scaled(0.0)),
+    Mutation("all-zeros", "delivers a flat profile", all_but("low-speed"), after=p.scale(0.0)),
     Mutation(
         "upside-down",
         "delivers the profile upside down",
         all_but("low-speed", "faults"),
-        after=p.scaled(-1.0),
+        after=p.scale(-1.0),
     ),
-    Mutation("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scaled(0.8)),
-    Mutation("in-mm", "delivers mm for m", all_but("low-speed"), after=p.scaled(1000.0)),
-    Mutation("in-feet", "delivers feet for m", all_but("low-speed"), after=p.scaled(1 / 0.3048)),
+    Mutation("scaled", "delivers 0.8 of the profile", all_but("low-speed"), after=p.scale(0.8)),
+    Mutation("in-mm", "delivers mm for m", all_but("low-speed"), after=p.scale(1000.0)),
+    Mutation("in-feet", "delivers feet for m", all_but("low-speed"), after=p.scale(1 / 0.3048)),
     Mutation(
         "over-smoothed",
         "averages the profile over 2 m",
         all_but("low-speed"),
-        after=p.averaged(2.0),
+        after=p.average(2.0),
     ),
     Mutation(
         "staircase",
         "holds each elevation for 0.5 m",
         all_but("low-speed", "throttle", "braking", "stop"),
-        after=p.in_steps(0.5),
+        after=p.hold_in_steps(0.5),
     ),
     Mutation(
-        "coarse", "delivers whole millimetres", ("waveband", "invariance"), after=p.rounded(0.001)
+        "coarse", "delivers whole millimetres", ("waveband", "invariance"), after=p.round_to(0.001)
     ),
     Mutation(
         "noisy-where-flat",
         "adds noise of 0.07 m/km to a flat profile",
         ("quiescent",),
-        after=p.noisy_where_flat(0.00008),
+        after=p.add_noise_where_flat(0.00008),
     ),
     Mutation(
         "motion-where-flat",
         "lets 1 % of the body's motion into a flat profile",
         ("bounce",),
-        after=p.moved_where_flat(0.01),
+        after=p.add_motion_where_flat(0.01),
     ),
     Mutation(
         "displaced",
         "delivers every feature 0.3 m late",
         ("quiescent", "bounce", "waveband", "distance"),
-        after=p.moved(0.3),
+        after=p.move(0.3),
     ),
     Mutation(
         "stretched",
         "makes distances 0.3 % too long",
         ("quiescent", "bounce", "waveband", "distance", "invariance"),
-        after=p.stretched(0.003),
+        after=p.stretch(0.003),
     ),
     Mutation(
         "backwards",
         "delivers the last point first",
         all_but("low-speed", "faults"),
-        after=p.backwards,
+        after=p.reverse,
     ),
     Mutation(
         "swapped-tracks",
         "delivers left as right, right as left",
         all_but("low-speed", "invariance"),
-        after=p.swapped,
+        after=p.swap_tracks,
     ),
     Mutation(
         "tracks-alike",
         "delivers the mean of all wheel paths in each",
         all_but("low-speed", "invariance"),
-        after=p.alike,
+        after=p.average_tracks,
     ),
-    Mutation("previous-result", "delivers the profile before", all_but(), after=p.Previous()),
+    Mutation("previous-result", "delivers the previous profile", all_but(), after=p.Previous()),
     Mutation(
         "repeated-result",
-        "delivers the profile before when a recording begins like the one before",
+        "delivers the previous profile if a recording begins like the previous one",
         ("faults",),
         after=Repeated(),
     ),
@@ -145,18 +143,18 @@ IN_RESULTS = (
         "nan-at-the-end",
         "leaves out the last 120 m",
         all_but("low-speed", "waveband"),
-        after=p.missing_at_the_end(120.0),
+        after=p.drop_end(120.0),
     ),
-    Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.beginning_late(5.0)),
+    Mutation("begins-late", "leaves out the first 5 m", all_but(), after=p.drop_start(5.0)),
     Mutation(
         "vouches-always",
-        "says of every point that it is valid",
+        "marks every point valid",
         ("low-speed", "near-stop", "stop", "faults"),
-        after=p.vouched,
+        after=p.mark_valid,
     ),
     Mutation(
         "vouches-never",
-        "says of no point that it is valid",
+        "marks no point valid",
         (
             "constant-speed",
             "coasting",
@@ -167,19 +165,19 @@ IN_RESULTS = (
             "dead-start",
             "faults",
         ),
-        after=p.flagged,
+        after=p.flag_all,
     ),
     Mutation(
         "middle-flagged",
         "flags 124 m in the middle of every run",
         ("constant-speed", "braking", "near-stop", "stop", "dead-start", "faults"),
-        after=p.flagged_around(middle_m, 124.0),
+        after=p.flag_around(middle_m, 124.0),
     ),
     Mutation(
         "held-at-the-stop",
-        "holds the elevation 20 m to either side of the slowest point, and vouches for it",
+        "holds the elevation 20 m to either side of the slowest point, and marks it valid",
         all_but("dead-start", "distance"),
-        after=p.held_at_the_slowest(20.0),
+        after=p.hold_at_slowest(20.0),
     ),
 )
-"""What is wrong with all that is delivered."""
+"""Mutations of all delivered profiles."""

@@ -1,4 +1,4 @@
-"""Sensors read wrongly: signs, scales, units, delays, samples that are lost."""
+"""Wrong readings of sensors: signs, scales, units, delays, lost samples."""
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.mutants import recordings as r
@@ -11,104 +11,110 @@ IN_SENSORS = (
         "accelerometer-sign",
         "takes upward acceleration for downward",
         all_but("quiescent", "low-speed"),
-        r.changed(r.FORCE, r.upside_down),
+        r.change_channel(r.FORCE, r.invert_acceleration),
     ),
     Mutation(
         "laser-sign",
         "takes a longer range for a higher road",
         all_but("low-speed"),
-        r.changed(r.HEIGHT, r.mirrored),
+        r.change_channel(r.HEIGHT, r.mirror),
     ),
     Mutation(
         "accelerometer-high",
         "reads accelerations 1 % too large",
         ("bounce", "waveband"),
-        r.changed(r.FORCE, r.shaken(1.01)),
+        r.change_channel(r.FORCE, r.scale_acceleration(1.01)),
     ),
     Mutation(
         "accelerometer-low",
         "reads accelerations 1 % too small",
         ("bounce", "waveband"),
-        r.changed(r.FORCE, r.shaken(0.99)),
+        r.change_channel(r.FORCE, r.scale_acceleration(0.99)),
     ),
     Mutation(
         "laser-high",
         "reads heights 1 % too large",
         ("bounce", "waveband"),
-        r.changed(r.HEIGHT, r.scaled(1.01)),
+        r.change_channel(r.HEIGHT, r.scale(1.01)),
     ),
     Mutation(
         "laser-low",
         "reads heights 1 % too small",
         ("bounce", "waveband"),
-        r.changed(r.HEIGHT, r.scaled(0.99)),
+        r.change_channel(r.HEIGHT, r.scale(0.99)),
     ),
     Mutation(
         "late-laser",
         "reads the laser 2 ms late",
         ("bounce", "waveband", "distance"),
-        r.changed(r.HEIGHT, r.late(0.002)),
+        r.change_channel(r.HEIGHT, r.delay_by(0.002)),
     ),
     Mutation(
         "late-accelerometer",
         "reads the accelerometer 2 ms late",
         ("bounce", "waveband"),
-        r.changed(r.FORCE, r.late(0.002)),
+        r.change_channel(r.FORCE, r.delay_by(0.002)),
     ),
     Mutation(
         "height-only",
         "ignores the accelerometer",
         all_but("quiescent", "low-speed"),
-        r.changed(r.FORCE, r.at_rest),
+        r.change_channel(r.FORCE, r.replace_by_rest),
     ),
     Mutation(
-        "accelerometer-only", "ignores the laser", all_but("low-speed"), r.changed(r.HEIGHT, r.held)
+        "accelerometer-only",
+        "ignores the laser",
+        all_but("low-speed"),
+        r.change_channel(r.HEIGHT, r.hold_first),
     ),
     Mutation(
         "force-in-g",
         "takes accelerations in g for m/s²",
         all_but("quiescent", "low-speed"),
-        r.changed(r.FORCE, r.shaken(1 / STANDARD_GRAVITY)),
+        r.change_channel(r.FORCE, r.scale_acceleration(1 / STANDARD_GRAVITY)),
     ),
     Mutation(
         "height-in-feet",
         "takes heights in feet for m",
         all_but("low-speed"),
-        r.changed(r.HEIGHT, r.scaled(1 / FOOT_M)),
+        r.change_channel(r.HEIGHT, r.scale(1 / FOOT_M)),
     ),
     Mutation(
         "distance-in-feet",
         "takes distances in feet for m",
         all_but(),
-        r.changed(r.DISTANCE, r.scaled(1 / FOOT_M)),
+        r.change_channel(r.DISTANCE, r.scale(1 / FOOT_M)),
     ),
     Mutation(
         "sample-lost",
         "loses one of 4096 samples of the accelerometer",
         ("bounce", "dead-start", "waveband", "repeatability", "invariance"),
-        r.changed(r.FORCE, r.losing(4096)),
+        r.change_channel(r.FORCE, r.lose_samples(4096)),
     ),
     Mutation(
         "accelerometer-clipped",
         "clips accelerations at 0.5 g",
         ("bounce", "stop"),
-        r.changed(r.FORCE, r.clipped(0.5 * STANDARD_GRAVITY)),
+        r.change_channel(r.FORCE, r.clip(0.5 * STANDARD_GRAVITY)),
     ),
-    Mutation(
-        "time-rounded", "keeps times in single precision", ("invariance",), r.in_single_precision
-    ),
+    Mutation("time-rounded", "stores times in single precision", ("invariance",), r.round_times),
     Mutation(
         "missing-height-zero",
         "takes a missing height for 0",
         ("faults",),
-        r.changed(r.HEIGHT, r.missing_as(0.0)),
+        r.change_channel(r.HEIGHT, r.fill_missing(0.0)),
     ),
     Mutation(
         "missing-force-zero",
         "takes a missing acceleration for 0",
         ("faults",),
-        r.changed(r.FORCE, r.missing_as(0.0)),
+        r.change_channel(r.FORCE, r.fill_missing(0.0)),
     ),
-    Mutation("gaps-vouched", "bridges what is missing and vouches for it", ("faults",), r.bridged),
+    Mutation(
+        "gaps-vouched",
+        "bridges gaps and marks them valid",
+        ("faults",),
+        r.bridge_missing,
+    ),
 )
-"""What is wrong before anything is processed."""
+"""Mutations of the recording."""

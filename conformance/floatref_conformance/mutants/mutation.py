@@ -1,4 +1,4 @@
-"""One mistake: what is wrong before a sound pipeline, in its settings, or after it."""
+"""A mutation: one error before a sound pipeline, in its settings, or after it."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -14,44 +14,44 @@ AUGMENTED = "kalman-smoother-reflection"
 RESPONSE = "response-observer"
 
 Before = Callable[[Recording], Recording]
-"""Spoils a recording."""
+"""Mutates a recording."""
 After = Callable[[Profile, Recording], Profile]
-"""Spoils the profile that was made of a recording."""
+"""Mutates the profile that was made of a recording."""
 
 
-def recording_as_it_is(recording: Recording) -> Recording:
+def keep_recording(recording: Recording) -> Recording:
     """Return ``recording``."""
     return recording
 
 
-def profile_as_it_is(profile: Profile, recording: Recording) -> Profile:
+def keep_profile(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile``."""
     return profile
 
 
 def all_but(*ids: str) -> tuple[str, ...]:
-    """Return the ids of all checks of the suite but ``ids``, in their order."""
+    """Return the ids of all checks of the suite except ``ids``, in their order."""
     return tuple(id_ for id_ in IDS if id_ not in ids)
 
 
 @dataclass(frozen=True)
 class Mutation:
-    """One thing that is wrong with a device.
+    """One error of a device.
 
     Attributes:
         name: of the device.
-        wrong: what is wrong, in one line.
+        wrong: description of the error, in one line.
         fails: ids of the checks that must fail it.
-        before: spoils what the pipeline is given.
-        after: spoils what it makes of that; it is shown what was recorded, unspoilt.
-        pipeline: of floatref.
+        before: mutates the recording that the pipeline gets.
+        after: mutates the pipeline's profile; it also gets the original recording.
+        pipeline: the sound pipeline of floatref.
         settings: of the pipeline.
     """
 
     name: str
     wrong: str
     fails: tuple[str, ...]
-    before: Before = recording_as_it_is
-    after: After = profile_as_it_is
+    before: Before = keep_recording
+    after: After = keep_profile
     pipeline: str = RECOMMENDED
     settings: Mapping[str, Any] = field(default_factory=dict)

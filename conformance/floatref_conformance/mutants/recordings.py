@@ -1,4 +1,4 @@
-"""What spoils a recording before it is processed."""
+"""Mutations of a recording before it is processed."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,22 +15,22 @@ JITTER = 0.0005
 Change = Callable[[Channel], FloatArray]
 
 
-def changed(name: str, change: Change) -> Before:
-    """Return what puts ``change`` of it in place of every channel ``name`` of a recording."""
+def change_channel(name: str, change: Change) -> Before:
+    """Return a mutation that applies ``change`` to every channel ``name``."""
 
-    def spoil(recording: Recording) -> Recording:
-        return _each(recording, lambda c: _with(c, change(c)) if c.id.name == name else c)
+    def mutate(recording: Recording) -> Recording:
+        return _each(recording, lambda c: _replace_values(c, change(c)) if c.id.name == name else c)
 
-    return spoil
+    return mutate
 
 
-def at_rest(channel: Channel) -> FloatArray:
-    """Return 1 g for every sample, to rounding: constant samples would be refused."""
+def replace_by_rest(channel: Channel) -> FloatArray:
+    """Return 1 g for every sample, with a tiny ripple: constant samples would be refused."""
     return _ripple(STANDARD_GRAVITY, channel)
 
 
-def held(channel: Channel) -> FloatArray:
-    """Return the first sample for every sample, to rounding: constant ones would be found."""
+def hold_first(channel: Channel) -> FloatArray:
+    """Return the first sample for all, with a tiny ripple: constant ones would be detected."""
     return _ripple(float(channel.values[0]), channel)
 
 
@@ -40,38 +40,38 @@ def _ripple(level: float, channel: Channel) -> FloatArray:
     return values
 
 
-def mirrored(channel: Channel) -> FloatArray:
-    """Return the samples with the sign of every change turned."""
+def mirror(channel: Channel) -> FloatArray:
+    """Return the samples with the sign of every change inverted."""
     return np.asarray(2.0 * channel.values[0] - channel.values)
 
 
-def upside_down(channel: Channel) -> FloatArray:
-    """Return the accelerations with their sign turned, gravity as it was."""
+def invert_acceleration(channel: Channel) -> FloatArray:
+    """Return the accelerations with inverted sign; gravity does not change."""
     return np.asarray(2.0 * STANDARD_GRAVITY - channel.values)
 
 
-def scaled(gain: float) -> Change:
-    """Return what multiplies a channel by ``gain``."""
+def scale(gain: float) -> Change:
+    """Return a change that multiplies a channel by ``gain``."""
     return lambda channel: np.asarray(gain * channel.values)
 
 
-def shaken(gain: float) -> Change:
-    """Return what multiplies the acceleration by ``gain`` and leaves gravity as it is."""
+def scale_acceleration(gain: float) -> Change:
+    """Return a change that multiplies the acceleration by ``gain``, but not gravity."""
     return lambda c: STANDARD_GRAVITY + gain * (c.values - STANDARD_GRAVITY)
 
 
-def raised(offset: float) -> Change:
-    """Return what adds ``offset`` to a channel, in its unit."""
+def add_offset(offset: float) -> Change:
+    """Return a change that adds ``offset`` to a channel, in its unit."""
     return lambda channel: np.asarray(channel.values + offset)
 
 
-def clipped(reach: float) -> Change:
-    """Return what keeps an accelerometer within ``reach`` in m/s² of 1 g."""
+def clip(reach: float) -> Change:
+    """Return a change that limits an accelerometer to 1 g ± ``reach``, in m/s²."""
     return lambda c: np.clip(c.values, STANDARD_GRAVITY - reach, STANDARD_GRAVITY + reach)
 
 
-def late(delay_s: float) -> Change:
-    """Return what makes a channel ``delay_s`` late; the first sample is held before it."""
+def delay_by(delay_s: float) -> Change:
+    """Return a change that delays a channel by ``delay_s``; it begins with its first sample."""
 
     def delay(channel: Channel) -> FloatArray:
         times = channel.times_s
@@ -80,8 +80,8 @@ def late(delay_s: float) -> Change:
     return delay
 
 
-def losing(every: int) -> Change:
-    """Return what loses one of ``every`` samples, so that the rest lie ever farther ahead."""
+def lose_samples(every: int) -> Change:
+    """Return a change that loses one of ``every`` samples; later samples move forward."""
 
     def lose(channel: Channel) -> FloatArray:
         index = np.arange(channel.values.size)
@@ -91,10 +91,10 @@ def losing(every: int) -> Change:
     return lose
 
 
-def missing_as(value: float) -> Change:
-    """Return what takes ``value``, and the next sample `JITTER` more, for what is missing.
+def fill_missing(value: float) -> Change:
+    """Return a change that replaces missing samples by ``value`` and ``value`` + `JITTER` in turn.
 
-    Samples that do not change would be found out as those of a sensor that is stuck.
+    Constant samples would be detected as those of a stuck sensor.
     """
 
     def fill(channel: Channel) -> FloatArray:
@@ -104,25 +104,25 @@ def missing_as(value: float) -> Change:
     return fill
 
 
-def bridged(recording: Recording) -> Recording:
-    """Return ``recording`` with straight lines across what is missing, as if it were measured."""
+def bridge_missing(recording: Recording) -> Recording:
+    """Return ``recording`` with straight lines in place of missing samples."""
 
     def bridge(channel: Channel) -> Channel:
         seen = np.flatnonzero(np.isfinite(channel.values))
         index = np.arange(channel.values.size)
-        return _with(channel, np.interp(index, seen, channel.values[seen]))
+        return _replace_values(channel, np.interp(index, seen, channel.values[seen]))
 
     return _each(recording, bridge)
 
 
-def in_single_precision(recording: Recording) -> Recording:
-    """Return ``recording`` with the samples of times that are rounded to 24 bits, in s."""
+def round_times(recording: Recording) -> Recording:
+    """Return ``recording`` with the samples at times that are rounded to 24 bits, in s."""
 
     def rounded(channel: Channel) -> Channel:
         times = channel.times_s
         known = times.astype(np.float32).astype(np.float64)
         nearest = np.rint(np.interp(known, times, np.arange(times.size)))
-        return _with(channel, channel.values[nearest.astype(np.intp)])
+        return _replace_values(channel, channel.values[nearest.astype(np.intp)])
 
     return _each(recording, rounded)
 
@@ -131,5 +131,5 @@ def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recordi
     return replace(recording, channels=tuple(change(c) for c in recording.channels))
 
 
-def _with(channel: Channel, values: FloatArray) -> Channel:
+def _replace_values(channel: Channel, values: FloatArray) -> Channel:
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)

@@ -12,7 +12,7 @@ from floatref_conformance import EDITION
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
-from floatref_conformance.judge.judging import scored_by
+from floatref_conformance.judge.judging import find_scored
 from floatref_conformance.render import wording
 from floatref_conformance.render.drawing import drawing_svg
 from floatref_conformance.render.failures import Failure, Markup, failure
@@ -54,7 +54,7 @@ def _drawing(check: Check, anchor: str) -> Markup | None:
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return None
-    scored_m = scored_by(check, cases[0])
+    scored_m = find_scored(check, cases[0])
     try:
         return Markup(drawing_svg(cases[0].scenario, f"{anchor}-drawing", scored_m))
     except InputError:

@@ -1,1 +1,1 @@
-"""The suite under test: mutants that must be killed, limits that must hold, no false alarms."""
+"""The test of the suite: mutants must be killed, limits must hold, no false alarms."""

@@ -1,4 +1,4 @@
-"""What the self-test counts: kills, unique killers, limits, false alarms."""
+"""The results of the self-test: kills, unique killers, limits, false alarms."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -7,14 +7,14 @@ from typing import Any
 from floatref_conformance.devices.builtin import CLAIMS
 from floatref_conformance.registry import Registry
 from floatref_conformance.selftest.grading import ALLOWED, TOO_MUCH, Limit
-from floatref_conformance.selftest.trying import Tried, Try
+from floatref_conformance.selftest.trying import Try, TryResult
 
 Killers = Mapping[str, tuple[str, ...]]
 """The checks that each device must fail, by its SPEC."""
 
 
-def killers_of(registry: Registry) -> Killers:
-    """Return every device of ``registry`` that must fail checks, with those checks."""
+def find_killers(registry: Registry) -> Killers:
+    """Return every device of ``registry`` that must fail checks, with these checks."""
     return {
         f"{kind.prefix}:{entry.name}": entry.fails
         for kind in registry.kinds.values()
@@ -23,7 +23,7 @@ def killers_of(registry: Registry) -> Killers:
     }
 
 
-def named(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_named_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
     """Return every device on each check of ``ids`` that must fail it, with every seed."""
     return tuple(
         Try(spec, id_, seed)
@@ -34,8 +34,8 @@ def named(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[T
     )
 
 
-def unnamed(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
-    """Return every device that must fail one check alone on all other checks of ``ids``."""
+def list_other_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+    """Return every device that must fail only one check, on all other checks of ``ids``."""
     return tuple(
         Try(spec, id_, seed)
         for seed in seeds
@@ -45,7 +45,7 @@ def unnamed(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple
     )
 
 
-def claimed(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_claim_tries(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
     """Return every built-in device that claims a class on each check of ``ids``."""
     return tuple(
         Try(f"builtin:{name}", id_, seed, device_class)
@@ -57,23 +57,23 @@ def claimed(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
 
 @dataclass(frozen=True)
 class Counts:
-    """What the self-test found.
+    """The results of the self-test.
 
     Attributes:
         killers: the checks that each device must fail.
         ids: the checks that were run.
-        kills: of devices on the checks that they name.
-        others: of devices that name one check on the others; empty if that was not asked.
-        alarms: of built-in devices on what they claim.
-        limits: what became of each.
-        ungraded: limits of which there is no graded error.
+        kills: results of devices on the checks that they name.
+        others: results of devices that name one check, on the others; empty if not requested.
+        alarms: results of built-in devices on the classes that they claim.
+        limits: the graded limits.
+        ungraded: limits without a graded error.
     """
 
     killers: Killers
     ids: tuple[str, ...]
-    kills: tuple[Tried, ...] = ()
-    others: tuple[Tried, ...] = ()
-    alarms: tuple[Tried, ...] = ()
+    kills: tuple[TryResult, ...] = ()
+    others: tuple[TryResult, ...] = ()
+    alarms: tuple[TryResult, ...] = ()
     limits: tuple[Limit, ...] = ()
     ungraded: tuple[str, ...] = field(default=())
 
@@ -83,13 +83,13 @@ class Counts:
         return tuple(one.tried for one in self.kills if not one.fails)
 
     @property
-    def false_alarms(self) -> tuple[Tried, ...]:
+    def false_alarms(self) -> tuple[TryResult, ...]:
         """The built-in devices that failed the class that they claim."""
         return tuple(one for one in self.alarms if one.fails)
 
     @property
     def broken(self) -> tuple[Limit, ...]:
-        """The limits that do not hold on both sides."""
+        """The limits with a fault on either side."""
         return tuple(limit for limit in self.limits if limit.faults)
 
     def only_killed_by(self, id_: str) -> tuple[str, ...]:
@@ -103,14 +103,14 @@ class Counts:
 
     @property
     def without_unique_killer(self) -> tuple[str, ...]:
-        """The checks that are the only killer of no device, if that was asked."""
+        """The checks that are not the only killer of any device, if that was requested."""
         return tuple(i for i in self.ids if self.others and not self.only_killed_by(i))
 
     @property
     def complaints(self) -> tuple[str, ...]:
-        """What does not hold, one line each; empty if all does."""
+        """All faults, one line each; empty if the suite holds."""
         lines = [f"{t.spec} passes {t.check} with seed {t.seed}" for t in self.survivors]
-        lines += [f"{id_} is the only killer of no device" for id_ in self.without_unique_killer]
+        lines += [f"{id_} is not the only killer of a device" for id_ in self.without_unique_killer]
         lines += [
             f"{limit.check}: {limit.quantity}, class {limit.device_class}: {fault}"
             for limit in self.broken
@@ -124,7 +124,7 @@ class Counts:
         return tuple(lines)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all of it as a plain JSON object."""
+        """Return all counts as a JSON object."""
         return {
             "holds": not self.complaints,
             "mutants": len(self.killers),

@@ -1,4 +1,4 @@
-"""The counts of the self-test in a terminal: a table by check, the totals, what does not hold."""
+"""The counts of the self-test in a terminal: a table by check, the totals, the faults."""
 
 from collections.abc import Iterable
 
@@ -38,7 +38,7 @@ def _row(counts: Counts, id_: str) -> tuple[str, str, str, str]:
 
 
 def _share(held: Iterable[bool]) -> str:
-    """Return how many of how many hold."""
+    """Return the number that hold, and the number of all."""
     all_of_them = list(held)
     return f"{sum(all_of_them)} of {len(all_of_them)}" if all_of_them else NOT_ASKED
 
@@ -49,14 +49,14 @@ def _alarms(raised: Iterable[bool]) -> str:
 
 
 def _totals(counts: Counts) -> tuple[str, ...]:
-    told = counts.to_dict()
+    totals = counts.to_dict()
     seeds = {one.tried.seed for one in counts.kills}
     return (
-        f"Mutants: {told['mutants']}; {told['kills']} of {told['kills_asked']} times killed by a "
-        f"check that they name, with {len(seeds)} seeds",
-        f"Limits: {told['limits']} of {told['limits_asked']} fail an error of "
-        f"{told['limit_factors'][0]:g} times as much and pass one of "
-        f"{told['limit_factors'][1]:g} times",
-        f"False alarms: {told['false_alarms']} in {told['alarms_asked']} times that a built-in "
+        f"Mutants: {totals['mutants']}; {totals['kills']} of {totals['kills_asked']} times killed "
+        f"by a check that they name, with {len(seeds)} seeds",
+        f"Limits: {totals['limits']} of {totals['limits_asked']} fail an error of "
+        f"{totals['limit_factors'][0]:g} times as much and pass one of "
+        f"{totals['limit_factors'][1]:g} times",
+        f"False alarms: {totals['false_alarms']} in {totals['alarms_asked']} times that a built-in "
         "device is asked for the class that it claims",
     )

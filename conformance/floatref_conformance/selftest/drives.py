@@ -1,11 +1,11 @@
-"""Graded errors of the checks that drive over a road."""
+"""Graded errors of the driving checks."""
 
 from collections.abc import Iterator
 
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.driving.asked import ERROR, LOSS
 from floatref_conformance.checks.driving.check import DrivingCheck
-from floatref_conformance.checks.driving.layout import Layout, layout_of, placed
+from floatref_conformance.checks.driving.layout import Layout, layout_of, place
 from floatref_conformance.checks.driving.rules import (
     ELSEWHERE,
     RULES,
@@ -18,26 +18,26 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
+from floatref_conformance.selftest.grading import AddError, Graded, Put, Situation
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 IRI_M_PER_KM = 3.0
-"""On such a road 5 % of the IRI are more than 0.1 m/km, and 50 % more than 1 m/km."""
+"""IRI of the road: 5 % of it are more than 0.1 m/km, and 50 % more than 1 m/km."""
 EITHER_PERCENT = 10.0
-"""A profile lower by so much has lost 0.1 of the correlation, more than may be lost beside it."""
+"""Percent by which the profile is lowered: it loses 0.1 of the correlation, beyond that limit."""
 AROUND_M = 60.0
-"""An error is flagged so far to both sides of an event: in all less than 125 m."""
-SPOILT_M = 40.0
-"""It lies so far to both sides, so that the car has come to rest where the flags end."""
+"""Length in m flagged on each side of an event: less than 125 m in total."""
+ERROR_M = 40.0
+"""Length in m of the error on each side; the IRI's car has settled where the flags end."""
 FAST_KMH = 20.0
 AWAY_M = 60.0
-"""So far from an event no vehicle is slower than 16 km/h any more."""
+"""Distance from an event in m beyond which every vehicle drives at 16 km/h or more."""
 
 
 def situations(check: DrivingCheck) -> tuple[Situation, ...]:
     """Return one drive for each rule of ``check``: ideal sensors, one wheel path."""
     return tuple(
-        Situation(check, case, tuple(_graded(case.scenario, rule)), condition)
+        Situation(check, case, tuple(_list_graded(case.scenario, rule)), condition)
         for condition, rule in check.rules.items()
         for case in (_case(check, rule),)
     )
@@ -59,66 +59,66 @@ def _case(check: DrivingCheck, rule: Rule) -> Case:
         rate_hz=4000.0,
         profile_interval_m=0.01,
     )
-    return Case(check.id, placed(plain))
+    return Case(check.id, place(plain))
 
 
 def _stays_fast(row: Scenario) -> bool:
-    """Return whether both ends of the drive can be flagged: none is slower than 16 km/h."""
+    """Return whether both ends of the drive are driven at 16 km/h or more."""
     return row.manoeuvre != "braking" or row.event_speed_kmh > FAST_KMH
 
 
-def _graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
+def _list_graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
     layout = layout_of(scenario)
     start_m, end_m = layout.stretches[-1]
     above = (ADEQUATE, REFERENCE) if rule is RULES["light"] else tuple(DeviceClass)
-    yield Graded((LOSS,), lambda loss: put_in.mixed(loss, start_m, end_m), above)
-    yield Graded((ERROR,), _higher, above)
+    yield Graded((LOSS,), lambda loss: put_in.mix_in_road(loss, start_m, end_m), above)
+    yield Graded((ERROR,), _make_higher, above)
     if rule is RULES["light"]:
         yield Graded(
             (LOSS, ERROR),
-            lambda percent: put_in.higher(-percent / 100.0),
+            lambda percent: put_in.make_higher(-percent / 100.0),
             (NOMINAL,),
             limit=EITHER_PERCENT,
         )
-    unflagged = _higher if rule.slow else _rougher(0.0, scenario.length_m)
+    unflagged = _make_higher if rule.slow else _make_rougher(0.0, scenario.length_m)
     yield Graded((UNFLAGGED,), unflagged)
-    yield Graded((WHOLE,), _around(layout), alone=rule is not RULES["start"])
+    yield Graded((WHOLE,), _around_event(layout), alone=rule is not RULES["start"])
     if not rule.slow:
-        yield Graded(("flagged at an end",), put_in.flagged_end)
-        yield Graded((ELSEWHERE,), _away(scenario, layout))
-    yield Graded(("bump error",), lambda percent: _bump(scenario, percent))
+        yield Graded(("flagged at an end",), put_in.flag_end)
+        yield Graded((ELSEWHERE,), _flag_away(scenario, layout))
+    yield Graded(("bump error",), lambda percent: _change_bump(scenario, percent))
 
 
-def _higher(percent: float) -> Spoil:
-    return put_in.higher(percent / 100.0)
+def _make_higher(percent: float) -> AddError:
+    return put_in.make_higher(percent / 100.0)
 
 
-def _rougher(start_m: float, end_m: float) -> Put:
-    return lambda m_per_km: put_in.rougher(m_per_km, start_m, end_m)
+def _make_rougher(start_m: float, end_m: float) -> Put:
+    return lambda m_per_km: put_in.make_rougher(m_per_km, start_m, end_m)
 
 
-def _around(layout: Layout) -> Put:
-    """Return what puts all of an error near an event, and flags it."""
+def _around_event(layout: Layout) -> Put:
+    """Return a function that puts the whole error near an event, and flags it."""
     start_m, end_m = layout.stretches[0]
     event_m = layout.events_m[0] if layout.events_m else (start_m + end_m) / 2
-    there = put_in.between(event_m - SPOILT_M, event_m + SPOILT_M)
-    flags = put_in.flagged(event_m - AROUND_M, event_m + AROUND_M)
-    return lambda v: put_in.both(put_in.rougher(v, start_m, end_m, there), flags)
+    there = put_in.between(event_m - ERROR_M, event_m + ERROR_M)
+    flags = put_in.flag_points(event_m - AROUND_M, event_m + AROUND_M)
+    return lambda v: put_in.chain(put_in.make_rougher(v, start_m, end_m, there), flags)
 
 
-def _away(scenario: Scenario, layout: Layout) -> Put:
-    """Return what flags a length ahead of the event, or in the middle of a drive without one."""
+def _flag_away(scenario: Scenario, layout: Layout) -> Put:
+    """Return a function that flags a length before the event, or in the middle without one."""
     middle_m = scenario.length_m / 2
 
-    def put(length_m: float) -> Spoil:
+    def put(length_m: float) -> AddError:
         end_m = layout.events_m[0] - AWAY_M if layout.events_m else middle_m + length_m / 2
-        return put_in.flagged(end_m - length_m, end_m)
+        return put_in.flag_points(end_m - length_m, end_m)
 
     return put
 
 
-def _bump(scenario: Scenario, percent: float) -> Spoil:
+def _change_bump(scenario: Scenario, percent: float) -> AddError:
     height_m = percent / 100.0 * scenario.bump_mm / 1000.0
-    return put_in.added(
+    return put_in.add_shape(
         lambda x: height_m * put_in.raised_cosine(x - scenario.bump_at_m, BUMP_LENGTH_M)
     )

@@ -1,4 +1,4 @@
-"""Grading the limits: an error of 1.5 times a limit fails, one of 0.67 times passes."""
+"""Grade the limits: an error of 1.5 times a limit fails, one of 0.67 times passes."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,69 +9,69 @@ from floatref_conformance.checks.interface import Check, Taken
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
-from floatref_conformance.judge.bench import seen_by, taken_of
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.judge.bench import make_taken, restrict_channels
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 
 NOMINAL = Description("perfect", "1", "temporal", ())
-Spoil = Callable[[Profile, Taken, str], Profile]
-"""Puts an error into the perfect profile of a recording, which has its label within the case."""
+AddError = Callable[[Profile, Taken, str], Profile]
+"""Puts an error into the perfect profile of a recording; the label names it in the case."""
 
 
-def unspoilt(profile: Profile, taken: Taken, label: str) -> Profile:
+def keep_profile(profile: Profile, taken: Taken, label: str) -> Profile:
     """Return ``profile``."""
     return profile
 
 
 @dataclass
 class Roads:
-    """Recordings and their perfect profiles, made once for all errors that are put in."""
+    """Recordings and their perfect profiles, simulated once for all errors."""
 
     taken: dict[Scenario, Taken] = field(default_factory=dict)
 
     def of(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario``."""
         if scenario not in self.taken:
-            self.taken[scenario] = taken_of(scenario)
+            self.taken[scenario] = make_taken(scenario)
         return self.taken[scenario]
 
 
 @dataclass(frozen=True)
 class TruthBench:
-    """Answers every recording with its truth, filtered, and ``spoil`` applied to it."""
+    """Answers every recording with its filtered truth, changed by ``add_error``."""
 
     roads: Roads
-    spoil: Spoil = unspoilt
+    add_error: AddError = keep_profile
     description: Description = NOMINAL
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels of the capabilities."""
-        return self.roads.of(seen_by(self.description, scenario))
+        return self.roads.of(restrict_channels(self.description, scenario))
 
     def run(self, taken: Taken, label: str = "") -> Profile:
-        """Return the spoilt truth."""
-        return self.spoil(perfect(taken), taken, label)
+        """Return the truth with the error."""
+        return self.add_error(make_perfect(taken), taken, label)
 
 
 TOO_MUCH, ALLOWED = 1.5, 0.67
 TOLERANCE = 0.15
-"""A known error may be read so much too large or too small, as a share of it."""
-UNSPOILT = 0.2
-"""Largest reading of the truth itself, as a share of a limit, where a limit is that of an error."""
-Put = Callable[[float], Spoil]
-"""Returns what puts in an error of so much, in the unit of the quantity."""
+"""Largest deviation of the measured error from the known one, as a share of it."""
+LARGEST_OF_TRUTH = 0.2
+"""Largest value measured of the truth itself, as a share of the limit of an error."""
+Put = Callable[[float], AddError]
+"""Returns a function that puts in an error of the given size, in the unit of the quantity."""
 
 
 @dataclass(frozen=True)
 class Graded:
-    """One quantity of one case, and how an error of it is put in.
+    """One quantity of one case, and the function that puts in an error of it.
 
     Attributes:
-        names: of the measurements that hold it; more than one where the better one counts.
-        put: puts it in.
-        classes: that it is graded for.
-        is_error: whether the truth itself reads next to nothing.
-        alone: whether all else keeps its limits while this one is used up to two thirds.
+        names: names of its measurements; more than one where the better one counts.
+        put: puts in the error.
+        classes: the classes for which it is graded.
+        is_error: whether its value for the truth itself is nearly 0.
+        alone: whether all other quantities are within their limits at two thirds of this one.
         limit: the limit, where it may be that of either of two quantities.
     """
 
@@ -89,8 +89,8 @@ class Situation:
 
     Attributes:
         check, case, graded: what is judged.
-        condition: that of the check's limits, empty if they have none.
-        description: of the device whose place the truth takes.
+        condition: the condition of the check's limits; empty for limits without one.
+        description: description of the device that the truth replaces.
     """
 
     check: Check
@@ -102,21 +102,21 @@ class Situation:
 
 @dataclass(frozen=True)
 class Limit:
-    """What became of one limit; all readings are shares of the limit.
+    """The result of one limit; all values are shares of the limit.
 
     Attributes:
         check, quantity, device_class: which limit; the quantity with its condition.
-        unspoilt: what the truth itself reads.
-        too_much: what an error of `TOO_MUCH` times the limit reads.
-        allowed: what one of `ALLOWED` times the limit reads.
-        beside: largest reading of any other quantity meanwhile, with its name.
-        is_error, alone: as `Graded` has it.
+        truth_reading: value measured of the truth itself.
+        too_much: value measured of an error of `TOO_MUCH` times the limit.
+        allowed: value measured of an error of `ALLOWED` times the limit.
+        beside: largest value of any other quantity at that error, with its name.
+        is_error, alone: as in `Graded`.
     """
 
     check: str
     quantity: str
     device_class: DeviceClass
-    unspoilt: float
+    truth_reading: float
     too_much: float
     allowed: float
     beside: tuple[float, str]
@@ -125,10 +125,10 @@ class Limit:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """What does not hold, in words."""
+        """The faults of the limit, one sentence each."""
         found = []
-        if self.is_error and self.unspoilt > UNSPOILT:
-            found.append(f"the truth itself reads {self.unspoilt:.2f} of it")
+        if self.is_error and self.truth_reading > LARGEST_OF_TRUTH:
+            found.append(f"the truth itself reads {self.truth_reading:.2f} of it")
         if not self.too_much > 1.0:
             found.append(f"{TOO_MUCH} times the limit passes")
         if not self.allowed <= 1.0:
@@ -142,7 +142,7 @@ class Limit:
 
 
 def grade(situation: Situation, roads: Roads) -> Iterator[Limit]:
-    """Yield every limit of ``situation``'s graded quantities, once judged on both sides."""
+    """Yield every limit of ``situation``'s graded quantities, judged on both sides."""
     judge = _Judge(situation, roads)
     for graded in situation.graded:
         for device_class in graded.classes:
@@ -167,7 +167,7 @@ def grade(situation: Situation, roads: Roads) -> Iterator[Limit]:
 
 @dataclass
 class _Judge:
-    """Judges each amount of each error once, however many classes have that limit."""
+    """Judges each size of each error once, also if several classes have the same limit."""
 
     situation: Situation
     roads: Roads
@@ -176,8 +176,8 @@ class _Judge:
     def __call__(self, graded: Graded | None, amount: float) -> Sequence[Measurement]:
         key = ("" if graded is None else graded.names[0], round(amount, 9))
         if key not in self.done:
-            spoil = unspoilt if graded is None else graded.put(amount)
-            bench = TruthBench(self.roads, spoil, self.situation.description)
+            add_error = keep_profile if graded is None else graded.put(amount)
+            bench = TruthBench(self.roads, add_error, self.situation.description)
             self.done[key] = self.situation.check.judge(self.situation.case, bench)
         return self.done[key]
 
@@ -203,20 +203,20 @@ def _beside(
     return max(others, default=(0.0, ""))
 
 
-def ungraded(check: Check, limits: Sequence[Limit]) -> tuple[str, ...]:
-    """Return quantity and class of every limit that ``check`` publishes and none of ``limits`` is.
+def find_ungraded(check: Check, limits: Sequence[Limit]) -> tuple[str, ...]:
+    """Return quantity and class of every published limit of ``check`` that is not in ``limits``.
 
-    A class that has no number in words has no limit.
+    A class whose text has no number has no limit.
     """
     done = {(limit.quantity, limit.device_class) for limit in limits if limit.check == check.id}
     return tuple(
         f"{check.id}: {quantity}, class {device_class}"
-        for quantity, device_class in _published(check.limits)
+        for quantity, device_class in _list_published(check.limits)
         if (quantity, device_class) not in done
     )
 
 
-def _published(
+def _list_published(
     limits: Mapping[str, Mapping[DeviceClass, str]],
 ) -> Iterator[tuple[str, DeviceClass]]:
     for quantity, words in limits.items():

@@ -19,7 +19,7 @@ from floatref_conformance.selftest.grading import Graded, Put, Situation
 
 INTERVAL_M = 0.01
 FINE_M = 0.0025
-"""Displacements are read in whole intervals."""
+"""Profile interval in m; displacements are measured in whole intervals."""
 
 
 def situations_of_repeatability(check: RepeatabilityCheck) -> tuple[Situation, ...]:
@@ -36,28 +36,31 @@ def situations_of_repeatability(check: RepeatabilityCheck) -> tuple[Situation, .
     graded = (
         Graded(
             (repeatability.BETWEEN,),
-            lambda loss: put_in.only(put_in.mixed(loss, *stretch), second),
+            lambda loss: put_in.limit_to_labels(put_in.mix_in_road(loss, *stretch), second),
         ),
         Graded(
             (repeatability.DIFFERENCE,),
-            lambda percent: put_in.only(put_in.higher(percent / 100.0), second),
+            lambda percent: put_in.limit_to_labels(put_in.make_higher(percent / 100.0), second),
         ),
-        Graded((repeatability.TO_TRUTH,), lambda loss: put_in.mixed(loss, *stretch)),
+        Graded((repeatability.TO_TRUTH,), lambda loss: put_in.mix_in_road(loss, *stretch)),
     )
     return (Situation(check, replace(check.simplest, scenario=scenario), graded),)
 
 
 def situations_of_invariance(check: InvarianceCheck) -> tuple[Situation, ...]:
-    """Return a drive whose storage changes, and one with a stop that is twice as long."""
+    """Return a drive with another storage of its clock, and one with a stop twice as long."""
     steady = replace(
         check.simplest.scenario, sensors=0.0, rate_hz=4000.0, profile_interval_m=FINE_M
     )
     stretch = FROM_M, steady.length_m - END_M
     graded = (
-        Graded(("correlation loss between both",), _changed(lambda v: put_in.mixed(v, *stretch))),
-        Graded(("IRI difference of both",), _changed(lambda v: put_in.higher(v / 100.0))),
-        Graded(("displacement between both",), _changed(put_in.moved)),
-        Graded(("correlation loss",), lambda loss: put_in.mixed(loss, *stretch)),
+        Graded(
+            ("correlation loss between both",),
+            _changed_only(lambda v: put_in.mix_in_road(v, *stretch)),
+        ),
+        Graded(("IRI difference of both",), _changed_only(lambda v: put_in.make_higher(v / 100.0))),
+        Graded(("displacement between both",), _changed_only(put_in.move_features)),
+        Graded(("correlation loss",), lambda loss: put_in.mix_in_road(loss, *stretch)),
     )
     return (
         Situation(check, replace(check.simplest, scenario=steady), graded),
@@ -73,11 +76,11 @@ def _at_a_stop(check: InvarianceCheck) -> Situation:
     )
     ends = scenario.event_at_m - BEFORE_M, scenario.event_at_m + BEHIND_M
     graded = (
-        Graded(("rise of the IRI error",), _changed(lambda v: put_in.rougher(v, *ends))),
-        Graded(("correlation loss",), lambda loss: put_in.mixed(loss, RAN_IN_M, FREE_M)),
+        Graded(("rise of the IRI error",), _changed_only(lambda v: put_in.make_rougher(v, *ends))),
+        Graded(("correlation loss",), lambda loss: put_in.mix_in_road(loss, RAN_IN_M, FREE_M)),
     )
     return Situation(check, replace(case, scenario=scenario), graded)
 
 
-def _changed(put: Put) -> Put:
-    return lambda amount: put_in.only(put(amount), "changed")
+def _changed_only(put: Put) -> Put:
+    return lambda amount: put_in.limit_to_labels(put(amount), "changed")

@@ -1,4 +1,4 @@
-"""Graded errors of `distance`: features that are out of place, or lost."""
+"""Graded errors of `distance`: displaced or lost features."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from floatref_conformance.selftest import put_in
 from floatref_conformance.selftest.grading import Graded, Put, Situation
 
 INTERVAL_M = 0.0025
-"""Displacements are read in whole intervals."""
+"""Profile interval in m; displacements are measured in whole intervals."""
 
 
 def situations(check: DistanceCheck) -> tuple[Situation, ...]:
@@ -28,11 +28,11 @@ def situations(check: DistanceCheck) -> tuple[Situation, ...]:
     stop_m = scenario.event_at_m
     at = middles(drive_of(scenario).length_m, stop_m)
     puts: tuple[Put, ...] = (
-        put_in.moved,
-        lambda percent: put_in.displaced(lambda x: percent / 100.0 * x),
-        lambda step_m: put_in.displaced(lambda x: np.where(x > stop_m, step_m, 0.0)),
-        lambda rest_m: put_in.displaced(lambda x: rest_m * _beside_a_line(x, at, stop_m)),
-        lambda loss: put_in.higher(-loss),
+        put_in.move_features,
+        lambda percent: put_in.displace(lambda x: percent / 100.0 * x),
+        lambda step_m: put_in.displace(lambda x: np.where(x > stop_m, step_m, 0.0)),
+        lambda rest_m: put_in.displace(lambda x: rest_m * _beside_a_line(x, at, stop_m)),
+        lambda loss: put_in.make_higher(-loss),
     )
     graded = tuple(Graded((name,), put) for (name, _, _), put in zip(QUANTITIES, puts, strict=True))
     return (Situation(check, replace(check.simplest, scenario=scenario), graded),)

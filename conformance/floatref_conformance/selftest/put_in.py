@@ -1,7 +1,7 @@
-"""Known errors, put into a profile that has none: heights, places, shapes, flags.
+"""Known errors, put into a perfect profile: heights, places, shapes, flags.
 
-How large each becomes in the measure follows from the measure's definition and from the IRI
-filter; nothing is taken from the checks.
+The measured value of each follows from the definition of the measure and from the IRI filter;
+nothing is taken from the checks.
 """
 
 from collections.abc import Callable
@@ -13,18 +13,18 @@ from floatref.measures import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
-from floatref_conformance.selftest.grading import Spoil
+from floatref_conformance.selftest.grading import AddError
 
 Window = Callable[[FloatArray], FloatArray]
-"""Returns the share, 0 to 1, of an error at each place in m."""
+"""Returns the share of an error, 0 to 1, at each place in m."""
 OTHER_SEED = 5
 RUN_UP_M = 60.0
-"""An error sets in so far ahead of what counts that the car has run in by then."""
+"""Length in m between the begin of an error and the scored stretch, so that the car settles."""
 RAMP_M = 5.0
 
 
 def everywhere(x: FloatArray) -> FloatArray:
-    """Return 1 for all places."""
+    """Return 1 for every place."""
     return np.ones_like(x)
 
 
@@ -34,22 +34,22 @@ def between(start_m: float, end_m: float) -> Window:
     return lambda x: np.interp(x, corners, [0.0, 1.0, 1.0, 0.0])
 
 
-def only(spoil: Spoil, *labels: str) -> Spoil:
-    """Return ``spoil`` for the recordings of a case that have one of ``labels``."""
+def limit_to_labels(add_error: AddError, *labels: str) -> AddError:
+    """Return ``add_error``, limited to the recordings of a case with one of ``labels``."""
 
     def some(profile: Profile, taken: Taken, label: str) -> Profile:
-        return spoil(profile, taken, label) if label in labels else profile
+        return add_error(profile, taken, label) if label in labels else profile
 
     return some
 
 
-def higher(share: float, where: Window = everywhere) -> Spoil:
-    """Return what multiplies the elevations by 1 + ``share``: so does every roughness."""
+def make_higher(share: float, where: Window = everywhere) -> AddError:
+    """Return an error that multiplies elevations, and so every roughness, by 1 + ``share``."""
     return _elevation(lambda z, x: z * (1.0 + share * where(x)))
 
 
-def displaced(by_m: Callable[[FloatArray], FloatArray]) -> Spoil:
-    """Return what lets features that belong at x lie ``by_m(x)`` farther along."""
+def displace(by_m: Callable[[FloatArray], FloatArray]) -> AddError:
+    """Return an error that moves features at x forward by ``by_m(x)``."""
 
     def move(z: FloatArray, x: FloatArray) -> FloatArray:
         return np.interp(x, x + by_m(x), z)
@@ -57,18 +57,18 @@ def displaced(by_m: Callable[[FloatArray], FloatArray]) -> Spoil:
     return _elevation(move)
 
 
-def moved(length_m: float) -> Spoil:
-    """Return what lets every feature lie ``length_m`` farther along."""
-    return displaced(lambda x: np.full(x.size, length_m))
+def move_features(length_m: float) -> AddError:
+    """Return an error that moves every feature forward by ``length_m``."""
+    return displace(lambda x: np.full(x.size, length_m))
 
 
-def added(shape: Callable[[FloatArray], FloatArray]) -> Spoil:
-    """Return what adds ``shape`` of the place, in m."""
+def add_shape(shape: Callable[[FloatArray], FloatArray]) -> AddError:
+    """Return an error that adds ``shape`` of the place, in m."""
     return _elevation(lambda z, x: z + shape(x))
 
 
-def flagged(start_m: float, end_m: float) -> Spoil:
-    """Return what flags the points from ``start_m`` to ``end_m``."""
+def flag_points(start_m: float, end_m: float) -> AddError:
+    """Return an error that flags the points from ``start_m`` to ``end_m``."""
 
     def flag(profile: Profile, taken: Taken, label: str) -> Profile:
         inside = (profile.distance_m >= start_m) & (profile.distance_m < end_m)
@@ -77,31 +77,33 @@ def flagged(start_m: float, end_m: float) -> Spoil:
     return flag
 
 
-def flagged_end(length_m: float) -> Spoil:
-    """Return what flags the last ``length_m``."""
+def flag_end(length_m: float) -> AddError:
+    """Return an error that flags the last ``length_m``."""
 
     def flag(profile: Profile, taken: Taken, label: str) -> Profile:
         end_m = profile.start_m + profile.length_m
-        return flagged(end_m - length_m, end_m + 1.0)(profile, taken, label)
+        return flag_points(end_m - length_m, end_m + 1.0)(profile, taken, label)
 
     return flag
 
 
-def both(*spoils: Spoil) -> Spoil:
-    """Return what applies ``spoils`` one after another."""
+def chain(*errors: AddError) -> AddError:
+    """Return ``errors``, applied one after another."""
 
-    def spoil(profile: Profile, taken: Taken, label: str) -> Profile:
-        for one in spoils:
+    def add_error(profile: Profile, taken: Taken, label: str) -> Profile:
+        for one in errors:
             profile = one(profile, taken, label)
         return profile
 
-    return spoil
+    return add_error
 
 
-def rougher(m_per_km: float, start_m: float, end_m: float, where: Window = everywhere) -> Spoil:
-    """Return what adds ``m_per_km`` to the IRI from ``start_m`` to ``end_m``.
+def make_rougher(
+    m_per_km: float, start_m: float, end_m: float, where: Window = everywhere
+) -> AddError:
+    """Return an error that adds ``m_per_km`` to the IRI from ``start_m`` to ``end_m``.
 
-    It makes the road higher by the share that gives as much, ``where`` says.
+    It multiplies the elevations, weighted by ``where``, by the required factor.
     """
 
     def raised(profile: Profile, taken: Taken, label: str) -> Profile:
@@ -110,13 +112,13 @@ def rougher(m_per_km: float, start_m: float, end_m: float, where: Window = every
         track = profile.tracks[0]
         rectified = np.abs(iri_trace(track.elevation, profile.interval_m))
         share = m_per_km / float(np.mean((rectified * where(x))[inside]))
-        return higher(share, where)(profile, taken, label)
+        return make_higher(share, where)(profile, taken, label)
 
     return raised
 
 
-def local(m_per_km: float, at_m: float, base_m: float) -> Spoil:
-    """Return what changes the IRI filter's output from ``at_m`` on.
+def change_locally(m_per_km: float, at_m: float, base_m: float) -> AddError:
+    """Return an error that changes the IRI filter's output from ``at_m`` on.
 
     Its largest mean change over ``base_m`` is ``m_per_km``.
     """
@@ -127,16 +129,16 @@ def local(m_per_km: float, at_m: float, base_m: float) -> Spoil:
         part = iri_trace(track.elevation * where(profile.distance_m), profile.interval_m)
         count = round(base_m / profile.interval_m)
         means = np.convolve(np.abs(part), np.full(count, 1.0 / count), mode="valid")
-        return higher(m_per_km / float(means.max()), where)(profile, taken, label)
+        return make_higher(m_per_km / float(means.max()), where)(profile, taken, label)
 
     return change
 
 
-def mixed(loss: float, start_m: float, end_m: float) -> Spoil:
-    """Return what puts another road in, so that (2.16) is 1 - ``loss`` from start to end.
+def mix_in_road(loss: float, start_m: float, end_m: float) -> AddError:
+    """Return an error that mixes in another road, so that (2.16) is 1 - ``loss``.
 
-    The outputs of the IRI filter keep their standard deviation; the other road's share of them
-    is at a right angle to the true road's.
+    The standard deviation of the IRI filter's output does not change; the share of the other road
+    is orthogonal to that of the true road.
     """
     where = between(start_m - RUN_UP_M, end_m)
 
@@ -152,9 +154,9 @@ def mixed(loss: float, start_m: float, end_m: float) -> Spoil:
             along = float(true @ strange / (true @ true))
             aside = float(np.linalg.norm(strange - along * true) / np.linalg.norm(true))
             share = float(np.sqrt(1.0 - (1.0 - loss) ** 2)) / aside
-            left = 1.0 - loss - share * along
+            rest = 1.0 - loss - share * along
             return ProfileTrack.of(
-                track.name, z * (1.0 + (left - 1.0) * where(x)) + share * other, track.valid
+                track.name, z * (1.0 + (rest - 1.0) * where(x)) + share * other, track.valid
             )
 
         return _each(profile, changed)
@@ -163,13 +165,13 @@ def mixed(loss: float, start_m: float, end_m: float) -> Spoil:
 
 
 def other_road(count: int, interval_m: float) -> FloatArray:
-    """Return elevations in m whose slope is white noise: a road that was never driven."""
+    """Return elevations in m whose slope is white noise."""
     slopes = np.random.default_rng(OTHER_SEED).normal(0.0, 1.0, count)
     return np.cumsum(slopes) * float(np.sqrt(interval_m)) * 1e-3
 
 
 def raised_cosine(x: FloatArray, length_m: float) -> FloatArray:
-    """Return a bump of height 1 and ``length_m`` around 0."""
+    """Return a raised cosine of height 1 and length ``length_m`` around 0."""
     return np.where(np.abs(x) < length_m / 2, np.cos(np.pi * x / length_m) ** 2, 0.0)
 
 
@@ -179,15 +181,15 @@ def _deviation(z: FloatArray, interval_m: float, inside: BoolArray) -> FloatArra
     return np.asarray(trace - trace.mean())
 
 
-def _elevation(change: Callable[[FloatArray, FloatArray], FloatArray]) -> Spoil:
-    def spoil(profile: Profile, taken: Taken, label: str) -> Profile:
+def _elevation(change: Callable[[FloatArray, FloatArray], FloatArray]) -> AddError:
+    def add_error(profile: Profile, taken: Taken, label: str) -> Profile:
         x = profile.distance_m
         return _each(
             profile,
             lambda t: ProfileTrack.of(t.name, change(np.array(t.elevation), x), t.valid),
         )
 
-    return spoil
+    return add_error
 
 
 def _each(profile: Profile, change: Callable[[ProfileTrack], ProfileTrack]) -> Profile:

@@ -1,4 +1,4 @@
-"""Devices tried on checks, in several processes: only whether one fails is asked."""
+"""Run devices on checks, in several processes, to find out which devices fail."""
 
 import multiprocessing
 from collections.abc import Iterator, Sequence
@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from functools import cache
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Check, fitted
+from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
-from floatref_conformance.judge.judging import why
-from floatref_conformance.judge.replaying import judged
+from floatref_conformance.judge.judging import describe_failure
+from floatref_conformance.judge.replaying import judge_case
 from floatref_conformance.judge.search import search
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
@@ -22,7 +22,7 @@ from floatref_conformance.registry import Registry
 
 @dataclass(frozen=True)
 class Try:
-    """A device by its SPEC, a check by its id, a seed, and whose limits decide."""
+    """A device by its SPEC, a check by its id, a seed, and the class whose limits decide."""
 
     spec: str
     check: str
@@ -31,19 +31,19 @@ class Try:
 
 
 @dataclass(frozen=True)
-class Tried:
-    """What became of a try: in one line why the device fails, empty if it does not."""
+class TryResult:
+    """The result of a try: in one line why the device fails; empty if it passes."""
 
     tried: Try
     fails: str
 
 
-def try_all(tries: Sequence[Try], processes: int) -> Iterator[Tried]:
-    """Yield what becomes of ``tries``, as they are done; an error of the suite is raised."""
+def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
+    """Yield the results of ``tries`` as they finish; an error of the suite is raised."""
     if processes < 2:
         yield from map(attempt, tries)
         return
-    # A fork would share whatever threads and children this process has.
+    # A fork would share the threads and children of this process.
     spawn = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(processes, mp_context=spawn) as pool:
         try:
@@ -53,32 +53,34 @@ def try_all(tries: Sequence[Try], processes: int) -> Iterator[Tried]:
             pool.shutdown(cancel_futures=True)
 
 
-def attempt(wanted: Try) -> Tried:
-    """Return what becomes of ``wanted`` at quick effort, its search included."""
+def attempt(wanted: Try) -> TryResult:
+    """Return the result of ``wanted`` at quick effort, including the search."""
     registry = _registry()
     device = registry.device(wanted.spec)
     try:
-        return Tried(wanted, _why(registry.check(wanted.check), device, wanted))
+        return TryResult(wanted, _describe_failure(registry.check(wanted.check), device, wanted))
     finally:
         close(device)
 
 
-def _why(check: Check, device: Device, wanted: Try) -> str:
-    """Return why ``device`` fails ``check``: of the first case that it fails."""
+def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
+    """Return why ``device`` fails ``check``, from the first failing case."""
     found: list[str] = []
     try:
         description = describe(device)
     except DeviceError as fault:
         return str(fault)
 
-    check = fitted(check, description.meets)
+    check = fit_check(check, description.meets)
 
     def ratio(case: Case) -> float:
         if found:
             return 0.0
-        result = judged(check, case, DeviceBench(device, description))
+        result = judge_case(check, case, DeviceBench(device, description))
         if result.ratio(wanted.device_class) > 1.0:
-            found.append(f"{case.name or 'searched'}: {why(result, wanted.device_class)}")
+            found.append(
+                f"{case.name or 'searched'}: {describe_failure(result, wanted.device_class)}"
+            )
         return result.ratio(wanted.device_class)
 
     for case in check.cases(wanted.seed, Effort.QUICK):

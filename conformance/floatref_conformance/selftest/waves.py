@@ -1,4 +1,4 @@
-"""Graded errors of `waveband`: one wave at a time is passed wrongly."""
+"""Graded errors of `waveband`: wrong gain or phase of one wave at a time."""
 
 from dataclasses import replace
 
@@ -15,15 +15,15 @@ from floatref_conformance.proving_ground.roads.sines import (
     WAVELENGTHS_M,
 )
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Put, Situation, Spoil
+from floatref_conformance.selftest.grading import AddError, Graded, Put, Situation
 
 OF_THE_FILTER = (QUANTITIES[0][0], QUANTITIES[2][0])
-"""What the filter itself, as it is to be, does to the longest wave of the flat band and beyond the
-cut-off is a part of the limit."""
+"""Quantities where the correct filter itself uses a part of the limit: at the longest wave of the
+flat band, and beyond the cut-off."""
 THIN = 20
-"""One of so many points is enough: three in the shortest wave."""
+"""Every THIN-th point is fitted: three points in the shortest wave."""
 INSIDE_M = 106.0
-"""The waves are looked for so far from both ends, where the high-pass filter has run in."""
+"""Distance from both ends in m where the fit begins; the high-pass filter has settled there."""
 
 
 def situations(check: WavebandCheck) -> tuple[Situation, ...]:
@@ -31,11 +31,11 @@ def situations(check: WavebandCheck) -> tuple[Situation, ...]:
     simplest = check.simplest
     scenario = replace(simplest.scenario, tracks=("left",), rate_hz=4000.0, profile_interval_m=0.01)
     puts: tuple[Put, ...] = (
-        lambda percent: _passed(float(WAVELENGTHS_M[12]), 1.0 + percent / 100.0),
-        lambda decibel: _passed(CUT_OFF_M, 10.0 ** (decibel / 20.0)),
-        lambda gain: _passed(BEYOND_M, gain, of_truth=True),
-        put_in.moved,
-        lambda degrees: _passed(LONGEST_FLAT_M, np.exp(1j * np.deg2rad(degrees))),
+        lambda percent: _change_wave(float(WAVELENGTHS_M[12]), 1.0 + percent / 100.0),
+        lambda decibel: _change_wave(CUT_OFF_M, 10.0 ** (decibel / 20.0)),
+        lambda gain: _change_wave(BEYOND_M, gain, of_truth=True),
+        put_in.move_features,
+        lambda degrees: _change_wave(LONGEST_FLAT_M, np.exp(1j * np.deg2rad(degrees))),
     )
     graded = tuple(
         Graded((name,), put, is_error=name not in OF_THE_FILTER)
@@ -44,10 +44,10 @@ def situations(check: WavebandCheck) -> tuple[Situation, ...]:
     return (Situation(check, replace(simplest, scenario=scenario), graded),)
 
 
-def _passed(wavelength_m: float, gain: complex, of_truth: bool = False) -> Spoil:
-    """Return what passes one wave ``gain`` times as it is, or as large as in the truth."""
+def _change_wave(wavelength_m: float, gain: complex, of_truth: bool = False) -> AddError:
+    """Return an error that multiplies one wave by ``gain``, relative to itself or to the truth."""
 
-    def spoil(profile: Profile, taken: Taken, label: str) -> Profile:
+    def add_error(profile: Profile, taken: Taken, label: str) -> Profile:
         x, z = profile.distance_m, profile.tracks[0].elevation
         there = _wave(x, z, wavelength_m)
         wanted = gain * there
@@ -58,11 +58,11 @@ def _passed(wavelength_m: float, gain: complex, of_truth: bool = False) -> Spoil
         raised = z + np.real((wanted - there) * turning)
         return replace(profile, tracks=(ProfileTrack.of(profile.tracks[0].name, raised),))
 
-    return spoil
+    return add_error
 
 
 def _wave(x: FloatArray, z: FloatArray, wavelength_m: float) -> complex:
-    """Return the complex amplitude in m of the wave, all others fitted with it."""
+    """Return the complex amplitude of the wave in m; all waves are fitted together."""
     inside = (x > INSIDE_M) & (x < x[-1] - INSIDE_M)
     phase = 2 * np.pi * np.outer(x[inside][::THIN], 1.0 / WAVELENGTHS_M)
     level = np.stack([np.ones(phase.shape[0]), x[inside][::THIN] / x[-1]], axis=1)

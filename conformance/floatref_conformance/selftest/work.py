@@ -1,4 +1,4 @@
-"""The work of the self-test, step by step, with its progress, and all limits to be graded."""
+"""The steps of the self-test, with progress, and the limits to grade."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,9 +13,15 @@ from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.checks.stationary.parked_checks import StationaryCheck
 from floatref_conformance.selftest import drives, faults, passes, places, stationary, waves
-from floatref_conformance.selftest.counts import Counts, Killers, claimed, named, unnamed
-from floatref_conformance.selftest.grading import Limit, Roads, Situation, grade, ungraded
-from floatref_conformance.selftest.trying import Tried, Try, try_all
+from floatref_conformance.selftest.counts import (
+    Counts,
+    Killers,
+    list_claim_tries,
+    list_named_tries,
+    list_other_tries,
+)
+from floatref_conformance.selftest.grading import Limit, Roads, Situation, find_ungraded, grade
+from floatref_conformance.selftest.trying import Try, TryResult, try_all
 
 GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
     StationaryCheck: stationary.situations,
@@ -26,48 +32,48 @@ GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
     InvarianceCheck: passes.situations_of_invariance,
     FaultsCheck: faults.situations,
 }
-"""How the cases of each kind of check are made whose quantities are graded."""
+"""The functions that make the graded cases of each kind of check."""
 
 
 def situations(check: Check) -> tuple[Situation, ...]:
-    """Return the graded cases of ``check``; none for one that did not come with the suite."""
+    """Return the graded cases of ``check``; empty for a check of a plug-in."""
     grader = GRADERS.get(type(check))
     return () if grader is None else grader(check)
 
 
-def graded(checks: Iterable[Check]) -> Iterator[Limit]:
-    """Yield every limit of ``checks`` with what became of it."""
+def grade_all(checks: Iterable[Check]) -> Iterator[Limit]:
+    """Yield the result of every limit of ``checks``."""
     for check in checks:
         roads = Roads()
         for situation in situations(check):
             yield from grade(situation, roads)
 
 
-def without_grader(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
-    """Return the published limits of ``checks`` that ``limits`` lack."""
-    return tuple(missing for check in checks for missing in ungraded(check, limits))
+def list_ungraded(checks: Iterable[Check], limits: Sequence[Limit]) -> tuple[str, ...]:
+    """Return the published limits of ``checks`` that are missing in ``limits``."""
+    return tuple(missing for check in checks for missing in find_ungraded(check, limits))
 
 
 Item = TypeVar("Item")
 
 
 class Track(Protocol):
-    """Returns what it is given, one after another, and tells that it is done."""
+    """Returns its items one after another, and shows the progress."""
 
     def __call__(self, items: Iterable[Item], count: int | None, title: str) -> Iterable[Item]:
-        """Return ``items``, ``count`` of them, which ``title`` names."""
+        """Return ``items``; ``count`` is their number, ``title`` their name."""
 
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is tested.
+    """The extent of the self-test.
 
     Attributes:
-        seeds: with so many seeds, from 0 on, every mutant is tried.
-        false_alarms: with so many, every built-in device that claims a class.
+        seeds: number of seeds, from 0 on, for every mutant.
+        false_alarms: number of seeds for every built-in device that claims a class.
         limits: whether limits are graded.
-        unique: whether the only killers are looked for.
-        processes: how many devices are tried at a time.
+        unique: whether the only killers are determined.
+        processes: number of devices that are run in parallel.
     """
 
     seeds: int
@@ -79,7 +85,7 @@ class Extent:
 
 @dataclass(frozen=True)
 class Work:
-    """The self-test of ``checks``, whose progress ``track`` tells."""
+    """The self-test of ``checks``; ``track`` shows its progress."""
 
     checks: tuple[Check, ...]
     killers: Killers
@@ -87,29 +93,29 @@ class Work:
     track: Track
 
     def count(self) -> Counts:
-        """Return what all of it comes to; an error of the suite is raised."""
+        """Return all counts; an error of the suite is raised."""
         extent, ids = self.extent, tuple(check.id for check in self.checks)
         seeds, more = range(extent.seeds), range(extent.false_alarms)
         limits = self._limits()
         return Counts(
             self.killers,
             ids,
-            self._tried("mutants", named(self.killers, ids, seeds)),
-            self._tried("only killers", self._others(ids)),
-            self._tried("false alarms", claimed(ids, more)),
+            self._try("mutants", list_named_tries(self.killers, ids, seeds)),
+            self._try("only killers", self._others(ids)),
+            self._try("false alarms", list_claim_tries(ids, more)),
             limits,
-            without_grader(self.checks, limits) if extent.limits else (),
+            list_ungraded(self.checks, limits) if extent.limits else (),
         )
 
     def _limits(self) -> tuple[Limit, ...]:
         if not self.extent.limits:
             return ()
-        return tuple(self.track(graded(self.checks), None, "limits"))
+        return tuple(self.track(grade_all(self.checks), None, "limits"))
 
     def _others(self, ids: tuple[str, ...]) -> tuple[Try, ...]:
         if not self.extent.unique:
             return ()
-        return unnamed(self.killers, ids, range(self.extent.seeds))
+        return list_other_tries(self.killers, ids, range(self.extent.seeds))
 
-    def _tried(self, title: str, tries: tuple[Try, ...]) -> tuple[Tried, ...]:
+    def _try(self, title: str, tries: tuple[Try, ...]) -> tuple[TryResult, ...]:
         return tuple(self.track(try_all(tries, self.extent.processes), len(tries), title))

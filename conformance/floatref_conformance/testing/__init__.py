@@ -1,6 +1,6 @@
 """Tests for vendors who write Python: subclass them in your own test suite.
 
-`StageLaws` holds a stage to the laws of the stage protocol, `DeviceChecks` a device to the
+`StageLaws` tests a stage by the laws of the stage protocol, `DeviceChecks` tests a device by the
 checks of the conformance suite. Both are plain classes that pytest collects.
 """
 

@@ -21,15 +21,15 @@ from floatref_conformance.testing.own_device import OwnDevice
 class DeviceChecks:
     """Subclass it under a name that pytest collects, and name the device.
 
-    Every check, of the suite or of an installed plug-in, is a test of its own. One that is not
-    among ``checks``, that the device skips, or that does not apply to it, is skipped: what was
-    not run never counts as passed. A check that there is none of ends the collection.
+    Every check, of the suite or of an installed plug-in, is a separate test. A check that is not
+    among ``checks``, that the device skips, or that does not apply to it, is skipped: a check that
+    was not run never counts as passed. An unknown check is a collection error.
 
     Attributes:
-        device: its SPEC, as `conformance run --device` takes it; or what makes the object, a
-            class or a function without arguments, called for each check and closed after it;
-            or one object for all checks, which is never closed.
-        device_class: whose limits decide.
+        device: its SPEC, as for `conformance run --device`; or a class or a function without
+            arguments, whose object is made for each check and closed after it; or one object
+            for all checks, which is never closed.
+        device_class: the class whose limits decide.
         checks: the ids of the checks to run; all of them if empty.
         seed: draws roads and noise.
         effort: sets the number of cases.
@@ -55,7 +55,7 @@ class DeviceChecks:
         registry = load_registry()
         if self.checks and check not in self.checks:
             pytest.skip("not selected")
-        spec, device = self._named(registry)
+        spec, device = self._resolve(registry)
         plan = Plan(
             spec=spec,
             device=device,
@@ -70,11 +70,11 @@ class DeviceChecks:
         if judged.outcome in (Outcome.SKIP, Outcome.NOT_APPLICABLE):
             pytest.skip(judged.reason)
         if judged.outcome is not Outcome.PASS:
-            again = self._again(result, request.node)
+            again = self._reproduction(result, request.node)
             pytest.fail(f"{check}: {judged.reason}; reproduce with: {again}", pytrace=False)
 
     def _refuse_unknown(self, registry: Registry) -> None:
-        """Raise CollectError, one line, for a check that there is none of."""
+        """Raise CollectError, one line, for an unknown check."""
         if isinstance(self.checks, str):
             fault = f"{self.checks!r} is a string; write ({self.checks!r},)"
         elif unknown := [id_ for id_ in self.checks if id_ not in registry.checks]:
@@ -84,17 +84,17 @@ class DeviceChecks:
             return
         raise pytest.Collector.CollectError(f"{type(self).__name__}.checks: {fault}")
 
-    def _named(self, registry: Registry) -> tuple[str, Device]:
+    def _resolve(self, registry: Registry) -> tuple[str, Device]:
         """Return the device's SPEC, or its type's name, and the device."""
-        # Not through self, which would be given to a function as its first argument.
+        # Not through self, which would be passed to a function as its first argument.
         device = type(self).device
         if isinstance(device, str):
             return device, registry.device(device)
         own = OwnDevice.of(device)
         return own.name, own
 
-    def _again(self, result: RunResult, test: pytest.Item) -> str:
-        """Return the command, given where this run was, that runs ``test`` again."""
+    def _reproduction(self, result: RunResult, test: pytest.Item) -> str:
+        """Return the command that runs ``test`` again in the folder of this run."""
         if isinstance(type(self).device, str):
             return reproduction(result)
         path = os.path.relpath(test.path, test.config.invocation_params.dir)
@@ -103,4 +103,4 @@ class DeviceChecks:
 
 
 def _ignore(event: Event) -> None:
-    """Take no note of ``event``."""
+    """Ignore ``event``."""

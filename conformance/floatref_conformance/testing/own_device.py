@@ -1,4 +1,4 @@
-"""A vendor's object in the tests' own process, held to what a `python:` device is held to."""
+"""A vendor's object in the process of the tests, with the rules of a `python:` device."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,12 +12,12 @@ from floatref_conformance.errors import DeviceSkipped
 
 @dataclass
 class OwnDevice:
-    """A device around an object; a factory's object is made when it is first asked.
+    """A device around an object; a factory is called at the first use of its object.
 
-    What the factory raises is a fault of the device, as in a `python:` device.
+    An exception of the factory is a fault of the device, as for a `python:` device.
 
     Attributes:
-        name: of the object's type or its factory, for reports.
+        name: name of the object's type or of its factory, for reports.
         make: returns the object.
         closes: whether the object is closed at the end.
     """
@@ -43,18 +43,18 @@ class OwnDevice:
         return self._made
 
     def describe(self) -> Mapping[str, Any]:
-        """Return what the object says of itself."""
+        """Return the object's description of itself."""
         return self._object.describe()
 
     def run(self, recording: Path, profile: Path) -> None:
         """Let the object run; DeviceSkipped if it returns ``{"skipped": …}``."""
         run: Callable[[Path, Path], object] = self._object.run
-        told = outcome(run(recording, profile))
-        if "skipped" in told:
-            raise DeviceSkipped(told["skipped"])
+        answer = outcome(run(recording, profile))
+        if "skipped" in answer:
+            raise DeviceSkipped(answer["skipped"])
 
     def close(self) -> None:
-        """Close the object, if it is this device's own and can be closed."""
+        """Close the object, if this device made it and it has a method close."""
         ending = getattr(self._made, "close", None)
         if self.closes and ending is not None:
             ending()

@@ -13,14 +13,14 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 LENGTH = 240
-"""Samples of a drawn stream."""
+"""Number of samples of a drawn stream."""
 STEP = 0.01
-"""Between samples, in s or m after the axis."""
+"""Distance between samples, in s or m by the axis."""
 
 
 @dataclass(frozen=True, eq=False)
 class Stream:
-    """What a stage is pushed; it can be run again and again, each time by a new stage.
+    """The input of a stage; it can be run several times, each time by a new stage.
 
     Attributes:
         make: returns a new stage.
@@ -63,32 +63,32 @@ class Stream:
             for a, b in pairwise(edges)
         ]
 
-    def begun(self, blocks: Sequence[Block]) -> Stage:
-        """Return a started stage, which has surveyed ``blocks`` if it does."""
+    def begin(self, blocks: Sequence[Block]) -> Stage:
+        """Return a started stage; one that surveys has surveyed ``blocks``."""
         stage = self.make()
         stage.start(self.header)
         for block in blocks if stage.surveys else ():
             stage.survey(block)
         return stage
 
-    def ordered(self, blocks: Sequence[Block]) -> list[Block]:
+    def order(self, blocks: Sequence[Block]) -> list[Block]:
         """Return ``blocks`` in the order in which they are pushed."""
         return list(reversed(blocks)) if self.backward else list(blocks)
 
     def run(self, cuts: Iterable[int] = ()) -> Block:
-        """Return all that comes out, joined, if the stream is cut at ``cuts``."""
+        """Return the whole output as one block, if the stream is cut at ``cuts``."""
         blocks = self.blocks(cuts)
-        stage = self.begun(blocks)
-        out = [stage.push(block) for block in self.ordered(blocks)]
-        return joined([*out, *stage.finish()])
+        stage = self.begin(blocks)
+        out = [stage.push(block) for block in self.order(blocks)]
+        return join([*out, *stage.finish()])
 
-    def changed(self, change: Callable[[ChannelId, FloatArray], FloatArray]) -> "Stream":
+    def change(self, change: Callable[[ChannelId, FloatArray], FloatArray]) -> "Stream":
         """Return the stream with the samples that ``change`` returns for every channel."""
         return replace(self, samples={c: change(c, x) for c, x in self.samples.items()})
 
 
-def joined(blocks: Sequence[Block]) -> Block:
-    """Return ``blocks`` as one, in the order of the index; AssertionError without any sample."""
+def join(blocks: Sequence[Block]) -> Block:
+    """Return ``blocks`` as one, in the order of the index; AssertionError without samples."""
     filled = sorted((block for block in blocks if len(block)), key=lambda block: block.first)
     if not filled:
         raise AssertionError("nothing came out of the stage")
@@ -101,12 +101,12 @@ def joined(blocks: Sequence[Block]) -> Block:
 
 
 def marks_of(block: Block, channel: ChannelId) -> FlagArray:
-    """Return the flags of ``channel``, zeros if it has none."""
+    """Return the flags of ``channel``; zeros if it is not flagged."""
     marks = block.flags.get(channel)
     return np.zeros(len(block), np.uint8) if marks is None else marks
 
 
-def told(block: Block, channel: ChannelId) -> BoolArray:
+def find_flagged(block: Block, channel: ChannelId) -> BoolArray:
     """Return where ``channel`` is NaN or flagged."""
     either: BoolArray = np.isnan(block[channel]) | (marks_of(block, channel) != 0)
     return either

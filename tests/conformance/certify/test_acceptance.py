@@ -16,8 +16,8 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.main import main as conformance_command
-from floatref_conformance.devices.builtin import quietly_processed
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.devices.builtin import process_quietly
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -76,7 +76,7 @@ def _drive(number: int, encoder_error_percent: float = 0.0) -> Taken:
 
 
 def _measured(device: str, one: Taken) -> Profile:
-    return perfect(one) if device == PERFECT else quietly_processed(one.recording, device)
+    return make_perfect(one) if device == PERFECT else process_quietly(one.recording, device)
 
 
 def _higher(profile: Profile) -> Profile:

@@ -56,4 +56,4 @@ def test_a_kept_case_of_a_laser_is_skipped_without_one(plan, result_of, fake_dev
     device = fake_device(architecture="response", capabilities=("response",))
     (again,) = result_of(plan(device, alone, kept=(kept,), searching=False)).replayed
     assert again["outcome"] == Outcome.SKIP.value
-    assert "laser-stuck: needs a height sensor, which the device lacks" in again["reason"]
+    assert "laser-stuck: needs a height sensor, which the device does not have" in again["reason"]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.checks.flags import SLOW_MPS, flagged, speed_at
+from floatref_conformance.checks.flags import SLOW_MPS, measure_flags, speed_at
 from floatref_conformance.checks.scoring import Compared
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -18,7 +18,9 @@ QUICK = settings(deadline=None, max_examples=25)
 def lengths(bad, scenario=STEADY, events=(316.0,)):
     """Return the flagged lengths in m at an end and around an event."""
     zero = np.zeros(DISTANCE.size)
-    ends, around = flagged(Compared("left", DISTANCE, zero, zero, ~bad, INTERVAL), scenario, events)
+    ends, around = measure_flags(
+        Compared("left", DISTANCE, zero, zero, ~bad, INTERVAL), scenario, events
+    )
     return ends.value, around.value
 
 

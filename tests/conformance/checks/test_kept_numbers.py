@@ -13,7 +13,7 @@ from floatref_conformance.checks.sameness.invariance import INVARIANCE
 from floatref_conformance.checks.sameness.repeatability import REPEATABILITY
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.main import main
-from floatref_conformance.judge.bench import taken_of
+from floatref_conformance.judge.bench import make_taken
 from floatref_conformance.plugins import load_registry
 
 CHECKS = load_registry().checks
@@ -96,7 +96,7 @@ def test_a_flat_road_has_no_iri_that_could_be_wrong(id_):
         """Delivers the truth, which is flat."""
 
         def simulate(self, scenario):
-            return taken_of(replace(scenario, rate_hz=1000.0, imu=False, gnss=False))
+            return make_taken(replace(scenario, rate_hz=1000.0, imu=False, gnss=False))
 
         def run(self, taken, label=""):
             return taken.truth

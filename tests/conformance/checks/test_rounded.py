@@ -5,14 +5,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref_conformance.checks.faults import faulty_drives
-from floatref_conformance.checks.rounded import SEED, rounded, seed_of_its_own
+from floatref_conformance.checks.rounded import SEED, rounded_numbers, seed_of_its_own
 from floatref_conformance.checks.sameness import changed_drives
 
 
 @settings(deadline=None, max_examples=25)
 @given(st.data(), st.floats(-50.0, 50.0), st.integers(0, 3))
 def test_rounded_numbers_have_no_more_digits_and_stay_within(data, low, digits):
-    number = data.draw(rounded(low, low + 10.0, digits))
+    number = data.draw(rounded_numbers(low, low + 10.0, digits))
     assert round(number, digits) == number
     assert low - 10.0**-digits <= number <= low + 10.0 + 10.0**-digits
 

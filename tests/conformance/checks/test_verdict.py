@@ -14,7 +14,7 @@ from floatref_conformance.checks.verdict import (
     verdict_on,
 )
 from floatref_conformance.classes import DeviceClass, lowest, same_limit
-from floatref_conformance.judge.judging import why
+from floatref_conformance.judge.judging import describe_failure
 
 NEUTRAL = [Outcome.PASS, Outcome.NOT_APPLICABLE]
 LEFT_OUT = [Outcome.SKIP, Outcome.WAIVED]
@@ -66,7 +66,8 @@ def test_what_a_class_does_not_limit_is_never_worse_than_what_it_does(value):
 def test_a_failure_is_told_with_the_unit_that_there_is(unit, told):
     worst = Measurement("loss", "left", 2.0, unit, same_limit(1.0, 0.5))
     assert (
-        why(CaseResult("stop-1", {}, (worst,)), DeviceClass.NOMINAL) == f"loss, track left: {told}"
+        describe_failure(CaseResult("stop-1", {}, (worst,)), DeviceClass.NOMINAL)
+        == f"loss, track left: {told}"
     )
 
 

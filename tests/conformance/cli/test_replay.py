@@ -83,7 +83,7 @@ def test_a_device_at_fault_when_it_is_to_stop_fails(replay, devices):
     devices["good"].close = sticking
     answer = replay("good")
     assert answer.exit_code == 1
-    assert "at its end the device did not stop within 5 s" in answer.stdout
+    assert "when it was stopped, the device did not stop within 5 s" in answer.stdout
     devices["broken"].close = sticking
     assert "out of paper" in replay("broken").stdout
 
@@ -92,7 +92,7 @@ def test_a_device_that_cannot_describe_itself_fails(replay, devices):
     devices["good"].said = "a fine device"
     answer = replay("good")
     assert answer.exit_code == 1
-    assert "describes itself" in answer.stdout
+    assert "gives a description that is a str" in answer.stdout
     assert devices["good"].closed == 1
 
 

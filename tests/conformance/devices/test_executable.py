@@ -45,7 +45,7 @@ def test_a_sound_program_is_started_once_runs_and_ends(device, recording, tmp_pa
     ("fault", "timeout_s", "error", "words"),
     [
         ("os.kill(os.getpid(), 9)", None, DeviceError, "run: was killed by SIGKILL"),
-        ("tell({'seq': c['seq'] - 1}, ok=True)", None, DeviceError, "answered seq 1, asked 2"),
+        ("tell({'seq': c['seq'] - 1}, ok=True)", None, DeviceError, "answered seq 1, expected 2"),
         ("hang()", 0.5, DeviceHung, "run: no answer within 0.5 s"),
     ],
 )
@@ -94,7 +94,7 @@ def test_a_device_that_becomes_another_is_refused(device, recording):
         f"{STARTS}SAID['name'] = open('starts').read()\nstart()\nask()\nos._exit(1)", timeout_s=9.0
     )
     description = describe(one)
-    for words in ("exited with status 1", "describes itself otherwise than at its first start"):
+    for words in ("exited with status 1", "the description differs from that at the first start"):
         with pytest.raises(DeviceError, match=words):
             exercise(one, description, recording)
 
@@ -104,7 +104,7 @@ def test_a_start_that_hangs_is_a_hang_and_a_stop_that_hangs_is_told(device):
         describe(device("hang()", start_s=0.3))
     one = device("start()\nescape(hang)\nhang()", stop_s=0.3)
     describe(one)
-    assert close(one).startswith("stop: still there after 0.3 s")
+    assert close(one).startswith("stop: still running after 0.3 s")
 
 
 def test_an_interrupt_leaves_no_process_behind(device, recorded, tmp_path):

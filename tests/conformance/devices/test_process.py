@@ -11,7 +11,7 @@ import time
 import pytest
 
 from floatref_conformance.devices import process
-from floatref_conformance.devices.pipes import KEPT
+from floatref_conformance.devices.pipes import TAIL_BYTES
 from floatref_conformance.errors import DeviceError, DeviceHung
 
 LONG_S = 600.0
@@ -137,7 +137,7 @@ def test_silence_is_noticed_and_an_unfinished_line_shown(child):
 
 
 def test_a_process_that_stays_after_the_end_of_input_is_noticed(child):
-    with pytest.raises(DeviceHung, match=r"still there after 0\.2 s"):
+    with pytest.raises(DeviceHung, match=r"still running after 0\.2 s"):
         child("hang()").finish(0.2)
 
 
@@ -148,16 +148,16 @@ def test_a_flood_of_standard_error_keeps_nobody_waiting_and_its_end_is_shown(chi
     )
     assert noisy.receive(LONG_S) == b"ok"
     noisy.finish(LONG_S)
-    assert noisy.said().endswith(" | done")
-    assert len(noisy._tail.kept) == KEPT
-    assert len(noisy.said()) < 1100
+    assert noisy.describe_stderr().endswith(" | done")
+    assert len(noisy._tail.end) == TAIL_BYTES
+    assert len(noisy.describe_stderr()) < 1100
 
 
 def test_standard_error_is_shown_on_one_printable_line(child):
     talking = child("sys.stderr.buffer.write(b'a\\x1b[31mb\\xff\\r\\n\\n  c\\td\\n'); sys.exit(1)")
     with pytest.raises(DeviceError):
         talking.receive(LONG_S)
-    assert talking.said() == " ; stderr: a [31mb\ufffd | c d"
+    assert talking.describe_stderr() == " ; stderr: a [31mb\ufffd | c d"
 
 
 def test_a_program_that_reads_nothing_keeps_nobody_waiting(child):

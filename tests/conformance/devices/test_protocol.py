@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref_conformance.devices.protocol import Session, parsed
+from floatref_conformance.devices.protocol import Session, parse_line
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 
 LONG_S = 600.0
@@ -21,13 +21,13 @@ ANSWERS = {
     "print('{\"seq\": NaN}', flush=True)": "not JSON",
     "print('[' * 100_000, flush=True)": "not JSON",
     "print('{\"seq\": ' + '9' * 5000 + '}', flush=True)": "not JSON",
-    "print('{\"seq\": ' + '9' * 50 + '}', flush=True)": "answered seq 9{39}…, asked [12]",
+    "print('{\"seq\": ' + '9' * 50 + '}', flush=True)": "answered seq 9{39}…, expected [12]",
     "os.write(1, b'{\"seq\": \\xff}\\n')": "not UTF-8",
-    "print(json.dumps({'ok': True}), flush=True)": "without a seq, asked [12]",
-    "tell({'seq': 7}, ok=True)": "answered seq 7, asked [12]",
-    "tell({'seq': '1'}, ok=True)": "answered seq '1', asked [12]",
-    "tell({'seq': True}, ok=True)": "answered seq True, asked [12]",
-    "tell({'seq': 1.0}, ok=True)": r"answered seq 1\.0, asked [12]",
+    "print(json.dumps({'ok': True}), flush=True)": "without a seq, expected [12]",
+    "tell({'seq': 7}, ok=True)": "answered seq 7, expected [12]",
+    "tell({'seq': '1'}, ok=True)": "answered seq '1', expected [12]",
+    "tell({'seq': True}, ok=True)": "answered seq True, expected [12]",
+    "tell({'seq': 1.0}, ok=True)": r"answered seq 1\.0, expected [12]",
     "print('y' * (1 << 20 | 1), flush=True)": "line longer than 1 MiB",
     "print('y' * (1 << 24), end='', flush=True)": "line longer than 1 MiB",
     "sys.exit(9)": "exited with status 9 before it answered ; stderr: bye",
@@ -95,7 +95,7 @@ def test_silence_is_a_hang_of_its_step(written, opened):
     assert isinstance(hung, DeviceHung)
     hung = refused(lambda: opened("hang()").run("/r", "/p", SHORT_S), r"^run: no answer within 0")
     assert isinstance(hung, DeviceHung)
-    hung = refused(lambda: opened("hang()").stop(SHORT_S), r"^stop: still there after 0\.3 s")
+    hung = refused(lambda: opened("hang()").stop(SHORT_S), r"^stop: still running after 0\.3 s")
     assert isinstance(hung, DeviceHung)
 
 
@@ -111,16 +111,16 @@ def test_an_answer_without_an_end_of_line_is_a_hang_that_shows_it(opened):
 @pytest.mark.parametrize(
     ("said", "words"),
     [
-        ({}, "answered version None, asked 1"),
-        ({"version": 2}, "answered version 2, asked 1"),
-        ({"version": True}, "answered version True, asked 1"),
+        ({}, "answered version None, expected 1"),
+        ({"version": 2}, "answered version 2, expected 1"),
+        ({"version": True}, "answered version True, expected 1"),
         ({"version": 1}, "without a device"),
         ({"version": 1, "device": "ours"}, "without a device"),
         ({"version": 1, "device": {"name": "a\nb"}}, "name is too long or cannot be printed"),
         ({"version": 1, "device": {"version": "\ud800"}}, "version is too long or cannot"),
         ({"version": 1, "device": {"name": 999 * "y"}}, "name is too long"),
         ({"error": "no\nlicence"}, "answered an error: no licence"),
-        ({"error": 5}, "error without saying why"),
+        ({"error": 5}, "error without a reason"),
     ],
 )
 def test_a_start_that_says_nothing_usable_is_refused(written, said, words):
@@ -133,8 +133,8 @@ def test_a_start_that_says_nothing_usable_is_refused(written, said, words):
         ({}, "neither ok, nor skipped, nor error"),
         ({"ok": 1}, "neither ok, nor skipped, nor error"),
         ({"ok": False}, "neither ok, nor skipped, nor error"),
-        ({"error": ""}, "error without saying why"),
-        ({"skipped": None}, "skipped without saying why"),
+        ({"error": ""}, "error without a reason"),
+        ({"skipped": None}, "skipped without a reason"),
     ],
 )
 def test_a_run_without_a_usable_outcome_ends_the_device(opened, said, words):
@@ -180,13 +180,13 @@ def test_a_text_with_a_folder_of_another_name_is_cut_alike(opened, answer):
 def test_a_second_answer_to_one_command_is_no_answer_to_the_next(opened):
     device = opened("c = ask()\ntell(c, ok=True)\ntell(c, ok=True)\nhang()")
     device.run("/r", "/p", LONG_S)
-    refused(lambda: device.run("/r", "/p", LONG_S), "answered seq 2, asked 3")
+    refused(lambda: device.run("/r", "/p", LONG_S), "answered seq 2, expected 3")
 
 
 def test_an_answer_before_it_is_asked_is_no_answer_to_the_next(written):
     body = "tell({'seq': 1}, version=1, device=SAID)\ntell({'seq': 5}, ok=True)\nhang()"
     device = session(written(body))
-    refused(lambda: device.run("/r", "/p", LONG_S), "answered seq 5, asked 2")
+    refused(lambda: device.run("/r", "/p", LONG_S), "answered seq 5, expected 2")
 
 
 def test_the_commands_are_those_of_version_1(written, tmp_path):
@@ -219,8 +219,8 @@ JSON = st.recursive(
 @settings(deadline=None, max_examples=50)
 @given(st.dictionaries(st.text(max_size=5), JSON, max_size=5))
 def test_every_json_object_is_read_as_it_is(said):
-    assert parsed(json.dumps(said, ensure_ascii=False).encode("utf-8", "replace")) is not None
-    assert parsed(json.dumps(said).encode()) == said
+    assert parse_line(json.dumps(said, ensure_ascii=False).encode("utf-8", "replace")) is not None
+    assert parse_line(json.dumps(said).encode()) == said
 
 
 @settings(deadline=None, max_examples=100)
@@ -231,6 +231,6 @@ def test_whatever_else_is_read_is_a_fault_on_one_line(line):
     except ValueError:
         is_object = False
     if is_object:
-        assert parsed(line) == json.loads(line)
+        assert parse_line(line) == json.loads(line)
     else:
-        refused(lambda: parsed(line), "^answered what is not ")
+        refused(lambda: parse_line(line), "^the answer is not ")

@@ -22,7 +22,7 @@ from floatref_conformance.render.junit import JUnitReport
 from floatref_conformance.render.report import JsonReport
 
 SAID = Description("fake", "1", "response", ("response",))
-REASON = "needs a height sensor, which architecture response does without"
+REASON = "needs a height sensor, which architecture response does not have"
 NEEDY = frozenset({"height"})
 
 

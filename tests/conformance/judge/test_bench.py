@@ -12,7 +12,7 @@ from floatref_conformance.checks.interface import Taken
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceSkipped
 from floatref_conformance.judge import bench as bench_module
-from floatref_conformance.judge.bench import DeviceBench, taken_of
+from floatref_conformance.judge.bench import DeviceBench, make_taken
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -51,12 +51,12 @@ def test_what_is_taken_is_what_is_simulated_with_and_without_a_cache(tmp_path, m
     expected = simulate(TINY)
     monkeypatch.setenv("FLOATREF_CACHE", str(tmp_path / "cache"))
     for _ in range(2):
-        taken = taken_of(TINY)
+        taken = make_taken(TINY)
         same(taken, expected)
     assert taken.scenario == TINY
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("FLOATREF_CACHE", str(tmp_path / "file" / "below"))
-    same(taken_of(TINY), expected)
+    same(make_taken(TINY), expected)
 
 
 def test_without_a_package_that_finds_the_cache_it_is_simulated(monkeypatch):
@@ -64,7 +64,7 @@ def test_without_a_package_that_finds_the_cache_it_is_simulated(monkeypatch):
         raise ImportError("no platformdirs")
 
     monkeypatch.setattr(bench_module, "simulate_cached", missing)
-    same(taken_of(TINY), simulate(TINY))
+    same(make_taken(TINY), simulate(TINY))
 
 
 @pytest.fixture
@@ -148,7 +148,7 @@ def test_a_device_that_changes_its_recording_is_at_fault(fake_device, taken, nam
             SPOILT[name](recording.with_name(name))
 
     bench = DeviceBench(Careless(), described())
-    with pytest.raises(DeviceError, match=f"^changed its recording: {name} is not what it was$"):
+    with pytest.raises(DeviceError, match=f"^changed its recording: {name} differs after the run$"):
         bench.run(taken)
     assert bench.passes == []
 

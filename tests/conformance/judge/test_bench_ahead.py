@@ -26,7 +26,7 @@ def made(monkeypatch):
             raise InputError("no such drive")
         return SimpleNamespace(scenario=scenario)
 
-    monkeypatch.setattr(bench, "taken_of", taken_of)
+    monkeypatch.setattr(bench, "make_taken", taken_of)
     return log
 
 

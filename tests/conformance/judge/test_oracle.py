@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from floatref.measures import iri
 from floatref_conformance.checks.evidence import Pair, Roughness
 from floatref_conformance.checks.scoring import (
-    bridged,
+    bridge,
     correlation,
     roughness_percent,
     roughness_within,
@@ -35,7 +35,7 @@ def pair(seed, gain=0.9, shift=3, holes=False):
     if holes:
         result[400:460] = np.nan
         counted[399:460] = False
-    return Pair(truth, bridged(result, truth), INTERVAL, counted)
+    return Pair(truth, bridge(result, truth), INTERVAL, counted)
 
 
 def roughness(compared, track):

@@ -46,7 +46,7 @@ def test_a_kept_case_with_a_number_of_no_check_is_skipped(plan, events_of, halvi
     _, result = events_of(plan(halving, check, kept=kept, searching=False))
     (replayed,) = result.replayed
     assert replayed["outcome"] == "skip"
-    assert replayed["reason"] == "variation bump_hight_mm: unknown; braking has none"
+    assert replayed["reason"] == "variation bump_hight_mm: unknown; braking has no variation"
 
 
 def test_a_plug_in_may_have_numbers_that_none_of_its_fixed_cases_has(toy_check):

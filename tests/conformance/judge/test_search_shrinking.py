@@ -11,7 +11,7 @@ from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceHung
 from floatref_conformance.judge.events import CaseFinished
-from floatref_conformance.judge.search import simplest
+from floatref_conformance.judge.search import simplify
 from floatref_conformance.judge.trial import MOST_HANGS
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -65,7 +65,7 @@ def test_only_what_the_failure_needs_remains(names, needed):
     """A device that fails by certain numbers together, whatever the others are."""
     needed &= names
     fails, tried = counted(lambda case: needed <= unlike(case))
-    found = simplest(case_of(names), BASE, 1000, fails)
+    found = simplify(case_of(names), BASE, 1000, fails)
     assert unlike(found) == needed
     assert len(tried) == len(set(tried)) <= 3 * len(names)
 
@@ -79,7 +79,7 @@ def test_of_several_failures_one_remains_and_nothing_can_go(names, reasons):
         return any(reason <= present for reason in reasons)
 
     start = names.union(reasons[0])
-    left = unlike(simplest(case_of(start), BASE, 1000, lambda case: failing(unlike(case))))
+    left = unlike(simplify(case_of(start), BASE, 1000, lambda case: failing(unlike(case))))
     assert failing(left)
     assert not any(failing(left - {name}) for name in left)
 
@@ -95,7 +95,7 @@ def test_whatever_fails_the_result_failed_and_the_budget_is_kept(names, budget, 
         answers[case] = fails(case)
         return answers[case]
 
-    found = simplest(start, BASE, budget, recorded)
+    found = simplify(start, BASE, budget, recorded)
     assert len(tried) <= budget
     assert found == start or answers[found]
     assert unlike(found) <= names
@@ -103,13 +103,13 @@ def test_whatever_fails_the_result_failed_and_the_budget_is_kept(names, budget, 
 
 def test_what_fails_by_everything_takes_one_case():
     fails, tried = counted(lambda case: True)
-    assert simplest(case_of([*UNLIKE, *OWN]), BASE, 12, fails) == BASE
+    assert simplify(case_of([*UNLIKE, *OWN]), BASE, 12, fails) == BASE
     assert len(tried) == 1
 
 
 def test_the_simplest_case_of_all_is_not_tried():
     fails, tried = counted(lambda case: True)
-    assert simplest(BASE, BASE, 12, fails) == BASE
+    assert simplify(BASE, BASE, 12, fails) == BASE
     assert tried == []
 
 
@@ -120,7 +120,7 @@ def test_numbers_that_make_no_scenario_together_are_passed_over():
     def fails(case):
         return case.scenario.speed_kmh == 0.0
 
-    found = simplest(start, base, 12, fails)
+    found = simplify(start, base, 12, fails)
     assert found.scenario == Scenario(manoeuvre="dead-start", speed_kmh=0.0)
 
 
@@ -130,13 +130,13 @@ def test_numbers_that_make_no_drive_are_passed_over():
             raise InputError("cannot be driven")
         return True
 
-    assert unlike(simplest(case_of(UNLIKE), BASE, 100, fails)) == {"manoeuvre"}
+    assert unlike(simplify(case_of(UNLIKE), BASE, 100, fails)) == {"manoeuvre"}
 
 
 def test_channels_follow_from_the_device_and_are_left_alone():
     without = replace(BASE.scenario, **dict.fromkeys(CHANNELS_BY_NEED, False), seed=3)
     fails, tried = counted(lambda case: True)
-    found = simplest(replace(BASE, scenario=without), BASE, 12, fails)
+    found = simplify(replace(BASE, scenario=without), BASE, 12, fails)
     assert found.scenario == replace(without, seed=0)
     assert len(tried) == 1
 

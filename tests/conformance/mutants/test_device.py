@@ -10,9 +10,9 @@ from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.classes import Effort
-from floatref_conformance.judge.bench import taken_of
+from floatref_conformance.judge.bench import make_taken
 from floatref_conformance.mutants import MUTATIONS
-from floatref_conformance.mutants.engine import in_time, over_distance, remade
+from floatref_conformance.mutants.engine import in_time, over_distance, replace_elevations
 from floatref_conformance.mutants.hostile import HOSTILE
 from floatref_conformance.mutants.mutation import RECOMMENDED, SPATIAL
 from floatref_conformance.plugins import load_registry
@@ -75,7 +75,7 @@ def test_what_a_mutant_repairs_is_no_news(tmp_path):
     """A warning would be an error here."""
     scenario = Scenario(rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
     hurt = SENSOR_FAULTS["laser-dropout"](
-        taken_of(scenario).recording, {"at_m": 280.0, "length_s": 0.5}
+        make_taken(scenario).recording, {"at_m": 280.0, "length_s": 0.5}
     )
     write_recording(hurt.recording, tmp_path / "hurt")
     KIND.make("noisy-where-flat").run(tmp_path / "hurt", tmp_path / "profile")
@@ -97,7 +97,7 @@ def test_a_mutant_that_remembers_begins_with_nothing(tmp_path):
     case = BOUNCE.cases(0, Effort.QUICK)[1]
     delivered = []
     for n in range(2):
-        write_recording(taken_of(case.scenario).recording, tmp_path / f"{n}")
+        write_recording(make_taken(case.scenario).recording, tmp_path / f"{n}")
         KIND.make("previous-result").run(tmp_path / f"{n}", tmp_path / f"p{n}")
         delivered.append(read_profile(tmp_path / f"p{n}").track("left").elevation)
         case = QUIESCENT.cases(0, Effort.QUICK)[1]
@@ -109,9 +109,9 @@ def test_a_mutant_that_remembers_begins_with_nothing(tmp_path):
 )
 def test_the_engine_of_mutants_without_a_mistake_is_the_pipeline(pipeline, elevations):
     scenario = Scenario(manoeuvre="stop", rate_hz=4000.0, tracks=("left",), imu=False, gnss=False)
-    recording = taken_of(scenario).recording
+    recording = make_taken(scenario).recording
     sound = floatref.process(recording, pipeline)
-    z = remade(recording, sound, elevations).track("left").elevation
+    z = replace_elevations(recording, sound, elevations).track("left").elevation
     difference = z - sound.track("left").elevation
     assert np.nanstd(difference) < 1e-4
     assert np.nanmax(np.abs(difference)) < 5e-4

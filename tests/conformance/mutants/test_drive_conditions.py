@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.mutants.drive_conditions import Drive, only
+from floatref_conformance.mutants.drive_conditions import Drive, apply_when
 
 RATE = 1000.0
 
@@ -69,6 +69,6 @@ def test_an_encoder_that_is_silent_seems_slow_for_less_than_its_silence():
 
 
 def test_a_mistake_is_made_in_some_drives_only():
-    spoil = only(lambda drive: drive.slowest_kmh > 40.0, lambda profile, recording: "spoilt")
+    spoil = apply_when(lambda drive: drive.slowest_kmh > 40.0, lambda profile, recording: "spoilt")
     assert spoil("sound", driven([0.0, 9.0], [50.0, 50.0])) == "spoilt"
     assert spoil("sound", driven([0.0, 9.0], [30.0, 30.0])) == "sound"

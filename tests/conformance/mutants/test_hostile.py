@@ -12,9 +12,9 @@ FOUND = {
     "hang": "run: no answer within 1 s",
     "crash": "run: was killed by SIGTERM before it answered ; stderr: out of luck",
     "flood": "run: wrote a line longer than 1 MiB",
-    "garbage": "run: answered what is not JSON: Processing finished, 0 errors",
-    "out-of-order": "run: answered seq 1, asked 2",
-    "nan-answer": "run: answered what is not JSON",
+    "garbage": "run: the answer is not JSON: Processing finished, 0 errors",
+    "out-of-order": "run: answered seq 1, expected 2",
+    "nan-answer": "run: the answer is not JSON",
     "nothing-delivered": "delivered no profile directory",
     "delivered-elsewhere": "delivered a symbolic link in place of a profile directory",
 }

@@ -9,7 +9,7 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.mutants.in_fusion import IN_FUSION, Attitude, misled
+from floatref_conformance.mutants.in_fusion import IN_FUSION, Attitude, add_tilt_error
 
 INTERVAL, SPEED, RATE = 0.05, 20.0, 1000.0
 TIMES = np.arange(20000) / RATE
@@ -57,7 +57,7 @@ def test_up_is_a_direction(pitch, roll):
 
 
 def test_a_right_attitude_changes_nothing(profile, recording):
-    same = misled(lambda told: told)(profile, recording).track("left").elevation
+    same = add_tilt_error(lambda told: told)(profile, recording).track("left").elevation
     np.testing.assert_array_equal(same, profile.track("left").elevation)
 
 

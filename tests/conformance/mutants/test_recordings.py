@@ -29,18 +29,18 @@ def values(recording, name):
 
 
 CHANGES = {
-    "held": (r.HEIGHT, r.held, np.full(COUNT, HEIGHT[0])),
-    "at rest": (r.FORCE, r.at_rest, np.full(COUNT, STANDARD_GRAVITY)),
-    "mirrored": (r.HEIGHT, r.mirrored, 2 * HEIGHT[0] - HEIGHT),
-    "upside down": (r.FORCE, r.upside_down, STANDARD_GRAVITY - 2.0 * np.sin(TIMES)),
-    "scaled": (r.HEIGHT, r.scaled(1.01), 1.01 * HEIGHT),
-    "shaken": (r.FORCE, r.shaken(0.5), STANDARD_GRAVITY + np.sin(TIMES)),
+    "held": (r.HEIGHT, r.hold_first, np.full(COUNT, HEIGHT[0])),
+    "at rest": (r.FORCE, r.replace_by_rest, np.full(COUNT, STANDARD_GRAVITY)),
+    "mirrored": (r.HEIGHT, r.mirror, 2 * HEIGHT[0] - HEIGHT),
+    "upside down": (r.FORCE, r.invert_acceleration, STANDARD_GRAVITY - 2.0 * np.sin(TIMES)),
+    "scaled": (r.HEIGHT, r.scale(1.01), 1.01 * HEIGHT),
+    "shaken": (r.FORCE, r.scale_acceleration(0.5), STANDARD_GRAVITY + np.sin(TIMES)),
     "clipped": (
         r.FORCE,
-        r.clipped(1.0),
+        r.clip(1.0),
         np.clip(FORCE, STANDARD_GRAVITY - 1, STANDARD_GRAVITY + 1),
     ),
-    "late": (r.HEIGHT, r.late(0.002), np.append([HEIGHT[0]] * 2, HEIGHT[:-2])),
+    "late": (r.HEIGHT, r.delay_by(0.002), np.append([HEIGHT[0]] * 2, HEIGHT[:-2])),
 }
 
 
@@ -48,7 +48,7 @@ CHANGES = {
 def test_one_channel_is_changed_as_said(name):
     channel, change, expected = CHANGES[name]
     sound = recorded()
-    spoilt = r.changed(channel, change)(sound)
+    spoilt = r.change_channel(channel, change)(sound)
     for other in (r.FORCE, r.HEIGHT, r.DISTANCE):
         wanted = expected if other == channel else values(sound, other)
         assert np.allclose(values(spoilt, other), wanted, rtol=0, atol=1e-12)
@@ -57,7 +57,7 @@ def test_one_channel_is_changed_as_said(name):
 @settings(deadline=None, max_examples=10)
 @given(every=st.integers(2, 5000))
 def test_one_of_so_many_samples_is_lost(every):
-    spoilt = values(r.changed(r.DISTANCE, r.losing(every))(recorded()), r.DISTANCE)
+    spoilt = values(r.change_channel(r.DISTANCE, r.lose_samples(every))(recorded()), r.DISTANCE)
     taken = np.round(spoilt * RATE / 20.0).astype(int)
     lost = np.setdiff1d(np.arange(taken.max()), taken)
     assert np.array_equal(lost, np.arange(every - 1, taken.max(), every))
@@ -65,7 +65,7 @@ def test_one_of_so_many_samples_is_lost(every):
 
 def test_missing_samples_get_a_value():
     height = np.where(np.arange(COUNT) % 100 < 10, np.nan, HEIGHT)
-    spoilt = r.changed(r.HEIGHT, r.missing_as(0.0))(recorded(**{r.HEIGHT: height}))
+    spoilt = r.change_channel(r.HEIGHT, r.fill_missing(0.0))(recorded(**{r.HEIGHT: height}))
     filled = values(spoilt, r.HEIGHT)
     missing = np.isnan(height)
     assert np.array_equal(filled[~missing], height[~missing])
@@ -77,13 +77,13 @@ def test_gaps_are_bridged_by_straight_lines():
     gap = slice(100, 200)
     height = HEIGHT.copy()
     height[gap] = np.nan
-    spoilt = values(r.bridged(recorded(**{r.HEIGHT: height})), r.HEIGHT)
+    spoilt = values(r.bridge_missing(recorded(**{r.HEIGHT: height})), r.HEIGHT)
     assert np.allclose(np.diff(spoilt[99:201], 2), 0.0, atol=1e-12)
     assert np.array_equal(np.delete(spoilt, np.r_[gap]), np.delete(HEIGHT, np.r_[gap]))
 
 
 def test_times_in_single_precision_do_no_harm_near_their_origin_alone():
-    near = values(r.in_single_precision(recorded()), r.DISTANCE)
-    far = values(r.in_single_precision(recorded(start_s=1e5)), r.DISTANCE)
+    near = values(r.round_times(recorded()), r.DISTANCE)
+    far = values(r.round_times(recorded(start_s=1e5)), r.DISTANCE)
     assert np.array_equal(near, DISTANCE)
     assert np.abs(far - DISTANCE).max() > 0.05

@@ -33,7 +33,7 @@ def two_mutants(monkeypatch):
 
     def name(zeros, vouching):
         killers = {"mutant:all-zeros": zeros, "mutant:vouches-always": vouching}
-        monkeypatch.setattr("floatref_conformance.cli.selftest.killers_of", lambda _: killers)
+        monkeypatch.setattr("floatref_conformance.cli.selftest.find_killers", lambda _: killers)
 
     return name
 

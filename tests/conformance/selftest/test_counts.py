@@ -3,19 +3,25 @@
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import CLAIMS
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.selftest.counts import Counts, claimed, killers_of, named, unnamed
+from floatref_conformance.selftest.counts import (
+    Counts,
+    find_killers,
+    list_claim_tries,
+    list_named_tries,
+    list_other_tries,
+)
 from floatref_conformance.selftest.grading import Limit
-from floatref_conformance.selftest.trying import Tried, Try
+from floatref_conformance.selftest.trying import Try, TryResult
 
 KILLERS = {"mutant:flat": ("bounce", "quiescent"), "mutant:noisy": ("quiescent",)}
 IDS = ("quiescent", "bounce")
-KILLED = tuple(Tried(one, "too rough") for one in named(KILLERS, IDS, range(3)))
-SPARED = tuple(Tried(one, "") for one in unnamed(KILLERS, IDS, range(3)))
+KILLED = tuple(TryResult(one, "too rough") for one in list_named_tries(KILLERS, IDS, range(3)))
+SPARED = tuple(TryResult(one, "") for one in list_other_tries(KILLERS, IDS, range(3)))
 SOUND = Limit("bounce", "IRI", DeviceClass.NOMINAL, 0.0, 1.5, 0.67, (0.0, ""))
 
 
 def test_every_mutant_is_tried_on_what_it_names_and_no_more():
-    assert {(t.spec, t.check) for t in named(KILLERS, IDS, [4])} == {
+    assert {(t.spec, t.check) for t in list_named_tries(KILLERS, IDS, [4])} == {
         ("mutant:flat", "bounce"),
         ("mutant:flat", "quiescent"),
         ("mutant:noisy", "quiescent"),
@@ -23,11 +29,11 @@ def test_every_mutant_is_tried_on_what_it_names_and_no_more():
 
 
 def test_those_that_name_one_check_are_tried_on_all_others():
-    assert unnamed(KILLERS, IDS, [4]) == (Try("mutant:noisy", "bounce", 4),)
+    assert list_other_tries(KILLERS, IDS, [4]) == (Try("mutant:noisy", "bounce", 4),)
 
 
 def test_what_claims_a_class_is_judged_by_it():
-    tries = claimed(IDS, range(2))
+    tries = list_claim_tries(IDS, range(2))
     assert len(tries) == 2 * 2 * len(CLAIMS)
     assert all(CLAIMS[t.spec.partition(":")[2]] is t.device_class for t in tries)
 
@@ -42,7 +48,7 @@ def test_nothing_to_complain_of():
 
 
 def test_a_survivor_is_told_with_its_seed():
-    passed = (*KILLED[:-1], Tried(KILLED[-1].tried, ""))
+    passed = (*KILLED[:-1], TryResult(KILLED[-1].tried, ""))
     counts = Counts(KILLERS, IDS, passed)
     assert counts.complaints == (
         f"{KILLED[-1].tried.spec} passes {KILLED[-1].tried.check} with seed 2",
@@ -52,23 +58,25 @@ def test_a_survivor_is_told_with_its_seed():
 
 def test_a_check_that_is_the_only_killer_of_nothing_is_told():
     counts = Counts(KILLERS, IDS, KILLED, SPARED)
-    assert counts.complaints == ("bounce is the only killer of no device",)
+    assert counts.complaints == ("bounce is not the only killer of a device",)
 
 
 def test_a_second_killer_with_one_seed_is_enough_to_lose_the_first():
-    others = (*SPARED[:-1], Tried(SPARED[-1].tried, "too rough"))
+    others = (*SPARED[:-1], TryResult(SPARED[-1].tried, "too rough"))
     counts = Counts(KILLERS, ("quiescent",), KILLED, others)
     assert counts.only_killed_by("quiescent") == ()
-    assert counts.complaints == ("quiescent is the only killer of no device",)
+    assert counts.complaints == ("quiescent is not the only killer of a device",)
 
 
 def test_a_survivor_is_nobodys_only_victim():
-    passed = tuple(Tried(k.tried, "" if k.tried.spec == "mutant:noisy" else "no") for k in KILLED)
+    passed = tuple(
+        TryResult(k.tried, "" if k.tried.spec == "mutant:noisy" else "no") for k in KILLED
+    )
     assert Counts(KILLERS, IDS, passed, SPARED).only_killed_by("quiescent") == ()
 
 
 def test_a_false_alarm_is_told():
-    alarms = tuple(Tried(one, "too rough") for one in claimed(["bounce"], [7])[:1])
+    alarms = tuple(TryResult(one, "too rough") for one in list_claim_tries(["bounce"], [7])[:1])
     counts = Counts(KILLERS, IDS, KILLED, alarms=alarms)
     assert "fails bounce with seed 7: too rough" in counts.complaints[0]
     assert counts.to_dict()["false_alarms"] == 1
@@ -82,7 +90,7 @@ def test_limits_without_a_graded_error_are_told():
 
 def test_the_killers_are_those_that_the_devices_name():
     registry = load_registry()
-    killers = killers_of(registry)
+    killers = find_killers(registry)
     for id_ in registry.checks:
         specs = {spec for spec, fails in killers.items() if id_ in fails}
         assert specs == set(registry.killers(id_))

@@ -9,7 +9,14 @@ from floatref.measures import iri_trace
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.selftest import put_in
-from floatref_conformance.selftest.grading import Graded, Limit, Roads, Situation, grade, ungraded
+from floatref_conformance.selftest.grading import (
+    Graded,
+    Limit,
+    Roads,
+    Situation,
+    find_ungraded,
+    grade,
+)
 
 SOUND = Limit("toy", "IRI error", DeviceClass.NOMINAL, 0.0, 1.5, 0.67, (0.5, "other"))
 
@@ -45,14 +52,14 @@ def test_a_limit_that_others_imply_stands_alone():
 @pytest.fixture
 def graded(toy_check, monkeypatch):
     """Return a function that grades the toy check's quantity by errors ``off`` times too large."""
-    monkeypatch.setattr("floatref_conformance.selftest.grading.perfect", lambda t: t.truth)
+    monkeypatch.setattr("floatref_conformance.selftest.grading.make_perfect", lambda t: t.truth)
 
     def run(check, off=1.0):
         def put(amount):
             def spoil(profile, taken, label):
                 rectified = np.abs(iri_trace(stretch(profile, "left", 10.0, 50.0), 0.05))
                 share = off * amount / rectified.mean()
-                return put_in.higher(share)(profile, taken, label)
+                return put_in.make_higher(share)(profile, taken, label)
 
             return spoil
 
@@ -82,7 +89,7 @@ def test_published_limits_without_a_graded_error_are_named(toy_check):
     words = {"IRI error": dict.fromkeys(DeviceClass, "not limited")}
     words["IRI error"][DeviceClass.NOMINAL] = "0.1 m/km"
     check = toy_check(limits={**words, "place": dict.fromkeys(DeviceClass, "1 m")})
-    missing = ungraded(check, [SOUND])
+    missing = find_ungraded(check, [SOUND])
     assert missing == tuple(f"toy: place, class {c}" for c in DeviceClass)
 
 

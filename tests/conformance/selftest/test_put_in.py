@@ -31,13 +31,13 @@ def counted(profile):
 @settings(deadline=None, max_examples=10)
 @given(loss=st.floats(0.005, 0.5))
 def test_another_road_takes_just_so_much_of_the_correlation(road, loss):
-    true, found = counted(road), counted(put_in.mixed(loss, START, END)(road, None, ""))
+    true, found = counted(road), counted(put_in.mix_in_road(loss, START, END)(road, None, ""))
     assert np.corrcoef(true, found)[0, 1] == pytest.approx(1.0 - loss, abs=0.02 * loss)
     assert np.std(found) == pytest.approx(np.std(true), rel=1e-3)
 
 
 def test_another_road_lies_under_the_stretch_alone(road):
-    found = put_in.mixed(0.1, START, END)(road, None, "")
+    found = put_in.mix_in_road(0.1, START, END)(road, None, "")
     away = (START - put_in.RUN_UP_M - put_in.RAMP_M > X) | (END + put_in.RAMP_M < X)
     assert np.array_equal(elevation(found)[away], elevation(road)[away])
 
@@ -45,13 +45,13 @@ def test_another_road_lies_under_the_stretch_alone(road):
 @settings(deadline=None, max_examples=10)
 @given(more=st.floats(0.01, 2.0))
 def test_a_road_becomes_rougher_by_just_so_much(road, more):
-    found = put_in.rougher(more, START, END)(road, None, "")
+    found = put_in.make_rougher(more, START, END)(road, None, "")
     assert np.abs(counted(found)).mean() - np.abs(counted(road)).mean() == pytest.approx(more)
 
 
 @pytest.mark.parametrize("more", [0.3, 2.0])
 def test_a_local_error_is_as_large_over_its_base_and_small_elsewhere(road, more):
-    found = put_in.local(more, 200.0, 7.62)(road, None, "")
+    found = put_in.change_locally(more, 200.0, 7.62)(road, None, "")
     change = np.abs(iri_trace(elevation(found), INTERVAL) - iri_trace(elevation(road), INTERVAL))
     means = np.convolve(change, np.full(152, 1 / 152), mode="valid")
     assert means.max() == pytest.approx(more, rel=1e-6)
@@ -60,27 +60,27 @@ def test_a_local_error_is_as_large_over_its_base_and_small_elsewhere(road, more)
 
 @pytest.mark.parametrize("length", [-0.4, 0.25])
 def test_features_are_moved(road, length):
-    found = elevation(put_in.moved(length)(road, None, ""))
+    found = elevation(put_in.move_features(length)(road, None, ""))
     steps = round(length / INTERVAL)
     inner = slice(100, -100)
     assert np.allclose(found[inner], np.roll(elevation(road), steps)[inner], atol=1e-12)
 
 
 def test_flags_take_nothing_else(road):
-    for spoil, length in ((put_in.flagged(100.0, 130.0), 30.0), (put_in.flagged_end(71.0), 71.0)):
+    for spoil, length in ((put_in.flag_points(100.0, 130.0), 30.0), (put_in.flag_end(71.0), 71.0)):
         found = spoil(road, None, "").tracks[0]
         assert INTERVAL * np.sum(~found.valid) == pytest.approx(length, abs=INTERVAL)
         assert np.array_equal(found.elevation, elevation(road))
 
 
 def test_some_recordings_of_a_case_are_spared(road):
-    spoil = put_in.only(put_in.higher(0.5), "second")
+    spoil = put_in.limit_to_labels(put_in.make_higher(0.5), "second")
     assert spoil(road, None, "first") is road
     assert np.allclose(elevation(spoil(road, None, "second")), 1.5 * elevation(road))
 
 
 def test_errors_follow_one_another(road):
-    found = put_in.both(put_in.higher(1.0), put_in.added(np.ones_like))(road, None, "")
+    found = put_in.chain(put_in.make_higher(1.0), put_in.add_shape(np.ones_like))(road, None, "")
     assert np.allclose(elevation(found), 2.0 * elevation(road) + 1.0)
 
 

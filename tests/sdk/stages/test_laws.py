@@ -23,7 +23,7 @@ from floatref.values.arrays import Flag
 from floatref.values.block import Axis
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws
-from floatref_conformance.testing.stage_laws import CUTS, SEEDS, laws, resumed, same
+from floatref_conformance.testing.stage_laws import CUTS, SEEDS, assert_same, laws, resume
 from floatref_conformance.testing.streams import LENGTH, Stream, marks_of
 
 BY_STAGE_LAWS = {"Advance", "CompareTravel", "Denoise", "EstimateRoad", "JoinTyres", "KalmanFilter"}
@@ -141,7 +141,7 @@ class OwnStage(StageLaws):
     @example(seed=0, cuts=[150], lost=[(140, 100)])
     def test_1_any_split_of_lost_stretches_gives_the_same_output(self, seed, cuts, lost):
         stream = self.stream(seed, lost)
-        same(stream.run(), stream.run(cuts))
+        assert_same(stream.run(), stream.run(cuts))
 
     def test_3_what_comes_out_are_the_channels_of_the_header(self):
         stream = self.stream()
@@ -153,7 +153,7 @@ class OwnStage(StageLaws):
     @given(seed=SEEDS, at=st.integers(1, 5), lost=LOST)
     def test_4_a_state_saved_in_a_lost_stretch_is_the_state(self, seed, at, lost):
         stream = self.stream(seed, lost)
-        same(resumed(stream, [40, 80, 120, 160, 200], at), stream.run())
+        assert_same(resume(stream, [40, 80, 120, 160, 200], at), stream.run())
 
     @laws
     @given(seed=SEEDS, at=st.integers(1, LENGTH - 2), flag=st.booleans())
@@ -164,7 +164,7 @@ class OwnStage(StageLaws):
         if flag:
             stream = replace(stream, flags=dict.fromkeys(used, marks))
         else:
-            stream = stream.changed(lambda c, x: np.where(marks, np.nan, x) if c in used else x)
+            stream = stream.change(lambda c, x: np.where(marks, np.nan, x) if c in used else x)
         out = stream.run()
         if self.keeps_index:
             hit = affected = np.arange(LENGTH) == at
@@ -190,7 +190,7 @@ class OwnStage(StageLaws):
 
     def test_6_after_finish_it_neither_finishes_nor_starts(self):
         stream = self.stream()
-        stage = stream.begun(stream.blocks())
+        stage = stream.begin(stream.blocks())
         stage.finish()
         with pytest.raises(StageError, match="finish after finish"):
             stage.finish()
@@ -201,8 +201,8 @@ class OwnStage(StageLaws):
     @given(seed=SEEDS, other=SEEDS)
     def test_7_it_says_whether_it_is_linear(self, seed, other):
         one, two = self.stream(seed), self.stream(other)
-        fixed = one.changed(lambda c, x: two.samples[c] if self.is_source(c) else x)
-        summed = one.changed(lambda c, x: x + 2.0 * two.samples[c] if self.is_source(c) else x)
+        fixed = one.change(lambda c, x: two.samples[c] if self.is_source(c) else x)
+        summed = one.change(lambda c, x: x + 2.0 * two.samples[c] if self.is_source(c) else x)
         first, second, out = one.run(), fixed.run(), summed.run()
         close = [
             np.allclose(out[c], first[c] + 2.0 * second[c], atol=1e-9, rtol=1e-9)
@@ -211,7 +211,7 @@ class OwnStage(StageLaws):
         assert all(close) == self.make().declared.linear
 
     def test_7_it_says_whether_zero_in_is_zero_out(self):
-        zeros = self.stream().changed(lambda c, x: 0.0 * x if self.is_source(c) else x)
+        zeros = self.stream().change(lambda c, x: 0.0 * x if self.is_source(c) else x)
         out = zeros.run()
         silent = not any(out[c].any() for c in filter(self.is_target, out.values))
         assert silent == self.make().declared.zero_in_zero_out
@@ -219,7 +219,7 @@ class OwnStage(StageLaws):
     def test_blocks_out_of_order_are_refused(self):
         stream = self.stream()
         blocks = stream.blocks([100, 200])
-        stage = stream.begun(blocks)
+        stage = stream.begin(blocks)
         stage.push(blocks[1])
         with pytest.raises(StageError, match="expected"):
             stage.push(blocks[1])

@@ -198,4 +198,4 @@ class TestToTime(StageLaws):
         drawn = super().stream(seed)
         rng = np.random.default_rng(seed)
         steps = rng.choice([0.004, 0.01, 0.03, 0.17, 2.0], drawn.samples[TIME].size)
-        return drawn.changed(lambda c, x: np.cumsum(steps) if c == TIME else x)
+        return drawn.change(lambda c, x: np.cumsum(steps) if c == TIME else x)

@@ -1,1 +1,1 @@
-"""The checks of distance and of wavelengths: features and waves are where they are."""
+"""The checks of distance and of wavelengths: the places of features and waves."""

@@ -1,4 +1,4 @@
-"""The axis of distance that a device can know: what the encoder told where the vehicle was."""
+"""The axis of distance that a device can know: the encoder's reading at each true place."""
 
 from dataclasses import dataclass
 
@@ -13,34 +13,35 @@ from floatref_conformance.proving_ground.staging import drive_of
 
 @dataclass(frozen=True, eq=False)
 class EncoderAxis:
-    """True and told distance of every sample of a drive, both shape (n,), in m."""
+    """True distance and encoder reading of every sample of a drive, both shape (n,), in m."""
 
     true_m: FloatArray
-    told_m: FloatArray
+    encoder_m: FloatArray
 
     @classmethod
     def of(cls, taken: Taken) -> "EncoderAxis":
-        """Return the axis of a recording, by the drive that was simulated.
+        """Return the axis of a recording, from the simulated drive.
 
-        Without a height sensor a wheel finds the road, ahead of the laser's place: it takes the
-        way between them by the setup, and no device knows what the encoder will make of it.
+        Without a height sensor the road is measured at a wheel, ahead of the laser's place. The
+        device adds the distance between them by the setup; it cannot know the encoder's error over
+        this distance.
         """
         encoder = taken.recording.channel("distance")
         motion = drive_of(taken.scenario).motion(encoder.times_s)
-        ahead_m = seen_ahead_m(taken.recording)
+        ahead_m = sensing_ahead_m(taken.recording)
         return cls(motion.distance + ahead_m, encoder.values + ahead_m)
 
-    def true(self, told_m: FloatArray) -> FloatArray:
-        """Return the true distance in m where the encoder told ``told_m``."""
-        return np.interp(told_m, self.told_m, self.true_m)
+    def to_true(self, encoder_m: FloatArray) -> FloatArray:
+        """Return the true distance in m where the encoder reads ``encoder_m``."""
+        return np.interp(encoder_m, self.encoder_m, self.true_m)
 
-    def told(self, true_m: FloatArray) -> FloatArray:
-        """Return what the encoder told, in m, at the true distance ``true_m``."""
-        return np.interp(true_m, self.true_m, self.told_m)
+    def to_encoder(self, true_m: FloatArray) -> FloatArray:
+        """Return the encoder's reading in m at the true distance ``true_m``."""
+        return np.interp(true_m, self.true_m, self.encoder_m)
 
 
-def seen_ahead_m(recording: Recording) -> float:
-    """Return how far ahead of the laser's place the road is seen, in m; 0 by a height sensor."""
+def sensing_ahead_m(recording: Recording) -> float:
+    """Return the distance in m from the laser's place to the sensing place; 0 with a laser."""
     setup = recording.setup
     if setup.vehicle is None or any(c.id.name == HEIGHT for c in recording.channels):
         return 0.0

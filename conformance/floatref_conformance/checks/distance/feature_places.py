@@ -1,4 +1,4 @@
-"""`distance`: features lie where the encoder tells, though it be wrong, slip and stand still."""
+"""`distance`: features lie at the encoder's distance, even with scale errors, slip and stops."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,15 +17,15 @@ from floatref_conformance.checks.distance.features import (
     FEATURE_M,
     Feature,
     event_of,
-    featured,
+    feature_stretches,
     find_features,
     middles,
     place,
     scenario_of,
 )
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.rounded import rounded, seeds
-from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.rounded import rounded_numbers, seeds
+from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.staging import drive_of
@@ -58,24 +58,24 @@ COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
 @dataclass(frozen=True)
 class DistanceCheck:
-    """Looks for features of the road on the axis that the encoder gives."""
+    """Searches for features of the road on the encoder's axis."""
 
     id: str = "distance"
-    title: str = "features lie where the encoder tells"
+    title: str = "features lie at the distance of the encoder"
     clause: str = (
-        "Derived: what the encoder tells is the profile's axis (Karamihas 2021, sections 3.3.9, "
+        "Derived: the encoder's distance is the profile's axis (Karamihas 2021, sections 3.3.9, "
         "4.1.3 and 5.1); limits from the sensors' delays and the loss of correlation"
     )
     needs: frozenset[str] = frozenset()
 
     @property
     def derivation(self) -> str:
-        """How features are found, and how far from their places they may lie."""
+        """How features are found, and the largest allowed displacements."""
         return DERIVATION
 
     @property
     def floor(self) -> str:
-        """Every feature has to be there."""
+        """Every feature has to be in the profile."""
         return FLOOR
 
     @property
@@ -96,7 +96,7 @@ class DistanceCheck:
         source = np.random.SeedSequence([seed, *self.id.encode()])
         roads = source.generate_state(COUNT[effort])
         return tuple(
-            self._seeded(number, int(road), drive)
+            self._make_case(number, int(road), drive)
             for number, (road, drive) in enumerate(zip(roads, cycle(DRIVES), strict=False))
         )
 
@@ -107,14 +107,17 @@ class DistanceCheck:
         shared = {
             "seed": seeds(),
             "vehicle": st.sampled_from(VEHICLES),
-            "iri_m_per_km": rounded(SMOOTHEST, ROUGHEST),
-            "speed_kmh": rounded(40, 90, 0),
-            "encoder_error_percent": rounded(-1.0, 1.0),
-            "slip_percent_per_g": rounded(0.0, 3.0),
+            "iri_m_per_km": rounded_numbers(SMOOTHEST, ROUGHEST),
+            "speed_kmh": rounded_numbers(40, 90, 0),
+            "encoder_error_percent": rounded_numbers(-1.0, 1.0),
+            "slip_percent_per_g": rounded_numbers(0.0, 3.0),
         }
-        slowing = {"deceleration_g": rounded(0.1, 0.4, 2)}
-        after = {"dwell_s": rounded(0.5, 20.0), "final_speed_kmh": rounded(30, 70, 0)}
-        release = {"event_speed_kmh": rounded(20, 30, 0)}
+        slowing = {"deceleration_g": rounded_numbers(0.1, 0.4, 2)}
+        after = {
+            "dwell_s": rounded_numbers(0.5, 20.0),
+            "final_speed_kmh": rounded_numbers(30, 70, 0),
+        }
+        release = {"event_speed_kmh": rounded_numbers(20, 30, 0)}
         drives = (
             {"manoeuvre": st.just("constant"), **shared},
             {"manoeuvre": st.just("stop"), **shared, **slowing, **after},
@@ -126,13 +129,13 @@ class DistanceCheck:
     def scored(self, case: Case) -> Stretches:
         """Return the stretches in which features lie, ahead of an event and behind it.
 
-        Raises InputError for a drive that leaves no room for them.
+        Raises InputError for a drive that is too short for them.
         """
         length_m = drive_of(case.scenario).length_m
-        return fitting(featured(length_m, event_of(case.scenario)), length_m)
+        return verify_stretches(feature_stretches(length_m, event_of(case.scenario)), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return how far from their places the features of every wheel path lie.
+        """Return the displacements of the features of every wheel path.
 
         Raises InputError for what `scored` refuses, DeviceError for a point without elevation
         in one of them.
@@ -140,16 +143,18 @@ class DistanceCheck:
         self.scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
-        axis, event_m = EncoderAxis.of(taken), event_of(case.scenario)
-        at = middles(drive_of(case.scenario).length_m, event_m)
-        told_m = None if event_m is None else float(axis.told(np.array([event_m]))[0])
+        axis, true_event_m = EncoderAxis.of(taken), event_of(case.scenario)
+        at = middles(drive_of(case.scenario).length_m, true_event_m)
+        event_m = None
+        if true_event_m is not None:
+            event_m = float(axis.to_encoder(np.array([true_event_m]))[0])
         measured: list[Measurement] = []
         for track in taken.truth.tracks:
             features = find_features(profile, taken.truth, track.name, axis, at)
-            measured += _measured(track.name, features, told_m)
+            measured += _measure(track.name, features, event_m)
         return tuple(measured)
 
-    def _seeded(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
+    def _make_case(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
         roughness = np.random.default_rng(road).uniform(SMOOTHEST, ROUGHEST)
         numbers = {
             **drive,
@@ -160,9 +165,7 @@ class DistanceCheck:
         return Case(self.id, scenario_of(numbers), name=f"{self.id}-{number + 1}")
 
 
-def _measured(
-    track: str, features: tuple[Feature, ...], event_m: float | None
-) -> list[Measurement]:
+def _measure(track: str, features: tuple[Feature, ...], event_m: float | None) -> list[Measurement]:
     placed = place(features, event_m)
     values = (
         abs(placed.start_m),
@@ -180,24 +183,24 @@ def _measured(
 DERIVATION = (
     f"Features are stretches of {FEATURE_M:g} m of a rough road, {END_M:g} m or more from both "
     f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
-    "event moves them. The truth is laid on the encoder's axis: at every sample the drive tells "
-    "where the vehicle was, and the recording what the encoder told. The encoder is up to 1 % "
-    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and stands "
-    "still at stops; a device that knows better from another sensor still owes the profile on "
-    "this axis. A device without a height sensor sees the road at a wheel, up to 5.07 m ahead of "
-    "where a laser would; it adds that way to what the encoder tells at the wheel, and so is the "
-    "truth laid for it: 1 % of the way, 51 mm, is an error of the encoder that it cannot know. "
+    "event moves them. The truth is converted to the encoder's axis: for every sample the drive "
+    "gives the true distance, and the recording the encoder's reading. The encoder is up to 1 % "
+    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and "
+    "does not count at stops; a device with a better sensor must use this axis too. A device "
+    "without a height sensor measures the road at a wheel, up to 5.07 m ahead of the place of a "
+    "laser; it adds this length to the encoder's reading, and its truth is converted in the same "
+    "way: 1 % of the length, 51 mm, is an error of the encoder that it cannot know. "
     "Slopes in the waveband of 1.6 to 8 m are cross-correlated with those of the truth "
     f"at lags of up to {FARTHEST_M:g} m. A line through the lags, with a step at the event, gives "
     "the four displacements. Start, step and rest: delays turn into distance. At 90 km/h the "
     "anti-alias filter of 1000 Hz (2/ω, 0.32 ms) is worth 8 mm, the mean age of a laser reading "
     "held at 3.24 kHz (0.155 ms) 4 mm, a sample at 16 kHz 1.6 mm, an interval of the profile 5 mm, "
-    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm, of which the "
-    "slower half of a drive keeps a part. Nominal and adequate allow twice that, 0.05 m, and "
+    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm; less in "
+    "the slower half of a drive. Nominal and adequate allow twice that, 0.05 m, and "
     "reference 0.025 m. Distances: with 0.15 % the ends of 160.9 m lie 0.12 m off when the middle "
     "fits, a phase of 20 degrees at 2.1 m, where the car of the IRI has its axle hop at 80 km/h; "
-    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class reference "
-    "is allowed a third. A profile that does not cover the recorded distance is refused as such."
+    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class "
+    "reference is allowed a third. A profile that does not cover the recorded distance is refused."
 )
 """How features are found, and where the limits come from."""
 FLOOR = (
@@ -206,5 +209,5 @@ FLOOR = (
     "reference. Lags, noise and slip cost sound software 0.01. A flat profile loses 1; a moving "
     "average over 2 m takes all of the waves of 2 m and a tenth of those of 8 m."
 )
-"""What must be in the profile."""
+"""What the profile must contain."""
 DISTANCE = DistanceCheck()

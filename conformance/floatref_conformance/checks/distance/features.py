@@ -1,4 +1,4 @@
-"""Features of a profile: the drives that pass them, and where a profile has them."""
+"""Features of a profile: the drives that pass them, and their places in a profile."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,21 +12,21 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
-from floatref_conformance.checks.scoring import bridged
+from floatref_conformance.checks.scoring import bridge
 from floatref_conformance.checks.stretches import Stretches, points, stretch
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 
 FEATURE_M = 25.0
-"""Length of road that makes a feature."""
+"""Length of a feature, in m."""
 FARTHEST_M = 3.0
-"""A feature is looked for so far to both sides of its place."""
+"""Largest distance in m from its place at which a feature is searched."""
 BAND = "medium"
 """1.6 to 8 m (section 2.1.5.2): no event disturbs such short waves beyond `BESIDE_EVENT_M`."""
 END_M = 110.0
-"""Features lie so far from both ends of the run, where a filter may leave points out."""
+"""Distance in m of features from both ends of the run, where a filter may omit points."""
 BESIDE_EVENT_M = 60.0
-"""Features lie so far from a stop or a release of the brake."""
+"""Distance in m of features from a stop or a release of the brake."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,8 @@ class Feature:
     """A stretch of road on the encoder's axis.
 
     Attributes:
-        at_m: where its middle belongs, in m.
-        lag_m: how much farther along the profile has it, in m.
+        at_m: true place of its middle, in m.
+        lag_m: displacement of the feature in the profile, forward positive, in m.
         loss: one minus (2.16) at that lag.
     """
 
@@ -50,9 +50,9 @@ class Placement:
 
     Attributes:
         start_m: lag at distance 0, in m.
-        scale: gain of lag per distance.
-        step_m: gain of lag at the event, in m.
-        rest_m: largest lag beside the line and its step, in m.
+        scale: change of lag per distance.
+        step_m: change of lag at the event, in m.
+        rest_m: largest deviation of a lag from the line with its step, in m.
     """
 
     start_m: float
@@ -61,41 +61,41 @@ class Placement:
     rest_m: float
 
 
-def featured(length_m: float, event_m: float | None) -> Stretches:
-    """Return the stretches of a drive that features fill, one beside the other."""
+def feature_stretches(length_m: float, event_m: float | None) -> Stretches:
+    """Return the stretches of a drive that contain features, one next to the other."""
     end_m = length_m - END_M
     if event_m is None:
-        return (_filled(END_M, end_m),)
+        return (_fill(END_M, end_m),)
     ahead, behind = event_m - BESIDE_EVENT_M, event_m + BESIDE_EVENT_M
-    return _filled(END_M, ahead), _filled(behind, end_m)
+    return _fill(END_M, ahead), _fill(behind, end_m)
 
 
 def middles(length_m: float, event_m: float | None) -> FloatArray:
-    """Return where the middles of the features of a drive truly lie, in m."""
-    filled = featured(length_m, event_m)
-    return np.concatenate([_side_by_side(start, end) for start, end in filled])
+    """Return the true places of the middles of a drive's features, in m."""
+    filled = feature_stretches(length_m, event_m)
+    return np.concatenate([_split_middles(start, end) for start, end in filled])
 
 
 def find_features(
     profile: Profile, truth: Profile, track: str, axis: EncoderAxis, middles_m: FloatArray
 ) -> tuple[Feature, ...]:
-    """Return the features whose middles truly lie at ``middles_m``, in m.
+    """Return the features whose middles have the true places ``middles_m``, in m.
 
     Raises DeviceError if a point of one of them has no elevation.
     """
     wanted = _on_encoder_axis(truth, track, axis)
     true, found = on_common_grid(wanted, profile)
-    places = [float(told) for told in axis.told(middles_m)]
+    places = [float(place_m) for place_m in axis.to_encoder(middles_m)]
     for at in places:
         stretch(found, track, at - FEATURE_M / 2, at + FEATURE_M / 2)
     z = true.track(track).elevation
-    both = (z, bridged(found.track(track).elevation, z))
+    both = (z, bridge(found.track(track).elevation, z))
     slopes = [waveband_slope(elevation, true.interval_m, BAND) for elevation in both]
-    return tuple(_found(slopes, true, at) for at in places)
+    return tuple(_find_feature(slopes, true, at) for at in places)
 
 
 def place(features: Sequence[Feature], event_m: float | None) -> Placement:
-    """Return the line that fits the lags best; ``event_m`` is on the encoder's axis, too."""
+    """Return the line that fits the lags best; ``event_m`` is on the encoder's axis."""
     at, lag = np.array([(f.at_m, f.lag_m) for f in features]).T
     columns = [np.ones_like(at), at]
     if event_m is not None:
@@ -107,26 +107,26 @@ def place(features: Sequence[Feature], event_m: float | None) -> Placement:
     return Placement(float(line[0]), float(line[1]), step, rest)
 
 
-def _filled(start_m: float, end_m: float) -> tuple[float, float]:
-    """Return the stretch from ``start_m`` on that features fill, none beyond ``end_m``."""
+def _fill(start_m: float, end_m: float) -> tuple[float, float]:
+    """Return the stretch from ``start_m`` on with whole features, up to ``end_m`` at most."""
     return start_m, start_m + FEATURE_M * max(0, int((end_m - start_m) / FEATURE_M + 1e-6))
 
 
-def _side_by_side(start_m: float, end_m: float) -> FloatArray:
+def _split_middles(start_m: float, end_m: float) -> FloatArray:
     """Return the middles of the features that fill the stretch between two distances, in m."""
     count = round((end_m - start_m) / FEATURE_M)
     return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
 
 
 def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:
-    """Return one wheel path of ``truth`` against the distance that the encoder told."""
-    count = int((axis.told_m[-1] - axis.told_m[0]) / truth.interval_m) + 1
-    told = axis.told_m[0] + truth.interval_m * np.arange(count)
-    z = np.interp(axis.true(told), truth.distance_m, truth.track(track).elevation)
-    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.told_m[0]))
+    """Return one wheel path of ``truth`` on the axis of the encoder's readings."""
+    count = int((axis.encoder_m[-1] - axis.encoder_m[0]) / truth.interval_m) + 1
+    points_m = axis.encoder_m[0] + truth.interval_m * np.arange(count)
+    z = np.interp(axis.to_true(points_m), truth.distance_m, truth.track(track).elevation)
+    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.encoder_m[0]))
 
 
-def _found(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
+def _find_feature(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
     inside = points(profile, at_m - FEATURE_M / 2, at_m + FEATURE_M / 2)
     true, found = (slope[inside] for slope in slopes)
     agreed = cross_correlation(true, found, profile.interval_m, FARTHEST_M)
@@ -134,7 +134,7 @@ def _found(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Featu
 
 
 FEATURES = 4
-"""So many features lie ahead of an event, and behind it."""
+"""Number of features before an event, and behind it."""
 DRIVES: tuple[Mapping[str, Any], ...] = (
     {
         "manoeuvre": "stop",
@@ -165,7 +165,7 @@ DRIVES: tuple[Mapping[str, Any], ...] = (
 
 
 def scenario_of(numbers: Mapping[str, Any]) -> Scenario:
-    """Return the scenario of ``numbers``, its event and its end clear of the features."""
+    """Return the scenario of ``numbers``, with room for the features around its event."""
     wanted = Scenario(**numbers)
     braking_m = (wanted.speed_kmh * KMH) ** 2 / (2 * STANDARD_GRAVITY * wanted.deceleration_g)
     room_m = BESIDE_EVENT_M + FEATURES * FEATURE_M + END_M

@@ -1,4 +1,4 @@
-"""`waveband`: gain and phase by wavelength are those of the filter that the profile is to have."""
+"""`waveband`: gain and phase at each wavelength are those of the required filter."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
-from floatref_conformance.checks.stretches import Stretches, fitting, points, stretch
+from floatref_conformance.checks.stretches import Stretches, points, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.proving_ground.roads.sines import (
@@ -35,12 +35,12 @@ ComplexArray = NDArray[np.complex128]
 
 
 def waves_of(x: FloatArray, elevation: FloatArray, wavelengths_m: FloatArray) -> ComplexArray:
-    """Return the complex amplitude in m of every wave, the phase being that at distance 0.
+    """Return the complex amplitude of every wave in m, with the phase at distance 0.
 
     A wave c is the real part of c·exp(2πi·x/λ). A level and a slope are fitted with the waves.
 
     Args:
-        x: where the points lie, in m, shape (n,).
+        x: places of the points, in m, shape (n,).
         elevation: in m, shape (n,).
         wavelengths_m: shape (m,), all different.
     """
@@ -58,7 +58,7 @@ BEYOND_LIMITS: Limits = same_limit(0.30, 0.25)
 DISPLACEMENT_LIMITS: Limits = same_limit(0.03, 0.015)
 PHASE_LIMITS: Limits = same_limit(2.0, 1.0)
 SHORT_M = 10.0
-"""Phases of shorter waves are judged as displacements, which all delays keep alike."""
+"""Below this wavelength in m, phases are judged as displacements, equal for equal delays."""
 QUANTITIES = (
     (f"gain error, {SHORTEST_FLAT_M} to {LONGEST_FLAT_M} m", "%", GAIN_LIMITS),
     (f"gain at {CUT_OFF_M} m off -3.01 dB", "dB", CUT_OFF_LIMITS),
@@ -68,14 +68,14 @@ QUANTITIES = (
 )
 """What is measured, its unit, and its limits."""
 START_M, PERIOD_M, LENGTH_M = 163.0, 274.32, 600.0
-"""The waves are fitted over two, three … of their lengths, 163 m from both ends of the run."""
+"""Start and length of the fit, and length of the run, in m; the fit has two periods or more."""
 SPACING_M = 0.05
-"""The fit takes points so far apart: twelve in the shortest wave."""
+"""Spacing of the fitted points, in m: twelve in the shortest wave."""
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 RATES_HZ = (16000.0, 4000.0, 8000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 SMALLEST_GAIN = 1e-6
-"""A smaller gain is none; its logarithm stays finite."""
+"""Lower limit of the gain, so that its logarithm is finite."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class WavebandCheck:
 
     @property
     def derivation(self) -> str:
-        """How gain and phase are found, and how far off they may be."""
+        """How gain and phase are found, and their limits."""
         return DERIVATION
 
     @property
@@ -141,7 +141,7 @@ class WavebandCheck:
         if case.scenario.road != "sines":
             raise InputError(f"road {case.scenario.road}: {self.id} needs sines")
         length_m = drive_of(case.scenario).length_m
-        return fitting(((START_M, START_M + PERIOD_M),), length_m)
+        return verify_stretches(((START_M, START_M + PERIOD_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the errors of gain and phase of every wheel path.
@@ -155,8 +155,8 @@ class WavebandCheck:
         axis = EncoderAxis.of(taken)
         measured: list[Measurement] = []
         for name in (track.name for track in taken.truth.tracks):
-            true = _fitted(taken.truth, name, None)
-            measured += _measured(name, _fitted(profile, name, axis) / true)
+            true = _fit_waves(taken.truth, name, None)
+            measured += _measure(name, _fit_waves(profile, name, axis) / true)
         return tuple(measured)
 
     def _case(self, seed: int, vehicle: str, rate_hz: float, name: str = "") -> Case:
@@ -172,18 +172,18 @@ class WavebandCheck:
         return Case(self.id, scenario, name=name)
 
 
-def _fitted(profile: Profile, track: str, axis: EncoderAxis | None) -> ComplexArray:
-    """Return the waves of a wheel path, its points where the vehicle truly was."""
+def _fit_waves(profile: Profile, track: str, axis: EncoderAxis | None) -> ComplexArray:
+    """Return the waves of a wheel path, with its points at their true places."""
     ends = np.array([START_M, START_M + PERIOD_M])
-    start, end = ends if axis is None else axis.told(ends)
+    start, end = ends if axis is None else axis.to_encoder(ends)
     elevation = stretch(profile, track, start, end)
     x = profile.distance_m[points(profile, start, end)]
     chosen = slice(None, None, max(1, int(SPACING_M / profile.interval_m)))
-    at = x[chosen] if axis is None else axis.true(x[chosen])
+    at = x[chosen] if axis is None else axis.to_true(x[chosen])
     return waves_of(at, elevation[chosen], WAVELENGTHS_M)
 
 
-def _measured(track: str, passed: ComplexArray) -> list[Measurement]:
+def _measure(track: str, passed: ComplexArray) -> list[Measurement]:
     """Return the errors of a complex gain per wave."""
     gain, turned = np.abs(passed), np.abs(np.angle(passed, deg=True))
     flat = WAVELENGTHS_M <= LONGEST_FLAT_M + 1e-9
@@ -209,14 +209,14 @@ DERIVATION = (
     f"draws their phases. It is driven at 72 km/h for {LENGTH_M:g} m. Over {PERIOD_M} m, "
     f"{START_M:g} m from both ends, all waves, a level and a slope are fitted to the profile and "
     "to the unfiltered truth; the ratio of the complex amplitudes is gain and phase. A point of "
-    "the profile lies where the vehicle was when the encoder told its distance. The sensors have "
+    "the profile lies where the vehicle was when the encoder had this distance. The sensors have "
     "no errors and the road is smooth (IRI 0.5 m/km), so that tilt of the body, of second order, "
     "stays below 0.2 % and what is judged is the software: the mean age of a laser reading held "
     "at 3.24 kHz, 0.155 ms, alone would cost 1 % near 9 m, where the body moves more than the "
-    "road and has to cancel. Gain: 1 % is asked; HPF_B3x2 takes 0.44 % at 42.9 m, reference is "
-    "left 0.75 %. Cut-off: 0.5 dB is a cut-off wavelength wrong by 3.5 %, 0.25 dB by 1.7 %; one "
-    "wrong by 10 % is off by 1.2 or 2.0 dB. Beyond it: HPF_B3x2 leaves 0.175 at 137.16 m and a "
-    "single pass of third order 0.284; 0.30 asks for an order of three, 0.25 for more. "
+    "road and has to cancel. Gain: 1 % is asked; HPF_B3x2 takes 0.44 % at 42.9 m, reference "
+    "may have 0.75 %. Cut-off: 0.5 dB is a cut-off wavelength wrong by 3.5 %, 0.25 dB by 1.7 %; "
+    "an error of 10 % makes 1.2 or 2.0 dB. Beyond it: HPF_B3x2 has a gain of 0.175 at 137.16 m, a "
+    "single pass of third order 0.284; 0.30 requires an order of three, 0.25 a higher one. "
     "Displacement: the anti-alias filter of 1000 Hz (2/ω) is worth 6.4 mm, a sample at 4 kHz "
     "5 mm, half an interval of the profile 2.5 mm, 14 mm together; twice that is allowed, and "
     "to reference 15 mm. Phase: 0.03 m are 1.1 degrees at 10 m, the run-in of the filter from "
@@ -225,8 +225,8 @@ DERIVATION = (
 )
 """How gain and phase are found, and where the limits come from."""
 FLOOR = (
-    "Every wave of 0.6 to 42.9 m has to be there with its height: one that is missing has gain 0, "
+    "Every wave of 0.6 to 42.9 m has to be there with its height: a missing wave has gain 0, "
     "an error of 100 %. A moving average over 0.25 m takes 26 % of the shortest wave."
 )
-"""What must be in the profile."""
+"""What the profile must contain."""
 WAVEBAND = WavebandCheck()

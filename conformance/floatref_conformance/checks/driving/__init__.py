@@ -1,1 +1,1 @@
-"""The checks that have a vehicle drive over a road."""
+"""The checks in which a vehicle drives over a road."""

@@ -1,4 +1,4 @@
-"""Quantities of a stretch of profile that a rule asks for, each with its limits."""
+"""The quantities of a stretch of profile that a rule limits."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -13,13 +13,13 @@ LOSS, ERROR = "correlation loss", "IRI error"
 
 
 @dataclass(frozen=True)
-class Asked:
-    """One quantity of a stretch.
+class Requirement:
+    """A limited quantity of a stretch.
 
     Attributes:
         quantity: its name.
-        words: the limit of each class that has one.
-        measure: returns it of a pair of truth and result, and of the name of the wheel path.
+        words: the text of each class's limit, if it has one.
+        measure: measures it, from a pair of truth and result and the name of the wheel path.
     """
 
     quantity: str
@@ -27,8 +27,8 @@ class Asked:
     measure: Callable[[Pair, str], Measurement]
 
 
-def asked_of(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Asked:
-    """Return what an ``entry`` of the edition asks for, its limits by class.
+def read_requirement(entry: Table, in_m_per_km: str, in_percent: str = ERROR) -> Requirement:
+    """Return the requirement of an ``entry`` of the edition, with its limits by class.
 
     ``in_m_per_km`` and ``in_percent`` are the names of an IRI error in these units.
     """
@@ -48,23 +48,23 @@ def limits_of(table: Table) -> Limits:
     return {DeviceClass(name): limit for name, limit in table.items()}
 
 
-def loss(limits: Limits) -> Asked:
-    """Ask for one minus (2.16), the agreement of the IRI filter's outputs."""
+def loss(limits: Limits) -> Requirement:
+    """Return the requirement on one minus (2.16), the agreement of the IRI filter's outputs."""
     words = {c: f"{limit:g}" for c, limit in limits.items()}
-    return Asked(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
+    return Requirement(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
 
 
-def percent(limits: Limits, quantity: str = ERROR) -> Asked:
-    """Ask for the IRI's error in percent of the road's."""
+def percent(limits: Limits, quantity: str = ERROR) -> Requirement:
+    """Return the requirement on the IRI's error in percent of the road's IRI."""
 
     def measure(pair: Pair, track: str) -> Measurement:
         return replace(scoring.roughness_percent(pair, track, limits), quantity=quantity)
 
-    return Asked(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
+    return Requirement(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
 
 
-def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Asked:
-    """Ask for the one of both that is farther within its limit, of one class alone."""
+def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Requirement:
+    """Return the requirement that either quantity is within its limit, for one class."""
 
     def measure(pair: Pair, track: str) -> Measurement:
         return scoring.better(
@@ -74,17 +74,17 @@ def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -
         )
 
     words = {device_class: f"{loss_limit:g}, or the IRI within {error_percent:g} %"}
-    return Asked(LOSS, words, measure)
+    return Requirement(LOSS, words, measure)
 
 
 def within(
     quantity: str, device_class: DeviceClass, error_percent: float, m_per_km: float
-) -> Asked:
-    """Ask for the IRI's error in m/km: percent of the road's, or m/km if that is more."""
+) -> Requirement:
+    """Return the requirement on the IRI's error: percent of the road's, or m/km if larger."""
     limits = {device_class: (error_percent, m_per_km)}
 
     def measure(pair: Pair, track: str) -> Measurement:
         return scoring.roughness_within(pair, track, quantity, limits)
 
     words = {device_class: f"{error_percent:g} % of the road's or {m_per_km:g} m/km"}
-    return Asked(quantity, words, measure)
+    return Requirement(quantity, words, measure)

@@ -1,4 +1,4 @@
-"""The floor of the driving checks: a known bump, away from any event, is in the profile."""
+"""The floor of the driving checks: the profile contains a known bump, away from any event."""
 
 import numpy as np
 
@@ -11,15 +11,15 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 
 LIMITS: Limits = {DeviceClass.NOMINAL: 10.0, DeviceClass.ADEQUATE: 5.0, DeviceClass.REFERENCE: 2.0}
-"""How much of the bump may be lost or added, in percent of it."""
+"""Largest error of the bump's height, in percent of it."""
 BESIDE_M = 3.0
-"""How far to either side of the bump the profile is looked at, in m."""
+"""Length of the profile that is fitted on each side of the bump, in m."""
 FARTHEST_M = 1.0
-"""How far from its place the bump is looked for, in m: its place is not judged here."""
+"""Largest displacement at which the bump is searched, in m; its place is not judged here."""
 
 
 def measure_bump(compared: Compared, scenario: Scenario) -> Measurement:
-    """Return how far the bump's height is from that in the truth, in percent of its height.
+    """Return the error of the bump's height, in percent of its true height.
 
     The result less the truth is fitted with the bump's shape, the truth's slope (a displacement),
     a level and a slope. Raises DeviceError for a point without elevation there.
@@ -50,7 +50,7 @@ def _shape(x: FloatArray) -> FloatArray:
 
 
 def _offset(compared: Compared, near: np.ndarray) -> float:
-    """Return by how far the result lies farther along than the truth, in m."""
+    """Return the forward displacement of the result relative to the truth, in m."""
     steps = int(FARTHEST_M / compared.interval_m)
     where = np.flatnonzero(near)
     first, last = max(where[0], steps), min(where[-1], compared.truth.size - 1 - steps)
@@ -64,7 +64,7 @@ def _offset(compared: Compared, near: np.ndarray) -> float:
 
 
 def _level(elevation: FloatArray) -> FloatArray:
-    """Return ``elevation`` without its line."""
+    """Return ``elevation`` without its mean and its slope."""
     place = np.arange(elevation.size) - (elevation.size - 1) / 2
     slope = float(np.dot(place, elevation) / np.dot(place, place))
     return np.asarray(elevation - elevation.mean() - slope * place)

@@ -1,4 +1,4 @@
-"""A check that has a vehicle drive over a road: its cases, and how they are judged."""
+"""A check in which a vehicle drives over a road: its cases, and their judgement."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from floatref_conformance.checks.driving.edition import (
     edition,
     floor_of,
 )
-from floatref_conformance.checks.driving.layout import layout_of, placed
+from floatref_conformance.checks.driving.layout import layout_of, place
 from floatref_conformance.checks.driving.rules import RULES, Rule, rule_of
 from floatref_conformance.checks.driving.strategies import drives
 from floatref_conformance.checks.interface import Bench
@@ -27,20 +27,20 @@ if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
 ROUNDS = 3
-"""How often certification drives every row, each time on another road."""
+"""Number of times that certification drives each row, each time on another road."""
 
 
 @dataclass(frozen=True)
 class DrivingCheck:
-    """Drives rows of manoeuvres over drawn roads and asks what the drives' rules ask.
+    """Drives rows of manoeuvres over drawn roads and judges each by the rule of its drive.
 
     Attributes:
         id, title, clause, derivation, floor: as of any check.
-        rows: the drives that the edition fixes, all but road, noise and place.
-        quick: how many of them, from the first, a quick run drives.
-        roads: what they are driven on.
-        simplest_scenario: what failing drives are made simpler towards.
-        rules: that the drives are judged by, each with the condition in words, if there is one.
+        rows: the drives of the edition, without road, noise and place.
+        quick: number of first rows that a quick run drives.
+        roads: the roads from which one is drawn.
+        simplest_scenario: the drive towards which failing drives are simplified.
+        rules: the rules of the drives, by their condition in words, if there is one.
     """
 
     id: str
@@ -66,7 +66,7 @@ class DrivingCheck:
 
     @property
     def simplest(self) -> Case:
-        """The drive with as few unusual numbers as the check can do with."""
+        """The drive with the fewest numbers that differ from the defaults."""
         return Case(self.id, self.simplest_scenario)
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
@@ -75,20 +75,20 @@ class DrivingCheck:
         return tuple(self._case(seed, number, row) for number, row in enumerate(rows, start=1))
 
     def strategy(self) -> "SearchStrategy[Case]":
-        """Return the strategy of all cases: the `drives` of this check."""
+        """Return the strategy of all cases, with the `drives` of this check."""
         return drives(self.id).map(lambda scenario: Case(self.id, scenario))
 
     def scored(self, case: Case) -> Stretches:
         """Return the stretches over which every point counts.
 
-        Raises InputError for numbers that leave no room for them.
+        Raises InputError for a drive that is too short for them.
         """
         return layout_of(case.scenario).stretches
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return what the drive's rule asks of every wheel path.
+        """Return the measurements of every wheel path by the rule of the drive.
 
-        Raises InputError for numbers that leave no room for what is scored, DeviceError for a
+        Raises InputError for a drive that is too short for the stretches, DeviceError for a
         point without elevation where every point counts.
         """
         layout, rule = layout_of(case.scenario), rule_of(case.scenario)
@@ -101,8 +101,8 @@ class DrivingCheck:
         )
 
     def _case(self, seed: int, number: int, row: Scenario) -> Case:
-        scenario = self.roads.drawn_for(row, (seed, number, *self.id.encode()))
-        return Case(self.id, placed(scenario), name=f"{self.id}-{number}")
+        scenario = self.roads.draw_for(row, (seed, number, *self.id.encode()))
+        return Case(self.id, place(scenario), name=f"{self.id}-{number}")
 
 
 def _check(table: Table) -> DrivingCheck:
@@ -117,7 +117,7 @@ def _check(table: Table) -> DrivingCheck:
         tuple(Scenario.from_dict({**common, **row}) for row in table["rows"]),
         table["quick"],
         ROADS[table["roads"]],
-        placed(Scenario.from_dict(table["simplest"])),
+        place(Scenario.from_dict(table["simplest"])),
         {condition: RULES[name] for condition, name in table["rules"].items()},
     )
 
@@ -125,4 +125,4 @@ def _check(table: Table) -> DrivingCheck:
 DRIVING_CHECKS: Mapping[str, DrivingCheck] = {
     table["id"]: _check(table) for table in edition()["checks"]
 }
-"""Those of the edition by id, in the order of the suite's list."""
+"""The driving checks of the edition by id, in the order of the suite's list."""

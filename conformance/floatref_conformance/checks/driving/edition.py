@@ -1,4 +1,4 @@
-"""The driving checks as data of the edition, `edition.toml`, and the roads that it names."""
+"""The data of the driving checks, `edition.toml`, and its roads."""
 
 import tomllib
 from collections.abc import Mapping
@@ -28,8 +28,8 @@ class Roads:
     roughest: float
     kinds: tuple[str, ...]
 
-    def drawn_for(self, scenario: Scenario, entropy: tuple[int, ...]) -> Scenario:
-        """Return ``scenario`` with road and seed of its errors drawn by ``entropy``."""
+    def draw_for(self, scenario: Scenario, entropy: tuple[int, ...]) -> Scenario:
+        """Return ``scenario`` with a road and a seed drawn from ``entropy``."""
         source = np.random.default_rng(np.random.SeedSequence(entropy))
         seed, kind = int(source.integers(2**32)), int(source.integers(len(self.kinds)))
         steps = round((self.roughest - self.smoothest) / STEP_M_PER_KM)
@@ -39,24 +39,24 @@ class Roads:
 
 @cache
 def edition() -> Table:
-    """Return the whole document; it keeps schema ``conformance-driving-1``."""
+    """Return the whole document, which conforms to schema ``conformance-driving-1``."""
     text = (files(__package__) / "edition.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)
 
 
 def derivation_of(check: Table) -> str:
-    """Return how the cases of ``check`` are made, and why its limits are what they are."""
+    """Return how the cases of ``check`` are made, and the reasons of its limits."""
     return str(check["derivation"]).format_map(_texts())
 
 
 def floor_of(check: Table) -> str:
-    """Return what must be in a profile: the bump, where ``check`` has it."""
+    """Return what a profile must contain: the bump at the place of ``check``."""
     return str(edition()["floor"]["text"]).format(where=check["bump"], slow=check.get("slow", ""))
 
 
 @cache
 def _texts() -> Mapping[str, str]:
-    """Return the texts that derivations share, each with those above it filled in."""
+    """Return the shared texts of derivations, each with earlier ones inserted."""
     texts: dict[str, str] = {}
     for name, text in edition()["texts"].items():
         texts[name] = text.format_map(texts)
@@ -67,4 +67,4 @@ ROADS: Mapping[str, Roads] = {
     name: Roads(road["smoothest_m_per_km"], road["roughest_m_per_km"], tuple(road["kinds"]))
     for name, road in edition()["roads"].items()
 }
-"""Those of the edition, by name."""
+"""The roads of the edition, by name."""

@@ -1,6 +1,6 @@
-"""Where on the road a driving check puts its manoeuvre, and which stretches it scores.
+"""The places of a driving check's manoeuvre on the road, and the stretches that it scores.
 
-Whatever counts lies a cut-off wavelength or more from both ends of the run, where a high-pass
+Every scored point is a cut-off wavelength or more from both ends of the run, where a high-pass
 filter may leave points without elevation.
 """
 
@@ -27,32 +27,32 @@ from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 
 STRETCH_M = 160.9
-"""Length over which the IRI is taken: 0.1 mile."""
+"""Length of road of one IRI value, in m: 0.1 mile."""
 AHEAD_M = 96.0
-"""How far ahead of an event its stretch begins: 120 m of the section whose stops lie near 216 m."""
+"""Distance in m from the begin of a stretch to its event, as on the section with stops at 216 m."""
 BUMP_MM = 20.0
 BUMP_REACH_M = BUMP_LENGTH_M / 2 + BESIDE_M
-"""So far to either side of the bump's middle the profile is looked at."""
+"""Length in m on each side of the bump's middle that is fitted."""
 BUMP_AT_M = 115.0
-"""Middle of the known bump, where the speed is still constant."""
+"""Place of the known bump's middle in m, where the speed is still constant."""
 EVENT_M = 316.0
-"""Where the first event lies if the way to it is short enough."""
+"""Place of the first event in m, unless the brake before it is too long."""
 CALM_M = 10.0
-"""Between the bump's stretch and the start of a brake."""
+"""Distance in m between the bump's stretch and the start of a brake."""
 STEADY_M = {"constant": 220.0, "creeping": 130.0, "dead-start": 110.0}
-"""Where the stretch of a drive without an event within it begins."""
+"""Begin in m of the stretch of a drive without an event."""
 SLOW_START_M = 130.0
-"""The same below 16 km/h, where a drive takes long."""
+"""The same for drives below 16 km/h, which take long."""
 RUN_OUT_M = 119.1
-"""Behind what is scored a drive goes on so far, as a published run does."""
+"""Length in m of the drive after the scored stretch, as in the published runs."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """What is scored of a drive; all in m of true distance.
+    """The scored stretches and the events of a drive, in m of true distance.
 
     Attributes:
-        events_m: where something happens whose surroundings may be flagged.
+        events_m: places of events, around which points may be flagged.
         stretches: start and end of each stretch over which every point counts.
     """
 
@@ -61,7 +61,7 @@ class Layout:
 
 
 def layout_of(scenario: Scenario) -> Layout:
-    """Return what is scored of ``scenario``.
+    """Return the layout of ``scenario``.
 
     Raises InputError for a manoeuvre of another kind, and if a stretch or the bump comes within
     `END_M` of an end of the run.
@@ -69,7 +69,7 @@ def layout_of(scenario: Scenario) -> Layout:
     if scenario.manoeuvre in (*STATIONARY, *RUNS):
         raise InputError(f"manoeuvre {scenario.manoeuvre}: not one that a driving check scores")
     events = _events(scenario)
-    around = [event - AHEAD_M for event in (*events, *_also_scored(scenario))]
+    around = [event - AHEAD_M for event in (*events, *_extra_scored(scenario))]
     starts = around or [_steady_start(scenario)]
     layout = Layout(events, tuple((start, start + STRETCH_M) for start in starts))
     scored = [place for stretch in layout.stretches for place in stretch]
@@ -83,20 +83,20 @@ def layout_of(scenario: Scenario) -> Layout:
     return layout
 
 
-def placed(scenario: Scenario) -> Scenario:
-    """Return ``scenario`` with its bump, event and length such that all that counts fits in."""
+def place(scenario: Scenario) -> Scenario:
+    """Return ``scenario`` with bump, event and length such that all scored points fit."""
     clear = BUMP_AT_M + BUMP_REACH_M + CALM_M
-    event = max(EVENT_M, ceil(clear + braked_m(scenario)))
+    event = max(EVENT_M, ceil(clear + brake_length_m(scenario)))
     there = replace(scenario, bump_mm=BUMP_MM, bump_at_m=BUMP_AT_M, event_at_m=event)
     if scenario.manoeuvre == "dead-start":
         there = replace(there, event_at_m=EVENT_M, bump_at_m=_steady_start(there) + 175.0)
-    ends = [*_events(there), *_also_scored(there)] or [_steady_start(there) + AHEAD_M]
+    ends = [*_events(there), *_extra_scored(there)] or [_steady_start(there) + AHEAD_M]
     scored = max(*ends, there.bump_at_m) - AHEAD_M + STRETCH_M
-    driven = max(_events(there), default=0.0) + driven_on_m(there)
+    driven = max(_events(there), default=0.0) + speed_change_after_m(there)
     return replace(there, length_m=float(ceil(max(scored + RUN_OUT_M, driven + 1.0))))
 
 
-def braked_m(s: Scenario) -> float:
+def brake_length_m(s: Scenario) -> float:
     """Return the length in m of the brake ahead of the scenario's event."""
     speed, deceleration = s.speed_kmh * KMH, s.deceleration_g * STANDARD_GRAVITY
     if s.manoeuvre == "stop":
@@ -107,13 +107,13 @@ def braked_m(s: Scenario) -> float:
 
 
 def least_spacing_m(s: Scenario) -> float:
-    """Return how far apart stops have to lie at least, in m."""
+    """Return the smallest possible distance between stops, in m."""
     speed, deceleration = s.final_speed_kmh * KMH, s.deceleration_g * STANDARD_GRAVITY
     return _set_off_m(s) + extent(speed, brake_to_stop(speed, deceleration))[0]
 
 
-def driven_on_m(s: Scenario) -> float:
-    """Return how far behind its last event a drive changes its speed, in m."""
+def speed_change_after_m(s: Scenario) -> float:
+    """Return the length in m of the change of speed after the last event."""
     length = _DRIVEN_ON.get(s.manoeuvre)
     return length(s) if length else 0.0
 
@@ -149,10 +149,10 @@ def _events(s: Scenario) -> tuple[float, ...]:
     return tuple(s.event_at_m + n * s.stop_spacing_m for n in range(count))
 
 
-def _also_scored(s: Scenario) -> tuple[float, ...]:
-    """Return where a slow change of speed ends: little happens near its start."""
+def _extra_scored(s: Scenario) -> tuple[float, ...]:
+    """Return the end of a slow change of speed, which is scored too."""
     if s.manoeuvre in ("coasting", "throttle"):
-        return (s.event_at_m + driven_on_m(s),)
+        return (s.event_at_m + speed_change_after_m(s),)
     return ()
 
 

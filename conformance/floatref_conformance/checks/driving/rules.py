@@ -1,4 +1,4 @@
-"""What is asked of every wheel path of a drive, and the rule of each kind of drive."""
+"""The rules: the requirements for every wheel path, by the kind of drive."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref_conformance.checks import flags
 from floatref_conformance.checks.driving import bump
-from floatref_conformance.checks.driving.asked import Asked, asked_of, limits_of
+from floatref_conformance.checks.driving.asked import Requirement, limits_of, read_requirement
 from floatref_conformance.checks.driving.edition import Table, edition
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
 from floatref_conformance.checks.flags import SLOW_MPS
@@ -26,18 +26,18 @@ UNFLAGGED, WHOLE = "IRI error, unflagged part", "IRI error, 160.9 m"
 
 @dataclass(frozen=True)
 class Rule:
-    """What is asked of a drive.
+    """The requirements for a drive.
 
     Attributes:
-        whole: of every scored stretch, whose points all count.
-        unflagged: of all points that the device vouches for.
+        whole: requirements for every scored stretch, over all its points.
+        unflagged: requirements for all points that the device marks valid.
         flagged_elsewhere: limits of the flagged length in m around an event.
-        slow: whether the vehicle stays below 16 km/h, where any length may be flagged: then it
-            is not limited, and class nominal answers for nothing that it flags.
+        slow: whether the vehicle stays below 16 km/h. The flagged length is then not limited, and
+            flagged points do not count in class nominal.
     """
 
-    whole: tuple[Asked, ...]
-    unflagged: tuple[Asked, ...]
+    whole: tuple[Requirement, ...]
+    unflagged: tuple[Requirement, ...]
     flagged_elsewhere: Limits
     slow: bool
 
@@ -57,7 +57,7 @@ class Rule:
     def measure(
         self, compared: Compared, scenario: Scenario, layout: Layout
     ) -> tuple[Measurement, ...]:
-        """Return what is asked of one wheel path.
+        """Return the measurements of one wheel path.
 
         Raises DeviceError for a point without elevation where every point counts.
         """
@@ -66,7 +66,7 @@ class Rule:
         if trusted is not None:
             found += [asked.measure(trusted, compared.track) for asked in self.unflagged]
         if not self.slow:
-            ends, away = flags.flagged(compared, scenario, layout.events_m)
+            ends, away = flags.measure_flags(compared, scenario, layout.events_m)
             found += [ends, replace(away, quantity=ELSEWHERE, limits=self.flagged_elsewhere)]
         if scenario.bump_mm:
             found.append(self._bump(compared, scenario))
@@ -93,7 +93,7 @@ class Rule:
 
 
 def _missing(quantity: str, compared: Compared) -> Measurement:
-    """Return what no class above nominal passes: a quantity of points without elevation."""
+    """Return NaN for a quantity of points without elevation; only class nominal passes it."""
     return Measurement(
         quantity, compared.track, nan, "", _above_nominal(dict.fromkeys(DeviceClass, 1.0))
     )
@@ -111,19 +111,21 @@ def _rule(table: Table) -> Rule:
     """Return the rule of a table of the edition."""
     elsewhere = table.get("flagged_elsewhere")
     return Rule(
-        tuple(asked_of(entry, WHOLE) for entry in table["whole"]),
-        tuple(asked_of(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())),
+        tuple(read_requirement(entry, WHOLE) for entry in table["whole"]),
+        tuple(
+            read_requirement(entry, UNFLAGGED, UNFLAGGED) for entry in table.get("unflagged", ())
+        ),
         limits_of(elsewhere) if elsewhere else flags.EVENT_LIMITS,
         table.get("slow", False),
     )
 
 
 RULES: Mapping[str, Rule] = {name: _rule(table) for name, table in edition()["rules"].items()}
-"""Those of the edition, by name."""
+"""The rules of the edition, by name."""
 
 
 def rule_of(scenario: Scenario) -> Rule:
-    """Return the rule for the scenario's drive, one that a driving check scores."""
+    """Return the rule of the scenario's drive, which a driving check scores."""
     named = edition()["manoeuvres"][scenario.manoeuvre]
     if "below_16_kmh" in named and scenario.speed_kmh * KMH < SLOW_MPS:
         return RULES[named["below_16_kmh"]]

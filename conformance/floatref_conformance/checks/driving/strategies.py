@@ -1,7 +1,7 @@
-"""Hypothesis strategies of the drives that each check may ask for; they shrink to the defaults.
+"""Hypothesis strategies of the drives of each check; they shrink to the defaults.
 
-Numbers are rounded, so that a case reads well. Hypothesis is imported when a strategy is asked
-for.
+Numbers are rounded, so that a case is easy to read. Hypothesis is imported when a strategy is
+requested.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.driving.edition import ROADS, STEP_M_PER_KM, Roads
-from floatref_conformance.checks.driving.layout import least_spacing_m, placed
+from floatref_conformance.checks.driving.layout import least_spacing_m, place
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 INTERVALS_M = (0.00508, 0.01, 0.025)
 STOPS_APART_M = 120.0
-"""Distance of two stops at least: the filter spreads the error of one over a cut-off wavelength."""
+"""Smallest distance of stops in m: the filter spreads an error over a cut-off wavelength."""
 SOONEST_STAND_S = 1.1
-"""Where a brake is released the vehicle is at least so far in s from a standstill."""
+"""Smallest time in s from the release of a brake to a standstill at that deceleration."""
 
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a drive may happen on and in.
+    """The roads and vehicles of a drive, and the sampling rates.
 
     Attributes:
         roads: kind and roughness.
@@ -67,17 +67,17 @@ class Surroundings:
 STEADY = Surroundings(ROADS["everyday"], ("loaded-van", "minivan", "pickup", "trailer", "soft-van"))
 """Drives whose speed changes little or slowly."""
 CREEP = replace(STEADY, rates_hz=(8000.0, 4000.0))
-"""Drives that take so long that 16 kHz would be too many samples."""
+"""Long drives, without the rate of 16 kHz, which would need too many samples."""
 EVENT = Surroundings(ROADS["worn"], ("loaded-van", "minivan", "pickup", "trailer"))
-"""Brakes: not in the van whose dampers are worn."""
+"""Brakes: all vehicles except the van with worn dampers."""
 STAND = replace(EVENT, roads=ROADS["level"])
 """Stops."""
 CRAWL = Surroundings(ROADS["level"], ("loaded-van", "minivan", "trailer"))
-"""Near stops: the profiler sits less than 3 m from the middle of the vehicle."""
+"""Near stops: vehicles whose profiler is less than 3 m from the middle."""
 
 
 def number(low: float, high: float, step: float, simplest: float = 0.0) -> "SearchStrategy[float]":
-    """Return numbers from ``low`` to ``high`` a whole count of ``step`` from the simplest."""
+    """Return numbers from ``low`` to ``high`` in whole steps of ``step`` from the simplest."""
     from hypothesis import strategies as st
 
     base = min(max(simplest, low), high)
@@ -86,17 +86,17 @@ def number(low: float, high: float, step: float, simplest: float = 0.0) -> "Sear
 
 
 def hardest_release_g(speed_kmh: float) -> float:
-    """Return the hardest brake in g that is released at ``speed_kmh``, by `SOONEST_STAND_S`."""
+    """Return the hardest brake in g for a release at ``speed_kmh``, by `SOONEST_STAND_S`."""
     return floor(100 * speed_kmh * KMH / STANDARD_GRAVITY / SOONEST_STAND_S) / 100
 
 
 def drives(check: str) -> "SearchStrategy[Scenario]":
-    """Return the strategy of all drives that the driving check with id ``check`` may ask for."""
+    """Return the strategy of all drives of the driving check with id ``check``."""
     from hypothesis import strategies as st
 
     @st.composite
     def scenarios(draw: "DrawFn") -> Scenario:
-        return placed(_DRIVES[check](draw))
+        return place(_DRIVES[check](draw))
 
     return scenarios()
 
@@ -165,7 +165,7 @@ def _braking(draw: "DrawFn") -> Scenario:
 
 
 def _off_16(speed_kmh: float) -> float:
-    """Return a speed that an encoder tells to be above or below 16 km/h as it is."""
+    """Return a speed that an encoder measures on the correct side of 16 km/h."""
     return 17.0 if speed_kmh == 16.0 else speed_kmh
 
 

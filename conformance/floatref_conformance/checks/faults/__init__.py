@@ -1,1 +1,1 @@
-"""The check of faults in a recording: missing and damaged samples stay local or are flagged."""
+"""The check of faults in a recording: their effect is local, or it is flagged."""

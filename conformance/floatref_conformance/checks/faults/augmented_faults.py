@@ -1,6 +1,6 @@
 """Faults of inertial units, GNSS receivers and the sensors of a vehicle's response.
 
-A recording without the channels is returned as it is.
+A recording without the channels is returned unchanged.
 """
 
 from collections.abc import Mapping
@@ -13,17 +13,22 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.faults.injection import (
     Fault,
     Faulty,
-    Spoil,
+    SampleFault,
+    change_samples,
     dropout,
-    faulty_until,
     hold,
     lose,
+    measure_extent,
     saturation,
-    spoilt,
     stuck,
     times_of,
 )
-from floatref_conformance.checks.sameness.change import Numbers, each, number, with_samples
+from floatref_conformance.checks.sameness.change import (
+    Numbers,
+    change_each,
+    number,
+    replace_samples,
+)
 from floatref_conformance.devices.interface import CAPABILITIES
 
 HEIGHT, QUALITY = "gnss_height", "gnss_quality"
@@ -31,7 +36,7 @@ RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 NONE, SINGLE, FLOAT = 0.0, 1.0, 5.0
 """Values of `gnss_quality`."""
 WANDER_S = 40.0
-"""Period in which heights without fixed ambiguities wander."""
+"""Period in s in which heights without fixed ambiguities wander."""
 
 
 def outage(recording: Recording, numbers: Numbers) -> Faulty:
@@ -41,7 +46,7 @@ def outage(recording: Recording, numbers: Numbers) -> Faulty:
 
 
 def wrong_fix(recording: Recording, numbers: Numbers) -> Faulty:
-    """Have the receiver tell ``size_m`` too much height for ``length_s``, and a worse quality."""
+    """Add ``size_m`` to the receiver's height for ``length_s``, with a worse quality."""
     size_m = number(numbers, "size_m")
 
     def lift(values: FloatArray, where: slice) -> None:
@@ -51,9 +56,9 @@ def wrong_fix(recording: Recording, numbers: Numbers) -> Faulty:
 
 
 def float_solution(recording: Recording, numbers: Numbers) -> Faulty:
-    """Lose the fixed ambiguities for ``length_s``: the height wanders off by ``size_m``, and back.
+    """Lose the fixed ambiguities for ``length_s``: the height moves by ``size_m``, and back.
 
-    The quality says so.
+    The quality shows it.
     """
     size_m = number(numbers, "size_m")
 
@@ -65,28 +70,28 @@ def float_solution(recording: Recording, numbers: Numbers) -> Faulty:
 
 
 def never_fixed(recording: Recording, numbers: Numbers) -> Faulty:
-    """Have the receiver never fix its ambiguities, and its height wander by ``size_m``.
+    """The receiver never fixes its ambiguities, and its height wanders by ``size_m``.
 
-    Nothing may be flagged for it beyond the usual: a profiler does without a receiver.
+    No more than usual may be flagged: a profiler works without a receiver.
     """
     size_m = number(numbers, "size_m")
 
     def change(channel: Channel) -> Channel:
         if channel.id.name == QUALITY:
-            return with_samples(channel, np.full(channel.values.size, FLOAT))
+            return replace_samples(channel, np.full(channel.values.size, FLOAT))
         if channel.id.name == HEIGHT:
             turns = channel.times_s / WANDER_S
             wander = size_m * np.sin(2 * np.pi * turns)
-            return with_samples(channel, channel.values + wander)
+            return replace_samples(channel, channel.values + wander)
         return channel
 
     if recording.find(QUALITY) is None:
         return Faulty(recording, 0.0, 0.0)
-    return Faulty(each(recording, change), 0.0, 0.0)
+    return Faulty(change_each(recording, change), 0.0, 0.0)
 
 
 def jump(recording: Recording, numbers: Numbers) -> Faulty:
-    """Let the receiver tell ``size_m`` more from one fixed reading to the next, for good."""
+    """Add ``size_m`` to all heights of the receiver from one fixed reading on."""
     size_m = number(numbers, "size_m")
 
     def lift(values: FloatArray, where: slice) -> None:
@@ -96,7 +101,7 @@ def jump(recording: Recording, numbers: Numbers) -> Faulty:
 
 
 def stuck_height(recording: Recording, numbers: Numbers) -> Faulty:
-    """Have the receiver repeat one height for ``length_s``, as if it were fixed and fresh."""
+    """Repeat one height of the receiver for ``length_s``, with the quality of a fixed one."""
     return _for_a_while(recording, numbers, {HEIGHT: hold})
 
 
@@ -109,11 +114,11 @@ def imu_flicker(recording: Recording, numbers: Numbers) -> Faulty:
     """Lose ``count`` single samples of every channel of the inertial unit over ``span_m``."""
     at_m, count = number(numbers, "at_m"), int(number(numbers, "count"))
     span_m = number(numbers, "span_m")
-    hurt = recording
+    faulty = recording
     for n in range(count):
         there = {**numbers, "at_m": at_m + n * span_m / count, "length_s": 0.0}
-        hurt = _for_a_while(hurt, there, dict.fromkeys(CAPABILITIES["imu"], lose)).recording
-    return Faulty(hurt, span_m, at_m)
+        faulty = _for_a_while(faulty, there, dict.fromkeys(CAPABILITIES["imu"], lose)).recording
+    return Faulty(faulty, span_m, at_m)
 
 
 AUGMENTED: Mapping[str, Fault] = MappingProxyType(
@@ -129,27 +134,29 @@ AUGMENTED: Mapping[str, Fault] = MappingProxyType(
         "imu-flicker": imu_flicker,
     }
 )
-"""Injuries of sensors that a device has by a capability, which their names begin with."""
+"""Faults of sensors that a device has by a capability; its name is the first part of theirs."""
 
 
-def _to(quality: float) -> Spoil:
+def _to(quality: float) -> SampleFault:
     def worsen(values: FloatArray, where: slice) -> None:
         values[where] = quality
 
     return worsen
 
 
-def _for_a_while(recording: Recording, numbers: Numbers, spoils: Mapping[str, Spoil]) -> Faulty:
-    """Return ``recording`` with the channels named in ``spoils`` spoilt for ``length_s``."""
+def _for_a_while(
+    recording: Recording, numbers: Numbers, faults: Mapping[str, SampleFault]
+) -> Faulty:
+    """Return ``recording`` with the channels named in ``faults`` faulty for ``length_s``."""
     begin_s, end_s = times_of(recording, numbers)
 
-    def spoil(channel: Channel) -> Channel:
-        how = spoils.get(channel.id.name)
-        return channel if how is None else spoilt(channel, begin_s, end_s, how)
+    def inject(channel: Channel) -> Channel:
+        fault = faults.get(channel.id.name)
+        return channel if fault is None else change_samples(channel, begin_s, end_s, fault)
 
-    there = any(channel.id.name in spoils for channel in recording.channels)
-    hurt = each(recording, spoil) if there else recording
-    return faulty_until(hurt, recording, numbers, end_s)
+    there = any(channel.id.name in faults for channel in recording.channels)
+    faulty = change_each(recording, inject) if there else recording
+    return measure_extent(faulty, recording, numbers, end_s)
 
 
 WHEEL, BODY = "unsprung_specific_force", "sprung_specific_force"
@@ -165,4 +172,4 @@ RESPONSE: Mapping[str, Fault] = MappingProxyType(
         "response-deflection-stuck": stuck(DEFLECTION),
     }
 )
-"""Injuries of sensors that a device has by the capability `response`."""
+"""Faults of sensors that a device has by the capability `response`."""

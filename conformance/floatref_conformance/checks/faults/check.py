@@ -1,4 +1,4 @@
-"""`faults`: what is missing or damaged is right or flagged, and stays local."""
+"""`faults`: around missing or damaged samples the profile is right or flagged."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -13,11 +13,11 @@ from floatref_conformance.checks.faults.fault_scores import (
     LOCAL_LIMITS,
     ROUGHNESS,
     WHOLE_M,
-    beside,
-    fault_measurements,
+    compare_everywhere,
+    measure_fault,
 )
-from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needed_by
-from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, flagged
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needs_of
+from floatref_conformance.checks.flags import END_LIMITS, EVENT_LIMITS, measure_flags
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.sameness.change import check_equipped
 from floatref_conformance.checks.scoring import Compared, compare
@@ -36,28 +36,28 @@ UNPROVOKED = RULES["constant"].flagged_elsewhere
 
 @dataclass(frozen=True)
 class FaultsCheck:
-    """The device processes a recording, and the same with a fault; both face the truth."""
+    """Compares the profiles of a recording with a fault and without it to the truth."""
 
     id: str = faulty_drives.CHECK
     title: str = "missing and damaged samples are flagged and stay local"
     clause: str = "derived: right or flagged; the high-pass' reach; the limits of an event"
     needs: frozenset[str] = frozenset()
     meets: frozenset[str] = frozenset(NEEDS)
-    """What the device has of what may be needed: faults of sensors that it lacks are no cases."""
+    """The needs that the device meets; faults of sensors that it does not have are no cases."""
 
     @property
     def derivation(self) -> str:
-        """What is done to the recordings, and why the limits are what they are."""
+        """The faults in the recordings, and the reasons of the limits."""
         return DERIVATION
 
     @property
     def floor(self) -> str:
-        """What is vouched for has to be rough, and enough has to be vouched for."""
+        """The valid points have to be rough, and there have to be enough of them."""
         return FLOOR
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
-        """The limits of what is not flagged, and of what is."""
+        """The limits of unflagged points, and of flagged lengths."""
         either = {c: f"{share:g} % or {least:g} m/km" for c, (share, least) in ROUGHNESS.items()}
         return {
             "IRI error, unflagged": either,
@@ -73,19 +73,19 @@ class FaultsCheck:
 
     @property
     def simplest(self) -> Case:
-        """Half a second at constant speed without what sees the road: a laser, or a wheel."""
+        """Half a second without laser, or without wheel accelerometer, at constant speed."""
         scenario = Scenario(rate_hz=4000.0, length_m=faulty_drives.LENGTH_M)
         fault = "laser-dropout" if HEIGHT in self.meets else "response-wheel-dropout"
         return Case(self.id, scenario, {"fault": fault, "at_m": 280.0, "length_s": 0.5})
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every fault once, in a certification three times; ``seed`` draws the roads."""
-        cases = faulty_drives.fixed(seed, effort)
+        cases = faulty_drives.seeded_cases(seed, effort)
         return tuple(c for c in cases if c.variation["fault"] in self._faults)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any fault of any length, size and place in any drive."""
-        return faulty_drives.drawn(self._faults)
+        return faulty_drives.case_strategy(self._faults)
 
     def fitted(self, meets: Iterable[str]) -> "FaultsCheck":
         """Return the check without the faults of sensors that are not among ``meets``."""
@@ -93,45 +93,48 @@ class FaultsCheck:
 
     @property
     def _faults(self) -> tuple[str, ...]:
-        return tuple(f for f in SENSOR_FAULTS if needed_by(f) <= self.meets)
+        return tuple(f for f in SENSOR_FAULTS if needs_of(f) <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
-        """Return all of the drive: every point counts that the device vouches for."""
+        """Return the whole drive: every point counts that the device marks valid."""
         return ((0.0, case.scenario.length_m),)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return what the fault did to every wheel path, and what was flagged without it.
+        """Return the effect of the fault on every wheel path, and the flags without it.
 
-        The device is given the fault first: nothing that it keeps shows it the road below.
-        Raises InputError for a variation that names no fault or lacks a number of it, and for
-        the fault of a sensor that the device does not have.
+        The device gets the fault first, so that it cannot have stored the road before.
+        Raises InputError for a variation without a fault or without a number of it, and for the
+        fault of a sensor that the device does not have.
         """
         taken = bench.simulate(case.scenario)
         inject, fault = fault_of(case.variation), str(case.variation["fault"])
-        check_equipped(taken.recording, needed_by(fault), f"fault {fault}")
+        check_equipped(taken.recording, needs_of(fault), f"fault {fault}")
         faulty = inject(taken.recording, case.variation)
-        hurt = replace(taken, recording=faulty.recording)
-        after = bench.run(hurt, "with the fault")
+        changed = replace(taken, recording=faulty.recording)
+        after = bench.run(changed, "with the fault")
         before = bench.run(taken, "without the fault")
         part = fault.partition("-")[0]
-        alike = (beside(taken.truth, before), beside(taken.truth, after, faulty))
-        # What the encoder never told lies on no device's axis: nobody has flagged it.
+        alike = (
+            compare_everywhere(taken.truth, before),
+            compare_everywhere(taken.truth, after, faulty),
+        )
+        # A distance that the encoder never had is on no device's axis: it is not flagged.
         delivered = compare(taken.truth, before)
         return tuple(
             m
             for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
-                *fault_measurements(one, other, faulty, part),
-                *_flagged_without(whole, case.scenario),
+                *measure_fault(one, other, faulty, part),
+                *_measure_flags_without_fault(whole, case.scenario),
             )
         )
 
 
-def _flagged_without(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
-    """Return what is flagged of a drive without a fault: a steady one gives no cause inside."""
+def _measure_flags_without_fault(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
+    """Return the flagged lengths of a drive without a fault; a steady one has no event."""
     if scenario.manoeuvre == "stop":
-        return flagged(whole, scenario, (scenario.event_at_m,))
-    ends, elsewhere = flagged(whole, scenario, ())
+        return measure_flags(whole, scenario, (scenario.event_at_m,))
+    ends, elsewhere = measure_flags(whole, scenario, ())
     return ends, replace(elsewhere, quantity=ELSEWHERE, limits=UNPROVOKED)
 
 
@@ -145,41 +148,42 @@ DERIVATION = (
     "sticks (0.1 to 1 s), or is pinned 50 mm beyond all that it measured (10 to 500 ms); its "
     "accelerometer loses samples (one to 1 s) or is driven to a full scale of 2, 4 or 5 g (2 to "
     "20 ms); all channels have a gap (50 ms to 1 s), of missing samples or of missing time; the "
-    "encoder loses samples, leaps by 0.1 to 3 m, is silent and makes up for it, loses counts for "
-    "good, tells single counts that lie back, or rolls back by 20 to 500 mm at a stop. Of a "
-    "device that declares them, a receiver loses its fix for 2 to 10 s, or for 8 to 30 s around a "
-    "stop, is 0.3 to 3 m too high and says so, wanders by up to 1 m without fixed ambiguities, "
-    "jumps by 0.3 to 3 m for good and says nothing, repeats one height for 2 to 10 s on a slope, "
-    "or is never fixed at all; an inertial unit loses its rates for up to 1 s while the vehicle "
-    "brakes for a stop, or up to 60 single samples; of the sensors of a vehicle's response the "
-    "wheel's accelerometer loses samples (one to 1 s), sticks (0.1 to 1 s) or is driven to a full "
-    "scale of 8, 10 or 16 g (2 to 20 ms), the body's loses samples, and the deflection of the "
-    "suspension is missing or sticks. A laser's faults are no cases of a device without one. "
+    "encoder loses samples, leaps by 0.1 to 3 m, is silent and then correct again, loses counts "
+    "permanently, has single readings that are too low, or rolls back by 20 to 500 mm at a stop. "
+    "Of a device that declares them, a receiver loses its fix for 2 to 10 s, or for 8 to 30 s "
+    "around a stop, is 0.3 to 3 m too high with a worse quality, wanders by up to 1 m without "
+    "fixed ambiguities, jumps permanently by 0.3 to 3 m without a sign, repeats one height for 2 "
+    "to 10 s on a slope, or is never fixed at all; an inertial unit loses its rates for up to 1 s "
+    "while the vehicle brakes for a stop, or up to 60 single samples; of the sensors of a "
+    "vehicle's response the wheel's accelerometer loses samples (one to 1 s), sticks (0.1 to 1 s) "
+    "or is driven to a full scale of 8, 10 or 16 g (2 to 20 ms), the body's loses samples, and "
+    "the deflection of the suspension is missing or sticks. A laser's faults are no cases of a "
+    "device without one. "
     "Every case has a road of its own. "
-    "Each is normal life in the field: an error in place of a profile is a failure. Metres that "
-    "the encoder told too many or too few are taken out of the axis before the comparison. "
-    "Right: over all points that the device vouches for, the IRI is off by no more than 5 % or "
+    "Each is common in the field: an error in place of a profile is a failure. Metres that the "
+    "encoder counted too many or too few are removed from the axis before the comparison. "
+    "Right: over all points that the device marks valid, the IRI is off by no more than 5 % or "
     "0.1 m/km, in the stricter classes 3 and 2 % as at constant speed. And on average over any "
     f"{BASE_M:g} m (25 ft) the output of the IRI's filter differs from that without the fault "
     f"by no more than if an error of 0.1 m/km (0.06, 0.04) in the IRI of {WHOLE_M:g} m lay "
-    "within them alone; points not vouched for take the truth's "
+    "only within them; flagged points get the truth's "
     "shape. Or flagged, beyond the distance travelled while the fault lasted: a laser's reading "
-    "is subtracted, never integrated, so its fault stays where it is, within the 10 m (5 m) "
+    "is subtracted, never integrated, so its fault remains local, within the 10 m (5 m) "
     "that stricter classes may flag at an event. An accelerometer's is integrated twice and "
     "spread to either side by the high-pass (105.91 m): each side may have the length of an "
     "event, 125 m; class adequate has half a cut-off wavelength on each side, reference a "
     "quarter; the same for gaps, inertial units, receivers and the sensors of a response. For a "
-    "receiver that jumps or is never fixed nothing but that may be flagged: a profiler without "
-    "one profiles the road as well. An encoder's fault looks like an event, and has its limits."
+    "receiver that jumps or is never fixed no more than that may be flagged: a profiler without "
+    "one measures the road as well. An encoder's fault looks like an event, and has its limits."
 )
-"""What is done to the recordings, and why the limits are what they are."""
+"""The faults in the recordings, and the reasons of the limits."""
 FLOOR = (
     "Without the fault, the device may flag no more than at the ends of any run and around a "
-    "stop. Where it does not stop, 10 m (class reference 5 m) are all that it may flag between "
-    "the ends, as at constant speed. What remains has the "
+    "stop. Where it does not stop, it may flag 10 m (class reference 5 m) between "
+    "the ends, as at constant speed. The remaining points have the "
     "roughness of the road within the limits above, so that neither a flat profile nor one that "
-    "is flagged throughout passes."
+    "is flagged everywhere passes."
 )
-"""What keeps a device from passing by saying nothing."""
+"""What prevents a device from passing with a profile that is flat or flagged."""
 
 FAULTS = FaultsCheck()

@@ -1,11 +1,11 @@
-"""How long, how large and how often: the numbers of every fault, fixed by the edition or drawn."""
+"""Length, size and count of every fault, fixed by the edition or drawn."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from floatref_conformance.checks.case import Number
-from floatref_conformance.checks.rounded import rounded
+from floatref_conformance.checks.rounded import rounded_numbers
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
@@ -81,44 +81,53 @@ FULL_SCALES_G = (-5.0, -4.0, -2.0, 2.0, 4.0, 5.0)
 WHEEL_SCALES_G = (-16.0, -10.0, -8.0, 8.0, 10.0, 16.0)
 
 
-def drawn_numbers(fault: str) -> Numbers:
+def number_strategies(fault: str) -> Numbers:
     """Return strategies of the numbers of ``fault``."""
     from hypothesis import strategies as st
 
     numbers: Mapping[str, Numbers] = {
-        "laser-dropout": {"length_s": rounded(0.0, 2.0, 2)},
+        "laser-dropout": {"length_s": rounded_numbers(0.0, 2.0, 2)},
         "laser-flicker": {
-            "length_s": rounded(0.001, 0.02, 3),
+            "length_s": rounded_numbers(0.001, 0.02, 3),
             "count": st.integers(5, 60),
-            "span_m": rounded(5.0, 60.0),
+            "span_m": rounded_numbers(5.0, 60.0),
         },
-        "laser-stuck": {"length_s": rounded(0.1, 1.0, 2)},
+        "laser-stuck": {"length_s": rounded_numbers(0.1, 1.0, 2)},
         "laser-out-of-range": {
-            "length_s": rounded(0.01, 0.5, 2),
+            "length_s": rounded_numbers(0.01, 0.5, 2),
             "side": st.sampled_from((-1.0, 1.0)),
         },
-        "accelerometer-dropout": {"length_s": rounded(0.0, 1.0, 2)},
+        "accelerometer-dropout": {"length_s": rounded_numbers(0.0, 1.0, 2)},
         "accelerometer-saturation": {
-            "length_s": rounded(0.002, 0.02, 3),
+            "length_s": rounded_numbers(0.002, 0.02, 3),
             "full_scale_g": st.sampled_from(FULL_SCALES_G),
         },
-        "encoder-leap": {"size_m": rounded(0.1, 3.0, 2)},
-        "encoder-counts-back": {"count": st.integers(1, 10), "size_m": rounded(0.001, 0.05, 3)},
-        "encoder-rolling-back": {"size_m": rounded(0.02, 0.5, 2)},
-        "gnss-outage": {"length_s": rounded(2.0, 10.0)},
-        "gnss-wrong-fix": {"length_s": rounded(2.0, 10.0), "size_m": rounded(-3.0, 3.0)},
-        "gnss-float": {"length_s": rounded(2.0, 10.0), "size_m": rounded(-1.0, 1.0)},
-        "gnss-jump": {"size_m": rounded(0.3, 3.0) | rounded(-3.0, -0.3)},
-        "gnss-stuck": {"length_s": rounded(2.0, 10.0)},
-        "gnss-never-fixed": {"size_m": rounded(-1.5, 1.5)},
-        "gnss-outage-at-a-stop": {"length_s": rounded(8.0, 30.0)},
-        "imu-flicker": {"count": st.integers(5, 60), "span_m": rounded(5.0, 60.0)},
-        "response-wheel-dropout": {"length_s": rounded(0.0, 1.0, 2)},
-        "response-wheel-stuck": {"length_s": rounded(0.1, 1.0, 2)},
+        "encoder-leap": {"size_m": rounded_numbers(0.1, 3.0, 2)},
+        "encoder-counts-back": {
+            "count": st.integers(1, 10),
+            "size_m": rounded_numbers(0.001, 0.05, 3),
+        },
+        "encoder-rolling-back": {"size_m": rounded_numbers(0.02, 0.5, 2)},
+        "gnss-outage": {"length_s": rounded_numbers(2.0, 10.0)},
+        "gnss-wrong-fix": {
+            "length_s": rounded_numbers(2.0, 10.0),
+            "size_m": rounded_numbers(-3.0, 3.0),
+        },
+        "gnss-float": {
+            "length_s": rounded_numbers(2.0, 10.0),
+            "size_m": rounded_numbers(-1.0, 1.0),
+        },
+        "gnss-jump": {"size_m": rounded_numbers(0.3, 3.0) | rounded_numbers(-3.0, -0.3)},
+        "gnss-stuck": {"length_s": rounded_numbers(2.0, 10.0)},
+        "gnss-never-fixed": {"size_m": rounded_numbers(-1.5, 1.5)},
+        "gnss-outage-at-a-stop": {"length_s": rounded_numbers(8.0, 30.0)},
+        "imu-flicker": {"count": st.integers(5, 60), "span_m": rounded_numbers(5.0, 60.0)},
+        "response-wheel-dropout": {"length_s": rounded_numbers(0.0, 1.0, 2)},
+        "response-wheel-stuck": {"length_s": rounded_numbers(0.1, 1.0, 2)},
         "response-wheel-saturation": {
-            "length_s": rounded(0.002, 0.02, 3),
+            "length_s": rounded_numbers(0.002, 0.02, 3),
             "full_scale_g": st.sampled_from(WHEEL_SCALES_G),
         },
-        "response-deflection-stuck": {"length_s": rounded(0.1, 1.0, 2)},
+        "response-deflection-stuck": {"length_s": rounded_numbers(0.1, 1.0, 2)},
     }
-    return numbers.get(fault, {"length_s": rounded(0.05, 1.0, 2)})
+    return numbers.get(fault, {"length_s": rounded_numbers(0.05, 1.0, 2)})

@@ -1,4 +1,4 @@
-"""Two results of one recording, without a fault and with it, beside the truth."""
+"""Compare two results of one recording, without and with a fault, with the truth."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -12,7 +12,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.checks.evidence import Pair, Reference
 from floatref_conformance.checks.faults.injection import Faulty
 from floatref_conformance.checks.flags import EVENT_LIMITS
-from floatref_conformance.checks.scoring import Compared, bridged, compare, roughness_within
+from floatref_conformance.checks.scoring import Compared, bridge, compare, roughness_within
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
 
@@ -20,12 +20,12 @@ NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 ROUGHNESS: Mapping[DeviceClass, tuple[float, float]] = MappingProxyType(
     {NOMINAL: (5.0, 0.10), ADEQUATE: (3.0, 0.06), REFERENCE: (2.0, 0.04)}
 )
-"""How far the IRI of the points vouched for may be off: percent of it, or m/km."""
+"""Largest error of the IRI of the valid points: percent of it, or m/km."""
 BASE_M = 7.62
-"""Base of the short-interval roughness, 25 ft."""
+"""Base length of the short-interval roughness in m: 25 ft."""
 WHOLE_M = 160.9
 LOCAL_LIMITS: Limits = {c: least * WHOLE_M / BASE_M for c, (_, least) in ROUGHNESS.items()}
-"""An error of the IRI over 160.9 m that all lies within `BASE_M`, in m/km."""
+"""An error of the IRI over 160.9 m if it lies only within `BASE_M`, in m/km."""
 FLAGGED_LIMITS: Mapping[str, Limits] = MappingProxyType(
     {
         "laser": {NOMINAL: 10.0, ADEQUATE: 10.0, REFERENCE: 5.0},
@@ -37,12 +37,12 @@ FLAGGED_LIMITS: Mapping[str, Limits] = MappingProxyType(
         "response": {NOMINAL: 250.0, ADEQUATE: 106.0, REFERENCE: 53.0},
     }
 )
-"""What may be flagged beyond the fault's own length, in m, by what is injured."""
+"""Largest flagged length beyond the fault itself, in m, by the faulty part."""
 
 
 @dataclass(frozen=True, eq=False)
 class LocalDifference:
-    """Two results whose roughness is compared wherever both are vouched for."""
+    """Two results whose roughness is compared where both are valid."""
 
     pair: Pair
 
@@ -55,10 +55,12 @@ class LocalDifference:
         return _largest_mean(outputs[1] - outputs[0], self.pair)
 
 
-def beside(truth: Profile, profile: Profile, faulty: Faulty | None = None) -> tuple[Compared, ...]:
-    """Return every wheel path on all of the truth's points, with the encoder's error undone.
+def compare_everywhere(
+    truth: Profile, profile: Profile, faulty: Faulty | None = None
+) -> tuple[Compared, ...]:
+    """Return every wheel path on all of the truth's points, without the encoder's error.
 
-    What the device did not deliver, or the encoder did not count, has no elevation.
+    Points that the device did not deliver or the encoder did not count have no elevation.
     """
     early = _everywhere(truth, profile)
     if faulty is None or faulty.shift_m == 0.0:
@@ -66,16 +68,15 @@ def beside(truth: Profile, profile: Profile, faulty: Faulty | None = None) -> tu
     moved = replace(profile, start_m=profile.start_m - faulty.shift_m)
     late = _everywhere(truth, moved)
     behind_m = faulty.at_m + max(-faulty.shift_m, 0.0)
-    return tuple(_joined(*both, faulty.at_m, behind_m) for both in zip(early, late, strict=True))
+    return tuple(_join(*both, faulty.at_m, behind_m) for both in zip(early, late, strict=True))
 
 
-def fault_measurements(
+def measure_fault(
     before: Compared, after: Compared, faulty: Faulty, part: str
 ) -> tuple[Measurement, ...]:
-    """Return what a fault of ``part`` did: wrong and not flagged, or flagged too far.
+    """Return the effect of a fault of ``part``: unflagged errors and the flagged length.
 
-    ``before`` is the result without the fault. If no point is vouched for, only the length is
-    measured.
+    ``before`` is the result without the fault. If no point is valid, only the length is measured.
     """
     lost = before.valid & ~after.valid
     flagged_m = before.interval_m * float(np.sum(lost)) - faulty.extent_m
@@ -95,8 +96,8 @@ def fault_measurements(
 
 def _local(before: Compared, after: Compared) -> Measurement:
     pair = Pair(
-        _vouched(before),
-        _vouched(after),
+        _fill_flagged(before),
+        _fill_flagged(after),
         before.interval_m,
         _both(before.valid) & _both(after.valid),
     )
@@ -108,9 +109,9 @@ def _local(before: Compared, after: Compared) -> Measurement:
     )
 
 
-def _vouched(compared: Compared) -> FloatArray:
-    """Return the elevations with the truth's shape where the device does not vouch for them."""
-    return bridged(np.where(compared.valid, compared.result, np.nan), compared.truth)
+def _fill_flagged(compared: Compared) -> FloatArray:
+    """Return the elevations, with the truth's shape at flagged points."""
+    return bridge(np.where(compared.valid, compared.result, np.nan), compared.truth)
 
 
 def _both(valid: BoolArray) -> BoolArray:
@@ -118,7 +119,7 @@ def _both(valid: BoolArray) -> BoolArray:
 
 
 def _largest_mean(difference: FloatArray, pair: Pair) -> float:
-    """Return the largest mean magnitude over `BASE_M`; what does not count is no difference."""
+    """Return the largest mean magnitude over `BASE_M`; uncounted points have no difference."""
     count = max(1, round(BASE_M / pair.interval_m))
     sums = np.cumsum(np.where(pair.counted, np.abs(difference), 0.0))
     return float(np.max(sums[count:] - sums[:-count])) / count
@@ -139,7 +140,7 @@ def _everywhere(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
     return tuple(made)
 
 
-def _joined(early: Compared, late: Compared, at_m: float, behind_m: float) -> Compared:
+def _join(early: Compared, late: Compared, at_m: float, behind_m: float) -> Compared:
     x = early.distance_m
     result = np.where(x <= at_m, early.result, np.where(x > behind_m, late.result, np.nan))
     valid = np.where(x <= at_m, early.valid, (x > behind_m) & late.valid)

@@ -8,9 +8,9 @@ import numpy as np
 
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED, RESPONSE
-from floatref_conformance.checks.faults.fault_numbers import NUMBERS, Numbers, drawn_numbers
+from floatref_conformance.checks.faults.fault_numbers import NUMBERS, Numbers, number_strategies
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
-from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
+from floatref_conformance.checks.rounded import rounded_numbers, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CHECK = "faults"
 ROLLING = "encoder-rolling-back"
 AT_A_STOP = (ROLLING, "gnss-outage-at-a-stop", "imu-gyro-gap")
-"""Faults of drives with a stop; in the others the vehicle does not change its speed."""
+"""Faults in drives with a stop; in the others the speed is constant."""
 LENGTH_M = 560.0
 STOP_M = 320.0
 ROUNDS: tuple[tuple[Mapping[str, Any], ...], ...] = (
@@ -45,24 +45,24 @@ STOP: Mapping[str, Any] = {
     "event_at_m": STOP_M,
 }
 SLOPES_PERCENT: Mapping[str, tuple[float, ...]] = MappingProxyType({"gnss-stuck": (3.0, -2.0, 4.0)})
-"""Grades of seeded cases: on a level road a height that is stuck would nearly be right."""
+"""Grades of seeded cases: on a level road a stuck height would be nearly right."""
 PLACES_M = (285.3, 251.7, 316.0)
 NEAREST_M, FARTHEST_M = 230.0, 330.0
-"""Where faults begin: far enough from both ends for what they spread."""
+"""Range in m where faults begin; their effect does not reach the ends."""
 ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 RATES_HZ = (16000.0, 8000.0, 4000.0)
 
 
-def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
+def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     """Return every fault once, in a certification three times; ``seed`` draws their roads.
 
-    No two cases share a road: whoever has seen the one knows nothing of the other.
+    No two cases have the same road, so that a device cannot use what it stored.
     """
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(SENSOR_FAULTS)).tolist())
-    # What was there first comes first: its roads are the same for whatever device is judged.
+    # Faults of nominal sensors come first: their roads are the same for every device.
     nominal = [fault for fault in SENSOR_FAULTS if fault not in {*AUGMENTED, *RESPONSE}]
     return tuple(
         Case(
@@ -77,7 +77,7 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
     )
 
 
-def drawn(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrategy[Case]":
+def case_strategy(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrategy[Case]":
     """Return the strategy of any of ``faults`` in any drive."""
     from hypothesis import strategies as st
 
@@ -86,8 +86,8 @@ def drawn(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrategy[Case]
         fault = draw(st.sampled_from(faults))
         drives = _stop() if fault in AT_A_STOP else _steady(fault)
         numbers = draw(st.fixed_dictionaries(dict(drives)))
-        variation = draw(st.fixed_dictionaries(dict(drawn_numbers(fault))))
-        at_m = draw(rounded(NEAREST_M, FARTHEST_M))
+        variation = draw(st.fixed_dictionaries(dict(number_strategies(fault))))
+        at_m = draw(rounded_numbers(NEAREST_M, FARTHEST_M))
         variation = {"fault": fault, "at_m": at_m, **variation}
         seed = seed_of_its_own(draw(seeds()), numbers, variation)
         return Case(CHECK, Scenario(seed=seed, length_m=LENGTH_M, **numbers), variation)
@@ -109,15 +109,15 @@ def _common() -> Numbers:
     return {
         "road": st.sampled_from(ROADS),
         "vehicle": st.sampled_from(VEHICLES),
-        "iri_m_per_km": rounded(1.5, 4.0),
+        "iri_m_per_km": rounded_numbers(1.5, 4.0),
         "rate_hz": st.sampled_from(RATES_HZ),
     }
 
 
 def _steady(fault: str) -> Numbers:
-    drives = {**_common(), "speed_kmh": rounded(40.0, 97.0)}
+    drives = {**_common(), "speed_kmh": rounded_numbers(40.0, 97.0)}
     if fault in SLOPES_PERCENT:
-        drives["grade_percent"] = rounded(-4.0, -2.0) | rounded(2.0, 4.0)
+        drives["grade_percent"] = rounded_numbers(-4.0, -2.0) | rounded_numbers(2.0, 4.0)
     return drives
 
 
@@ -127,8 +127,8 @@ def _stop() -> Numbers:
     return {
         **_common(),
         "manoeuvre": st.just("stop"),
-        "speed_kmh": rounded(40.0, 60.0),
-        "deceleration_g": rounded(0.1, 0.3, 2),
-        "dwell_s": rounded(2.0, 8.0),
+        "speed_kmh": rounded_numbers(40.0, 60.0),
+        "deceleration_g": rounded_numbers(0.1, 0.3, 2),
+        "dwell_s": rounded_numbers(2.0, 8.0),
         "event_at_m": st.just(STOP_M),
     }

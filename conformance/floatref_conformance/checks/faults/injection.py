@@ -1,4 +1,4 @@
-"""How a stretch of a recording is spoilt, and what is kept of it to judge by."""
+"""Inject a fault into a stretch of a recording, and describe its place and length."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -11,8 +11,8 @@ from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.sameness.change import Numbers, number
 
 DISTANCE = "distance"
-Spoil = Callable[[FloatArray, slice], None]
-"""What changes the samples of a slice, or more, in place."""
+SampleFault = Callable[[FloatArray, slice], None]
+"""Changes the samples of a slice, or more of them, in place."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +22,8 @@ class Faulty:
     Attributes:
         recording: what the device is given.
         extent_m: distance travelled while the fault lasted, in m.
-        at_m: where it began.
-        shift_m: by how much the distance told is too long from then on.
+        at_m: place where it began, in m.
+        shift_m: error of the encoder's distance from then on, in m.
     """
 
     recording: Recording
@@ -33,11 +33,11 @@ class Faulty:
 
 
 Fault = Callable[[Recording, Numbers], Faulty]
-"""Returns a recording with a fault in it, of numbers that a case gives."""
+"""Returns a recording with a fault, with the numbers of a case."""
 
 
 def lose(values: FloatArray, where: slice) -> None:
-    """Leave no sample."""
+    """Remove all samples."""
     values[where] = np.nan
 
 
@@ -47,19 +47,19 @@ def hold(values: FloatArray, where: slice) -> None:
 
 
 def dropout(name: str) -> Fault:
-    """Return the injury of a channel that is missing for ``length_s``, for one sample at least."""
-    return lambda recording, numbers: faulty_locally(recording, numbers, name, lose)
+    """Return the fault of a channel that is missing for ``length_s``, at least one sample."""
+    return lambda recording, numbers: inject_locally(recording, numbers, name, lose)
 
 
 def stuck(name: str) -> Fault:
-    """Return the injury of a channel that repeats one reading for ``length_s``."""
-    return lambda recording, numbers: faulty_locally(recording, numbers, name, hold)
+    """Return the fault of a channel that repeats one reading for ``length_s``."""
+    return lambda recording, numbers: inject_locally(recording, numbers, name, hold)
 
 
 def saturation(name: str) -> Fault:
-    """Return the injury of an accelerometer at its ``full_scale_g``, of either sign.
+    """Return the fault of an accelerometer that is saturated for ``length_s``.
 
-    It is driven there for ``length_s``.
+    It reads ``full_scale_g``, of either sign.
     """
 
     def inject(recording: Recording, numbers: Numbers) -> Faulty:
@@ -68,48 +68,48 @@ def saturation(name: str) -> Fault:
         def pin(values: FloatArray, where: slice) -> None:
             values[where] = end
 
-        return faulty_locally(recording, numbers, name, pin)
+        return inject_locally(recording, numbers, name, pin)
 
     return inject
 
 
 def times_of(recording: Recording, numbers: Numbers) -> tuple[float, float]:
-    """Return when the injury begins and ends."""
+    """Return the times in s when the fault begins and ends."""
     encoder = recording.channel(DISTANCE)
     at = int(np.searchsorted(encoder.values, number(numbers, "at_m")))
     begin_s = float(encoder.times_s[min(at, encoder.values.size - 1)])
     return begin_s, begin_s + number(numbers, "length_s")
 
 
-def faulty_locally(recording: Recording, numbers: Numbers, name: str, spoil: Spoil) -> Faulty:
-    """Return ``recording`` with channel ``name`` of the first wheel path spoilt."""
+def inject_locally(recording: Recording, numbers: Numbers, name: str, fault: SampleFault) -> Faulty:
+    """Return ``recording`` with channel ``name`` of the first wheel path faulty."""
     begin_s, end_s = times_of(recording, numbers)
     channel = recording.channel(name, recording.tracks[0])
-    hurt = with_values(
-        recording, name, channel.id.track, spoilt(channel, begin_s, end_s, spoil).values
+    faulty = replace_values(
+        recording, name, channel.id.track, change_samples(channel, begin_s, end_s, fault).values
     )
-    return faulty_until(hurt, recording, numbers, end_s)
+    return measure_extent(faulty, recording, numbers, end_s)
 
 
-def spoilt(channel: Channel, begin_s: float, end_s: float, spoil: Spoil) -> Channel:
-    """Return ``channel`` with its samples from ``begin_s`` up to ``end_s`` spoilt, one at least."""
+def change_samples(channel: Channel, begin_s: float, end_s: float, fault: SampleFault) -> Channel:
+    """Return ``channel``, faulty from ``begin_s`` up to ``end_s``, at least one sample."""
     times = channel.times_s
     first = int(np.searchsorted(times, begin_s))
     last = max(int(np.searchsorted(times, end_s)), first + 1)
     values = np.array(channel.values)
     if first < values.size:
-        spoil(values, slice(first, last))
+        fault(values, slice(first, last))
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)
 
 
-def faulty_until(hurt: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Faulty:
-    """Return ``hurt``, made of ``whole``, with the distance travelled until ``end_s``."""
+def measure_extent(faulty: Recording, whole: Recording, numbers: Numbers, end_s: float) -> Faulty:
+    """Return ``faulty``, made of ``whole``, with the distance travelled until ``end_s``."""
     encoder, at_m = whole.channel(DISTANCE), number(numbers, "at_m")
     extent_m = float(np.interp(end_s, encoder.times_s, encoder.values)) - at_m
-    return Faulty(hurt, max(extent_m, 0.0), at_m)
+    return Faulty(faulty, max(extent_m, 0.0), at_m)
 
 
-def with_values(
+def replace_values(
     recording: Recording, name: str, track: str | None, values: FloatArray
 ) -> Recording:
     """Return ``recording`` with other ``values`` in channel ``name`` of ``track``."""

@@ -1,1 +1,1 @@
-"""The checks of what has to stay the same: two passes agree, other settings change nothing."""
+"""The checks of equal results: between two passes, and after an irrelevant change."""

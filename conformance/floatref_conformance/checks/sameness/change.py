@@ -1,4 +1,4 @@
-"""One thing that must not matter, and the numbers of a case that say how much of it."""
+"""A change that must not affect the result, and the numbers of a case that define it."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -40,15 +40,15 @@ RANGES: Mapping[str, tuple[float, float]] = MappingProxyType(
 
 @dataclass(frozen=True)
 class Change:
-    """One thing that must not matter, and how it is undone in the result.
+    """A change that must not affect the result, and the inverse change of the result.
 
     Attributes:
-        says: what is changed, in words.
-        scenario: the changed drive, road or sensors.
-        recording: the changed recording.
-        truth: where the road lies on the changed axis of distance.
-        profile: the result as it should have been without the change.
-        needs: of `NEEDS`, without which it is no change to a device.
+        says: description of the change.
+        scenario: changes the drive, the road or the sensors.
+        recording: changes the recording.
+        truth: moves the truth to the changed axis of distance.
+        profile: undoes the change in the result.
+        needs: the `NEEDS` without which the change has no effect on a device.
     """
 
     says: str
@@ -60,7 +60,7 @@ class Change:
 
 
 def number(numbers: Numbers, name: str) -> float:
-    """Return number ``name`` of a case's variation; InputError if it is none, or out of range."""
+    """Return number ``name`` of a case's variation; InputError if it is invalid."""
     value = numbers.get(name)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise InputError(f"variation {name} is {value!r}; give a number")
@@ -75,19 +75,21 @@ def check_equipped(recording: Recording, needs: frozenset[str], what: str) -> No
     names = {channel.id.name for channel in recording.channels}
     for need in sorted(needs):
         if names.isdisjoint(CAPABILITIES.get(need, (need,))):
-            raise InputError(f"variation {what}: needs {NEEDS[need]}, which the device lacks")
+            raise InputError(
+                f"variation {what}: needs {NEEDS[need]}, which the device does not have"
+            )
 
 
-def each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
-    """Return ``recording`` with what ``change`` makes of its channels."""
+def change_each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:
+    """Return ``recording`` with ``change`` applied to each of its channels."""
     return replace(recording, channels=tuple(change(c) for c in recording.channels))
 
 
-def raised(channel: Channel, offset: float) -> Channel:
+def add_offset(channel: Channel, offset: float) -> Channel:
     """Return ``channel`` with ``offset`` added to its samples, in its unit."""
-    return with_samples(channel, channel.values + offset)
+    return replace_samples(channel, channel.values + offset)
 
 
-def with_samples(channel: Channel, values: FloatArray) -> Channel:
+def replace_samples(channel: Channel, values: FloatArray) -> Channel:
     """Return ``channel`` with other ``values`` at the same times."""
     return Channel.of(channel.id.name, values, channel.clock, channel.id.track)

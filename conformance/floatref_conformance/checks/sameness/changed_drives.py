@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.case import Case, Number
-from floatref_conformance.checks.rounded import rounded, seed_of_its_own, seeds
+from floatref_conformance.checks.rounded import rounded_numbers, seed_of_its_own, seeds
 from floatref_conformance.checks.sameness.change import number
 from floatref_conformance.checks.sameness.changes import (
     AUGMENTED_CHANGES,
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 CHECK = "invariance"
 STOP = "longer-stop"
 FREE_M, STOP_M = 200.0, 316.0
-"""The brake for a stop begins so far into the recording, or farther; the stop lies here, or
-farther: the adaptive cut-off of section 5.7 takes some 20 s to settle."""
+"""Smallest distances in m of the begin of a brake and of its stop: the adaptive cut-off of
+section 5.7 needs about 20 s to settle."""
 BEFORE_M, BEHIND_M = 96.0, 64.9
-"""The 160.9 m around a stop."""
+"""Lengths in m before and behind a stop: 160.9 m in total."""
 END_M = 110.0
-"""The recording goes on for so long behind what counts."""
+"""Length in m of the recording after the scored stretch."""
 LENGTH_M = 500.0
 ROUNDS: tuple[Mapping[str, Any], ...] = (
     {"speed_kmh": 65.0, "rate_hz": 8000.0, "iri_m_per_km": 1.4},
@@ -55,7 +55,7 @@ THROTTLES: tuple[Mapping[str, Any], ...] = tuple(
         {"speed_kmh": 50.0, "rate_hz": 4000.0, "deceleration_g": 0.18, "vehicle": "pickup"},
     )
 )
-"""Drives of the seeded cases in which the body pitches, and changes its speed."""
+"""Drives of the seeded cases in which the body pitches and the speed changes."""
 UNSTEADY: Mapping[str, tuple[Mapping[str, Any], ...]] = MappingProxyType(
     {STOP: STOPS, SLOPE: THROTTLES, UNIT_BIAS: THROTTLES}
 )
@@ -89,15 +89,15 @@ RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 LATEST_S = 1.4
-"""A recording begins up to so much later: 38 m at 97 km/h."""
+"""Largest delay of a recording's begin in s: 38 m at 97 km/h."""
 
 
-def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
-    """Return every change once, in a certification three times, each on a road of its own."""
+def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
+    """Return every change once, in a certification three times, each on another road."""
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
     roads = iter(source.generate_state(len(rounds) * len(CHANGES)).tolist())
-    # Nominal changes come first: their roads are the same for whatever device is judged.
+    # Nominal changes come first: their roads are the same for every device.
     nominal = [change for change in CHANGES if change not in AUGMENTED_CHANGES]
     return tuple(
         Case(
@@ -113,7 +113,7 @@ def fixed(seed: int, effort: Effort) -> tuple[Case, ...]:
 
 
 def drive(change: str, seed: int, **numbers: Any) -> Scenario:
-    """Return a drive of one wheel path for ``change``, long enough for what counts."""
+    """Return a drive of one wheel path for ``change``, long enough for the scored stretch."""
     fields: dict[str, Any] = {"length_m": LENGTH_M, "tracks": ("left",), **numbers}
     if change == "road-height":
         fields["sensors"] = 0.0
@@ -127,15 +127,15 @@ def drive(change: str, seed: int, **numbers: Any) -> Scenario:
 
 
 def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
-    """Return the distance in m that is driven before a recording that begins later.
+    """Return the distance in m that is driven before a delayed recording begins.
 
-    Raises InputError for numbers that do not tell how many samples later.
+    Raises InputError for numbers without a valid count of samples.
     """
     begin_s = number(numbers, "samples") / scenario.rate_hz
     return float(drive_of(scenario).motion(np.array([begin_s])).distance[0])
 
 
-def drawn(changes: Sequence[str] = tuple(CHANGES)) -> "SearchStrategy[Case]":
+def case_strategy(changes: Sequence[str] = tuple(CHANGES)) -> "SearchStrategy[Case]":
     """Return the strategy of any of ``changes`` of any drive."""
     from hypothesis import strategies as st
 
@@ -157,10 +157,10 @@ def _travel() -> "SearchStrategy[dict[str, Any]]":
 
     throttle = {
         "manoeuvre": st.just("throttle"),
-        "speed_kmh": rounded(30.0, 60.0),
-        "final_speed_kmh": rounded(62.0, 72.0),
-        "deceleration_g": rounded(0.15, 0.2, 2),
-        "event_at_m": rounded(180.0, 240.0, 0),
+        "speed_kmh": rounded_numbers(30.0, 60.0),
+        "final_speed_kmh": rounded_numbers(62.0, 72.0),
+        "deceleration_g": rounded_numbers(0.15, 0.2, 2),
+        "event_at_m": rounded_numbers(180.0, 240.0, 0),
     }
     return _steady() | st.fixed_dictionaries({**_common(4.0), **throttle})
 
@@ -169,13 +169,13 @@ def _steady(highest_iri: float = 4.0) -> "SearchStrategy[dict[str, Any]]":
     """Return a strategy of drives at constant speed."""
     from hypothesis import strategies as st
 
-    return st.fixed_dictionaries({**_common(highest_iri), "speed_kmh": rounded(30.0, 97.0)})
+    return st.fixed_dictionaries({**_common(highest_iri), "speed_kmh": rounded_numbers(30.0, 97.0)})
 
 
 def _smooth() -> "SearchStrategy[dict[str, Any]]":
     """Return a strategy of drives over roads that can be made higher.
 
-    Their speed is constant: the tilt under throttle does not grow with the road.
+    Their speed is constant: the tilt under throttle does not increase with the road.
     """
     return _steady(1.5)
 
@@ -186,7 +186,7 @@ def _common(highest_iri: float) -> "dict[str, SearchStrategy[Any]]":
     return {
         "road": st.sampled_from(ROADS),
         "vehicle": st.sampled_from(VEHICLES),
-        "iri_m_per_km": rounded(1.0, highest_iri),
+        "iri_m_per_km": rounded_numbers(1.0, highest_iri),
         "rate_hz": st.sampled_from(RATES_HZ),
     }
 
@@ -199,12 +199,12 @@ def _stop() -> "SearchStrategy[dict[str, Any]]":
         {
             "road": st.sampled_from(ROADS),
             "vehicle": st.sampled_from(VEHICLES),
-            "iri_m_per_km": rounded(1.5, 4.0),
+            "iri_m_per_km": rounded_numbers(1.5, 4.0),
             "rate_hz": st.sampled_from((4000.0, 8000.0)),
-            "speed_kmh": rounded(30.0, 80.0),
-            "deceleration_g": rounded(0.1, 0.4, 2),
+            "speed_kmh": rounded_numbers(30.0, 80.0),
+            "deceleration_g": rounded_numbers(0.1, 0.4, 2),
             "dwell_s": st.sampled_from((0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0)),
-            "final_speed_kmh": rounded(30.0, 65.0),
+            "final_speed_kmh": rounded_numbers(30.0, 65.0),
         }
     )
 
@@ -219,18 +219,21 @@ def _numbers(change: str, rate_hz: float) -> "SearchStrategy[dict[str, Number]]"
     others = tuple(rate for rate in RATES_HZ if rate != rate_hz)
     strategies: Mapping[str, Mapping[str, SearchStrategy[Any]]] = {
         "later-start": {"samples": st.integers(1, int(LATEST_S * rate_hz))},
-        "accelerometer-bias": {"bias": rounded(-0.03, 0.03, 3)},
-        "clock-origin": {"shift_s": rounded(-1e6, 1e6)},
-        "distance-origin": {"shift_m": rounded(-1e5, 1e5, 2)},
-        "road-height": {"factor": rounded(0.4, 0.8) | rounded(1.3, 2.7)},
+        "accelerometer-bias": {"bias": rounded_numbers(-0.03, 0.03, 3)},
+        "clock-origin": {"shift_s": rounded_numbers(-1e6, 1e6)},
+        "distance-origin": {"shift_m": rounded_numbers(-1e5, 1e5, 2)},
+        "road-height": {"factor": rounded_numbers(0.4, 0.8) | rounded_numbers(1.3, 2.7)},
         "sample-rate": {"rate_hz": st.sampled_from(others)},
-        "gnss-datum": {"shift_m": rounded(-3000.0, 3000.0)},
+        "gnss-datum": {"shift_m": rounded_numbers(-3000.0, 3000.0)},
         "gnss-rate": {"every": st.integers(2, 4)},
         "gyro-rate": {"gyro_rate_hz": st.sampled_from((125.0, 160.0, 200.0, 400.0))},
-        UNIT_BIAS: {"bias": rounded(-0.03, 0.03, 3), "rate_bias": rounded(-0.0005, 0.0005, 5)},
+        UNIT_BIAS: {
+            "bias": rounded_numbers(-0.03, 0.03, 3),
+            "rate_bias": rounded_numbers(-0.0005, 0.0005, 5),
+        },
         SLOPE: {
-            "grade_percent": rounded(-2.0, -1.0) | rounded(1.0, 2.0),
-            "cross_slope_percent": rounded(-2.0, 2.0),
+            "grade_percent": rounded_numbers(-2.0, -1.0) | rounded_numbers(1.0, 2.0),
+            "cross_slope_percent": rounded_numbers(-2.0, 2.0),
         },
     }
     return st.fixed_dictionaries(dict(strategies.get(change, {})))

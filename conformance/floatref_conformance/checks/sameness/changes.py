@@ -1,4 +1,4 @@
-"""What must not matter: changes of a recording, or of a drive, that leave the road alone."""
+"""Changes of a recording or a drive, but not of the road; they must not affect the result."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,20 +11,28 @@ from floatref.errors import InputError
 from floatref.values.clock import StampedClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.checks.sameness.change import Change, Numbers, each, number, raised
+from floatref_conformance.checks.sameness.change import (
+    Change,
+    Numbers,
+    add_offset,
+    change_each,
+    number,
+)
 from floatref_conformance.devices.interface import CAPABILITIES
 from floatref_conformance.proving_ground.scenario import Scenario
 
 SLOPE, UNIT_BIAS = "slope", "imu-bias"
 
 
-def other_datum(recording: Recording, numbers: Numbers) -> Recording:
+def change_datum(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``shift_m`` added to the heights of its receiver."""
     shift_m = number(numbers, "shift_m")
-    return each(recording, lambda c: raised(c, shift_m) if c.id.name == "gnss_height" else c)
+    return change_each(
+        recording, lambda c: add_offset(c, shift_m) if c.id.name == "gnss_height" else c
+    )
 
 
-def fewer_readings(recording: Recording, numbers: Numbers) -> Recording:
+def thin_readings(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with one of ``every`` readings of its receiver."""
     step = int(number(numbers, "every"))
 
@@ -34,10 +42,10 @@ def fewer_readings(recording: Recording, numbers: Numbers) -> Recording:
         clock = StampedClock.of(channel.times_s[::step])
         return replace(channel, values=channel.values[::step], clock=clock)
 
-    return each(recording, thinned)
+    return change_each(recording, thinned)
 
 
-def other_unit_bias(recording: Recording, numbers: Numbers) -> Recording:
+def add_unit_bias(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with offsets in its inertial unit.
 
     ``bias`` in m/s² is added to the horizontal forces, ``rate_bias`` in rad/s to the rates.
@@ -47,17 +55,17 @@ def other_unit_bias(recording: Recording, numbers: Numbers) -> Recording:
     def biased(channel: Channel) -> Channel:
         if channel.id.name not in CAPABILITIES["imu"]:
             return channel
-        return raised(channel, offsets[channel.id.name.rpartition("_")[2]])
+        return add_offset(channel, offsets[channel.id.name.rpartition("_")[2]])
 
-    return each(recording, biased)
+    return change_each(recording, biased)
 
 
-def other_gyro_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
+def change_gyro_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
     """Return ``scenario`` with its gyros sampled at ``gyro_rate_hz``."""
     return replace(scenario, gyro_rate_hz=number(numbers, "gyro_rate_hz"))
 
 
-def other_slope(scenario: Scenario, numbers: Numbers) -> Scenario:
+def change_slope(scenario: Scenario, numbers: Numbers) -> Scenario:
     """Return ``scenario`` on a road of ``grade_percent`` and ``cross_slope_percent``."""
     grade, cross = (number(numbers, n) for n in ("grade_percent", "cross_slope_percent"))
     return replace(scenario, grade_percent=grade, cross_slope_percent=cross)
@@ -66,14 +74,14 @@ def other_slope(scenario: Scenario, numbers: Numbers) -> Scenario:
 IMU, GNSS = frozenset({"imu"}), frozenset({"gnss"})
 AUGMENTED_CHANGES: Mapping[str, Change] = MappingProxyType(
     {
-        "gnss-datum": Change("another datum of heights", recording=other_datum, needs=GNSS),
-        "gnss-rate": Change("fewer readings of GNSS", recording=fewer_readings, needs=GNSS),
-        "gyro-rate": Change("another rate of the gyros", scenario=other_gyro_rate, needs=IMU),
-        UNIT_BIAS: Change("a bias of forces and rates", recording=other_unit_bias, needs=IMU),
-        SLOPE: Change("a road that climbs and leans", scenario=other_slope, needs=IMU | GNSS),
+        "gnss-datum": Change("another datum of heights", recording=change_datum, needs=GNSS),
+        "gnss-rate": Change("fewer readings of GNSS", recording=thin_readings, needs=GNSS),
+        "gyro-rate": Change("another rate of the gyros", scenario=change_gyro_rate, needs=IMU),
+        UNIT_BIAS: Change("a bias of forces and rates", recording=add_unit_bias, needs=IMU),
+        SLOPE: Change("a road that climbs and leans", scenario=change_slope, needs=IMU | GNSS),
     }
 )
-"""Changes of sensors that a device has by a capability, or of what these have to see."""
+"""Changes of sensors that a device has by a capability, or of what they measure."""
 
 
 LATER = "later-start"
@@ -81,69 +89,71 @@ VERTICAL_FORCES = frozenset(
     {"vertical_specific_force", *(c for c in CAPABILITIES["response"] if c.endswith("_force"))}
 )
 EARLY = 1e-6
-"""A sample so much before a time, in steps, was taken at that time: times are rounded."""
+"""Tolerance for rounded times, in steps: an earlier sample counts as taken at that time."""
 
 
-def later_start(recording: Recording, numbers: Numbers) -> Recording:
+def start_later(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` without the first ``samples`` of the accelerometers' clock.
 
-    What other channels recorded before that time goes, too.
+    Earlier samples of other channels are removed too.
     """
     force = next(c for c in recording.channels if c.id.name == "vertical_specific_force")
     begin_s = float(force.clock.times(1, int(number(numbers, "samples")))[0])
-    return each(recording, lambda channel: _from(channel, begin_s))
+    return change_each(recording, lambda channel: _from(channel, begin_s))
 
 
-def other_storage(recording: Recording, numbers: Numbers) -> Recording:
+def change_storage(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with a time stamp for every sample in place of rates."""
-    return each(recording, lambda channel: replace(channel, clock=StampedClock.of(channel.times_s)))
+    return change_each(
+        recording, lambda channel: replace(channel, clock=StampedClock.of(channel.times_s))
+    )
 
 
-def other_bias(recording: Recording, numbers: Numbers) -> Recording:
+def add_bias(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``bias`` in m/s² added to the vertical accelerometers."""
 
     def biased(channel: Channel) -> Channel:
         if channel.id.name not in VERTICAL_FORCES:
             return channel
-        return raised(channel, number(numbers, "bias"))
+        return add_offset(channel, number(numbers, "bias"))
 
-    return each(recording, biased)
+    return change_each(recording, biased)
 
 
-def other_time(recording: Recording, numbers: Numbers) -> Recording:
+def shift_time(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with a time stamp for every sample, all ``shift_s`` later."""
     shift_s = number(numbers, "shift_s")
-    return each(recording, lambda c: replace(c, clock=StampedClock.of(c.times_s + shift_s)))
+    return change_each(recording, lambda c: replace(c, clock=StampedClock.of(c.times_s + shift_s)))
 
 
-def other_place(recording: Recording, numbers: Numbers) -> Recording:
+def shift_distance(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``shift_m`` added to its distance."""
 
     def moved(channel: Channel) -> Channel:
         if channel.id.name != "distance":
             return channel
-        return raised(channel, number(numbers, "shift_m"))
+        return add_offset(channel, number(numbers, "shift_m"))
 
-    return each(recording, moved)
+    return change_each(recording, moved)
 
 
-def truth_there(truth: Profile, numbers: Numbers) -> Profile:
-    """Return ``truth`` on the axis of `other_place`."""
+def shift_truth(truth: Profile, numbers: Numbers) -> Profile:
+    """Return ``truth`` on the axis of `shift_distance`."""
     return replace(truth, start_m=truth.start_m + number(numbers, "shift_m"))
 
 
-def back_in_place(profile: Profile, numbers: Numbers) -> Profile:
-    """Return ``profile`` on the axis of distance from before `other_place`."""
+def shift_back(profile: Profile, numbers: Numbers) -> Profile:
+    """Return ``profile`` on the axis of distance from before `shift_distance`."""
     return replace(profile, start_m=profile.start_m - number(numbers, "shift_m"))
 
 
-def higher_road(scenario: Scenario, numbers: Numbers) -> Scenario:
-    """Return ``scenario`` on its road, ``factor`` times as high."""
+def raise_road(scenario: Scenario, numbers: Numbers) -> Scenario:
+    """Return ``scenario`` with the height of its road multiplied by ``factor``."""
     return replace(scenario, iri_m_per_km=scenario.iri_m_per_km * number(numbers, "factor"))
 
 
 def lower_profile(profile: Profile, numbers: Numbers) -> Profile:
-    """Return ``profile``, which saw a `higher_road`, scaled back."""
+    """Return ``profile``, which saw a `raise_road`, scaled back to the original road."""
     tracks = tuple(
         ProfileTrack.of(t.name, t.elevation / number(numbers, "factor"), t.valid)
         for t in profile.tracks
@@ -151,33 +161,33 @@ def lower_profile(profile: Profile, numbers: Numbers) -> Profile:
     return replace(profile, tracks=tracks)
 
 
-def other_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
+def change_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
     """Return ``scenario`` with its accelerometers sampled at ``rate_hz``."""
     return replace(scenario, rate_hz=number(numbers, "rate_hz"))
 
 
-def longer_stop(scenario: Scenario, numbers: Numbers) -> Scenario:
-    """Return ``scenario`` standing twice as long."""
+def lengthen_stop(scenario: Scenario, numbers: Numbers) -> Scenario:
+    """Return ``scenario`` with twice the time at a standstill."""
     return replace(scenario, dwell_s=2.0 * scenario.dwell_s)
 
 
 CHANGES: Mapping[str, Change] = MappingProxyType(
     {
-        LATER: Change("the recording begins later", recording=later_start),
-        "clock-storage": Change("a time stamp for each sample", recording=other_storage),
-        "accelerometer-bias": Change("a bias of the accelerometers", recording=other_bias),
-        "clock-origin": Change("time stamps of another origin", recording=other_time),
+        LATER: Change("the recording begins later", recording=start_later),
+        "clock-storage": Change("a time stamp for each sample", recording=change_storage),
+        "accelerometer-bias": Change("a bias of the accelerometers", recording=add_bias),
+        "clock-origin": Change("time stamps of another origin", recording=shift_time),
         "distance-origin": Change(
             "another origin of distance",
-            recording=other_place,
-            truth=truth_there,
-            profile=back_in_place,
+            recording=shift_distance,
+            truth=shift_truth,
+            profile=shift_back,
         ),
         "road-height": Change(
-            "a road so many times as high, ideal sensors", higher_road, profile=lower_profile
+            "a road multiplied in height, ideal sensors", raise_road, profile=lower_profile
         ),
-        "sample-rate": Change("another rate of the accelerometers", other_rate),
-        "longer-stop": Change("twice the time at a standstill", longer_stop),
+        "sample-rate": Change("another rate of the accelerometers", change_rate),
+        "longer-stop": Change("twice the time at a standstill", lengthen_stop),
         **AUGMENTED_CHANGES,
     }
 )
@@ -185,7 +195,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
 
 
 def change_of(numbers: Numbers) -> Change:
-    """Return the change that a case's variation names; InputError if there is none."""
+    """Return the change that a case's variation names; InputError if it is unknown."""
     name = numbers.get("change")
     if name not in CHANGES:
         raise InputError(f"variation change {name!r}: unknown; known: {', '.join(CHANGES)}")
@@ -193,7 +203,7 @@ def change_of(numbers: Numbers) -> Change:
 
 
 def begins_later_m(before: Recording, after: Recording) -> float:
-    """Return the distance in m that ``after`` lacks at its beginning."""
+    """Return the distance in m that is missing at the beginning of ``after``."""
     return float(np.diff([r.channel("distance").values[0] for r in (before, after)])[0])
 
 

@@ -1,4 +1,4 @@
-"""Two results of one road side by side: how far they differ, and whose error is larger."""
+"""Compare two results of one road: their differences, and the rise of the error."""
 
 from dataclasses import dataclass, replace
 
@@ -7,25 +7,25 @@ import numpy as np
 from floatref.measures import iri_trace
 from floatref.values.arrays import FloatArray
 from floatref_conformance.checks.evidence import CorrelationLoss, Pair, Reference, RoughnessError
-from floatref_conformance.checks.scoring import Compared, correlation, not_flat, roughness_within
+from floatref_conformance.checks.scoring import Compared, correlation, refuse_flat, roughness_within
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits, same_limit
 
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 LOSS_LIMITS: Limits = {NOMINAL: 0.008, ADEQUATE: 0.005, REFERENCE: 0.002}
 ROUGHNESS_LIMITS: Limits = {NOMINAL: 0.5, ADEQUATE: 0.3, REFERENCE: 0.2}
-"""In percent. Both are a tenth of what each class may be off the truth at constant speed."""
+"""In percent. Both are a tenth of each class's limit at constant speed."""
 PLACE_LIMITS: Limits = same_limit(0.02, 0.01)
 """In m: samples at 2 kHz and 97 km/h are 13.5 mm apart, readings of the laser 8.3 mm."""
 RISE_PERCENT = 10.0
-"""By how much of it the error of the IRI may grow."""
+"""Allowed rise of the IRI's error, in percent of it."""
 RISE_LIMITS: Limits = {NOMINAL: 0.10, ADEQUATE: 0.06, REFERENCE: 0.04}
-"""By how much more, in m/km: 5, 3 and 2 % of an IRI of 2 m/km, since noise is drawn anew."""
+"""Additional rise in m/km: 5, 3 and 2 % of an IRI of 2 m/km, because of new noise."""
 
 
 @dataclass(frozen=True, eq=False)
 class RoughnessDifference:
-    """Two results, each beside the truth, for the difference of their IRI in percent of its."""
+    """Two results, each with the truth, for the difference of their IRI in percent of its IRI."""
 
     before: Pair
     after: Pair
@@ -39,21 +39,21 @@ class RoughnessDifference:
 
 @dataclass(frozen=True, eq=False)
 class ErrorRise:
-    """Two results, each beside its truth, for the rise of the IRI's error."""
+    """Two results, each with its truth, for the rise of the IRI's error."""
 
     before: Pair
     after: Pair
 
     def value(self, reference: Reference) -> float:
-        """Return by how much the error's magnitude grew, in m/km; 0 if it did not."""
+        """Return the rise of the error's magnitude, in m/km; 0 without a rise."""
         errors = [RoughnessError(p, False).value(reference) for p in (self.before, self.after)]
         return max(errors[1] - errors[0], 0.0)
 
 
-def differences(
+def measure_differences(
     before: Compared, after: Compared, start_m: float, end_m: float
 ) -> tuple[Measurement, ...]:
-    """Return how far two results differ from ``start_m`` to ``end_m``: shape, IRI, place.
+    """Return the differences of two results from ``start_m`` to ``end_m``: shape, IRI, place.
 
     Both are on the same truth's points. Raises DeviceError for a point without elevation there.
     """
@@ -69,8 +69,8 @@ def differences(
     )
 
 
-def rise(before: Pair, after: Pair, track: str) -> Measurement:
-    """Return by how much more the IRI of ``after`` is wrong than that of ``before``, in m/km."""
+def measure_rise(before: Pair, after: Pair, track: str) -> Measurement:
+    """Return the rise of the IRI's error from ``before`` to ``after``, in m/km."""
     errors = [roughness_within(pair, track, "", {}).value for pair in (before, after)]
     share = RISE_PERCENT / 100.0 * errors[0]
     limits = {c: share + more for c, more in RISE_LIMITS.items()}
@@ -89,7 +89,7 @@ def _roughness_difference(first: Pair, second: Pair, track: str) -> Measurement:
         _mean(iri_trace(z, first.interval_m)[first.counted])
         for z in (first.truth, first.result, second.result)
     )
-    value = 100.0 * abs(other - one) / not_flat(true)
+    value = 100.0 * abs(other - one) / refuse_flat(true)
     evidence = RoughnessDifference(first, second)
     return Measurement("IRI difference of both", track, value, "%", ROUGHNESS_LIMITS, evidence)
 

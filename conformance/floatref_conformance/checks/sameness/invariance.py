@@ -1,4 +1,4 @@
-"""`invariance`: what must not matter does not matter."""
+"""`invariance`: irrelevant changes of a recording do not change the profile."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -22,11 +22,11 @@ from floatref_conformance.checks.sameness.differences import (
     RISE_LIMITS,
     RISE_PERCENT,
     ROUGHNESS_LIMITS,
-    differences,
-    rise,
+    measure_differences,
+    measure_rise,
 )
 from floatref_conformance.checks.scoring import Compared, compare, correlation
-from floatref_conformance.checks.stretches import Stretches, fitting
+from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.devices.interface import NEEDS
@@ -39,10 +39,10 @@ if TYPE_CHECKING:
 TRUTH_LIMITS: Limits = dict(zip(DeviceClass, (0.08, 0.05, 0.02), strict=True))
 """Correlation loss with the truth, as at constant speed."""
 FROM_M = 150.0
-"""What counts begins so far into the shorter recording: the high-pass has run in by then, and
-the car of the IRI, too."""
+"""Begin in m of the scored stretch of the shorter recording: the high-pass and the car of the IRI
+have settled there."""
 RAN_IN_M = 110.0
-"""Ahead of a stop the road shows from here on."""
+"""Begin in m of the stretch before a stop that shows the road."""
 
 
 @dataclass(frozen=True)
@@ -54,11 +54,11 @@ class InvarianceCheck:
     clause: str = "derived: a tenth of the class's limits at constant speed; 10 % more at a stop"
     needs: frozenset[str] = frozenset()
     meets: frozenset[str] = frozenset(NEEDS)
-    """What the device has of what may be needed: changes of sensors that it lacks are no cases."""
+    """The needs that the device meets; changes of sensors that it does not have are no cases."""
 
     @property
     def derivation(self) -> str:
-        """How the pairs are made, and why the limits are what they are."""
+        """How the pairs are made, and the reasons of the limits."""
         return DERIVATION
 
     @property
@@ -85,16 +85,16 @@ class InvarianceCheck:
         return Case(self.id, scenario, {"change": "clock-storage"})
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
-        """Return every change once, in a certification three times, each on a road of its own."""
-        cases = changed_drives.fixed(seed, effort)
+        """Return every change once, in a certification three times, each on another road."""
+        cases = changed_drives.seeded_cases(seed, effort)
         return tuple(c for c in cases if c.variation["change"] in self._changes)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any change of any drive."""
-        return changed_drives.drawn(self._changes)
+        return changed_drives.case_strategy(self._changes)
 
     def fitted(self, meets: Iterable[str]) -> "InvarianceCheck":
-        """Return the check without changes of what is not among ``meets``."""
+        """Return the check without changes whose needs are not among ``meets``."""
         return replace(self, meets=frozenset(meets))
 
     @property
@@ -102,31 +102,31 @@ class InvarianceCheck:
         return tuple(name for name, c in CHANGES.items() if c.needs <= self.meets)
 
     def scored(self, case: Case) -> Stretches:
-        """Return what is compared; of a stop, what is compared and where the road shows.
+        """Return the compared stretch; for a stop also the one that shows the road.
 
-        Raises InputError for a variation without the numbers that tell where that begins.
+        Raises InputError for a variation without the number that gives the begin.
         """
         if case.variation.get("change") == STOP:
             stretches = (RAN_IN_M, FREE_M), _around_the_stop(case.scenario)
-            return fitting(stretches, drive_of(case.scenario).length_m)
+            return verify_stretches(stretches, drive_of(case.scenario).length_m)
         start_m = FROM_M
         if case.variation.get("change") == LATER:
             start_m += changed_drives.later_m(case.scenario, case.variation)
         length_m = drive_of(case.scenario).length_m
-        return fitting(((start_m, length_m - END_M),), length_m)
+        return verify_stretches(((start_m, length_m - END_M),), length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return how far both results differ, and how well the unchanged one shows the road.
+        """Return the differences of both results, and the unchanged one's loss to the truth.
 
-        The changed recording comes first: what is kept of it has to serve both.
-        Raises InputError for a variation that names no change or lacks a number of it, for a
-        change of sensors that the device does not have, and for what `scored` refuses.
+        The changed recording comes first: data that the device stores of it must serve both.
+        Raises InputError for a variation without a change or without a number of it, for a
+        change of sensors that the device does not have, and for a case that `scored` refuses.
         """
         change = change_of(case.variation)
         self.scored(case)
         before = bench.simulate(case.scenario)
         check_equipped(before.recording, change.needs, f"change {case.variation['change']}")
-        after = _changed(case, change, before, bench)
+        after = _change(case, change, before, bench)
         undone = change.profile(bench.run(after, "changed"), case.variation)
         result = bench.run(before, "unchanged")
         if case.variation["change"] == STOP:
@@ -139,12 +139,15 @@ class InvarianceCheck:
         return tuple(
             m
             for one, other in pairs
-            for m in (*differences(one, other, start_m, end_m), _shown(one, start_m, end_m))
+            for m in (
+                *measure_differences(one, other, start_m, end_m),
+                _measure_floor(one, start_m, end_m),
+            )
         )
 
 
-def _changed(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
-    """Return the changed recording; a drive that stays as it is is not simulated again."""
+def _change(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
+    """Return the changed recording; an unchanged drive is not simulated again."""
     scenario = change.scenario(case.scenario, case.variation)
     taken = before if scenario == case.scenario else bench.simulate(scenario)
     return replace(
@@ -154,7 +157,7 @@ def _changed(case: Case, change: Change, before: Taken, bench: Bench) -> Taken:
     )
 
 
-def _shown(compared: Compared, start_m: float, end_m: float) -> Measurement:
+def _measure_floor(compared: Compared, start_m: float, end_m: float) -> Measurement:
     return correlation(compared.whole(start_m, end_m), compared.track, TRUTH_LIMITS)
 
 
@@ -165,8 +168,8 @@ def _around_the_stop(scenario: Scenario) -> tuple[float, float]:
 def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
     stretch = _around_the_stop(scenario)
     return (
-        rise(before.whole(*stretch), after.whole(*stretch), before.track),
-        _shown(before, RAN_IN_M, FREE_M),
+        measure_rise(before.whole(*stretch), after.whole(*stretch), before.track),
+        _measure_floor(before, RAN_IN_M, FREE_M),
     )
 
 
@@ -187,22 +190,22 @@ DERIVATION = (
     "along the body's axes; on steeper ones the heights that a laser sees, tilted with the body, "
     "are themselves not those along the vertical. Drives of constant speed "
     f"or throttle are compared from {FROM_M:g} m behind the later beginning to {END_M:g} m before "
-    "the end: what software starts with differs, and leaves the high-pass (105.91 m) and the "
-    "car of the IRI by then. Nothing there may differ by more than a tenth of what the class may "
-    "be off the truth at constant speed (0.92, 0.95, 0.98; 5, 3, 2 %), so that no change uses "
-    "up the class's allowance; noise that is drawn anew at another rate is in this. Samples at 2 "
+    "the end: the initial values of the software differ, and have left the high-pass (105.91 m) "
+    "and the car of the IRI by then. No difference may be more than a tenth of the class's limit "
+    "at constant speed (0.92, 0.95, 0.98; 5, 3, 2 %), so that no change uses "
+    "up the class's allowance; new noise at another rate is included. Samples at 2 "
     "kHz and 97 km/h are 13.5 mm apart, readings of the laser held at 3.24 kHz 8.3 mm: results "
     "may lie 20 mm apart, in class reference 10 mm. At a stop, the error of the IRI over the "
     "160.9 m around it may grow by 10 % of it: drift grows with the square of the time, or its "
     "cube, and has to be suppressed, not merely filtered. The noise of the longer recording is "
-    "another one, for which 5, 3 and 2 % of an IRI of 2 m/km are allowed."
+    "different, for which 5, 3 and 2 % of an IRI of 2 m/km are allowed."
 )
-"""How the pairs are made, and why the limits are what they are."""
+"""How the pairs are made, and the reasons of the limits."""
 FLOOR = (
     "The unchanged result has to agree with the truth, filtered alike, as at constant speed: a "
-    "correlation of 0.92, 0.95 and 0.98 by class over the same stretch, or ahead of the stop. A "
-    "profile that shows nothing would be as flat after every change."
+    "correlation of 0.92, 0.95 and 0.98 by class over the same stretch, or before the stop. A "
+    "flat profile would be equally flat after every change."
 )
-"""What keeps a device from passing by delivering the same whatever it is given."""
+"""What prevents a device from passing with the same profile for every recording."""
 
 INVARIANCE = InvarianceCheck()

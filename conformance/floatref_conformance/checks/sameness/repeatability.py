@@ -1,4 +1,4 @@
-"""`repeatability`: two passes over one road agree at any speed, in any vehicle, with any noise."""
+"""`repeatability`: two passes over one road agree, with other speeds, vehicles and noise."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -12,9 +12,9 @@ from floatref.measures import iri_trace, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
-from floatref_conformance.checks.rounded import rounded, seeds
+from floatref_conformance.checks.rounded import rounded_numbers, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
-from floatref_conformance.checks.stretches import Stretches, fitting, stretch
+from floatref_conformance.checks.stretches import Stretches, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 CHANGES: Mapping[str, str] = MappingProxyType(
     {"second_seed": "seed", "second_speed_kmh": "speed_kmh", "second_vehicle": "vehicle"}
 )
-"""What a case's variation says of the second pass, and the number of the scenario that it is."""
+"""The names of a variation for the second pass, and the fields of the scenario they change."""
 
 
 def passes_of(case: Case) -> tuple[Scenario, Scenario]:
-    """Return both passes of ``case``; what its variation does not name is as in the first.
+    """Return both passes of ``case``; the second has the changes of its variation.
 
-    Raises InputError, naming what it is, for what makes no second pass.
+    Raises InputError, with the name of the number, for an invalid second pass.
     """
     first = case.scenario
     second = replace(first, road_seed=first.seed if first.road_seed < 0 else first.road_seed)
@@ -48,8 +48,8 @@ def passes_of(case: Case) -> tuple[Scenario, Scenario]:
     return first, second
 
 
-def on_road(profile: Profile, scenario: Scenario) -> Profile:
-    """Return ``profile`` on the road's axis: the lasers lie ahead of the vehicle's own point."""
+def move_to_road(profile: Profile, scenario: Scenario) -> Profile:
+    """Return ``profile`` on the road's axis: the lasers are ahead of the vehicle's origin."""
     ahead_m = find_vehicle(scenario.vehicle).sensor_x_m
     return replace(profile, start_m=profile.start_m + ahead_m)
 
@@ -70,7 +70,7 @@ DIFFERENCE_LIMITS: Limits = {
 }
 TRUTH_LIMITS: Limits = {c: 2.0 * limit for c, limit in LOSS_LIMITS.items()}
 START_M, END_M, LENGTH_M = 220.0, 380.9, 490.0
-"""The stretch that is compared, and the length of a pass, in m."""
+"""Start and end of the compared stretch, and length of a pass, in m."""
 SPEEDS_KMH = ((60.0, 80.0), (30.0, 72.0), (97.0, 50.0), (72.0, 72.0))
 """Of the two passes of a case, in turn."""
 VEHICLES = (
@@ -101,7 +101,7 @@ class RepeatabilityCheck:
 
     @property
     def derivation(self) -> str:
-        """What differs between two passes, and how far they may differ for it."""
+        """The differences of two passes, and their limits."""
         return DERIVATION
 
     @property
@@ -127,19 +127,19 @@ class RepeatabilityCheck:
         """Return the cases: speeds and vehicles in turn, roads and sensors' errors drawn."""
         source = np.random.SeedSequence([seed, *self.id.encode()])
         drawn = source.generate_state(3 * COUNT[effort]).reshape(-1, 3)
-        return tuple(self._seeded(n, *map(int, seeds)) for n, seeds in enumerate(drawn))
+        return tuple(self._make_case(n, *map(int, seeds)) for n, seeds in enumerate(drawn))
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any two passes at 24 to 97 km/h, the speeds in whole km/h."""
         from hypothesis import strategies as st
 
-        speed = rounded(SLOWEST_KMH, FASTEST_KMH, 0)
+        speed = rounded_numbers(SLOWEST_KMH, FASTEST_KMH, 0)
         vehicle = st.sampled_from(ALL_VEHICLES)
         scenarios = st.builds(
             Scenario,
             seed=seeds(),
             road=st.sampled_from(ROADS),
-            iri_m_per_km=rounded(SMOOTHEST, ROUGHEST),
+            iri_m_per_km=rounded_numbers(SMOOTHEST, ROUGHEST),
             vehicle=vehicle,
             speed_kmh=speed,
             length_m=st.just(LENGTH_M),
@@ -153,12 +153,12 @@ class RepeatabilityCheck:
 
     def scored(self, case: Case) -> Stretches:
         """Return the stretch that is compared; InputError for a drive that is too short."""
-        return fitting(((START_M, END_M),), drive_of(case.scenario).length_m)
+        return verify_stretches(((START_M, END_M),), drive_of(case.scenario).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
-        """Return how far the passes differ from each other and from the truth.
+        """Return the differences of the passes from each other and from the truth.
 
-        Raises InputError for numbers that make no two passes, DeviceError for a point without
+        Raises InputError for numbers that make no second pass, DeviceError for a point without
         elevation in the stretch that is compared.
         """
         self.scored(case)
@@ -168,17 +168,17 @@ class RepeatabilityCheck:
         for label, scenario in zip(LABELS, passes_of(case), strict=True):
             taken = bench.simulate(scenario)
             profile = bench.run(taken, label)
-            profiles.append(on_road(profile, scenario))
+            profiles.append(move_to_road(profile, scenario))
             for compared in compare(taken.truth, profile):
                 pair = compared.whole(START_M, END_M)
                 loss = correlation(pair, compared.track, TRUTH_LIMITS)
                 losses.setdefault(compared.track, []).append(loss)
         for track, found in losses.items():
-            measured += _between(profiles[0], profiles[1], track)
+            measured += _compare_passes(profiles[0], profiles[1], track)
             measured.append(replace(max(found, key=lambda m: m.value), quantity=TO_TRUTH))
         return tuple(measured)
 
-    def _seeded(self, number: int, road: int, first: int, second: int) -> Case:
+    def _make_case(self, number: int, road: int, first: int, second: int) -> Case:
         turn = number % len(SPEEDS_KMH)
         speeds, vehicles = SPEEDS_KMH[turn], VEHICLES[(turn + number // len(SPEEDS_KMH)) % 4]
         rng = np.random.default_rng(road)
@@ -199,7 +199,7 @@ class RepeatabilityCheck:
         return Case(self.id, scenario, changes, f"{self.id}-{number + 1}")
 
 
-def _between(first: Profile, second: Profile, track: str) -> list[Measurement]:
+def _compare_passes(first: Profile, second: Profile, track: str) -> list[Measurement]:
     """Return correlation loss, and difference in IRI in percent of the rougher pass's.
 
     Two flat profiles have no difference.
@@ -236,15 +236,15 @@ DERIVATION = (
     "the same path. Adequate is the 0.95 that is asked at constant speed. Two encoders whose "
     "scales differ by 0.06 % lie 0.05 m off at the ends of the stretch when its middle fits, a "
     "phase of 8 degrees at 2.1 m: 0.003 of correlation is lost at the car's axle hop, less "
-    "elsewhere, and the noise of sound sensors costs 0.002. IRI: as much as one pass may be off "
-    "the truth at constant speed, 5, 3 and 2 %; what is wrong alike in both passes cancels."
+    "elsewhere, and the noise of sound sensors costs 0.002. IRI: the limits of one pass to the "
+    "truth at constant speed, 5, 3 and 2 %; equal errors of both passes cancel."
 )
-"""What differs between two passes, and how far they may differ for it."""
+"""The differences of two passes, and their limits."""
 FLOOR = (
-    "Agreement alone would pass two flat profiles: either pass has to correlate with the truth, "
-    "filtered alike (HPF_B3x2, -3 dB at 91.44 m), within twice what the passes may differ by: two "
-    "errors that are not alike add up in their difference. The score contains the ratio of the "
+    "Two flat profiles would agree: each pass has to correlate with the truth, filtered in the "
+    "same way (HPF_B3x2, -3 dB at 91.44 m), within twice the limit between the passes: two "
+    "different errors add up in their difference. The score contains the ratio of the "
     "heights: a profile that is flat loses 1."
 )
-"""What both passes must show."""
+"""What both passes must contain."""
 REPEATABILITY = RepeatabilityCheck()

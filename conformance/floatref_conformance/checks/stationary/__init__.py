@@ -1,1 +1,1 @@
-"""The checks of a parked vehicle, and the plate that must be in its profile."""
+"""The checks of a parked vehicle, and the plate that its profile must contain."""

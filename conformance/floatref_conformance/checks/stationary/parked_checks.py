@@ -14,7 +14,7 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.evidence import Roughness
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stationary import plate
-from floatref_conformance.checks.stretches import END_M, Stretches, fitting, stretch
+from floatref_conformance.checks.stretches import END_M, Stretches, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
 from floatref_conformance.devices.interface import HEIGHT
@@ -26,14 +26,14 @@ if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
 RATES_HZ = (16000.0, 4000.0)
-"""The rates of the cases, in turn: with and without need of an anti-alias filter."""
+"""Sampling rates of the cases in turn, with and without need of an anti-alias filter."""
 SEARCHED_RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
 
 @dataclass(frozen=True)
 class StationaryCheck:
-    """Limits the IRI from ``start_m`` to ``end_m``; the plate, elsewhere, is the floor."""
+    """Limits the IRI from ``start_m`` to ``end_m``; its floor is the plate outside."""
 
     id: str
     title: str
@@ -47,7 +47,7 @@ class StationaryCheck:
 
     @property
     def floor(self) -> str:
-        """The plate, and how wrong its height and its place may be."""
+        """The plate, and the largest errors of its height and its place."""
         return FLOOR
 
     @property
@@ -61,7 +61,7 @@ class StationaryCheck:
 
     @property
     def simplest(self) -> Case:
-        """The stationary test as the proving ground has it."""
+        """The stationary test of the proving ground."""
         return Case(self.id, Scenario(manoeuvre=self.id))
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
@@ -85,12 +85,12 @@ class StationaryCheck:
     def scored(self, case: Case) -> Stretches:
         """Return the stretch whose IRI is limited.
 
-        Raises InputError for a vehicle that drives, or pretends to for less than that.
+        Raises InputError for a vehicle that drives, or an artificial drive that is too short.
         """
         manoeuvre, speed_mps = case.scenario.manoeuvre, case.scenario.speed_kmh * KMH
         if manoeuvre != self.id:
             raise InputError(f"manoeuvre {manoeuvre}: in {self.id} the vehicle is parked")
-        return fitting(((self.start_m, self.end_m),), artificial_drive(speed_mps).length_m)
+        return verify_stretches(((self.start_m, self.end_m),), artificial_drive(speed_mps).length_m)
 
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.
@@ -121,7 +121,7 @@ class StationaryCheck:
 FLOOR = (
     f"A plate of {1000 * plate.PLATE_M:g} mm, 2 to 4 m long, lies under each laser, between 455 "
     "and 530 m and so outside the stretch whose IRI is limited. Place and length follow from the "
-    "case's seed; two wheel paths have theirs 10 m or more apart. Its rise is the mean of its top "
+    "case's seed; in two wheel paths they are 10 m or more apart. Its rise is the mean of its top "
     f"minus the mean of {plate.SHOULDER_M:g} m of ground on each side, {plate.GAP_M} m beside "
     "each edge left out. It may differ from that of the truth, filtered alike (HPF_B3x2, -3 dB "
     "at 91.44 m), by 10 % of the plate in class nominal, 5 % in adequate and 2 % (0.1 mm) in "
@@ -131,15 +131,15 @@ FLOOR = (
     "acceleration bends ground, top and ground apart by at most 0.0103 s² times b, 0.076 mm for "
     "the largest bias of 7.4 mm/s² if the high-pass took nothing of it. "
     f"Its place, midway between its edges, may be {plate.NOMINAL_DISPLACEMENT_M:g} m from the "
-    "true one (reference: half), half the profile's interval not counted. The artificial encoder "
-    "has no scale error and counts 0.3 mm, so that only delays move the plate: at 20 m/s the "
+    "true one (reference: half), without half the profile's interval. The artificial encoder "
+    "has no scale error and counts 0.3 mm, so that only delays displace the plate: at 20 m/s the "
     "spacing of samples at 4 kHz is 5 mm, the age of a laser reading held at 3.24 kHz up to "
     "6.2 mm, the delay of the 1000-Hz anti-alias filter (2/ω) 6.4 mm, together 18 mm; the "
     "limit is 2.5 ms. A trailing 250-mm average (0.125 m) exceeds it. "
-    f"No point may lack an elevation more than {END_M:g} m from both ends. A profile that shows "
-    "no plate is off by all of it."
+    f"Every point more than {END_M:g} m from both ends must have an elevation. A profile without "
+    "the plate has an error of 100 % of it."
 )
-"""What the plate is for, and why its limits are what they are."""
+"""The purpose of the plate, and the reasons of its limits."""
 
 
 QUIESCENT_NOMINAL = 0.047
@@ -152,11 +152,11 @@ QUIESCENT = StationaryCheck(
     clause="AASHTO R 57-14, static test: IRI 0.047 m/km; class reference: half",
     derivation=(
         "The vehicle stands on a flat floor, its engine at 820 rpm shakes the body by 10 µm at "
-        "13.7 Hz, and an artificial encoder tells 72 km/h for 32 s. The IRI is taken over 160.9 m "
-        "(0.1 mile) from 200 m on, away from both ends of the run and from the plate: what is "
-        "there is the noise of the sensors and what the software makes of it. The nominal system "
+        "13.7 Hz, and an artificial encoder gives 72 km/h for 32 s. The IRI is taken over 160.9 m "
+        "(0.1 mile) from 200 m on, away from both ends of the run and from the plate: it "
+        "measures the noise of the sensors after the processing. The nominal system "
         "of Karamihas 2021 (4.5.1) stayed below 0.01 m/km. Half the limit is asked of class "
-        "reference, so that the profiler adds little to the roads that it is to judge others on."
+        "reference, so that the profiler adds little to the roads on which it judges others."
     ),
     iri_limits=same_limit(QUIESCENT_NOMINAL, QUIESCENT_REFERENCE),
     start_m=200.0,
@@ -173,7 +173,7 @@ BOUNCE = StationaryCheck(
     title="motion of the body over a flat floor does not reach the profile",
     clause="AASHTO R 57-14, bounce test: IRI 0.126 m/km; class reference: half",
     derivation=(
-        "The vehicle stands on a flat floor with its engine on, an artificial encoder tells "
+        "The vehicle stands on a flat floor with its engine on, an artificial encoder gives "
         "72 km/h, and from 10 s on the body is pushed for 6.5 s at 2 Hz, 56 mm down and 30 mm up "
         "during the middle two thirds. The IRI is taken over just those two thirds, 221.7 to "
         "308.3 m, where the motion is at its most severe: accelerometer and height sensor have to "

@@ -1,4 +1,4 @@
-"""The floor of the stationary checks: a plate slid under the laser must be in the profile."""
+"""The floor of the stationary checks: the profile contains a plate slid under the laser."""
 
 from dataclasses import dataclass, replace
 
@@ -14,34 +14,34 @@ from floatref_conformance.errors import SuiteError
 PLATE_M = 0.005
 """Thickness of the plate, in m."""
 SHARES = {DeviceClass.NOMINAL: 0.10, DeviceClass.ADEQUATE: 0.05, DeviceClass.REFERENCE: 0.02}
-"""How much of a known bump may be lost or added, away from events."""
+"""Largest error of a known bump away from events, as a share of its height."""
 LIMITS: Limits = {c: 1000.0 * PLATE_M * share for c, share in SHARES.items()}
 """Largest error of the plate's rise, in mm."""
 GAP_M = 0.25
-"""What is left out beside each edge: the base length of the IRI's moving average."""
+"""Length in m left out beside each edge: the base length of the IRI's moving average."""
 SHOULDER_M = 1.5
-"""Longest stretch of ground beside the plate that its top is compared with."""
+"""Largest length in m of the ground on each side with which the top is compared."""
 NOMINAL_DISPLACEMENT_M = 0.05
-"""How far from its place the plate may lie in class nominal and adequate."""
+"""Largest displacement of the plate in class nominal and adequate, in m."""
 PLACE_LIMITS: Limits = same_limit(NOMINAL_DISPLACEMENT_M, NOMINAL_DISPLACEMENT_M / 2)
 """Largest displacement of the plate, in m."""
 FINE_M = 0.002
-"""Spacing at which the two edges are looked at, in m."""
+"""Spacing of the points at which the two edges are evaluated, in m."""
 FLAT_M = 1e-6
-"""The truth moves less than this, in m, where the laser sees bare ground or the plate's top."""
+"""Largest deviation of the truth, in m, on bare ground or on the plate's top."""
 
 
 @dataclass(frozen=True)
 class Plate:
-    """Where the plate lies in one wheel path: its top, and the ground on both sides, in m."""
+    """Place of the plate in one wheel path: its top, and the ground on both sides, in m."""
 
     before: tuple[float, float]
     top: tuple[float, float]
     behind: tuple[float, float]
 
     @classmethod
-    def found(cls, truth: Profile, track: str) -> "Plate":
-        """Return where the plate lies in ``truth``; SuiteError if there is none."""
+    def find(cls, truth: Profile, track: str) -> "Plate":
+        """Return the place of the plate in ``truth``; SuiteError without a plate."""
         elevation = truth.track(track).elevation
         ground = float(np.median(elevation))
         lifted = np.flatnonzero(np.abs(elevation - ground) > FLAT_M)
@@ -57,7 +57,7 @@ class Plate:
         )
 
     def rise(self, profile: Profile, track: str) -> float:
-        """Return how far the top stands above the ground beside it, in m.
+        """Return the height of the top above the ground beside it, in m.
 
         A level and a slope of the whole cancel. Raises DeviceError if one of the points has no
         elevation.
@@ -66,10 +66,10 @@ class Plate:
         return top - (before + behind) / 2.0
 
     def place(self, profile: Profile, track: str) -> float | None:
-        """Return where the middle between the two edges lies, in m.
+        """Return the place of the middle between the two edges, in m.
 
-        An edge lies where a step would have the same area between ground and top; noise and
-        symmetrical smoothing leave it where it is. None if an edge is lower than half the plate.
+        An edge is at the place of a step with the same area between ground and top; noise and
+        symmetrical smoothing do not move it. None if an edge is lower than half the plate.
         """
         before, top, behind = self._levels(profile, track)
         if top - max(before, behind) < PLATE_M / 2:
@@ -89,13 +89,13 @@ class Plate:
 
 
 def measure_plate(profile: Profile, truth: Profile, track: str) -> tuple[Measurement, ...]:
-    """Return how far height, in mm, and place, in m, of the plate are from those in ``truth``.
+    """Return the errors of the plate's height, in mm, and of its place, in m.
 
-    The truth is filtered alike: HPF_B3x2, −3 dB at 91.44 m. Half the interval of ``profile``,
-    within which points do not tell the place of an edge, is no displacement. A profile that
-    shows less than half of an edge has no place of the plate: its height fails.
+    The truth is filtered in the same way: HPF_B3x2, −3 dB at 91.44 m. Half the interval of
+    ``profile``, the resolution of an edge's place, does not count. For a profile with less than
+    half of an edge no place is measured: its height fails.
     """
-    plate = Plate.found(truth, track)
+    plate = Plate.find(truth, track)
     filtered = high_pass(truth.track(track).elevation, truth.interval_m)
     alike = replace(truth, tracks=(ProfileTrack.of(track, filtered),))
     error = abs(plate.rise(profile, track) - plate.rise(alike, track))

@@ -231,7 +231,7 @@ class TestRemoveSpikes(StageLaws):
         road = np.where(np.arange(240) < 120, 0.30, 0.35)
         spiked = road.copy()
         spiked[50:55] += 0.03
-        stream = self.stream().changed(lambda c, _: spiked if c == left else road)
+        stream = self.stream().change(lambda c, _: spiked if c == left else road)
         stage = RemoveSpikes(0.01)
         stage.start(stream.header)
         out = [*map(stage.push, stream.blocks([53])), *stage.finish()]

@@ -11,7 +11,7 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.distance.encoder_axis import EncoderAxis, seen_ahead_m
+from floatref_conformance.checks.distance.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.checks.distance.feature_places import DISTANCE
 from floatref_conformance.checks.distance.features import Feature, middles, place
 from floatref_conformance.checks.interface import Taken
@@ -152,8 +152,8 @@ def test_the_axis_of_an_encoder_that_slips_is_what_it_told():
     true = drive_of(taken.scenario).motion(channel.times_s).distance
     axis = EncoderAxis.of(taken)
     some = np.linspace(0, true.size - 1, 5000).astype(int)
-    assert axis.told(true[some]) == pytest.approx(channel.values[some], abs=0.0004)
-    assert axis.true(channel.values[some]) == pytest.approx(true[some], abs=0.001)
+    assert axis.to_encoder(true[some]) == pytest.approx(channel.values[some], abs=0.0004)
+    assert axis.to_true(channel.values[some]) == pytest.approx(true[some], abs=0.001)
     assert np.abs(true - channel.values).max() > 0.2
 
 
@@ -191,9 +191,9 @@ def test_what_the_encoder_tells_wrong_between_wheel_and_laser_is_no_fault_of_a_d
 
 def test_a_device_with_a_height_sensor_sees_the_road_at_its_laser(stopped):
     assert stopped.recording.setup.vehicle is not None
-    assert seen_ahead_m(stopped.recording) == 0.0
+    assert sensing_ahead_m(stopped.recording) == 0.0
     taken, _ = seen_by_wheels(stopped)
-    assert seen_ahead_m(taken.recording) == pytest.approx(1.72 + 2.91)
+    assert sensing_ahead_m(taken.recording) == pytest.approx(1.72 + 2.91)
 
 
 @settings(deadline=None, max_examples=20)

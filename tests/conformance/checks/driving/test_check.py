@@ -15,7 +15,7 @@ from floatref_conformance.checks.driving.layout import layout_of
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.perfect import perfect
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
 
@@ -63,7 +63,7 @@ def spoilt(change, valid=None):
     """Return a device that knows the truth, and gets ``change`` of it wrong."""
 
     def device(taken):
-        known = perfect(taken)
+        known = make_perfect(taken)
         tracks = tuple(
             ProfileTrack.of(t.name, change(t.elevation), valid and valid(t.elevation))
             for t in known.tracks
@@ -76,7 +76,7 @@ def spoilt(change, valid=None):
 @pytest.mark.slow
 @each
 def test_a_device_that_knows_the_truth_is_of_the_strictest_class(check, taken):
-    assert failing(check, taken(check), perfect, REFERENCE) == set()
+    assert failing(check, taken(check), make_perfect, REFERENCE) == set()
 
 
 @pytest.mark.slow
@@ -146,7 +146,7 @@ def test_what_a_device_gets_wrong_behind_the_second_stop_counts(taken):
     two = Taken(simulated.recording, simulated.truth, scenario)
 
     def device(given):
-        x = perfect(given).distance_m
+        x = make_perfect(given).distance_m
         return spoilt(lambda z: np.where(np.abs(x - 590.0) < 20.0, 8.0 * z, z))(given)
 
     measured = STOP.judge(replace(STOP.simplest, scenario=scenario), Bench(two, device))
@@ -161,7 +161,7 @@ def test_a_case_whose_numbers_leave_no_room_is_refused_before_anything_is_simula
         scenario=replace(STOP.simplest.scenario, length_m=450.0),
     )
     with pytest.raises(InputError, match="must lie 106 m from its ends"):
-        STOP.judge(case, Bench(None, perfect))
+        STOP.judge(case, Bench(None, make_perfect))
 
 
 @each

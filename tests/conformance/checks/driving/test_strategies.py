@@ -13,7 +13,7 @@ from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.driving import strategies
 from floatref_conformance.checks.driving.check import DRIVING_CHECKS
 from floatref_conformance.checks.driving.edition import ROADS
-from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, placed
+from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, place
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
@@ -100,7 +100,7 @@ def test_the_corners_of_braking_are_in_its_domain():
     for speed, released, g in ((100.0, 15.0, 0.05), (100.0, 60.0, 0.84), (30.0, 15.0, 0.38)):
         numbers = {"manoeuvre": "braking", "speed_kmh": speed, "event_speed_kmh": released}
         assert strategies.hardest_release_g(released) >= g
-        layout_of(placed(Scenario(**numbers, deceleration_g=g)))
+        layout_of(place(Scenario(**numbers, deceleration_g=g)))
 
 
 def test_the_simplest_drive_of_each_is_on_the_default_road(drives):
@@ -131,20 +131,20 @@ def test_a_number_shrinks_to_the_simplest_one_that_is_allowed(low, high, simple)
 
 @pytest.mark.parametrize("roads", ROADS.values(), ids=ROADS)
 def test_the_roads_of_cases_are_of_every_kind_and_within_their_roughness(roads):
-    drawn = [roads.drawn_for(Scenario(), (7, n)) for n in range(200)]
+    drawn = [roads.draw_for(Scenario(), (7, n)) for n in range(200)]
     assert {scenario.road for scenario in drawn} == set(roads.kinds)
     assert set(roads.kinds) <= set(ROADS["everyday"].kinds)
     values = [scenario.iri_m_per_km for scenario in drawn]
     assert (min(values), max(values)) == (roads.smoothest, roads.roughest)
     assert len({scenario.seed for scenario in drawn}) == len(drawn)
-    assert roads.drawn_for(Scenario(), (7, 3)) == drawn[3]
+    assert roads.draw_for(Scenario(), (7, 3)) == drawn[3]
 
 
 @given(data=st.data())
 @DRAWS
 def test_placing_a_placed_drive_changes_nothing(drives, data):
     scenario = data.draw(drives)
-    assert placed(scenario) == scenario
+    assert place(scenario) == scenario
 
 
 @pytest.mark.parametrize(

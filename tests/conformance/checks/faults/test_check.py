@@ -13,8 +13,8 @@ from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, needed_by
-from floatref_conformance.checks.interface import fitted
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, needs_of
+from floatref_conformance.checks.interface import fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge import oracle
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -195,7 +195,7 @@ def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
 )
 def test_faults_of_sensors_that_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
     lacking = {"imu", "gnss", "response", "height"} - set(having)
-    assert fitted(FAULTS, having).cases(1, effort) == tuple(
+    assert fit_check(FAULTS, having).cases(1, effort) == tuple(
         case
         for case in FAULTS.cases(1, effort)
         if case.variation["fault"].split("-")[0].replace("laser", "height") not in lacking
@@ -203,15 +203,15 @@ def test_faults_of_sensors_that_a_device_lacks_are_no_cases_and_all_others_stay(
 
 
 @settings(deadline=None, max_examples=60)
-@given(case=fitted(FAULTS, ("imu", "response")).strategy())
+@given(case=fit_check(FAULTS, ("imu", "response")).strategy())
 def test_what_a_device_lacks_is_not_searched_for(case):
     assert not case.variation["fault"].startswith(("gnss", "laser"))
 
 
 @pytest.mark.parametrize("having", [("height",), ("response",), ("height", "response")])
 def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
-    check = fitted(FAULTS, having)
-    assert needed_by(check.simplest.variation["fault"]) <= set(having)
+    check = fit_check(FAULTS, having)
+    assert needs_of(check.simplest.variation["fault"]) <= set(having)
 
 
 @pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])

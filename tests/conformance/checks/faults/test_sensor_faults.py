@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED
 from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needed_by
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needs_of
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -174,7 +174,7 @@ def test_a_variation_names_a_fault_and_its_numbers(right_bench):
 @pytest.mark.parametrize("fault", SENSOR_FAULTS)
 def test_faults_need_the_sensor_that_they_are_named_after_unless_every_device_has_it(fault):
     part = fault.partition("-")[0]
-    assert needed_by(fault) == ({NEEDED[part]} if part in NEEDED else set())
+    assert needs_of(fault) == ({NEEDED[part]} if part in NEEDED else set())
 
 
 @few

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import fitted
+from floatref_conformance.checks.interface import fit_check
 from floatref_conformance.checks.sameness.changes import CHANGES
 from floatref_conformance.checks.sameness.invariance import INVARIANCE
 from floatref_conformance.classes import DeviceClass, Effort
@@ -164,7 +164,7 @@ def test_a_change_of_a_sensor_needs_it(right_bench, change, needed):
 @pytest.mark.parametrize("effort", list(Effort))
 @pytest.mark.parametrize("having", [(), ("imu",), ("gnss",), ("imu", "gnss")])
 def test_changes_of_what_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
-    assert fitted(INVARIANCE, having).cases(1, effort) == tuple(
+    assert fit_check(INVARIANCE, having).cases(1, effort) == tuple(
         case
         for case in INVARIANCE.cases(1, effort)
         if CHANGES[case.variation["change"]].needs <= set(having)
@@ -172,6 +172,6 @@ def test_changes_of_what_a_device_lacks_are_no_cases_and_all_others_stay(effort,
 
 
 @settings(deadline=None, max_examples=40)
-@given(case=fitted(INVARIANCE, ()).strategy())
+@given(case=fit_check(INVARIANCE, ()).strategy())
 def test_what_a_device_lacks_is_not_searched_for(case):
     assert not CHANGES[case.variation["change"]].needs

@@ -18,7 +18,7 @@ from floatref_conformance.checks.stationary.parked_checks import (
 from floatref_conformance.checks.stationary.plate import Plate, measure_plate
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.bench import taken_of
+from floatref_conformance.judge.bench import make_taken
 
 TRACKS = ("left", "right")
 
@@ -35,7 +35,7 @@ class TruthBench:
     change: Callable
 
     def simulate(self, scenario):
-        return taken_of(replace(scenario, imu=False, gnss=False))
+        return make_taken(replace(scenario, imu=False, gnss=False))
 
     def run(self, taken, label=""):
         return on_truths_grid(taken, self.change)
@@ -45,7 +45,7 @@ class TruthBench:
 def bounced():
     """One bounce case and its recording."""
     case = BOUNCE.cases(0, Effort.QUICK)[1]
-    return case, taken_of(nominal(case))
+    return case, make_taken(nominal(case))
 
 
 def on_truths_grid(simulated, change):
@@ -96,7 +96,7 @@ def at_480_m(z, simulated):
 
 
 def of_the_case_before(z, simulated):
-    before = taken_of(nominal(BOUNCE.cases(0, Effort.QUICK)[0])).truth
+    before = make_taken(nominal(BOUNCE.cases(0, Effort.QUICK)[0])).truth
     return high_pass(before.track("left").elevation, before.interval_m)[: z.size]
 
 
@@ -158,7 +158,7 @@ def test_the_ends_of_the_run_may_lack_elevations(bounced):
 def test_the_plate_lies_outside_the_stretch_whose_iri_is_limited(bounced):
     _, simulated = bounced
     for track in simulated.truth.tracks:
-        plate = Plate.found(simulated.truth, track.name)
+        plate = Plate.find(simulated.truth, track.name)
         for check in (QUIESCENT, BOUNCE):
             assert plate.before[0] - 91.44 > check.end_m
 
@@ -182,7 +182,7 @@ def test_a_left_over_acceleration_bends_the_rise_as_published(bounced):
 
     profile = on_truths_grid(simulated, bent)
     for track in TRACKS:
-        top = Plate.found(simulated.truth, track).top
+        top = Plate.find(simulated.truth, track).top
         length = top[1] - top[0] + 0.54
         middles = (length / 2 + 1.0) ** 2 + 1.5**2 / 12 - (length / 2 - 0.27) ** 2 / 3
         measured, _ = measure_plate(profile, simulated.truth, track)

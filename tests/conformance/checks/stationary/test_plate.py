@@ -32,7 +32,7 @@ TRUTH = profile(plate())
 
 
 def rise(z, interval=INTERVAL):
-    return Plate.found(TRUTH, "left").rise(profile(z, interval), "left")
+    return Plate.find(TRUTH, "left").rise(profile(z, interval), "left")
 
 
 def height_error(delivered):
@@ -87,7 +87,7 @@ def test_a_plate_without_elevation_is_the_devices_error():
 
 def test_a_truth_without_a_plate_is_the_suites_error():
     with pytest.raises(SuiteError, match="no plate"):
-        Plate.found(profile(np.zeros(X.size)), "left")
+        Plate.find(profile(np.zeros(X.size)), "left")
 
 
 @pytest.mark.parametrize("shift", [-0.2, -0.07, 0.04, 0.1, 0.2])

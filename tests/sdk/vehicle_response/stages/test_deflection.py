@@ -32,7 +32,7 @@ def told(
     wheel = rms_m * np.convolve(rng.standard_normal(2000), np.full(5, 0.4), "same")
     travel = body - wheel + 2e-4 * rng.standard_normal(2000)
     samples = dict(zip(CHANNELS, change(travel, body, wheel), strict=True))
-    stage = Stream(lambda: CompareTravel(*NAMES, 5e-4), samples, ("left",)).begun([])
+    stage = Stream(lambda: CompareTravel(*NAMES, 5e-4), samples, ("left",)).begin([])
     for block in Stream(lambda: CompareTravel(*NAMES, 5e-4), samples, ("left",)).blocks([333, 900]):
         stage.push(block)
     stage.finish()

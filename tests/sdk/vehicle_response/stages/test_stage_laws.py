@@ -27,7 +27,7 @@ from floatref.vehicle_response.stages import (
 )
 from floatref.vehicle_response.stages.estimation import drift_sigma
 from floatref_conformance.testing import StageLaws
-from floatref_conformance.testing.streams import Stream, joined
+from floatref_conformance.testing.streams import Stream, join
 
 TRACKS = "left", "right"
 UNDER, SIGMA = "elevation_under_tyre_0", "sigma_under_tyre_0"
@@ -182,10 +182,10 @@ def test_stages_name_the_axis_they_need() -> None:
 
 def test_an_empty_block_gives_an_empty_one() -> None:
     stream = TestToRate().stream()
-    stage = stream.begun([])
+    stage = stream.begin([])
     nothing = {channel: np.empty(0) for channel in stream.samples}
     assert len(stage.push(Block(0, nothing))) == 0
-    assert len(joined([stage.push(b) for b in stream.blocks()] + list(stage.finish()))) == 101
+    assert len(join([stage.push(b) for b in stream.blocks()] + list(stage.finish()))) == 101
 
 
 def test_the_last_distance_is_that_which_the_encoder_told_last() -> None:
