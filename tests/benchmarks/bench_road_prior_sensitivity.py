@@ -79,11 +79,11 @@ class Row:
             "within_percent": float(np.median([f.within_percent for f in found])),
             "fewest_percent": min(fewest.values()),
         }
-        told: dict[str, Any] = {"constant": self.constant, "value": self.value}
-        told |= {"factor": self.factor, "of": case}
-        told["fewest_of"] = min(fewest, key=lambda name: fewest[name])
-        told |= {name: round(figure, 4) for name, figure in figures.items()}
-        return told | {"cases": {name: round(each, 4) for name, each in lowest.items()}}
+        warnings: dict[str, Any] = {"constant": self.constant, "value": self.value}
+        warnings |= {"factor": self.factor, "of": case}
+        warnings["fewest_of"] = min(fewest, key=lambda name: fewest[name])
+        warnings |= {name: round(figure, 4) for name, figure in figures.items()}
+        return warnings | {"cases": {name: round(each, 4) for name, each in lowest.items()}}
 
 
 def of_run(name: str) -> Adversity:
@@ -144,16 +144,16 @@ def measured(
     return Row(name, value, factor, found)
 
 
-def cells(told: Mapping[str, Any]) -> list[str]:
+def cells(warnings: Mapping[str, Any]) -> list[str]:
     """Return one line of the table."""
-    line = [f"`{told['constant']}`", f"{told['value']:.3g} ({told['factor']:.2g} ×)"]
-    if told["constant"] == USUAL:
+    line = [f"`{warnings['constant']}`", f"{warnings['value']:.3g} ({warnings['factor']:.2g} ×)"]
+    if warnings["constant"] == USUAL:
         line = [USUAL, ""]
-    line += [f"{told[name]:.3f}" for name in ("lowest", "median")]
-    loss = told["largest_loss"]
-    line += [f"{loss:.3f}", told["of"]] if round(loss, 3) > 0 else ["0.000", ""]
-    line.append(f"{told['iri_error_percent']:+.1f}")
-    return [*line, *(f"{told[f'{name}_percent']:.1f}" for name in ("within", "fewest"))]
+    line += [f"{warnings[name]:.3f}" for name in ("lowest", "median")]
+    loss = warnings["largest_loss"]
+    line += [f"{loss:.3f}", warnings["of"]] if round(loss, 3) > 0 else ["0.000", ""]
+    line.append(f"{warnings['iri_error_percent']:+.1f}")
+    return [*line, *(f"{warnings[f'{name}_percent']:.1f}" for name in ("within", "fewest"))]
 
 
 def arguments() -> argparse.Namespace:

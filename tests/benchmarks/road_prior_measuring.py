@@ -57,12 +57,12 @@ class Row:
 
     def summary(self) -> dict[str, Any]:
         """Return means and extremes as plain values; no figures if the pipeline refused."""
-        told: dict[str, Any] = {n: getattr(self, n) for n in ("kind", "severity", "pipeline")}
+        warnings: dict[str, Any] = {n: getattr(self, n) for n in ("kind", "severity", "pipeline")}
         if self.found:
             means = {n: round(self.mean(n), 4) for n in vars(self.found[0])}
-            told |= {n: mean for n, mean in means.items() if np.isfinite(mean)}
-            told["lowest"] = round(self.lowest, 4)
-        return told
+            warnings |= {n: mean for n, mean in means.items() if np.isfinite(mean)}
+            warnings["lowest"] = round(self.lowest, 4)
+        return warnings
 
     @property
     def lowest(self) -> float:
@@ -98,14 +98,14 @@ def from_the_lane(made: Simulation, road: Road, grade_rad: float) -> Simulation:
 def truth(made: Simulation, name: str, points: FloatArray) -> FloatArray:
     """Return the road under the laser ``name`` at ``points`` of the encoder's distance."""
     encoder, motion = made.recording.channel("distance"), made.motion
-    told = np.interp(motion.times_s, encoder.times_s, np.nan_to_num(encoder.values))
-    return np.interp(points, told - told[0], motion.tracks[name].road_m)
+    warnings = np.interp(motion.times_s, encoder.times_s, np.nan_to_num(encoder.values))
+    return np.interp(points, warnings - warnings[0], motion.tracks[name].road_m)
 
 
 def stretch(made: Simulation, where_m: float, interval_m: float) -> slice:
     """Return the points of a profile within `HALF_M` of ``where_m`` of true distance."""
-    told = made.recording.channel("distance").values
-    middle = told[np.argmax(made.motion.distance >= where_m)] - told[0]
+    warnings = made.recording.channel("distance").values
+    middle = warnings[np.argmax(made.motion.distance >= where_m)] - warnings[0]
     return slice(round((middle - HALF_M) / interval_m), round((middle + HALF_M) / interval_m))
 
 
@@ -132,7 +132,7 @@ def compared(made: Simulation, profile: floatref.Profile, where_m: float) -> lis
 def quietly(
     recording: floatref.Recording, pipeline: str, settings: Mapping[str, float]
 ) -> floatref.Profile:
-    """Process without warnings: most faults are told, as they should be."""
+    """Process without warnings: most faults are warnings, as they should be."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         return floatref.process(recording, pipeline, settings)

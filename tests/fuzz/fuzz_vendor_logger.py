@@ -83,9 +83,9 @@ def accounted(native: NativeFile) -> None:
     skipped = Skipped()
     for _, _, counts in sound_blocks(FILE, header, at, skipped):
         at += layout.AROUND + counts.nbytes
-    if at + skipped.size != FILE.stat().st_size or skipped.told() != native.told:
+    if at + skipped.size != FILE.stat().st_size or skipped.warnings() != native.warnings:
         raise AssertionError("bytes are lost and nobody says so")
-    if bool(skipped.size) != bool(native.told):
+    if bool(skipped.size) != bool(native.warnings):
         raise AssertionError("damage is not told")
 
 

@@ -83,8 +83,8 @@ def _show(kept: KeptCase, result: CaseResult, device_class: DeviceClass) -> None
     if not console.is_terminal:
         console.width = max(console.width, PLAIN_WIDTH)
     numbers = {**kept.case.parameters["scenario"], **kept.case.parameters["variation"]}
-    told = ", ".join(f"{name} {value}" for name, value in numbers.items())
-    console.print(f"{kept.case.check}: {told}", markup=False, highlight=False, soft_wrap=True)
+    text = ", ".join(f"{name} {value}" for name, value in numbers.items())
+    console.print(f"{kept.case.check}: {text}", markup=False, highlight=False, soft_wrap=True)
     table = Table("quantity", "track", "value", "limit", "", box=SIMPLE_HEAD, pad_edge=False)
     for measured in result.measurements:
         table.add_row(*map(Text, _cells(measured, device_class)))

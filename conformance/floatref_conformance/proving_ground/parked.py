@@ -64,8 +64,8 @@ def park(scenario: Scenario) -> tuple[BodyMotion, Setup]:
     clock = UniformClock.of(scenario.rate_hz)
     count = int(drive.duration_s * scenario.rate_hz) + 1
     travel, shared, tracks = empty_rows(len(scenario.tracks), count)
-    told = drive.motion(clock.times(count))
-    travel[:] = told.distance, told.speed, told.acceleration
+    text = drive.motion(clock.times(count))
+    travel[:] = text.distance, text.speed, text.acceleration
     bounce = Bounce() if scenario.manoeuvre == "bounce" else None
     above = [TrackSetup((0.0, floor.lateral_m[name], vehicle.sensor_z_m)) for name in setup.tracks]
     seen = Sighted.of(Course(), floor, above, vehicle.sensor_z_m)

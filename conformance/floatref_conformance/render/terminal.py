@@ -91,8 +91,8 @@ class TerminalRenderer:
         elif self._task is None:
             self._task = self._progress.add_task(event.id, total=event.cases)
         else:
-            told = f"{event.id}{doing}"
-            self._progress.update(self._task, description=told, completed=0, total=event.cases)
+            text = f"{event.id}{doing}"
+            self._progress.update(self._task, description=text, completed=0, total=event.cases)
 
     def _finish_check(self, result: CheckResult) -> None:
         if self._progress and self._task is not None:

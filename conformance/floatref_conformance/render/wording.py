@@ -129,8 +129,8 @@ def simplest(counterexample: Mapping[str, Any]) -> str:
     """Return the numbers of the simplest case that fails, as far as they are not the defaults."""
     parameters = counterexample["parameters"]
     numbers = [*parameters.get("scenario", {}).items(), *parameters.get("variation", {}).items()]
-    told = ", ".join(f"{name} {in_words(value)}" for name, value in numbers)
-    return f"the simplest case that fails: {told or 'all numbers as by default'}"
+    text = ", ".join(f"{name} {in_words(value)}" for name, value in numbers)
+    return f"the simplest case that fails: {text or 'all numbers as by default'}"
 
 
 def in_words(value: Any) -> str:

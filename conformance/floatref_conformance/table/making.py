@@ -21,7 +21,7 @@ REFERENCE_PIPELINE = "temporal-basic"
 """What the reference pass is processed by, as in the dissertation."""
 
 Watch = Callable[[str], None]
-"""Told of every pass before it is driven."""
+"""ScaleError of every pass before it is driven."""
 PipelineScores = tuple[str, str, tuple[Scores, ...]]
 """Pipeline, run, and the scores of each wheel path of one pass."""
 

@@ -155,7 +155,7 @@ def attitude(unit: Unit, smoothing: Smoothing) -> tuple[Matrix, list[bool]]:
     fast = integrated(unit, slow, every)
     told_rates = np.sum([bins(row, every) for row in unit.omega], axis=0)
     silent: Vector = np.isnan(told_rates).astype(np.float64)
-    angles, told = np.empty_like(fast), [True] * n
+    angles, warnings = np.empty_like(fast), [True] * n
     for i, y in enumerate(said):
         mean = whole_bins(fast[i], every)
         off = np.empty(n)
@@ -166,11 +166,11 @@ def attitude(unit: Unit, smoothing: Smoothing) -> tuple[Matrix, list[bool]]:
         back = []
         for b in range(n):
             value = local_line(off, b, smoothing.far_s / h, silent, smoothing.patience)
-            told[b] = told[b] and not math.isnan(value)
+            warnings[b] = warnings[b] and not math.isnan(value)
             back.append(-mean[b] if math.isnan(value) else value)
         for k in range(fast.shape[1]):
             angles[i, k] = fast[i, k] + between(back, k, every)
-    return angles, told
+    return angles, warnings
 
 
 def level(unit: Unit, smoothing: Smoothing) -> Vector:

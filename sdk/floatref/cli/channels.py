@@ -133,7 +133,7 @@ def _draft(native: NativeFile, file: Path, adapter: str, dbc: Path | None) -> No
     from floatref.mapping.draft.drafting import draft_map
 
     click.echo(draft_map(native, file, adapter, None if dbc is None else dbc.name), nl=False)
-    for line in native.told:
+    for line in native.warnings:
         click.echo(f"Warning: {one_line(line)}", err=True)
 
 
@@ -176,7 +176,7 @@ def _list_streams(native: NativeFile, file: Path, adapter: str) -> dict[str, Any
         "adapter": adapter,
         "device": {"vendor": native.vendor, "model": native.model},
         "streams": [_stream(stream) for stream in native.streams],
-        "warnings": list(native.told),
+        "warnings": list(native.warnings),
     }
 
 

@@ -152,7 +152,7 @@ def run(
 
 def collect_warnings(stages: Sequence[Stage]) -> tuple[str, ...]:
     """Return the warnings of ``stages`` on a run, in their order, each line once."""
-    lines = (line for stage in stages for line in _guard(stage, stage.told))
+    lines = (line for stage in stages for line in _guard(stage, stage.warnings))
     return tuple(dict.fromkeys(lines))
 
 

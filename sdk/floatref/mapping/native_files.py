@@ -47,10 +47,10 @@ class Opened:
                 hint = similar(entry.stream, names) or "the file has no streams"
                 raise InputError(f"no stream is called {entry.stream[:80]!r}; {hint}")
 
-    def told(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         """Yield the warnings of the adapters about their files."""
         for label, native in self._files.items():
-            for line in native.told:
+            for line in native.warnings:
                 yield f"{self.paths[label].name}: {line}"
 
     def _open(self, label: str) -> NativeFile:

@@ -36,7 +36,7 @@ class Reading:
 
     ``files`` are the files that were read, by their labels in the map, ``databases`` those that
     they were decoded with; ``origins`` has the native name of every channel, ``clocks`` one object
-    for each clock that was aligned, ``told`` one warning for each possible fault.
+    for each clock that was aligned, ``warnings`` one warning for each possible fault.
     """
 
     recording: Recording
@@ -46,7 +46,7 @@ class Reading:
     origins: tuple[str, ...]
     clocks: tuple[Mapping[str, Any], ...]
     skews: tuple[Mapping[str, Any], ...]
-    told: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     def named_natively(self, line: str) -> str:
         """Return ``line``, a warning about a channel, with the channel's native name."""
@@ -103,7 +103,7 @@ class _Mapping:
     ) -> None:
         self._opened, self._chart, self._spool = opened, chart, spool
         self._progress = progress
-        self._told: list[str] = []
+        self._warnings: list[str] = []
 
     def reading(self) -> Reading:
         plan = [self._plan(entry) for entry in self._chart.channels]
@@ -117,11 +117,11 @@ class _Mapping:
         with naming(self._opened.paths[SOURCE]):
             of = [clocks[p.key].alignment for p in plan]
             channels, cut = cut_to_shared(whole, of, plan.index(base))
-        told = [*self._opened.told(), *self._told]
-        told += [line for c in clocks.values() for line in c.told] + list(cut)
+        warnings = [*self._opened.warnings(), *self._warnings]
+        warnings += [line for c in clocks.values() for line in c.warnings] + list(cut)
         for planned in plan:
             planned.conversion.finish()
-            told += [f"{self._where(planned)}: {line}" for line in planned.conversion.told]
+            warnings += [f"{self._where(planned)}: {line}" for line in planned.conversion.warnings]
         native = self._opened.file(base.key[0])
         vendor, model = self._chart.vendor or native.vendor, self._chart.model or native.model
         recording = Recording(channels, self._chart.setup, vendor, model)
@@ -134,7 +134,7 @@ class _Mapping:
             origins=tuple(self._origin(p) for p in plan),
             clocks=tuple(report for c in clocks.values() if (report := c.report) is not None),
             skews=skews,
-            told=tuple(dict.fromkeys(map(one_line, [*told, *late]))),
+            warnings=tuple(dict.fromkeys(map(one_line, [*warnings, *late]))),
         )
 
     def _plan(self, entry: ChannelEntry) -> _Planned:
@@ -172,7 +172,7 @@ class _Mapping:
         with naming(path), guard(self._opened.adapters[key[0]], path):
             taken = take(stream, wanted, self._spool, clock, shown.of(stream.count))
         name = f"{path.name}: stream {stream.name!r}: "
-        self._told += [f"{name}{line}" for line in taken.told]
+        self._warnings += [f"{name}{line}" for line in taken.warnings]
         return taken
 
     def _guard(self, planned: _Planned) -> Convert:

@@ -16,7 +16,7 @@ def inspect_reading(reading: Reading) -> dict[str, Any]:
     A reason why the recording cannot be processed is a warning here.
     """
     channels = reading.recording.channels
-    warnings = list(reading.told)
+    warnings = list(reading.warnings)
     try:
         warnings += map(reading.named_natively, examine(reading.recording))
     except InputError as error:

@@ -72,7 +72,7 @@ def recording_of(
     reading = read_native(source, chart, reader.name, progress)
     inputs = _inputs(reading, channel_map)
     origin = _origin(source, reading, channel_map, inputs)
-    return Source(source, reading.recording, origin, inputs, reading.told, reading)
+    return Source(source, reading.recording, origin, inputs, reading.warnings, reading)
 
 
 def _hashes_of(reader: Adapter, source: Path) -> dict[str, str]:
@@ -145,6 +145,6 @@ def make_profile(
     with naming(read.path), read.named():
         result = run(read.recording, pipeline, settings, progress)
     provenance = {**result.profile.provenance, **read.origin}
-    told = (*read.warnings, *map(read.said, result.warnings))
+    warnings = (*read.warnings, *map(read.said, result.warnings))
     profile = replace(result.profile, provenance=provenance)
-    return replace(result, profile=profile, warnings=told)
+    return replace(result, profile=profile, warnings=warnings)

@@ -118,7 +118,7 @@ class Stage(ABC):
         self.memory = deepcopy(state["memory"])
         self._next, self._phase = state["next"], state["phase"]
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Return the warnings of the run so far, one line each."""
         return ()
 

@@ -113,11 +113,11 @@ def _nothing() -> None:
 class NativeFile:
     """The content of a native file; a context manager that closes the file.
 
-    ``told`` has one line for each kind of content that could not be decoded, with its count.
+    ``warnings`` has one line for each kind of content that could not be decoded, with its count.
     """
 
     streams: tuple[Stream, ...]
-    told: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     vendor: str = ""
     model: str = ""
     close: Callable[[], None] = field(default=_nothing)

@@ -99,7 +99,7 @@ def test_samples_and_times_come_back_exactly(
     tmp_path_factory: pytest.TempPathFactory, recording: Recording, suffix: str
 ) -> None:
     native = written(tmp_path_factory.mktemp("run"), suffix, recording)
-    assert (native.vendor, native.model, native.told) == ("Maker", "Mk 2", ())
+    assert (native.vendor, native.model, native.warnings) == ("Maker", "Mk 2", ())
     columns = found(native)
     assert set(columns) == {str(channel.id) for channel in recording.channels}
     for channel in recording.channels:

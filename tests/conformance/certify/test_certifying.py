@@ -63,17 +63,17 @@ def test_every_number_is_that_of_compare(written: Path) -> None:
     names = [f"run-{k}" for k in range(1, 5)]
     (sheet,) = certified(section(written, *names)).sections
     for run in sheet.runs:
-        told = compared(written / "reference", written / "runs" / run.name)
+        warnings = compared(written / "reference", written / "runs" / run.name)
         for track in run.tracks:
-            expected = told[track.track]
+            expected = warnings[track.track]
             assert track.accuracy == expected["cross_correlation"]
             assert track.offset_m == expected["offset_m"]
             assert track.iri_m_per_km == expected["iri_m_per_km"]
             assert sheet.reference_iri[track.track] == expected["iri_reference_m_per_km"]
     for i, j in itertools.combinations(range(4), 2):
-        told = compared(written / "runs" / names[i], written / "runs" / names[j])
+        warnings = compared(written / "runs" / names[i], written / "runs" / names[j])
         for name, pairs in sheet.pairs.items():
-            assert pairs[i, j] == told[name]["cross_correlation"]
+            assert pairs[i, j] == warnings[name]["cross_correlation"]
             assert isnan(pairs[j, i])
 
 
@@ -198,12 +198,14 @@ def test_a_stretch_is_all_that_counts(written: Path, tmp_path: Path) -> None:
 def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None:
     one = section(written, "run-1", "run-2").sections[0]
     plan = Plan((one, replace(one, name="part", stretch_m=(50.0, 150.0))))
-    told: list[tuple[str, float]] = []
-    certify(plan, Processing(), CORRELATIONS, DeviceClass.NOMINAL, lambda *step: told.append(step))
-    parts = [done for _, done in told]
+    warnings: list[tuple[str, float]] = []
+    certify(
+        plan, Processing(), CORRELATIONS, DeviceClass.NOMINAL, lambda *step: warnings.append(step)
+    )
+    parts = [done for _, done in warnings]
     assert parts == sorted(parts)
     assert (parts[0], parts[-1]) == (0.0, 1.0)
-    assert sum(doing.startswith("read run-1") for doing, _ in told) == 1
+    assert sum(doing.startswith("read run-1") for doing, _ in warnings) == 1
 
 
 def test_tests_at_rest_and_readings_are_judged_with_the_rest(

@@ -176,11 +176,11 @@ def test_an_error_of_the_suite_is_not_blamed_on_the_device(
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, BrokenPipeError])
 def test_an_interruption_goes_to_the_caller_and_the_device_is_closed(plan, fake_device, error):
-    device, told = fake_device(), []
+    device, warnings = fake_device(), []
 
     def emit(event):
-        told.append(event)
-        if len(told) == 5:
+        warnings.append(event)
+        if len(warnings) == 5:
             raise error
 
     with pytest.raises(error):

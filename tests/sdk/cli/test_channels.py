@@ -55,7 +55,9 @@ class Logger:
             Column(f"id{self.evil}", "", "hex", False),
         )
         clock = NativeClock(Fraction(1000))
-        return NativeFile((Stream("adc", columns, COUNT, clock, read),), self.told, "Acme", "P1")
+        return NativeFile(
+            (Stream("adc", columns, COUNT, clock, read),), self.warnings, "Acme", "P1"
+        )
 
 
 @pytest.fixture
@@ -193,7 +195,7 @@ def test_what_cannot_be_done_is_one_line(
 
 def test_names_that_would_break_a_terminal_are_shown_as_text(run: Path, logger: Logger) -> None:
     logger.evil = "\n\x1b[2J\udc80\u202e"
-    logger.told = ("a\nb\x1b[2J",)
+    logger.warnings = ("a\nb\x1b[2J",)
     for args in ([], ["--draft-map"]):
         result = invoke(run, *args)
         assert result.exit_code == 0, result.output

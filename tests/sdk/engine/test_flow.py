@@ -130,7 +130,7 @@ def test_what_stages_tell_is_told_in_their_order_and_once():
             super().__init__("elevation")
             self.lines = lines
 
-        def told(self):
+        def warnings(self):
             return tuple(line.upper() for line in self.lines)
 
     assert flow.collect_warnings([Telling("b", "a"), Telling(), Telling("a", "c")]) == (

@@ -18,7 +18,7 @@ def test_names_that_are_ours_need_no_map(put: Put, make_stream, a_drive) -> None
     run = a_drive()
     reading = read_native(put(make_stream("", run, rate=Fraction(1000))))
     recording = reading.recording
-    assert reading.told == ()
+    assert reading.warnings == ()
     for name, values in run.items():
         np.testing.assert_array_equal(recording.channel(name).values, values)
         assert recording.channel(name).clock == UniformClock(Fraction(1000), 0.0)

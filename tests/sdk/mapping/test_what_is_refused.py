@@ -72,12 +72,12 @@ def test_names_that_would_break_a_line_do_not(put: Put, make_stream) -> None:
     evil = "a\nb\x1b[31m\u2028"
     source = put(
         make_stream(evil, {evil: [1.0, 2.0]}, rate=Fraction(100), count=9),
-        told=("bad\nline\x1b",),
+        warnings=("bad\nline\x1b",),
     )
     assert "there are a\\nb" in refused(InputError, source, chart(ChannelEntry("a\nb", "height")))
     reading = read_native(source, chart(ChannelEntry(evil, "height", unit="m")))
-    assert len(reading.told) == 2
-    assert all(line.isprintable() for line in reading.told)
+    assert len(reading.warnings) == 2
+    assert all(line.isprintable() for line in reading.warnings)
 
 
 def test_time_that_goes_back_is_refused_with_its_stream(put: Put, make_stream) -> None:
@@ -91,7 +91,7 @@ def test_time_that_goes_back_is_refused_with_its_stream(put: Put, make_stream) -
 def test_another_epoch_in_the_middle_is_told(put: Put, make_stream) -> None:
     ticks = [*range(0, 1000, 10), *range(1_700_000_000, 1_700_001_000, 10)]
     source = put(make_stream("gps", {"laser": np.full(200, 300.0)}, ticks=ticks))
-    (line,) = read_native(source, chart()).told
+    (line,) = read_native(source, chart()).warnings
     assert line.startswith("run.log: stream 'gps': no rows for 1.7e+09 s after row 99; if")
 
 

@@ -22,7 +22,7 @@ laws = settings(deadline=None, suppress_health_check=[HealthCheck.function_scope
 def test_another_unit_is_refused(drive, quarter_car, pipeline, names, unit):
     told = quarter_car | {name: unit * quarter_car[name] for name in names}
     with pytest.raises(InputError, match="masses in kg and stiffnesses in N/m") as caught:
-        run(drive(length_m=60.0, told=told).recording(), pipeline)
+        run(drive(length_m=60.0, warnings=told).recording(), pipeline)
     assert "\n" not in str(caught.value)
 
 

@@ -61,7 +61,7 @@ class CanLog:
         if not survey.seen:
             survey.close()
             raise InputError(f"{source}: no CAN data frame that is sound; copy the log again")
-        return NativeFile(survey.streams(), told=survey.list_warnings(), close=survey.close)
+        return NativeFile(survey.streams(), warnings=survey.list_warnings(), close=survey.close)
 
 
 Key = tuple[str, int, bool]

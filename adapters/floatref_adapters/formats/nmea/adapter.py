@@ -62,7 +62,7 @@ class Nmea:
             survey.close()
             raise InputError(f"{source}: no NMEA 0183 sentence that is sound; copy the log again")
         streams = (survey.stream(kind) for kind in sorted(survey.counts))
-        return NativeFile(tuple(streams), told=survey.list_warnings(), close=survey.close)
+        return NativeFile(tuple(streams), warnings=survey.list_warnings(), close=survey.close)
 
 
 class Survey:

@@ -70,13 +70,13 @@ def judge_repeatability(
     if not blamed:
         return made
     tracks = {run.name: track for run, track in of_track(runs, name)}
-    told = [
+    text = [
         with_causes(
             f"{runs[k].name} at {tracks[runs[k].name].with_others:.3f}", tracks[runs[k].name]
         )
         for k in blamed
     ]
-    return replace(made, reason=f"the other runs agree to {rest:.3f} without {list_in_words(told)}")
+    return replace(made, reason=f"the other runs agree to {rest:.3f} without {list_in_words(text)}")
 
 
 def judge_accuracy(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
@@ -98,12 +98,12 @@ def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits)
     value, limit = mean([error for _, error, _ in errors]), limits.iri_bias_percent
     failed = limit is not None and abs(value) > limit
     errors.sort(key=lambda error: -abs(error[1]))
-    told = [
+    text = [
         with_causes(f"{run.name} {error:+.2f} %", track)
         for run, error, track in errors
         if limit is not None and abs(error) > limit
     ]
-    reason = join_reasons(f"beyond the limit: {list_in_words(told)}" if told else "")
+    reason = join_reasons(f"beyond the limit: {list_in_words(text)}" if text else "")
     if not errors:
         reason = "the IRI of no run could be taken, or the reference has no roughness"
     return Criterion(
@@ -134,13 +134,13 @@ def _correlation(
     value, limit, name, lacking = figures
     absent = [run.name for run, _, score in scores if isnan(score)]
     below = sorted((s for s in scores if s[2] < limit), key=lambda s: s[2])
-    told = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
+    text = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
     judged = judge(value, limit, value < limit)
     if absent and judged is Judged.PASS:
         judged = Judged.MISSING
     reason = join_reasons(
         lacking,
         f"not in the average: {list_in_words(absent)}" if absent and not lacking else "",
-        f"below {limit:g} by itself: {list_in_words(told)}" if told else "",
+        f"below {limit:g} by itself: {list_in_words(text)}" if text else "",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "", True, judged, name, reason)

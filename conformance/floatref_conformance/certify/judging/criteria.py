@@ -114,13 +114,13 @@ def _coverage(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
 def _flagged_length(truth: Profile, used: Sequence[RunSheet]) -> Criterion:
     """Return the largest length of a wheel path that is not valid, and whose it is."""
     lengths = [(t.flagged_m, f"{run.name}, {t.track}") for run in used for t in run.tracks]
-    told = sorted((one for one in lengths if one[0] > 0), key=lambda one: -one[0])
+    known = sorted((one for one in lengths if one[0] > 0), key=lambda one: -one[0])
     doubted = [
         f"the reference, {track.name}: {truth.interval_m * (~track.valid).sum():.1f} m"
         for track in truth.tracks
         if not track.valid.all()
     ]
-    reason = list_in_words(doubted + [f"{who}: {length:.1f} m" for length, who in told])
+    reason = list_in_words(doubted + [f"{who}: {length:.1f} m" for length, who in known])
     worst = max((length for length, _ in lengths), default=nan)
     title = "length within the section that a run flags or lacks, the largest"
     return report_value("flagged", title, FLAGGED, worst, "m", "", reason)

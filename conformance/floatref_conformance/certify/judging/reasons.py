@@ -12,8 +12,8 @@ NAMED = 5
 def list_in_words(items: Sequence[str], most: int = NAMED) -> str:
     """Return ``items`` joined, as many as ``most``, and how many more there are."""
     more = len(items) - most
-    told = "; ".join(items[:most])
-    return f"{told}; and {more} more" if more > 0 else told
+    text = "; ".join(items[:most])
+    return f"{text}; and {more} more" if more > 0 else text
 
 
 def join_reasons(*parts: str) -> str:

@@ -36,7 +36,7 @@ FINEST = 0.001
 
 
 @dataclass(frozen=True)
-class Told:
+class ScaleError:
     """An error of scale in percent and its 1-sigma, and whose it is."""
 
     who: str
@@ -66,8 +66,8 @@ def agrees(track: RunTrack, limits: CertificationLimits) -> bool:
 
 def scales_agree(track: RunTrack, limits: CertificationLimits) -> bool:
     """Return whether neither scale of a wheel path of a run is surely beyond its limit."""
-    distance = Told("", track.distance_percent, track.distance_sigma)
-    height = Told("", track.height_percent, track.height_sigma)
+    distance = ScaleError("", track.distance_percent, track.distance_sigma)
+    height = ScaleError("", track.height_percent, track.height_sigma)
     return not (
         distance.beyond(inf if limits.distance_percent is None else limits.distance_percent)
         or height.beyond(inf if limits.height_percent is None else limits.height_percent)
@@ -80,10 +80,10 @@ def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tup
     Of a run's wheel paths, which share one encoder, the one with the smallest sigma counts. A
     worksheet whose runs do not measure it is INCOMPLETE.
     """
-    told = [_best(run) for run in runs if run.tracks]
-    found = [one.percent for one in told if not isnan(one.percent)]
+    known = [_best(run) for run in runs if run.tracks]
+    found = [one.percent for one in known if not isnan(one.percent)]
     words = "distance", "error of distance, the largest of a run", DISTANCE
-    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, known, limits.distance_percent, "", Judged.MISSING)
     title = "error of distance, mean of the runs"
     return largest, report_value("distance-mean", title, DISTANCE, mean(found), "%")
 
@@ -94,9 +94,11 @@ def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimit
     Where no run measures it, it is reported only: R 56-14 does not ask for it.
     """
     tracks = of_track(runs, name)
-    told = [Told(run.name, track.height_percent, track.height_sigma) for run, track in tracks]
+    known = [
+        ScaleError(run.name, track.height_percent, track.height_sigma) for run, track in tracks
+    ]
     words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
-    return _judge_largest(words, told, limits.height_percent, name, Judged.REPORTED)
+    return _judge_largest(words, known, limits.height_percent, name, Judged.REPORTED)
 
 
 def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Criterion, ...]:
@@ -107,8 +109,8 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
     for value in (plan.known_m, *plan.readings_m):
         if not 0.0 < value < inf:
             raise InputError(f"[distance] holds {value:g} m; give lengths in m above zero")
-    told = [
-        Told(f"reading {k} ({reading:g} m)", 100.0 * (reading / plan.known_m - 1.0), 0.0)
+    known = [
+        ScaleError(f"reading {k} ({reading:g} m)", 100.0 * (reading / plan.known_m - 1.0), 0.0)
         for k, reading in enumerate(plan.readings_m, 1)
     ]
     words = (
@@ -116,43 +118,43 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
         f"distance read for {plan.known_m:g} m, the largest error",
         READINGS,
     )
-    largest = _judge_largest(words, told, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, known, limits.distance_percent, "", Judged.MISSING)
     title = f"distance read for {plan.known_m:g} m, mean error"
-    average = mean([one.percent for one in told])
+    average = mean([one.percent for one in known])
     return largest, report_value("distance-readings-mean", title, READINGS, average, "%")
 
 
-def _best(run: RunSheet) -> Told:
+def _best(run: RunSheet) -> ScaleError:
     """Return the error of distance by the wheel path of smallest sigma."""
     known = [t for t in run.tracks if not isnan(t.distance_sigma + t.distance_percent)]
     if not known:
-        return Told(run.name, nan, nan)
+        return ScaleError(run.name, nan, nan)
     track = min(known, key=lambda t: t.distance_sigma)
-    return Told(run.name, track.distance_percent, track.distance_sigma)
+    return ScaleError(run.name, track.distance_percent, track.distance_sigma)
 
 
 def _judge_largest(
     words: tuple[str, str, str],
-    told: Sequence[Told],
+    known: Sequence[ScaleError],
     limit: float | None,
     track: str,
     unknown: Judged,
 ) -> Criterion:
     """Return the criterion of the largest error; ``unknown`` if no run measures it well enough."""
     bound = inf if limit is None else limit
-    known = [one for one in told if not isnan(one.percent)]
-    beyond = sorted((o for o in told if o.beyond(bound)), key=lambda o: -abs(o.percent))
-    vague = [] if limit is None else [one for one in told if one.vague(bound)]
+    known = [one for one in known if not isnan(one.percent)]
+    beyond = sorted((o for o in known if o.beyond(bound)), key=lambda o: -abs(o.percent))
+    vague = [] if limit is None else [one for one in known if one.vague(bound)]
     counted = beyond or [one for one in known if one not in vague] or known
     value = max((one.percent for one in counted), key=abs, default=nan)
     judged = judge(value, limit, bool(beyond))
-    if limit is not None and not beyond and len(vague) == len(told):
+    if limit is not None and not beyond and len(vague) == len(known):
         judged = unknown
     reason = join_reasons(
         f"beyond the limit: {list_in_words([str(one) for one in beyond])}" if beyond else "",
         f"not known to {bound:g} %: {list_in_words([str(o) for o in vague if o not in beyond])}"
         if any(o not in beyond for o in vague)
         else "",
-        "" if told else "no run measures it",
+        "" if known else "no run measures it",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "%", False, judged, track, reason)

@@ -176,7 +176,7 @@ def _track(
     limits: CertificationLimits,
 ) -> RunTrack:
     """Return one wheel path of one run, with the causes if it does not agree."""
-    told = fit(truth, run, name)
+    estimate = fit(truth, run, name)
     track = RunTrack(
         track=name,
         accuracy=found.accuracy,
@@ -184,13 +184,13 @@ def _track(
         iri_m_per_km=found.iri_m_per_km,
         bias_percent=found.bias_percent,
         with_others=others,
-        distance_percent=told.distance_percent,
-        distance_sigma=told.distance_sigma,
-        height_percent=told.height_percent,
-        height_sigma=told.height_sigma,
+        distance_percent=estimate.distance_percent,
+        distance_sigma=estimate.distance_sigma,
+        height_percent=estimate.height_percent,
+        height_sigma=estimate.height_sigma,
         flagged_m=found.flagged_m,
         missing_m=found.missing_m,
     )
     if isnan(found.accuracy) or agrees(track, limits):
         return track
-    return replace(track, causes=causes(truth, run, name, told, limits))
+    return replace(track, causes=causes(truth, run, name, estimate, limits))

@@ -59,8 +59,8 @@ def stationary_sheet(
         _criterion(id_, value, limit, judge(value, limit, value > limit), name, "")
         for name, value in found.items()
     )
-    told = (*notes, *_flags(profile, start, end))
-    return StationarySheet(id_, str(plan.source), start, end, found, told, criteria, profile)
+    text = (*notes, *_flags(profile, start, end))
+    return StationarySheet(id_, str(plan.source), start, end, found, text, criteria, profile)
 
 
 def _check_stretch(id_: str, stretch_m: Stretch) -> None:
@@ -112,13 +112,13 @@ def _iri(profile: Profile, name: str, start: float, end: float) -> float:
 
 def _flags(profile: Profile, start: float, end: float) -> list[str]:
     """Return one line per wheel path that flags points of the stretch that counts."""
-    told = []
+    text = []
     for track in profile.tracks:
         doubted = np.count_nonzero(~track.valid[points(profile, start, end)])
         if doubted:
             length = profile.interval_m * float(doubted)
-            told.append(f"track {track.name} flags {length:.1f} m of what counts as not valid")
-    return told
+            text.append(f"track {track.name} flags {length:.1f} m of what counts as not valid")
+    return text
 
 
 def _missing(

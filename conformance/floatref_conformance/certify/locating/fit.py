@@ -131,41 +131,41 @@ def _fit_windows(pair: _Pair, line: Line) -> Fit:
         windows = pair.windows(line, WINDOW_M, LONGEST_M, shortest)
         if windows.at_m.size < LEAST_WINDOWS or windows.wave_number.size < LEAST_WAVES:
             return Fit(line=line, inverted=pair.sign < 0)
-        told = estimate(windows)
-        line = _correct_lag(line, told)
-        last = windows, told
-        shortest = max(pair.shortest_m, math.sqrt(abs(told.smoothing_m2) / STEEPEST))
+        fitted = estimate(windows)
+        line = _correct_lag(line, fitted)
+        last = windows, fitted
+        shortest = max(pair.shortest_m, math.sqrt(abs(fitted.smoothing_m2) / STEEPEST))
     assert last is not None
-    windows, told = last
-    long_gain, long_sigma = _long_gain(pair, line, told)
+    windows, fitted = last
+    long_gain, long_sigma = _long_gain(pair, line, fitted)
     return Fit(
         distance_percent=100.0 * (line.scale - 1.0),
-        distance_sigma=100.0 * told.slope_sigma,
-        height_percent=100.0 * (told.height - 1.0),
-        height_sigma=100.0 * told.height_sigma,
+        distance_sigma=100.0 * fitted.slope_sigma,
+        height_percent=100.0 * (fitted.height - 1.0),
+        height_sigma=100.0 * fitted.height_sigma,
         offset_m=line.lag_at(pair.stretch_m[0]),
-        correlation=told.correlation,
+        correlation=fitted.correlation,
         inverted=pair.sign < 0,
-        smoothing_m2=told.smoothing_m2,
-        smoothing_sigma=told.smoothing_sigma,
+        smoothing_m2=fitted.smoothing_m2,
+        smoothing_sigma=fitted.smoothing_sigma,
         long_percent=long_gain,
         long_sigma=long_sigma,
         at_m=windows.at_m,
-        lag_m=line.run_at(windows.at_m) - windows.at_m + told.lags_m,
+        lag_m=line.run_at(windows.at_m) - windows.at_m + fitted.lags_m,
         line=line,
     )
 
 
-def _correct_lag(line: Line, told: Estimate) -> Line:
+def _correct_lag(line: Line, fitted: Estimate) -> Line:
     """Return ``line`` plus the straight line of the remaining lag."""
-    shift = told.shift_m + told.slope * (line.at_m - told.middle_m)
-    return Line(line.at_m, line.run_m + shift, line.scale + told.slope)
+    shift = fitted.shift_m + fitted.slope * (line.at_m - fitted.middle_m)
+    return Line(line.at_m, line.run_m + shift, line.scale + fitted.slope)
 
 
-def _long_gain(pair: _Pair, line: Line, told: Estimate) -> tuple[float, float]:
+def _long_gain(pair: _Pair, line: Line, fitted: Estimate) -> tuple[float, float]:
     """Return by how many percent the long waves are taken higher than the rest, and 1-sigma."""
     windows = pair.windows(line, LONG_WINDOW_M, *LONG_WAVES_M)
     if windows.at_m.size < LEAST_LONG_WINDOWS:
         return math.nan, math.nan
     gain, sigma = long_gain(windows)
-    return 100.0 * (gain / told.height - 1.0), 100.0 * sigma / told.height
+    return 100.0 * (gain / fitted.height - 1.0), 100.0 * sigma / fitted.height

@@ -52,11 +52,11 @@ class Commands:
         """Run ``floatref WORDS`` to its end; Stopped once the context was left."""
         process = self._start(words)
         try:
-            output, told = process.communicate()
+            output, text = process.communicate()
         finally:
             with self._lock:
                 self._running.discard(process)
-        return Answer(output, _complaint(process.returncode, told))
+        return Answer(output, _complaint(process.returncode, text))
 
     def _start(self, words: tuple[str, ...]) -> subprocess.Popen[str]:
         with self._lock:
@@ -75,11 +75,11 @@ class Commands:
             return process
 
 
-def _complaint(code: int, told: str) -> str:
+def _complaint(code: int, text: str) -> str:
     """Return in one line why a command ended with ``code``; nothing for 0."""
     if code == 0:
         return ""
     if code < 0:
         return f"floatref was ended by signal {-code}{' (out of memory?)' * (code == -9)}"
-    lines = [line for line in told.splitlines() if line.strip()] or [f"exit code {code}"]
+    lines = [line for line in text.splitlines() if line.strip()] or [f"exit code {code}"]
     return " ".join(lines[-1].removeprefix("Error: ").split())

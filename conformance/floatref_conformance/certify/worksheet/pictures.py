@@ -109,9 +109,9 @@ def at_rest(sheet: StationarySheet, name: str) -> str:
     reach = () if isnan(sheet.start_m) else ((sheet.start_m, sheet.end_m),)
     counts = Shade("counts", reach, "scored")
     title = f"Test {sheet.id}: elevation and roughness of a standing vehicle"
-    told = f"What counts: {wording.what_counts(sheet)}."
+    text = f"What counts: {wording.what_counts(sheet)}."
     return draw_figure(
-        Figure(name, title, told, panels, "distance in m", profile.start_m, end, (counts,))
+        Figure(name, title, text, panels, "distance in m", profile.start_m, end, (counts,))
     )
 
 
@@ -123,8 +123,8 @@ def _counting_values(lines: list[Line], sheet: StationarySheet) -> FloatArray | 
 
 
 def _draw_along(start: float, end: float, panels: tuple[Panel, ...], title: str, name: str) -> str:
-    told = f"{title}, {start:.6g} m to {end:.6g} m."
-    return draw_figure(Figure(name, title, told, panels, "distance in m", start, end))
+    text = f"{title}, {start:.6g} m to {end:.6g} m."
+    return draw_figure(Figure(name, title, text, panels, "distance in m", start, end))
 
 
 def _profiles(
@@ -243,8 +243,8 @@ def lag_along(
         svg.Line(f"windows of {WINDOW_M:g} m", *apart(at_m, 1000.0 * lag_m), "dot"),
     )
     title = f"{of}: lag against distance"
-    told = f"The lag goes from {line_m[0]:.3f} m to {line_m[1]:.3f} m."
+    text = f"The lag goes from {line_m[0]:.3f} m to {line_m[1]:.3f} m."
     panel = svg.Panel("lag", "mm", lines, 130.0)
     return svg.draw_figure(
-        svg.Figure(name, title, told, (panel,), "distance in m", ends_m[0], ends_m[1])
+        svg.Figure(name, title, text, (panel,), "distance in m", ends_m[0], ends_m[1])
     )

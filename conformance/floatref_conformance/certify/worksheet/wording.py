@@ -63,10 +63,10 @@ def value_in_words(criterion: Criterion) -> str:
         return NOTHING
     if criterion.id == COUNTED:
         return f"{value:.0f}"
-    told = (
+    text = (
         with_sign(value, 3) if criterion.id in SIGNED else number(value, 3 if criterion.unit else 4)
     )
-    return f"{told} {criterion.unit}".strip()
+    return f"{text} {criterion.unit}".strip()
 
 
 def title_of(criterion: Criterion) -> str:

@@ -46,13 +46,13 @@ def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict
     with missing points within `STRETCH_M`, InputError for a missing wheel path.
     """
     _check_reach(profile)
-    reference, told = _high_pass(truth), _high_pass(_along(truth, encoder_m))
+    reference, text = _high_pass(truth), _high_pass(_along(truth, encoder_m))
     return {
         name: StopScores(
             scores.cross_correlation,
             scores.iri_error_percent,
             scores.peak_m_per_km,
-            _within_two_sigma(told, profile, name),
+            _within_two_sigma(text, profile, name),
             _within_two_sigma(reference, profile, name),
         )
         for name, scores in score(reference, profile).items()
@@ -71,9 +71,9 @@ def _check_reach(profile: Profile) -> None:
 
 def _along(truth: Profile, encoder_m: FloatArray) -> Profile:
     """Return ``truth`` against the distance by the encoder, at the same interval."""
-    told = truth.interval_m * np.arange(int(encoder_m[-1] / truth.interval_m) + 1)
+    text = truth.interval_m * np.arange(int(encoder_m[-1] / truth.interval_m) + 1)
     tracks = (
-        ProfileTrack.of(t.name, np.interp(told, encoder_m, t.elevation)) for t in truth.tracks
+        ProfileTrack.of(t.name, np.interp(text, encoder_m, t.elevation)) for t in truth.tracks
     )
     return replace(truth, tracks=tuple(tracks))
 

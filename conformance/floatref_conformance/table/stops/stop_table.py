@@ -113,10 +113,10 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
 
 def _ends(values: Sequence[float | None]) -> Ends | None:
     """Return the ends of the values that are not None; None without such values."""
-    told = [value for value in values if value is not None]
-    if not told:
+    known = [value for value in values if value is not None]
+    if not known:
         return None
-    return Ends(min(told), float(np.median(told)), max(told))
+    return Ends(min(known), float(np.median(known)), max(known))
 
 
 FORMAT = "conformance-stops/1"

@@ -51,12 +51,12 @@ def below_block(table: StopTable, pipeline: str) -> list[str]:
 def lowest_line(table: StopTable, pipeline: str) -> str:
     """Return the scenario file of the lowest cross correlation, without what is usual in it."""
     lowest = table.lowest(pipeline)
-    told = {
+    text = {
         field.name: getattr(lowest.scenario, field.name)
         for field in fields(Scenario)
         if getattr(lowest.scenario, field.name) != field.default
     }
-    return f"lowest ({lowest.track}): {json.dumps(told)}"
+    return f"lowest ({lowest.track}): {json.dumps(text)}"
 
 
 def closing_line(table: StopTable) -> str:

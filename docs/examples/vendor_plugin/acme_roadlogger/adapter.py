@@ -42,7 +42,7 @@ class RoadLogger:
         for number, _, counts in sound_blocks(source, header, begin, skipped):
             rows[number] += counts.size
         streams = [_stream(source, header, begin, n, count) for n, count in enumerate(rows)]
-        return NativeFile(tuple(streams), skipped.told(), "ACME", f"RoadLogger {header.device}")
+        return NativeFile(tuple(streams), skipped.warnings(), "ACME", f"RoadLogger {header.device}")
 
 
 def _stream(source: Path, header: Header, begin: int, number: int, count: int) -> Stream:

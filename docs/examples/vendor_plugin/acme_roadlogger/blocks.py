@@ -36,7 +36,7 @@ class Skipped:
         self.size += size
         self.last += size
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Return one line for damaged places, and one for a truncated end."""
         places, size, lines = self.places - (self.last > 0), self.size - self.last, []
         if places:

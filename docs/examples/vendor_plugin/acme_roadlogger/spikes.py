@@ -52,7 +52,7 @@ class RemoveSpikes(Stage):
             return ()
         return (self._cleaned(waiting, len(waiting), HALF),)
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Return the number of replaced samples."""
         removed = self.memory["removed"]
         return (f"{removed} samples of laser spikes removed and flagged",) if removed else ()

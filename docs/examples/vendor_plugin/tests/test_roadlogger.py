@@ -78,7 +78,7 @@ def test_what_is_written_is_read(
         tick += gap
     write_blocks(path, header, written)
     native = RoadLogger().streams(path, {})
-    assert native.told == ()
+    assert native.warnings == ()
     assert native.model == "RoadLogger RL-7"
     for n, (stream, (ticks, values)) in enumerate(
         zip(native.streams, content(native), strict=True)
@@ -128,7 +128,7 @@ def test_damage_gives_a_warning_and_affects_only_the_blocks_it_hits(
     expected = [np.arange(100) + 100 * k for k in sound]
     np.testing.assert_allclose(values, 1e-6 * np.concatenate(expected or [np.empty(0)]))
     if len(sound) * size < cut - begins[0]:
-        assert native.told
+        assert native.warnings
 
 
 @settings(deadline=None, max_examples=150)
@@ -238,4 +238,4 @@ class TestRemoveSpikes(StageLaws):
         np.testing.assert_array_equal(np.concatenate([b[left] for b in out]), road)
         marks = np.concatenate([b.flags.get(left, np.zeros(len(b), np.uint8)) for b in out])
         np.testing.assert_array_equal(np.flatnonzero(marks == Flag.MISSING), np.arange(50, 55))
-        assert stage.told() == ("5 samples of laser spikes removed and flagged",)
+        assert stage.warnings() == ("5 samples of laser spikes removed and flagged",)

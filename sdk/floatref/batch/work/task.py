@@ -29,7 +29,7 @@ class Watch:
         """Start to measure."""
         self._seconds, self._cpu_s = perf_counter(), _cpu_s()
 
-    def told(self, record: Record, job: Job) -> Record:
+    def complete(self, record: Record, job: Job) -> Record:
         """Return ``record`` with its effort until now."""
         effort = Effort(
             seconds=perf_counter() - self._seconds,
@@ -128,10 +128,10 @@ def _recording(job: Job) -> Recording:
 def _work(job: Job) -> Record:
     watch = Watch()
     try:
-        record = watch.told(_made(job), job)
+        record = watch.complete(_made(job), job)
         write_record(record, job.record)
     except Exception as error:
-        record = watch.told(failed(job, _reason(error)), job)
+        record = watch.complete(failed(job, _reason(error)), job)
         _remove(job.profile)
         with suppress(FloatrefError, OSError):
             write_record(record, job.record)

@@ -105,7 +105,7 @@ class KalmanStage(Stage):
             found[track] = Filtered(passed.height, passed.nodes, flags)
         return found
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Warn of the kinds of GNSS readings that were left out, how often, and from when on."""
         filters: dict[str, TrackFilter] = self.memory["filters"]
         memories = [each.state.memory for each in filters.values()]

@@ -139,7 +139,7 @@ class RoadPriorSmoother(Stage):
         filters: dict[str, RoadTrack] = self.memory["filters"]
         return pool([b for each in filters.values() for b in each.all_brakes()], self.constants)
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Warn where the height sensor has leapt at a standstill."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
         assert self._header is not None

@@ -60,7 +60,11 @@ def _hint(name: str, places: Sequence[Place]) -> str:
 
 def _faults(native: NativeFile) -> str:
     """Return the warnings of the file, which may explain a missing name."""
-    return f" (of the file: {'; '.join(map(one_line, native.told[:3]))})" if native.told else ""
+    return (
+        f" (of the file: {'; '.join(map(one_line, native.warnings[:3]))})"
+        if native.warnings
+        else ""
+    )
 
 
 TRACK = re.compile(

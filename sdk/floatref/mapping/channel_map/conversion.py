@@ -15,14 +15,14 @@ DISTANCE = "distance"
 class Conversion:
     """Turns successive samples of one native column into those of our channel.
 
-    ``told`` has one warning for each fault of units and samples.
+    ``warnings`` has one warning for each fault of units and samples.
     """
 
     def __init__(self, entry: ChannelEntry, column: Column) -> None:
         """Settle the unit; InputError if it is unknown, missing or not that of the channel."""
         self.entry = entry
         self._column = column
-        self.told: list[str] = []
+        self.warnings: list[str] = []
         unit = self._unit()
         self.integrates = entry.channel == DISTANCE and unit.si == MPS
         self._factor = unit.factor * entry.sign
@@ -69,9 +69,9 @@ class Conversion:
     def finish(self) -> None:
         """Add the warnings about the samples."""
         if self._infinite:
-            self.told.append(f"{self._infinite} samples are infinite; taken as missing")
+            self.warnings.append(f"{self._infinite} samples are infinite; taken as missing")
         if self.integrates:
-            self.told.append("a speed, integrated into the distance")
+            self.warnings.append("a speed, integrated into the distance")
 
     def _unit(self) -> Unit:
         stated, given = self.entry.unit, self._column.unit.strip()
@@ -93,7 +93,9 @@ class Conversion:
             raise InputError(
                 f"the map says {self.entry.unit}, the file {given}; correct the map, or scale"
             )
-        self.told.append(f"the file says unit {given}, the map {self.entry.unit}; the map counts")
+        self.warnings.append(
+            f"the file says unit {given}, the map {self.entry.unit}; the map counts"
+        )
 
     def _check(self, unit: Unit) -> None:
         wanted = channel_spec(self.entry.channel).unit

@@ -91,7 +91,7 @@ class _Aligning:
         known: dict[tuple[ClockKey, ClockEntry | None], Alignment | None] = {}
         for key, stream in self._taken.items():
             entry, clock = self._entry(key), clock_key(key, stream)
-            report, told = (
+            report, warnings = (
                 None,
                 warn_of_beginning(key, stream.stream) if self._has_no_entry(key, entry) else (),
             )
@@ -100,9 +100,11 @@ class _Aligning:
                     known[clock, entry] = alignment = self._alignment(key, entry)
                 if alignment is not None:
                     report = alignment_report(key, entry, alignment)
-                    told = tuple(f"clock of {name_clock(key)}: {line}" for line in alignment.told)
+                    warnings = tuple(
+                        f"clock of {name_clock(key)}: {line}" for line in alignment.warnings
+                    )
             found[key] = Aligned(
-                stream, self._start(key), known[clock, entry], self._spool, report, told
+                stream, self._start(key), known[clock, entry], self._spool, report, warnings
             )
         return found
 
@@ -141,7 +143,7 @@ class _Aligning:
             times, readings = self._signal(self._base[0], entry.base_time).readings()
             since, lines = since_zero(readings, float(self._zeros[clock]), clock[2])
             found = align_by_time_readings(times, since)
-            return replace(found, told=(*lines, *found.told))
+            return replace(found, warnings=(*lines, *found.warnings))
         if entry.base_pps is not None:
             dated = absolute(clock) and absolute(base)
             near = entry.offset_s + (self._by_epochs(clock, base).offset_s if dated else 0.0)
@@ -151,7 +153,7 @@ class _Aligning:
                 f"the pulses put it {found.offset_s - near:+.3f} s from where the absolute times "
                 "of both clocks do; check that those are not a whole second apart"
             )
-            found = replace(found, told=(*found.told, line) if dated else found.told)
+            found = replace(found, warnings=(*found.warnings, line) if dated else found.warnings)
             return _no_surer(found, seconds.step_s)
         return self._by_epochs(clock, base)
 
@@ -162,8 +164,10 @@ class _Aligning:
                 f"nothing aligns its {clock[2].value} time with the {base[2].value} time of the "
                 'accelerometer; state how under [[clocks]] in the map, such as align = "offset"'
             )
-        offset, told = between_epochs((self._zeros[clock], clock[2]), (self._zeros[base], base[2]))
-        return replace(Alignment.stated(float(offset)), told=told)
+        offset, warnings = between_epochs(
+            (self._zeros[clock], clock[2]), (self._zeros[base], base[2])
+        )
+        return replace(Alignment.stated(float(offset)), warnings=warnings)
 
     def _signal(self, label: str, name: str | None, of: Key | None = None) -> Timed:
         """Return the channel ``name`` of a file, on the clock of stream ``of`` or the base."""

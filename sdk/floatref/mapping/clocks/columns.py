@@ -62,7 +62,7 @@ class Taken:
     start_s: Fraction
     rate: Fraction | None
     times_s: FloatArray | None
-    told: tuple[str, ...]
+    warnings: tuple[str, ...]
 
 
 def take(
@@ -104,13 +104,13 @@ class _Taking:
             self._add(rows)
             if progress is not None:
                 progress(self._timing.rows)
-        told = list(self._timing.told())
+        warnings = list(self._timing.warnings())
         columns = [column.finish() for column in self._columns]
         rate, start, times = self._timing.rate, self._timing.start_s, None
         if self._times is not None:
-            rate, first_s, times, columns = self._settle(self._times.finish(), columns, told)
+            rate, first_s, times, columns = self._settle(self._times.finish(), columns, warnings)
             start += Fraction(first_s)
-        return Taken(self._stream, tuple(columns), start, rate, times, tuple(told))
+        return Taken(self._stream, tuple(columns), start, rate, times, tuple(warnings))
 
     def _add(self, rows: Rows) -> None:
         times, kept = self._timing(rows)
@@ -125,14 +125,14 @@ class _Taking:
             self._times.append(times)
 
     def _settle(
-        self, times: FloatArray, columns: list[FloatArray], told: list[str]
+        self, times: FloatArray, columns: list[FloatArray], warnings: list[str]
     ) -> tuple[Fraction | None, float, FloatArray | None, list[FloatArray]]:
         """Return rate and start of a uniform clock; else the stamps, each time once."""
         clock = uniform_clock(times, self._timing.unit_s)
         if clock is not None:
             return clock.rate, clock.start_s, None, columns
         leap = warn_of_leap(times)
-        told += [] if leap is None else [leap]
+        warnings += [] if leap is None else [leap]
         kept = _first_of_each(times)
         repeated = int(kept.size - kept.sum())
         if not repeated:
@@ -142,7 +142,9 @@ class _Taking:
                 f"stream {self._stream.name!r}: {repeated} of {kept.size} rows repeat the time of "
                 "the one before; record finer time stamps, or state rate_hz under [[clocks]]"
             )
-        told.append(f"{repeated} rows repeat the time of another; only the first of each is used")
+        warnings.append(
+            f"{repeated} rows repeat the time of another; only the first of each is used"
+        )
         thin = [self._spool.thinned(values, kept) for values in (times, *columns)]
         return None, 0.0, thin[0], thin[1:]
 

@@ -60,7 +60,7 @@ class Timing:
         """The unit in s that time stamps are rounded to; unknown for floats."""
         return 0.0 if isinstance(self._first, float) else float(self._clock.tick_s)
 
-    def told(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         """Yield warnings about the rows; InputError for no rows, or times that go back."""
         seen = self.rows + self._advancing.back + self._advancing.untimed
         if not seen:
@@ -72,7 +72,7 @@ class Timing:
             )
         if seen < self._stream.count:
             yield f"has {seen} of {self._stream.count} rows; the file is truncated"
-        yield from self._advancing.told()
+        yield from self._advancing.warnings()
 
     def _counted(self, rows: Rows, ticks: Ticks | None) -> FloatArray:
         assert self.rate is not None

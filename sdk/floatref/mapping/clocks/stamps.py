@@ -59,7 +59,7 @@ class Advancing:
             self._last = max(before[-1], usable[-1]).item()
         return known & ~back
 
-    def told(self) -> Iterator[str]:
+    def warnings(self) -> Iterator[str]:
         """Yield one line for each kind of dropped row; InputError if too many went back."""
         if self.back > max(FEW, TURNS_BACK * self.rows):
             raise InputError(

@@ -23,7 +23,7 @@ class Aligned:
     """A stream whose first row was taken ``start_s`` after the zero of its own clock.
 
     ``alignment`` leads to base time, None if the clock is the base clock. ``report`` describes the
-    alignment, None for the base; ``told`` has warnings.
+    alignment, None for the base; ``warnings`` has warnings.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class Aligned:
         alignment: Alignment | None,
         spool: Spool,
         report: Mapping[str, Any] | None = None,
-        told: tuple[str, ...] = (),
+        warnings: tuple[str, ...] = (),
     ) -> None:
         """Keep new stamps in ``spool``."""
         self._taken, self._start, self.alignment = taken, start_s, alignment
@@ -41,7 +41,7 @@ class Aligned:
         self._clocks: dict[float, Clock] = {}
         self.report = report
         beyond = None if alignment is None else self._beyond(alignment)
-        self.told = told if beyond is None else (*told, beyond)
+        self.warnings = warnings if beyond is None else (*warnings, beyond)
 
     @property
     def rate(self) -> Fraction | None:

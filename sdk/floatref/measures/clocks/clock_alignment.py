@@ -35,7 +35,7 @@ class Alignment:
         residual_s: root mean square of the residuals, in s; NaN where it is unknown.
         pairs: how many pulses or readings the line goes through.
         dropped: how many had no partner or were outliers.
-        told: warnings, one line each.
+        warnings: warnings, one line each.
         about_s: an own time and the base time at that moment, on the line.
         between_s: own times of the first and the last pulse or reading.
         late_s: largest delay of base times in s that the pulses cannot show.
@@ -48,7 +48,7 @@ class Alignment:
     residual_s: float = np.nan
     pairs: int = 0
     dropped: int = 0
-    told: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     about_s: tuple[float, float] = (0.0, 0.0)
     between_s: tuple[float, float] = (-np.inf, np.inf)
     late_s: float = 0.0
@@ -125,7 +125,7 @@ def align_by_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) 
     matched = match_pulses(own, base, near_s)
     at, to = own[matched.own], base[matched.base]
     line = clock_line(at, to)
-    return _align(line, at, to, own.size - int(line.kept.sum()), matched.told)
+    return _align(line, at, to, own.size - int(line.kept.sum()), matched.warnings)
 
 
 def align_by_pps(pulses_s: FloatArray, near_s: float) -> Alignment:
@@ -148,7 +148,7 @@ def align_by_pps(pulses_s: FloatArray, near_s: float) -> Alignment:
             f"of {pulses.size} pulses only {found.pairs} are whole seconds apart; "
             "name the channel of the receiver's pulse per second"
         )
-    return replace(found, told=found.told[1:] if found.told else ())
+    return replace(found, warnings=found.warnings[1:] if found.warnings else ())
 
 
 def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
@@ -167,7 +167,7 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
         raise InputError("fewer than two readings of GNSS time advance with time; check its unit")
     base, drift = lower_line(at, to)
     middle = float(at.mean())
-    told = (
+    warnings = (
         f"base times may be late by up to {edges.update_s:.3g} s: how old a reading of GNSS time "
         "is when it is recorded is not known; state a delay, or use pulses",
     )
@@ -178,7 +178,7 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
         rough.residual_s,
         int(at.size),
         edges.dropped + int((~rough.kept).sum()),
-        told,
+        warnings,
         (middle, base),
         (float(at[0]), float(at[-1])),
         edges.update_s,
@@ -186,11 +186,11 @@ def align_by_time_readings(base_s: FloatArray, gnss_s: FloatArray) -> Alignment:
 
 
 def _align(
-    line: ClockLine, own: FloatArray, base: FloatArray, dropped: int, told: tuple[str, ...]
+    line: ClockLine, own: FloatArray, base: FloatArray, dropped: int, warnings: tuple[str, ...]
 ) -> Alignment:
     """Return the alignment by a line through the accepted pairs of ``own`` and ``base``."""
     at, to = own[line.kept], base[line.kept]
-    lines = list(told)
+    lines = list(warnings)
     if at.size < 3 and abs(line.drift) > STRANGE_DRIFT:
         line = line._replace(drift=0.0, drift_sigma=np.nan)
     if at.size < 3:

@@ -40,7 +40,7 @@ class Matching(NamedTuple):
 
     own: IndexArray
     base: IndexArray
-    told: tuple[str, ...]
+    warnings: tuple[str, ...]
 
 
 def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> Matching:
@@ -53,12 +53,12 @@ def match_pulses(own_s: FloatArray, base_s: FloatArray, near_s: float = 0.0) -> 
     own, base = _train(own_s, "this clock"), _train(base_s, "the base clock")
     jitter = min(MOST_JITTER_S, JITTER_SHARE * min(_interval(own), _interval(base)))
     places = _places(own, base, jitter)
-    chosen, told = _nearest(base[places.base] - own[places.own], places.own, near_s, 3 * jitter)
+    chosen, warnings = _nearest(base[places.base] - own[places.own], places.own, near_s, 3 * jitter)
     anchor, at = int(places.own[chosen]), int(places.base[chosen])
     pairs = _follow_both_ways(own, base, anchor, at, jitter)
     _check_share(own, base, pairs)
     mine, others = np.array(pairs, np.int64).T
-    return Matching(mine, others, (*told, *_warn_of_jump(own, base, mine, others)))
+    return Matching(mine, others, (*warnings, *_warn_of_jump(own, base, mine, others)))
 
 
 def _train(times_s: FloatArray, whose: str) -> FloatArray:

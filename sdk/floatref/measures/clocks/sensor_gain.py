@@ -46,9 +46,9 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
         return np.nan
     force_series, height_series = on_grid(force, grid), on_grid(height, grid)
     for sign in (1.0, -1.0):
-        told = [w for w in _windows(force_series, sign * height_series, stands) if _is_usable(w)]
-        if told:
-            return sign * max(told, key=lambda window: window.motion_m / window.gain).gain
+        found = [w for w in _windows(force_series, sign * height_series, stands) if _is_usable(w)]
+        if found:
+            return sign * max(found, key=lambda window: window.motion_m / window.gain).gain
     return np.nan
 
 

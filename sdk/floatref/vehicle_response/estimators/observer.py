@@ -125,12 +125,12 @@ class UnknownInputObserver:
         kernel.observe(
             *self._steps, self._start, *self._road, settling, inputs, memory, states, road, settled
         )
-        told = settled[:, None]
+        warnings = settled[:, None]
         return Estimate(
-            road=np.where(told, road, np.nan),
-            road_sigma=np.where(told, self._sigma[1], np.nan),
+            road=np.where(warnings, road, np.nan),
+            road_sigma=np.where(warnings, self._sigma[1], np.nan),
             states=states[:, : 2 * n],
-            states_sigma=np.where(told, self._sigma[0], np.nan),
+            states_sigma=np.where(warnings, self._sigma[0], np.nan),
         )
 
     def _inputs(self, displacements: FloatArray, wheel_accelerations: FloatArray) -> FloatArray:

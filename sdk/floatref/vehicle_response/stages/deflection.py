@@ -65,7 +65,7 @@ class CompareTravel(Stage):
             self.memory[track] = wide[:, wide.shape[1] - 2 * self._lag :].copy(), sums
         return block
 
-    def told(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[str, ...]:
         """Return a warning for every wheel path whose sensors do not agree."""
         lines = (self._warn(track, *sums) for track, (_, sums) in self.memory.items())
         return tuple(line for line in lines if line)

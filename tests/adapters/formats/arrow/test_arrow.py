@@ -94,7 +94,7 @@ def test_every_type_of_number_comes_as_float64_and_others_are_listed(form) -> No
     for name, values in expected.items():
         np.testing.assert_array_equal(found[name], values)
     assert [c.name for c in native.streams[0].columns if not c.numeric] == ["text", "kind", "list"]
-    assert "3 columns hold no numbers: not read" in native.told
+    assert "3 columns hold no numbers: not read" in native.warnings
     assert native.streams[0].clock.name == "unknown"
 
 

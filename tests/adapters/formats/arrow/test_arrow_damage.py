@@ -83,7 +83,7 @@ def test_whole_batches_of_a_file_that_was_cut_short_are_read(tmp_path: Path, suf
     native = ArrowIpc().streams(path, {})
     assert rows(native)[0] == {"x": [0, 1, 2, 3, 4, 5]}
     assert native.streams[0].count == 6
-    assert native.told[0].startswith("behind row 6: ")
+    assert native.warnings[0].startswith("behind row 6: ")
 
 
 PEAK = """

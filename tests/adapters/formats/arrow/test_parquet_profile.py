@@ -28,13 +28,13 @@ def profiles(draw):
         valid = draw(st.lists(st.booleans(), min_size=count, max_size=count))
         known = draw(st.booleans())
         tracks.append(ProfileTrack.of(name, z, valid, np.abs(sigma) if known else None))
-    told = {"cutoff": draw(numbers | st.none()), "names": ["a", 1], "deep": {"b": True}}
+    warnings = {"cutoff": draw(numbers | st.none()), "names": ["a", 1], "deep": {"b": True}}
     return Profile(
         draw(st.floats(1e-5, 1000.0)),
         tuple(tracks),
         draw(st.floats(-1e10, 1e10)),
         draw(st.text(max_size=5)),
-        told,
+        warnings,
         {"sha256": {"x": "00"}},
     )
 
@@ -82,10 +82,10 @@ def test_other_readers_find_columns_and_metadata(tmp_path, profile):
     assert table["left_elevation_m"].null_count == 1
     assert table["distance_m"][2].as_py() == 12.5 + 2 * 0.00508
     assert table["left_valid"].to_pylist()[:9] == [False] * 4 + [True] * 3 + [False, True]
-    told = {key.decode(): value.decode() for key, value in table.schema.metadata.items()}
-    assert told["format"] == "floatref-profile/1"
-    assert (told["interval_m"], told["start_m"]) == ("0.00508", "12.5")
-    assert json.loads(told["settings"]) == {"cutoff": 1.0}
+    warnings = {key.decode(): value.decode() for key, value in table.schema.metadata.items()}
+    assert warnings["format"] == "floatref-profile/1"
+    assert (warnings["interval_m"], warnings["start_m"]) == ("0.00508", "12.5")
+    assert json.loads(warnings["settings"]) == {"cutoff": 1.0}
     groups = pq.ParquetFile(path).metadata
     assert [groups.row_group(k).num_rows for k in range(groups.num_row_groups)] == [
         131_072,
@@ -120,10 +120,10 @@ TOLD = {
 }
 
 
-def made(path, columns, told):
+def made(path, columns, warnings):
     names, arrays = zip(*columns, strict=True)
     schema = pa.schema(
-        [pa.field(n, a.type) for n, a in zip(names, arrays, strict=True)], metadata=told
+        [pa.field(n, a.type) for n, a in zip(names, arrays, strict=True)], metadata=warnings
     )
     pq.write_table(pa.Table.from_arrays(list(arrays), schema=schema), path)
     return path
@@ -159,9 +159,9 @@ BAD = {
 
 @pytest.mark.parametrize("message", BAD)
 def test_one_clear_line_for_what_is_wrong(tmp_path, message):
-    columns, told = BAD[message]
-    told = {key: value for key, value in {**TOLD, **told}.items() if value is not None}
-    path = made(tmp_path / "a.parquet", {**GOOD, **columns}.items(), told)
+    columns, warnings = BAD[message]
+    warnings = {key: value for key, value in {**TOLD, **warnings}.items() if value is not None}
+    path = made(tmp_path / "a.parquet", {**GOOD, **columns}.items(), warnings)
     with pytest.raises(InputError, match=message) as caught:
         ParquetProfile().read(path)
     assert str(caught.value).startswith(f"{path}: ")

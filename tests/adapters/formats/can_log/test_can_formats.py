@@ -138,7 +138,7 @@ def test_a_blf_log_that_declares_wrong_sizes_keeps_what_is_sound(
 ) -> None:
     file = opened(tmp_path, blf(tmp_path) + bad, "run.blf")
     assert stream_of(file, "WheelSpeeds").count == 40
-    assert any(told in line for line in file.told)
+    assert any(told in line for line in file.warnings)
 
 
 @pytest.mark.parametrize("cut", [8, 20, 60])
@@ -147,7 +147,7 @@ def test_a_blf_log_that_is_cut_off_keeps_what_was_written(tmp_path: Path, cut: i
     of = stream_of(file, "WheelSpeeds")
     assert 0 < of.count <= 40
     assert len(table_of(of)[1]) == of.count
-    assert file.told
+    assert file.warnings
 
 
 @settings(deadline=None, max_examples=120)
@@ -182,8 +182,8 @@ def test_a_peak_trace_is_read(tmp_path: Path) -> None:
     assert ticks.tolist() == [1_000_000, 17_500_000]
     assert values["FrontLeft"].tolist() == [0.01, 0.02]
     assert values["RearRight"].tolist() == [0.04, 0.04]
-    assert "1 frames of 1 ids not in the database: not decoded (0x1A23B4C5)" in file.told
-    assert "1 events that are no data frames: not read" in file.told
+    assert "1 frames of 1 ids not in the database: not decoded (0x1A23B4C5)" in file.warnings
+    assert "1 events that are no data frames: not read" in file.warnings
 
 
 def test_the_table_of_python_can_is_read(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def test_every_wheel_speed_comes_back(
         log = asc_log(frames, base, relative=form == "relative")
     content = mark + log.replace("\n", ending)
     file = opened(tmp_path_factory.mktemp("can"), content)
-    assert file.told == ()
+    assert file.warnings == ()
     of = stream_of(file, "WheelSpeeds")
     assert of.clock.epoch is (Epoch.UTC if form == "candump" else Epoch.LOCAL)
     values, ticks = table_of(of)
@@ -96,7 +96,7 @@ def test_values_are_those_of_cantools(
         assert np.isnan(values[kinds[1 - data[0]]][0])
     else:
         line = "Multiplexed: 1 frames that are too short or have an unknown multiplexer: dropped"
-        assert file.told == (line,)
+        assert file.warnings == (line,)
     values, _ = table_of(stream_of(file, "WheelSpeeds"))
     expected = database.decode_message("WheelSpeeds", wheels_data(wheels))
     assert {name: value[0] for name, value in values.items()} == expected
@@ -114,7 +114,7 @@ def test_a_length_code_above_8_of_a_classic_frame_means_8_bytes(tmp_path: Path) 
     log = asc_log([(100, WHEELS_ID, wheels_data([1, 2, 3, 4]))]).replace(" d 8 ", " d f ")
     assert " d f " in log
     file = opened(tmp_path, log)
-    assert (stream_of(file, "WheelSpeeds").count, file.told) == (1, ())
+    assert (stream_of(file, "WheelSpeeds").count, file.warnings) == (1, ())
 
 
 def test_without_a_database_every_id_is_listed_with_its_count(tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_what_is_no_data_frame_is_told(tmp_path: Path) -> None:
     ]
     file = opened(tmp_path, frame + "\n".join(lines))
     assert stream_of(file, "WheelSpeeds").count == 2
-    assert set(file.told) == {
+    assert set(file.warnings) == {
         "1 error frames: not read",
         "1 remote frames: not read",
         "1 overload frames: not read",

@@ -44,7 +44,7 @@ def test_quoted_names_go_over_lines_and_stray_quotes_do_not(tmp_path: Path) -> N
     native = read(tmp_path, above + "time_s,x,y\n" + "0,1,2\n" * 9)
     assert [c.name for c in native.streams[0].columns] == ["x", "y"]
     assert columns(native)["x"] == [1] * 9
-    assert native.told == ("3 lines above the table: skipped",)
+    assert native.warnings == ("3 lines above the table: skipped",)
 
 
 @pytest.mark.parametrize("count", [300, 6000])
@@ -70,7 +70,7 @@ def test_columns_of_text_are_listed_and_not_read(tmp_path: Path) -> None:
         ("state", False), ("x", True), ("lost", True)
     ]  # fmt: skip
     np.testing.assert_array_equal(columns(native)["x"], [1, 2])
-    assert native.told == ("1 columns of text: not read",)
+    assert native.warnings == ("1 columns of text: not read",)
 
 
 def test_tables_without_a_header_or_with_delimiters_at_the_end(tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def test_every_sample_comes_back_whatever_the_writing(
         np.testing.assert_array_equal(values, wanted)
     np.testing.assert_array_equal(ticks(native), 1250 * np.arange(len(rows)))
     assert native.streams[0].clock.tick_s == Fraction(1, 10_000)
-    assert native.told == ((f"{above} lines above the table: skipped",) if above else ())
+    assert native.warnings == ((f"{above} lines above the table: skipped",) if above else ())
 
 
 @pytest.mark.slow

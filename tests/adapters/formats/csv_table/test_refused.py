@@ -73,7 +73,7 @@ def test_a_last_line_that_was_cut_short_is_dropped(
 ) -> None:
     native = read(tmp_path, text)
     assert len(columns(native)["x"]) == count
-    assert native.told == told
+    assert native.warnings == told
 
 
 def test_a_line_without_an_end_is_refused_before_it_fills_the_memory(tmp_path: Path) -> None:
@@ -174,7 +174,7 @@ def test_rows_of_nothing_at_the_end_are_left_out(tmp_path: Path, delimiter: str)
     lines = [row.replace(",", delimiter) for row in rows]
     for end in ("\n", ""):
         native = read(tmp_path, "\n".join(lines) + end)
-        assert (native.streams[0].count, native.told) == (2, ())
+        assert (native.streams[0].count, native.warnings) == (2, ())
         np.testing.assert_array_equal(columns(native)["b"], [2, np.nan])
     with pytest.raises(InputError, match="row 4: time_s is ''; every row needs its time"):
         columns(read(tmp_path, "\n".join([*lines[:4], lines[1]])))

@@ -96,13 +96,13 @@ def test_iso_times_are_ns_utc(tmp_path: Path, texts: list[str], expected: list[i
     assert ticks(native).tolist() == expected
     clock = native.streams[0].clock
     assert (clock.epoch, clock.tick_s) == (Epoch.UTC, Fraction(1, 10**9))
-    assert native.told == ()
+    assert native.warnings == ()
 
 
 def test_a_column_of_times_that_are_not_read_is_told(tmp_path: Path) -> None:
     """Whether the month comes first here, nobody can tell."""
     native = read(tmp_path, "Time,x\n1/2/2024 10:00:00,1\n1/2/2024 10:00:01,2\n")
-    assert "Time: '1/2/2024 10:00:00' is no time that is read" in native.told
+    assert "Time: '1/2/2024 10:00:00' is no time that is read" in native.warnings
     assert native.streams[0].clock.name == "unknown"
     with pytest.raises(InputError, match=r"row 3: Time is '31.2.2024 10:00:00'; every row needs"):
         ticks(read(tmp_path, "Time,x\n1.2.2024 10:00:00,1\n31.2.2024 10:00:00,2\n"))
@@ -110,7 +110,7 @@ def test_a_column_of_times_that_are_not_read_is_told(tmp_path: Path) -> None:
 
 def test_iso_times_without_a_zone_and_times_of_a_day(tmp_path: Path) -> None:
     native = read(tmp_path, "time,x\n1970-01-01T00:00:01,1\n1970-01-01T00:00:02,1\n")
-    assert native.told == ("time: states no time zone; taken as UTC",)
+    assert native.warnings == ("time: states no time zone; taken as UTC",)
     native = read(tmp_path, "Uhrzeit;x\n00:00:01,5;1\n10:00:02,25;1\n")
     assert ticks(native).tolist() == [1_500_000_000, 36_002_250_000_000]
     assert native.streams[0].clock.epoch is Epoch.LOCAL
@@ -137,7 +137,7 @@ def test_a_column_of_time_is_known_by_its_name(
     clock = native.streams[0].clock
     if unit_s is None:
         assert (clock.name, clock.rate) == ("unknown", 1)
-        assert native.told == ("no time column; state rate_hz in the map",)
+        assert native.warnings == ("no time column; state rate_hz in the map",)
     else:
         assert clock.tick_s == unit_s
         assert [c.name for c in native.streams[0].columns] == ["x"]

@@ -54,7 +54,7 @@ def test_what_is_in_other_files_is_not_followed(path: Path) -> None:
     native = Hdf5().streams(path, {})
     (numbers,) = rows(native).values()
     assert list(numbers.values()) == [[0, 1, 2]]
-    told = "\n".join(native.told)
+    told = "\n".join(native.warnings)
     for line in (
         "1 links to other files: left alone",
         "1 soft links: left alone",
@@ -75,7 +75,7 @@ def test_rows_that_were_never_written_are_missing(path: Path) -> None:
     found = np.array(rows(native)["root"]["x"])
     np.testing.assert_array_equal(np.flatnonzero(found == 1.5), np.arange(20, 30))
     assert np.isnan(np.delete(found, np.arange(20, 30))).all()
-    assert "1 datasets without data: left alone" in native.told
+    assert "1 datasets without data: left alone" in native.warnings
 
 
 def test_a_dataset_of_a_billion_rows_is_listed_at_once(path: Path) -> None:

@@ -75,7 +75,7 @@ def test_more_rows_than_there_are_is_told_and_those_there_are_delivered(tmp_path
     native, numbers = read(path)
     assert sorted(stream.count for stream in native.streams) == [6, 6]
     assert {len(values["x"]) for values, _ in numbers} == {6}
-    assert f"{2**60 - 6} of {2**60} rows are missing" in native.told[0]
+    assert f"{2**60 - 6} of {2**60} rows are missing" in native.warnings[0]
 
 
 def test_an_unfinished_recording_is_read_as_far_as_it_goes(tmp_path: Path) -> None:

@@ -66,7 +66,7 @@ def test_files_of_asammdf_are_read_as_written(
         np.testing.assert_array_equal(column, expected[name])
     np.testing.assert_array_equal(ticks, np.arange(70_000) / 128)
     assert native.streams[0].columns[0].unit == "m"
-    assert native.told == (
+    assert native.warnings == (
         "bench: 1 channels are text by a table",
         "bench: 1 channels are values of varying length",
         "bench: 1 channels are an array or a structure",

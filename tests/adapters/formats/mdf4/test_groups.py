@@ -44,7 +44,7 @@ def test_a_local_start_time_is_no_utc_and_is_told(tmp_path: Path) -> None:
     write([StoredGroup("g", [master])], tmp_path / "a.mf4", 10**18, time_flags=1)
     native, _ = read(tmp_path / "a.mf4")
     assert native.streams[0].clock.epoch is Epoch.LOCAL
-    assert "local time" in native.told[0]
+    assert "local time" in native.warnings[0]
 
 
 def test_a_master_of_distance_is_a_column_and_the_clock_unknown(tmp_path: Path) -> None:
@@ -54,7 +54,7 @@ def test_a_master_of_distance_is_a_column_and_the_clock_unknown(tmp_path: Path) 
     assert native.streams[0].clock.name == "unknown"
     assert ticks is None
     np.testing.assert_array_equal(values["s"], np.arange(4.0))
-    assert native.told == ("g: no time; its clock is called unknown, give its rate in the map",)
+    assert native.warnings == ("g: no time; its clock is called unknown, give its rate in the map",)
 
 
 def test_names_given_twice_are_numbered_and_noted(tmp_path: Path) -> None:

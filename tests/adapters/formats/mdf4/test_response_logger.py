@@ -96,7 +96,7 @@ def test_every_sensor_becomes_its_channel_and_the_vehicle_is_known(
     source, text = drafted
     (tmp_path / "map.toml").write_text(completed(text), "utf-8")
     reading = read_native(source, tmp_path / "map.toml")
-    assert reading.told == ()
+    assert reading.warnings == ()
     found = reading.recording
     assert found.setup.vehicle == VehicleSetup("quarter-car", PARAMETERS, 1.72)
     assert len(found.channels) == 7

@@ -89,7 +89,7 @@ def test_every_fix_comes_back(
 ) -> None:
     content = mark + nmea_log(drawn, talker, ending)
     file = opened(tmp_path_factory.mktemp("nmea"), content)
-    assert file.told == ()
+    assert file.warnings == ()
     expected_ns = np.array(drawn.ms) * 10**6
     for name in ("GGA", "RMC", "VTG", "GST"):
         assert stream_of(file, name).count == len(drawn.ms)
@@ -159,7 +159,7 @@ def test_faults_are_told_with_their_counts(tmp_path: Path) -> None:
     log += [GGA[:40], back, text, untimed, "$", "\xaaD\x12\x00"]
     file = opened(tmp_path, "\r\n".join(log))
     assert stream_of(file, "GGA").count == 3
-    assert set(file.told) == {
+    assert set(file.warnings) == {
         "1 sentences with a wrong checksum: dropped",
         "1 sentences without a checksum, which others have: dropped",
         "1 lines or sentences that are cut off or none: dropped",
@@ -177,7 +177,7 @@ def test_a_log_without_any_checksum_is_taken_and_told(tmp_path: Path) -> None:
     bare = GGA.partition("*")[0]
     file = opened(tmp_path, f"{bare}\n{bare.replace('3519', '3520')}\n{bare[:50]}")
     assert stream_of(file, "GGA").count == 2
-    assert "2 sentences without a checksum: taken as they are" in file.told
+    assert "2 sentences without a checksum: taken as they are" in file.warnings
 
 
 @pytest.mark.parametrize("content", [b"", b"\xff\xfe\0\0" * 100, b"$", b"$GPGGA", b"$GPGGA*00\n"])

@@ -44,7 +44,7 @@ def test_a_late_sentence_of_before_midnight_keeps_its_day(tmp_path: Path) -> Non
     bodies = [gga("235959.9"), gga("000000.0"), late]
     gst, fixes = (stream(tmp_path, kind, bodies) for kind in ("GST", "GGA"))
     assert ns(gst)[0] == ns(fixes)[0]
-    assert Nmea().streams(tmp_path / "run.txt", {}).told == ()
+    assert Nmea().streams(tmp_path / "run.txt", {}).warnings == ()
 
 
 def test_a_date_that_comes_late_dates_what_was_before_it(tmp_path: Path) -> None:

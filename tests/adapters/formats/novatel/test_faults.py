@@ -31,7 +31,7 @@ def test_a_wrong_checksum_drops_a_log_and_is_told(tmp_path: Path) -> None:
     bad[len(sound) + 120] ^= 1
     file = opened(tmp_path, bytes(bad) + sound)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 2 - 1, "BESTVEL": 3}
-    assert any(line.startswith("2 beginnings of a log") for line in file.told)
+    assert any(line.startswith("2 beginnings of a log") for line in file.warnings)
 
 
 def test_logs_without_gps_time_are_dropped_and_coarse_ones_told(tmp_path: Path) -> None:
@@ -42,8 +42,11 @@ def test_logs_without_gps_time_are_dropped_and_coarse_ones_told(tmp_path: Path) 
     )
     file = opened(tmp_path, log)
     assert table_of(stream_of(file, "BESTPOS"))[1].tolist() == [NOW_MS + k for k in (2, 3, 4)]
-    assert "BESTPOS: 2 logs without GPS time (status below coarse, or week 0): dropped" in file.told
-    assert "BESTPOS: 2 logs with a coarse or drifting time: taken as they are" in file.told
+    assert (
+        "BESTPOS: 2 logs without GPS time (status below coarse, or week 0): dropped"
+        in file.warnings
+    )
+    assert "BESTPOS: 2 logs with a coarse or drifting time: taken as they are" in file.warnings
 
 
 def inertial(ms: int) -> bytes:
@@ -57,7 +60,7 @@ def inertial(ms: int) -> bytes:
 def test_a_short_header_before_the_time_is_known_is_dropped(tmp_path: Path) -> None:
     file = opened(tmp_path, inertial(5000) + inertial(NOW_MS))
     assert table_of(stream_of(file, "INSPVAS"))[1].tolist() == [NOW_MS]
-    assert file.told == (
+    assert file.warnings == (
         "INSPVAS: 1 logs without GPS time (status below coarse, or week 0): dropped",
     )
 
@@ -66,7 +69,7 @@ def test_a_week_that_rolled_over_unseen_is_told(tmp_path: Path) -> None:
     early = NOW_MS - 2048 * WEEK_MS
     file = opened(tmp_path, inertial(early) + inertial(early + 10))
     assert stream_of(file, "INSPVAS").count == 2
-    (line,) = file.told
+    (line,) = file.warnings
     assert line.startswith("INSPVAS: 2 logs of a GPS week below 1024")
 
 
@@ -76,27 +79,27 @@ def test_a_log_shorter_than_its_definition_never_reaches_the_decoder(
 ) -> None:
     file = opened(tmp_path, long_log(42, NOW_MS, bytes(size)) + binary_log(ONE))
     assert stream_of(file, "BESTPOS").count == 1
-    assert "BESTPOS: 1 logs that do not fit their definition: dropped" in file.told
+    assert "BESTPOS: 1 logs that do not fit their definition: dropped" in file.warnings
 
 
 def test_lists_and_unknown_logs_are_listed_or_told(tmp_path: Path) -> None:
     wild = long_log(43, NOW_MS, b"\xff" * 100) + long_log(65_000, NOW_MS, bytes(8))
     file = opened(tmp_path, wild + binary_log(ONE))
     assert stream_of(file, "RANGE").columns == ()
-    assert "RANGE: 1 logs with lists of varying length: not decoded" in file.told
-    assert "65000: 1 logs that novatel_edie does not know: not decoded" in file.told
+    assert "RANGE: 1 logs with lists of varying length: not decoded" in file.warnings
+    assert "65000: 1 logs that novatel_edie does not know: not decoded" in file.warnings
 
 
 def test_sentences_between_logs_are_told(tmp_path: Path) -> None:
     gga = b"$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"
     file = opened(tmp_path, gga * 3 + ascii_log(ONE) + gga)
-    assert "4 of these are NMEA 0183 sentences; read them with the adapter nmea" in file.told
+    assert "4 of these are NMEA 0183 sentences; read them with the adapter nmea" in file.warnings
 
 
 def test_time_that_goes_back_is_told(tmp_path: Path) -> None:
     early = long_log(42, NOW_MS - 1000, binary_log(ONE)[28:100])
     file = opened(tmp_path, binary_log(ONE) + early)
-    assert "BESTPOS: time goes back 1 times" in file.told
+    assert "BESTPOS: time goes back 1 times" in file.warnings
 
 
 @pytest.mark.parametrize("content", [b"", b"\xaaD\x12", b"#BESTPOSA,", b"\xaaD\x13" * 50, b"abc"])

@@ -58,7 +58,7 @@ def test_the_kind_of_a_binary_log_tells_its_antenna_and_answers(tmp_path: Path) 
     log = b"".join(long_log(42, NOW_MS, body, kind=kind) for kind in (0, 0x11, 0x80, 0x11))
     file = opened(tmp_path, log)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTPOS_17": 2}
-    assert file.told == ("1 answers to commands: not read",)
+    assert file.warnings == ("1 answers to commands: not read",)
 
 
 @settings(deadline=None)

@@ -25,7 +25,7 @@ def opened(folder: Path, content: bytes) -> NativeFile:
 def test_ascii_logs_are_read_whatever_ends_their_lines(tmp_path: Path, ending: bytes) -> None:
     log = (EDIE / "BESTPOS_rows_1-3.GPS").read_bytes().replace(b"\n", ending)
     file = opened(tmp_path, log)
-    assert file.told == ()
+    assert file.warnings == ()
     values, ticks = table_of(stream_of(file, "BESTPOS"))
     assert ticks.tolist() == [1984 * WEEK_MS + 450_849_500] * 3
     assert values["latitude"].tolist() == [51.11637049360] * 3
@@ -40,7 +40,9 @@ def test_ascii_and_binary_logs_with_prompts_between_are_one_stream() -> None:
     file = NovAtel().streams(path, {})
     assert {s.name: s.count for s in file.streams} == {"BESTUTM": 2, "VERSION": 1}
     answers = path.read_bytes().count(b"<OK\n[USB1]") * len(b"<OK\n[USB1]")
-    assert f"{answers} bytes between logs (prompts, answers, damaged logs): not read" in file.told
+    assert (
+        f"{answers} bytes between logs (prompts, answers, damaged logs): not read" in file.warnings
+    )
     values, ticks = table_of(stream_of(file, "BESTUTM"))
     text = (EDIE / "BESTUTMBIN.GPS.ASCII").read_text().splitlines()[0]
     header, _, body = text.partition(";")
@@ -59,7 +61,7 @@ def test_real_receivers_behind_prompts_are_read_to_the_last_byte() -> None:
     file = NovAtel().streams(SWRI / "bestpos-bestvel-psrdop2-sync.gps", {})
     counts = {s.name: s.count for s in file.streams}
     assert counts == {"BESTPOS": 33, "BESTVEL": 33, "PSRDOP2": 33}
-    assert "7 bytes between logs (prompts, answers, damaged logs): not read" in file.told
+    assert "7 bytes between logs (prompts, answers, damaged logs): not read" in file.warnings
     content = (SWRI / "bestpos-bestvel-psrdop2-sync.gps").read_bytes()
     at = content.index(b"\xaaD\x12\x1c\x2a\x00")
     values, ticks = table_of(stream_of(file, "BESTPOS"))

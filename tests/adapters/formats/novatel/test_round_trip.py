@@ -86,7 +86,10 @@ def test_logs_across_the_blocks_of_a_large_file_are_all_found(tmp_path: Path) ->
     times = 3_500_000 // len(log)
     file = opened(tmp_path, log * times)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 2 * times, "BESTVEL": 2 * times}
-    assert f"{7 * times} bytes between logs (prompts, answers, damaged logs): not read" in file.told
+    assert (
+        f"{7 * times} bytes between logs (prompts, answers, damaged logs): not read"
+        in file.warnings
+    )
 
 
 def test_the_clock_counts_on_over_the_end_of_a_week(tmp_path: Path) -> None:
@@ -103,7 +106,7 @@ def test_a_log_that_begins_in_one_block_and_ends_in_the_next_is_found(
 ) -> None:
     file = opened(tmp_path, b"." * (BLOCK - ahead) + log)
     assert {s.name: s.count for s in file.streams} == {"BESTPOS": 1, "BESTVEL": 1}
-    assert f"{BLOCK - ahead} bytes between logs" in file.told[0]
+    assert f"{BLOCK - ahead} bytes between logs" in file.warnings[0]
 
 
 def test_a_binary_log_of_any_week_and_status_is_recognised(tmp_path: Path) -> None:

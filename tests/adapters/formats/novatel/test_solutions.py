@@ -60,7 +60,7 @@ def test_definitions_of_other_firmware_add_their_columns(tmp_path: Path) -> None
 @pytest.mark.parametrize("log", [binary_log(ONE), ascii_log(ONE)])
 def test_the_latency_of_velocities_is_told(tmp_path: Path, log: bytes) -> None:
     line = "BESTVEL: velocities of up to 0.15 s before their time stamps; state a delay_s"
-    assert opened(tmp_path, log).told == (line,)
+    assert opened(tmp_path, log).warnings == (line,)
 
 
 def test_angles_say_which_way_they_go(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ def test_scales_are_applied_and_those_that_are_not_known_are_told(tmp_path: Path
     ):
         path.write_bytes(segment(META | NEW | RAW, doubles(1, 3, properties), raw))
         native, [(values, _)] = read(path)
-        assert native.told == (f"g: 1 channels are {why}",)
+        assert native.warnings == (f"g: 1 channels are {why}",)
         assert values == {}
 
 
@@ -51,12 +51,12 @@ def test_a_scale_or_unit_that_changes_on_the_way_is_not_applied_to_what_came_bef
     path.write_bytes(waves([(2, before), (2, after)]))
     native, _ = read(path)
     assert not native.streams[0].columns[0].numeric
-    assert "whose scale or unit changes" in native.told[0]
+    assert "whose scale or unit changes" in native.warnings[0]
     for same in (waves([(2, before), (2, before)]), waves([(4, before)]) + waves([(0, after)])):
         path.write_bytes(same)
         native, _ = read(path)
         assert native.streams[0].columns[0].numeric
-        assert native.told == ()
+        assert native.warnings == ()
 
 
 def test_buffers_of_a_device_are_read(tmp_path: Path) -> None:

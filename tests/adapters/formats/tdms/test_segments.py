@@ -56,7 +56,7 @@ def test_values_are_found_however_they_are_laid(
     cut = min(cut, len(raw) - 1)
     path.write_bytes(data[: len(data) - cut])
     native, [(values, _)] = read(path)
-    assert bool(cut) == any("cut off" in line for line in native.told)
+    assert bool(cut) == any("cut off" in line for line in native.warnings)
     size, row = 8 * channels * chunk, 8 * channels
     complete, rest = divmod(len(raw) - cut, size)
     rows = rest // row if interleaved else max(rest - (channels - 1) * 8 * chunk, 0) // 8
@@ -109,6 +109,6 @@ def test_texts_and_empty_channels_are_told(tmp_path: Path) -> None:
         words = ChannelObject("g", "words", ["a", "b"])
         writer.write_segment([words, ChannelObject("g", "none", np.empty(0))])
     native, _ = read(tmp_path / "a.tdms")
-    assert native.told[0] == "g: 1 channels hold no values"
-    assert native.told[-1] == "g: 1 channels are text"
+    assert native.warnings[0] == "g: 1 channels hold no values"
+    assert native.warnings[-1] == "g: 1 channels are text"
     assert not native.streams[0].columns[0].numeric

@@ -71,7 +71,7 @@ def test_a_column_that_is_called_so_and_has_a_unit_of_time_is_the_clock(
     clock = native.streams[0].clock
     if tick_s is None:
         assert (clock.name, clock.rate, ticks) == ("unknown", 1, None)
-        assert "give its rate in the map" in native.told[0]
+        assert "give its rate in the map" in native.warnings[0]
         np.testing.assert_array_equal(values[name], [0.5, 1.5])
     else:
         assert (clock.name, clock.rate, clock.tick_s) == ("", None, tick_s)

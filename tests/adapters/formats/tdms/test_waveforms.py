@@ -97,7 +97,7 @@ def test_a_start_that_is_stated_again_as_recording_goes_on_is_no_new_waveform(
     native, [(values, ticks)] = read(path)
     clock = native.streams[0].clock
     assert (clock.rate, clock.origin_ns, ticks) == (1000, 1_700_000_000 * 10**9, None)
-    assert (len(values["c0"]), native.told) == (20, ())
+    assert (len(values["c0"]), native.warnings) == (20, ())
 
 
 def test_a_pause_between_waveforms_is_kept_and_told(tmp_path: Path) -> None:
@@ -105,7 +105,7 @@ def test_a_pause_between_waveforms_is_kept_and_told(tmp_path: Path) -> None:
     path.write_bytes(waves([(2, starting(0, 0.001)), (2, starting(10**9, 0.001))]))
     native, [(_, ticks)] = read(path)
     assert ticks.tolist() == [0, 1_000_000, 1_000_000_000, 1_001_000_000]
-    assert native.told == ("g: 2 waveforms one after the other",)
+    assert native.warnings == ("g: 2 waveforms one after the other",)
     path.write_bytes(waves([(2, {"wf_increment": 0.5}), (2, {"wf_increment": 0.25})]))
     assert read(path)[1][0][1].tolist() == [0, 500_000_000, 1_000_000_000, 1_250_000_000]
     path.write_bytes(waves([(2, {"wf_increment": 0.5}), (2, {"wf_increment": 0.0})]))

@@ -163,9 +163,9 @@ def test_a_profile_directory_that_is_damaged_is_not_processed(tmp_path: Path) ->
 
 def test_every_source_is_told_once(folder: Path) -> None:
     paths = [folder / "made", folder / "made.csv", folder / "made", folder / "gone.erd"]
-    told: list[Path] = []
-    convert_all(paths, Processing(), told.append)
-    assert sorted(told) == sorted(set(paths))
+    warnings: list[Path] = []
+    convert_all(paths, Processing(), warnings.append)
+    assert sorted(warnings) == sorted(set(paths))
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, ZeroDivisionError])

@@ -184,20 +184,20 @@ def test_the_deflection_is_noisy_coarse_and_off_in_scale() -> None:
 @settings(deadline=None, max_examples=30)
 @given(seed=st.integers(0, 2**63 - 1), error=st.floats(0.0, 0.2))
 def test_an_installer_knows_each_parameter_but_for_an_error(seed: int, error: float) -> None:
-    true, told = LOADED_VAN.known(), as_installed(LOADED_VAN.known(), error, seed)
-    assert (told.model, told.x_m) == (true.model, true.x_m)
-    off = [told.parameters[n] / v - 1 for n, v in true.parameters.items() if v]
+    true, warnings = LOADED_VAN.known(), as_installed(LOADED_VAN.known(), error, seed)
+    assert (warnings.model, warnings.x_m) == (true.model, true.x_m)
+    off = [warnings.parameters[n] / v - 1 for n, v in true.parameters.items() if v]
     assert np.abs(off).max() <= error * (1 + 1e-9)
     assert error < 1e-6 or np.ptp(off) > 0.05 * error
-    assert told.parameters["tyre_ns_per_m"] == 0.0
+    assert warnings.parameters["tyre_ns_per_m"] == 0.0
 
 
 def test_a_trailers_corner_is_of_its_own_axle() -> None:
-    told, axle = TRAILER.known(), TRAILER.rear
-    assert told.x_m == axle.x_m
-    assert told.parameters["unsprung_kg"] == axle.wheel_kg
-    assert told.parameters["suspension_n_per_m"] == axle.spring
-    share = 2 * told.parameters["sprung_kg"] / TRAILER.sprung_kg
+    warnings, axle = TRAILER.known(), TRAILER.rear
+    assert warnings.x_m == axle.x_m
+    assert warnings.parameters["unsprung_kg"] == axle.wheel_kg
+    assert warnings.parameters["suspension_n_per_m"] == axle.spring
+    share = 2 * warnings.parameters["sprung_kg"] / TRAILER.sprung_kg
     assert share == pytest.approx(TRAILER.front.x_m / TRAILER.wheelbase_m)
 
 

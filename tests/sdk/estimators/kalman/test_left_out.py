@@ -41,7 +41,7 @@ def test_wild_readings_are_told_by_channel_and_sound_ones_are_not(
         drawn.y[sorted(lost), kind] += WILD[kind]
     through(made, drawn, range(300, len(drawn.u), 300))
     expected = [line(drawn, kind, min(wild[kind]), len(wild[kind])) for kind in sorted(wild)]
-    assert list(made.told()) == expected
+    assert list(made.warnings()) == expected
 
 
 @both
@@ -52,7 +52,7 @@ def test_of_a_leap_the_readings_are_told_before_it_is_taken_for_another_datum(
     drawn, made = drive(5, SECONDS, RATE), stage(Plan(), Noise())
     drawn.y[80:, 0] += leap
     through(made, drawn)
-    assert made.told() == (line(drawn, 0, 80, BELIEVED_AT - 1),)
+    assert made.warnings() == (line(drawn, 0, 80, BELIEVED_AT - 1),)
 
 
 @both
@@ -63,11 +63,11 @@ def test_heights_that_do_not_insist_are_left_out_however_many_they_are(drive, th
     assert len(wild) > BELIEVED_AT
     drawn.y[wild, 0] += WILD[0]
     through(made, drawn)
-    assert made.told() == (line(drawn, 0, 30, len(wild)),)
+    assert made.warnings() == (line(drawn, 0, 30, len(wild)),)
 
 
 @both
 def test_before_the_first_sample_there_is_nothing_to_tell(drive, stage):
     made = stage(Plan(), Noise())
     made.start(drive(1, 0.1, RATE).header)
-    assert made.told() == ()
+    assert made.warnings() == ()

@@ -41,7 +41,7 @@ def test_a_leap_is_flagged_and_told(drive, through, seed, leap_m, down, at_s, cu
     slow = np.flatnonzero(flags & np.uint8(Flag.SLOW))
     assert slow.size
     assert abs(slow[0] - at_s * RATE) <= 1.0
-    (line,) = stage.told()
+    (line,) = stage.warnings()
     assert "height, left" in line
     (told_mm,) = re.findall(r"leaps by (\d+) mm", line)
     assert abs(float(told_mm) - 1e3 * leap_m) <= 1.0
@@ -52,10 +52,10 @@ def test_an_edge_of_the_road_is_no_leap(drive, through, leap_m):
     stage = RoadPriorSmoother()
     out = through(stage, standing(drive, 1, leap_m, 8.5))
     assert not (out.flags.get(HEIGHT, np.zeros(1, np.uint8)) & np.uint8(Flag.SLOW)).any()
-    assert stage.told() == ()
+    assert stage.warnings() == ()
 
 
 def test_while_it_moves_nothing_is_a_leap(drive, through):
     stage = RoadPriorSmoother()
     through(stage, standing(drive, 2, 0.05, 3.0))
-    assert stage.told() == ()
+    assert stage.warnings() == ()

@@ -117,7 +117,7 @@ def test_every_column_is_found_by_its_full_name_unless_another_has_it(
 
 
 def test_what_was_lost_of_a_file_is_said_of_a_name_that_is_not_there() -> None:
-    native = NativeFile((), told=("the last segment is\ncut off", "b", "c", "d"))
+    native = NativeFile((), warnings=("the last segment is\ncut off", "b", "c", "d"))
     with pytest.raises(InputError) as caught:
         find(native, "DMI")
     assert str(caught.value).endswith("(of the file: the last segment is\\ncut off; b; c)")

@@ -69,7 +69,7 @@ def test_si_is_sign_times_unit_times_scale_times_sample_plus_offset(
     room = 1e-13 * size * max(abs(scale * x) + abs(offset) for x in values)
     np.testing.assert_allclose(converted(made, values), wanted, rtol=1e-13, atol=room)
     made.finish()
-    assert made.told == []
+    assert made.warnings == []
 
 
 @few
@@ -143,7 +143,7 @@ def test_a_speed_is_integrated_by_the_trapezoidal_rule(
     wanted = travelled([v / 3.6 for v in speeds], times.tolist())
     np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-9)
     made.finish()
-    assert made.told == ["a speed, integrated into the distance"]
+    assert made.warnings == ["a speed, integrated into the distance"]
 
 
 @few
@@ -171,14 +171,14 @@ def test_infinite_samples_are_missing_and_told(wrap: float | None) -> None:
     found = converted(made, [1.0, np.inf, -np.inf, 2.0], cuts=[2])
     np.testing.assert_array_equal(found, [1.0, np.nan, np.nan, 2.0])
     made.finish()
-    assert made.told == ["2 samples are infinite; taken as missing"]
+    assert made.warnings == ["2 samples are infinite; taken as missing"]
 
 
 def test_samples_that_overflow_are_missing_and_told() -> None:
     made = conversion(scale=1e30, offset=-1e30)
     np.testing.assert_array_equal(converted(made, [1e300, 1.0]), [np.nan, 0.0])
     made.finish()
-    assert made.told == ["1 samples are infinite; taken as missing"]
+    assert made.warnings == ["1 samples are infinite; taken as missing"]
 
 
 def test_the_samples_of_an_adapter_stay_as_they_were() -> None:

@@ -78,7 +78,7 @@ def test_a_map_that_overrules_the_file_is_told(
     unit: str, file: str, scale: float, told: bool
 ) -> None:
     made = conversion(unit=unit, file=file, scale=scale)
-    assert made.told == (
+    assert made.warnings == (
         [f"the file says unit {file}, the map {unit}; the map counts"] if told else []
     )
     assert converted(made, [2.0])[0] == pytest.approx(unit_of(unit).factor * scale * 2.0)

@@ -108,7 +108,7 @@ def test_a_stream_that_the_file_puts_on_the_base_clock_can_have_its_own(
     expected = 0.37 + (1 + 40e-6) * np.arange(400 * SECONDS) / 400
     np.testing.assert_allclose(times_of(reading, "height"), expected, rtol=0, atol=2.5e-3)
     assert times_of(reading, "vertical_specific_force")[0] == 0
-    (line,) = reading.told
+    (line,) = reading.warnings
     assert line.startswith("clock of the source, laser: the pulses repeat every 4 s")
 
 
@@ -139,7 +139,7 @@ def test_that_streams_begin_together_is_told_unless_file_or_map_says_so(
     lines: int,
 ) -> None:
     laser = laser_of(0, 0, **rated)
-    told = read(clock + FORCE + HEIGHT, adc(), laser).told
+    told = read(clock + FORCE + HEIGHT, adc(), laser).warnings
     assert len(told) == lines
     assert all("counted from zero by its rate" in line for line in told)
 

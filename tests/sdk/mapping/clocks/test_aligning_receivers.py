@@ -27,7 +27,7 @@ def test_what_aligned_a_clock_names_it(
     utc = {"epoch": Epoch.UTC, "origin_ns": 20_000 * 86_400 * 10**9}
     rows = make_stream("GGA", {"hgt": [5.0] * 20}, rate=Fraction(20), name="NMEA", **utc)
     reading = read(GNSS + FORCE + HGT, adc(**utc), gps=rows)
-    (line,) = reading.told
+    (line,) = reading.warnings
     assert line.startswith("clock of gps, GGA: aligned by the absolute times of both clocks")
 
 
@@ -50,7 +50,7 @@ def test_utc_and_gps_time_are_leap_seconds_apart(
     source = adc(epoch=Epoch.UTC, origin_ns=utc_ns)
     reading = read(GNSS + FORCE + HGT, source, gps=gps(make_stream, GPS_2026 * 1000 + 2500))
     assert times_of(reading, "gnss_height")[0] == pytest.approx(2.5, abs=1e-9)
-    assert any("18 leap seconds" in line for line in reading.told)
+    assert any("18 leap seconds" in line for line in reading.warnings)
 
 
 def test_the_time_of_day_is_of_the_nearest_day(
@@ -94,7 +94,7 @@ def test_pulses_per_second_make_a_rough_offset_sharp(
     # The receiver's own zero is the whole second before its first row.
     expected = 2.5 + late if known else 2.0 + late + 0.5
     assert times_of(reading, "gnss_height")[0] == pytest.approx(expected, abs=2e-3)
-    lines = [line for line in reading.told if "from where the absolute times" in line]
+    lines = [line for line in reading.warnings if "from where the absolute times" in line]
     assert len(lines) == known
     assert all(line.startswith("clock of gps, BESTPOS: the pulses put it +0.21") for line in lines)
 

@@ -67,7 +67,7 @@ def test_every_row_has_its_own_time_whatever_the_pieces(
     rows = found.columns[0].astype(int)
     tolerance = 1.001e-3 if found.rate is not None and not floats else 0
     np.testing.assert_allclose(times(found), true[rows], rtol=0, atol=tolerance + 3e-7)
-    assert found.told == () or repeated
+    assert found.warnings == () or repeated
     if found.rate is None:
         assert (np.diff(times(found)) > 0).all() or abs(origin) > 1e15
         assert np.array_equal(np.unique(ticks), ticks[rows])
@@ -82,7 +82,7 @@ def test_rows_that_go_back_take_their_samples_with_them(
     for column in found.columns:
         np.testing.assert_array_equal(column, np.delete(np.arange(1000.0), [500, 800]))
     np.testing.assert_array_equal(times(found), np.delete(ticks, [500, 800]))
-    assert found.told == (
+    assert found.warnings == (
         "time goes back in 2 rows, first at row 500, from 1497 to 7; they are dropped",
     )
 
@@ -95,7 +95,7 @@ def test_rows_without_a_time_take_their_samples_with_them(
     found = taken(reading(ticks, [1]))
     assert found.columns[0].tolist() == np.delete(np.arange(1000.0), [0, 1, 400]).tolist()
     assert times(found).tolist() == np.delete(np.arange(1000.0), [0, 1, 400]).tolist()
-    assert found.told == ("3 rows have no time; they are dropped",)
+    assert found.warnings == ("3 rows have no time; they are dropped",)
 
 
 def test_repeated_stamps_keep_the_first_of_each(reading: Make, taken: Make) -> None:
@@ -103,7 +103,7 @@ def test_repeated_stamps_keep_the_first_of_each(reading: Make, taken: Make) -> N
     ticks[50] = 49
     found = taken(reading(ticks, [49, 50]), columns=2)
     assert [c.tolist() for c in found.columns] == [np.delete(np.arange(100.0), 50).tolist()] * 2
-    assert found.told == ("1 rows repeat the time of another; only the first of each is used",)
+    assert found.warnings == ("1 rows repeat the time of another; only the first of each is used",)
 
 
 def test_a_clock_that_stands_still_is_refused(reading: Make, taken: Make) -> None:
@@ -114,10 +114,10 @@ def test_a_clock_that_stands_still_is_refused(reading: Make, taken: Make) -> Non
 
 @pytest.mark.parametrize("more", [1, 10**6])
 def test_a_stream_that_ends_early_is_told(more: int, reading: Make, taken: Make) -> None:
-    lines = taken(reading(np.arange(100), count=100 + more)).told
+    lines = taken(reading(np.arange(100), count=100 + more)).warnings
     assert lines == (f"has 100 of {100 + more} rows; the file is truncated",)
     uniform = reading(None, size=100, count=100 + more, rate=Fraction(10))
-    assert taken(uniform).told == lines
+    assert taken(uniform).warnings == lines
 
 
 @pytest.mark.parametrize("ticks", [np.empty(0), np.empty(0, np.int64)])

@@ -21,7 +21,7 @@ def test_stamps_in_ms_of_16_khz_are_the_rate_and_lose_no_row(reading: Make, take
     found = taken(reading(ticks, [5000], tick_s=Fraction(1, 1000)))
     assert found.rate == 16_000
     assert found.columns[0].size == 32_000
-    assert found.told == ()
+    assert found.warnings == ()
 
 
 def test_a_stream_without_any_time_says_so(reading: Make, taken: Make) -> None:
@@ -54,7 +54,7 @@ def test_a_stated_rate_replaces_the_clock_of_the_stream(
 ) -> None:
     stream = reading(ticks, [1], **clock, **({"size": 3} if ticks is None else {}))
     found = taken(stream, ClockEntry(rate=STATED, start_s=start_s))
-    assert (found.rate, found.times_s, found.told) == (STATED, None, ())
+    assert (found.rate, found.times_s, found.warnings) == (STATED, None, ())
     assert found.columns[0].tolist() == [0, 1, 2]
     origin = clock.get("origin_ns", 0) / 1e9
     assert found.start_s == (begin if start_s is None else origin + start_s)

@@ -56,7 +56,7 @@ def read(
 
 def test_sensors_at_one_give_no_warning(read: Callable[[str, float], Reading]) -> None:
     reading = read("", 0.0)
-    assert reading.told == ()
+    assert reading.warnings == ()
     (skew,) = reading.skews
     assert abs(skew["skew_s"]) < 5e-5
 
@@ -64,11 +64,11 @@ def test_sensors_at_one_give_no_warning(read: Callable[[str, float], Reading]) -
 def test_a_late_laser_is_told_and_cured_by_the_delay_that_is_told(
     read: Callable[[str, float], Reading],
 ) -> None:
-    (line,) = read("", 0.002).told
+    (line,) = read("", 0.002).warnings
     assert line.startswith("channel height: 2.0")
     delay = line.partition("add ")[2].partition(" to its delay_s")[0]
     cured = read(f"delay_s = {delay}", 0.002)
-    assert cured.told == ()
+    assert cured.warnings == ()
     assert abs(cured.skews[0]["skew_s"]) < 5e-5
 
 
@@ -79,5 +79,5 @@ def test_a_late_laser_is_told_and_cured_by_the_delay_that_is_told(
 def test_a_height_that_moves_otherwise_than_the_accelerometer_is_told(
     read: Callable[[str, float], Reading], stated: str, said: str
 ) -> None:
-    (line,) = read(stated, 0.0).told
+    (line,) = read(stated, 0.0).warnings
     assert line.startswith(f"channel height: {said} as far as the accelerometer")

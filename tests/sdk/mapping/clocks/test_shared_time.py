@@ -44,11 +44,11 @@ def test_what_is_cut_can_be_processed_and_has_every_sample_of_the_shared_time(
         channel(HEIGHT, *height, rate, stamped),
         channel(DISTANCE, *distance, 50.0, stamped),
     ]
-    channels, told = cut_to_shared(whole, ["a", "b", "c"], 0)
+    channels, warnings = cut_to_shared(whole, ["a", "b", "c"], 0)
     examine(Recording(channels))
     begins, ends = zip(*(c.span_s for c in whole), strict=True)
     begin, end = max(begins), min(ends)
-    assert bool(told) is bool(max(begin - min(begins), max(ends) - end) > TRUNCATION_S)
+    assert bool(warnings) is bool(max(begin - min(begins), max(ends) - end) > TRUNCATION_S)
     for cut, old in zip(channels, whole, strict=True):
         first = int(np.abs(old.times_s - cut.times_s[0]).argmin())
         rows = slice(first, first + cut.values.size)
@@ -58,7 +58,7 @@ def test_what_is_cut_can_be_processed_and_has_every_sample_of_the_shared_time(
         assert cut.span_s[1] >= end - 1e-9
         # One sample stays on either side, so that the ends lie between samples.
         beyond = (cut.times_s < begin - 1e-9) | (cut.times_s > end + 1e-9)
-        assert not told or beyond.sum() <= 2
+        assert not warnings or beyond.sum() <= 2
 
 
 def cut(clocks: Sequence[str], *channels: Channel) -> tuple[tuple[Channel, ...], tuple[str, ...]]:

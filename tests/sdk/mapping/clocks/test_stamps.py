@@ -186,7 +186,7 @@ def told(ticks: np.ndarray) -> list[str]:
     advancing = Advancing()
     for piece in np.split(ticks, [ticks.size // 2]):
         advancing(piece)
-    return list(advancing.told())
+    return list(advancing.warnings())
 
 
 def test_a_few_rows_that_go_back_are_dropped_and_told() -> None:

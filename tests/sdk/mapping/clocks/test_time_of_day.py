@@ -42,7 +42,7 @@ def test_readings_are_the_receivers_own_time(
         return
     if epoch is Epoch.DAY and counted == "unix":
         return
-    found, told = since_zero(np.array([reading + 0.25]), float(own_zero(utc, epoch)), epoch)
+    found, warnings = since_zero(np.array([reading + 0.25]), float(own_zero(utc, epoch)), epoch)
     expected = late + 0.25
     if epoch is Epoch.DAY or counted == "day":
         off = (float(found[0]) - expected + DAY / 2) % DAY - DAY / 2
@@ -50,10 +50,10 @@ def test_readings_are_the_receivers_own_time(
         off = float(found[0]) - expected
     assert off == pytest.approx(0.0, abs=1e-6)
     ahead = epoch is not Epoch.GPS and not of_utc
-    assert any("ahead of the receiver's own" in line for line in told) == ahead
+    assert any("ahead of the receiver's own" in line for line in warnings) == ahead
 
 
 def test_a_receiver_that_counts_for_itself_is_taken_at_its_word() -> None:
-    found, told = since_zero(np.array([5.0]), 3.0, Epoch.LOCAL)
+    found, warnings = since_zero(np.array([5.0]), 3.0, Epoch.LOCAL)
     assert found.tolist() == [5.0]
-    assert told == ()
+    assert warnings == ()

@@ -56,7 +56,7 @@ def test_irregular_pulses_tell_any_offset(seed, offset, drift, jitter) -> None:
     assert abs(found.drift - drift) <= 5 * found.drift_sigma + 1e-11
     assert found.residual_s <= 1.2 * jitter + 1e-8
     assert found.pairs + found.dropped == trains.own.size
-    assert found.told == ()
+    assert found.warnings == ()
 
 
 @FEW
@@ -88,7 +88,7 @@ def test_periodic_pulses_take_the_nearest_shift_and_say_so(
     begin = trains.true_own[0]
     found = align_by_pulses(trains.own, trains.base, offset + drift * begin + guess)
     assert off(found, trains.true_own, offset, drift) <= 1e-3
-    (line,) = found.told
+    (line,) = found.warnings
     assert line.startswith("the pulses repeat every 4 s; of the shifts that fit")
 
 
@@ -125,7 +125,7 @@ def test_a_drift_that_changes_is_followed_between_the_pulses(seed, offset, ampli
     base = offset + own + wander + rng.uniform(-1e-5, 1e-5, own.size)
     found = align_by_pulses(own, base)
     assert not found.uniform
-    assert "the drift is not constant" in found.told[-1]
+    assert "the drift is not constant" in found.warnings[-1]
     between = np.linspace(own[0], own[-1], 5000)
     true = offset + between + amplitude * np.sin(2 * np.pi * between / own[-1])
     assert np.abs(found.to_base(between) - true).max() < 5e-5
@@ -139,7 +139,7 @@ def test_jitter_alone_bends_nothing(seed, drift, count) -> None:
     own = irregular(rng, count)
     found = align_by_pulses(own, (1 + drift) * own + rng.uniform(-5e-3, 5e-3, count))
     assert found.uniform
-    assert found.told == ()
+    assert found.warnings == ()
 
 
 @FEW
@@ -153,7 +153,7 @@ def test_pulses_that_are_off_move_nothing(seed, offset, drift, bad) -> None:
     found = align_by_pulses(own, base)
     assert off(found, own, offset, drift) <= 2e-5
     assert found.dropped >= len(set(bad))
-    assert found.told == ()
+    assert found.warnings == ()
 
 
 @FEW
@@ -189,7 +189,7 @@ def test_whole_seconds_of_gnss_time(seed, drift, epoch) -> None:
     near = offset + drift * trains.own[0] + rng.uniform(-0.35, 0.35)
     found = align_by_pps(trains.own, near)
     assert off(found, trains.true_own, offset, drift) <= 3e-6
-    assert found.told == ()
+    assert found.warnings == ()
 
 
 def test_pulses_that_are_no_seconds_are_refused() -> None:
@@ -225,7 +225,7 @@ def test_strangers_are_refused(seed) -> None:
 def test_one_pulse_is_an_offset_and_two_are_a_line() -> None:
     one = align_by_pulses(np.array([7.0]), np.array([10.5]))
     assert (one.offset_s, one.drift, one.pairs) == (3.5, 0.0, 1)
-    assert "1 common pulse(s)" in one.told[0]
+    assert "1 common pulse(s)" in one.warnings[0]
     two = align_by_pulses(np.array([0.0, 1000.0]), np.array([5.0, 1005.1]))
     assert two.drift == pytest.approx(1e-4)
     assert np.isnan(two.drift_sigma)

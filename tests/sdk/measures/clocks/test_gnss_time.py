@@ -37,7 +37,7 @@ def test_time_readings_tell_the_clock_to_within_their_bound(seed, drift, late, s
     assert behind.min() > 0.0
     assert behind.max() < 0.02 + 0.004 + 0.1 * late
     assert behind.max() < found.late_s <= 0.11
-    assert "late by up to 0.102 s" in found.told[0]
+    assert "late by up to 0.102 s" in found.warnings[0]
 
 
 @pytest.mark.cites("section 4.4")

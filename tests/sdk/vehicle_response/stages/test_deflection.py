@@ -36,7 +36,7 @@ def told(
     for block in Stream(lambda: CompareTravel(*NAMES, 5e-4), samples, ("left",)).blocks([333, 900]):
         stage.push(block)
     stage.finish()
-    return stage.told()
+    return stage.warnings()
 
 
 def test_sensors_that_agree_are_not_told() -> None:
