@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 import pluggy
 
+from floatref.builtin_pipelines.plugin import Defaults
 from floatref.engine.registration import (
     Register,
     check_adapter,
@@ -73,15 +74,13 @@ class Plugins:
 
     def __init__(self) -> None:
         """Load the defaults; `load` adds others."""
-        from floatref.builtin_pipelines import plugin as builtin
-
         self.reports: list[str] = []
         self._lock = RLock()
         self._loading = False
         self._registering: dict[str, Register] = {}
         self._manager = pluggy.PluginManager(PROJECT)
         self._manager.add_hookspecs(hookspecs)
-        self.add(builtin.Defaults(), BUILT_IN)
+        self.add(Defaults(), BUILT_IN)
 
     def add(self, plugin: object, name: str) -> None:
         """Add ``plugin`` under ``name``; one that does not fit the hooks is reported."""
