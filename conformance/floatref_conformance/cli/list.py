@@ -66,8 +66,8 @@ def _devices(registry: Registry) -> list[dict[str, Any]]:
 def _in_words(listing: dict[str, Any]) -> str:
     checks, devices = listing["checks"], listing["devices"]
     built = [check["id"] for check in checks if check["built"]]
-    text = [(c["id"], c["title"], _details(c)) for c in checks]
-    lines = ["Checks", *_align(text)]
+    rows = [(c["id"], c["title"], _details(c)) for c in checks]
+    lines = ["Checks", *_align(rows)]
     for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
         rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]
         lines += ["", f"Devices, {kind}", *_align(rows)]

@@ -35,8 +35,8 @@ class CaseFiles:
             return
         case = Case.of(check.id, found["parameters"])
         spec = str(result.device["spec"])
-        text = document(case, result.device_class, spec, found["reason"])
-        text = json.dumps(text, indent=2, ensure_ascii=False) + "\n"
+        kept = document(case, result.device_class, spec, found["reason"])
+        text = json.dumps(kept, indent=2, ensure_ascii=False) + "\n"
         with replacing_file(self.folder / name_of(case), overwrite=True) as beside:
             # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.
             beside.write_bytes(text.encode("utf-8", "backslashreplace"))

@@ -134,8 +134,8 @@ def _draw_parked(scenario: Scenario, name: str, scored: Sequence[Place]) -> Figu
     """Return the drawing over time of a stationary vehicle."""
     speed = scenario.speed_kmh * KMH
     t = np.linspace(0.0, DURATION_S, SAMPLES)
-    text = Line("speed", t, np.full(t.size, scenario.speed_kmh), "speed")
-    panels = [Panel("encoder", "km/h", (text,), 80.0, from_zero=True)]
+    line = Line("speed", t, np.full(t.size, scenario.speed_kmh), "speed")
+    panels = [Panel("encoder", "km/h", (line,), 80.0, from_zero=True)]
     moves = "the engine shakes the body"
     if scenario.manoeuvre == "bounce":
         height = 1000 * Push().heights(t)[0]

@@ -125,9 +125,9 @@ def _encoder_m(simulation: Simulation) -> FloatArray:
     """Return the distance in m by the encoder at the points of the truth."""
     truth, motion = simulation.truth, simulation.motion
     encoder = simulation.recording.channel("distance")
-    text = np.interp(motion.times_s, encoder.times_s, encoder.values)
+    recorded = np.interp(motion.times_s, encoder.times_s, encoder.values)
     points = truth.interval_m * np.arange(truth.tracks[0].elevation.size)
-    return np.asarray(np.interp(points, motion.distance, text))
+    return np.asarray(np.interp(points, motion.distance, recorded))
 
 
 def _in_memory(profile: Profile) -> Profile:

@@ -53,14 +53,14 @@ def print_worksheet(worksheet: Worksheet, console: Console) -> None:
 
 def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
     """Return limits, settings and versions in one line each, then where criteria come from."""
-    text = (
+    rows = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
         ("Settings", wording.list_pairs(worksheet.settings)),
         ("Versions", wording.list_pairs(worksheet.versions)),
     )
     lines = [
         f"{title}: {'; '.join(f'{name} {value}' for name, value in pairs)}."
-        for title, pairs in text
+        for title, pairs in rows
         if pairs
     ]
     return (*lines, *(f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet)))
@@ -114,8 +114,8 @@ def _print_criteria(title: str, criteria: tuple[Criterion, ...], console: Consol
     for one in criteria:
         word = Text(one.judged.value, COLOURS.get(one.judged, ""))
         value, limit = wording.value_in_words(one), wording.limit_in_words(one)
-        text = (wording.title_of(one), one.track or "all", value, limit)
-        table.add_row(*map(_text, text), word)
+        cells = (wording.title_of(one), one.track or "all", value, limit)
+        table.add_row(*map(_text, cells), word)
     _show(title, table, console)
     for one in criteria:
         if one.reason:
