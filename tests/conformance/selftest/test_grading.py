@@ -28,7 +28,7 @@ def test_a_limit_that_holds_has_no_faults():
 @pytest.mark.parametrize(
     ("changes", "told"),
     [
-        ({"unspoilt": 0.3}, "the truth itself"),
+        ({"truth_reading": 0.3}, "the truth itself"),
         ({"too_much": 0.99}, "1.5 times the limit passes"),
         ({"allowed": 1.01}, "0.67 times the limit fails"),
         ({"too_much": 1.8}, "1.5 times the limit reads 1.80"),
@@ -42,7 +42,7 @@ def test_each_fault_is_told(changes, told):
 
 
 def test_a_limit_of_what_the_filter_does_may_be_used_by_the_truth():
-    assert replace(SOUND, unspoilt=0.6, is_error=False).faults == ()
+    assert replace(SOUND, truth_reading=0.6, is_error=False).faults == ()
 
 
 def test_a_limit_that_others_imply_stands_alone():
