@@ -42,7 +42,7 @@ def to_xarray(profile: Profile) -> "Dataset":
     """Return ``profile`` as a data set with dimensions `track` and `distance`.
 
     Variables are `elevation` and `sigma` in m and `valid`; `sigma` is NaN for a track without
-    one, and left out if none has it. Wheel paths come into one array, which copies them. The
+    one, and left out if no track has it. Wheel paths come into one array, which copies them. The
     attributes hold text and numbers only, so that the set can be written as netCDF. Raises
     InputError where xarray is missing.
     """

@@ -24,7 +24,7 @@ def text_lines(source: Path) -> Iterator[bytes]:
 
 
 def first_bytes(source: Path, size: int) -> bytes:
-    """Return the first ``size`` bytes of ``source``, none if it is no readable file."""
+    """Return the first ``size`` bytes of ``source``, b"" if it is not a readable file."""
     try:
         with source.open("rb") as stream:
             return stream.read(size) if source.is_file() else b""

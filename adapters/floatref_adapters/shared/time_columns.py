@@ -45,10 +45,10 @@ class TimeColumn:
 
 
 def time_column(columns: Sequence[Column], option: str | None) -> TimeColumn | None:
-    """Return the column of time among ``columns``, or None if there is none.
+    """Return the column of time among ``columns``, or None if it is missing.
 
     ``option`` is its name; without it the first one that is named like time is taken, with
-    "none" no column is. InputError if there is no such column, or its unit is none of time.
+    "none" no column is. InputError if there is no such column, or its unit is not one of time.
     """
     if option == NONE:
         return None
@@ -67,7 +67,9 @@ def _named(columns: Sequence[Column], option: str) -> TimeColumn:
             continue
         unit = find_unit(column) or SECONDS.get(column.unit.strip().lower() or "s")
         if unit is None:
-            raise InputError(f"column {option}: unit {column.unit!r} is none of time; use s or ms")
+            raise InputError(
+                f"column {option}: unit {column.unit!r} is not a unit of time; use s or ms"
+            )
         return TimeColumn(index, unit)
     here = ", ".join(column.name for column in columns[:20])
     raise InputError(f"time = {option!r}: no such column; there are {here}")
@@ -87,7 +89,7 @@ def find_unit(column: Column) -> Fraction | None:
 
 
 def of_epoch(clock: NativeClock, options: Mapping[str, str]) -> NativeClock:
-    """Return ``clock`` with the epoch that the option `epoch` states; InputError if it is none."""
+    """Return ``clock`` with the epoch that the option `epoch` states; InputError if unknown."""
     stated = options.get("epoch")
     if stated is None:
         return clock

@@ -1,7 +1,7 @@
 """A recording as a CSV table: column `time_s`, then one column per channel in its SI unit.
 
 There is a row for every time at which any channel has a sample, and a field is empty where a
-channel has none, or misses its sample. So a channel on a slower clock, or on time stamps of its
+channel has no sample, or a missing one. So a channel on a slower clock, or on time stamps of its
 own, is a column with few numbers: a map takes it for `sparse`, as it does a fast one where others
 have rows in between. Times have the decimals that all clocks need, at most nine.
 """

@@ -59,7 +59,7 @@ def count_quanta(
 ) -> tuple[float, NDArray[np.int64]] | None:
     """Return the quantum of ``channel`` and its values in quanta, 0 where missing.
 
-    None if ``quanta``, by the names of channels, has none for it.
+    None if ``quanta``, by the names of channels, does not have it.
     """
     quantum = (quanta or {}).get(channel.id.name)
     if quantum is None:

@@ -29,7 +29,7 @@ HISTORY = (
 
 @dataclass(frozen=True, eq=False)
 class Stored:
-    """A channel as stored: ``values`` of any integer or float type, or `V0` for none.
+    """A channel as stored: ``values`` of any integer or float type, or `V0` for no bytes.
 
     ``line`` is the factor and the offset of a linear conversion, ``invalid`` marks missing
     samples, ``bits`` is the first bit and how many of the integer hold the value. ``sync`` is
@@ -73,7 +73,7 @@ class Blocks:
         return address
 
     def text(self, text: str, kind: str = "TX") -> int:
-        """Append a text and return its address, 0 for none."""
+        """Append a text and return its address, 0 for an empty one."""
         encoded = text.encode() + b"\0"
         return self.add(kind, (), encoded + bytes(-len(encoded) % 8)) if text else 0
 

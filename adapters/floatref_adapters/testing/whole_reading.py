@@ -22,7 +22,7 @@ class Opener(Protocol):
 
 
 def stream_of(file: NativeFile, name: str) -> Stream:
-    """Return the stream ``name`` of ``file``; KeyError if there is none."""
+    """Return the stream ``name`` of ``file``; KeyError if it is missing."""
     return {stream.name: stream for stream in file.streams}[name]
 
 
@@ -71,7 +71,7 @@ def make_columns(native: NativeFile) -> dict[str, list[float]]:
 
 
 def ticks_of(native: NativeFile) -> NDArray[Any]:
-    """Return the ticks of every row of the first stream; ValueError if it has none."""
+    """Return the ticks of every row of the first stream; ValueError if it has no rows."""
     return np.concatenate([np.asarray(rows.ticks) for rows in native.streams[0].read([])])
 
 

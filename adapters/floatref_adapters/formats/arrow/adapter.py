@@ -1,8 +1,8 @@
 """Parquet files, and Arrow IPC files and streams (Feather version 2 is such a file).
 
 The schema states the columns and their clocks, see `arrow_schema`. The clock of a
-column that states none is the column that is named like time, that the option `time` names, or
-the first of a temporal type: its integers are ticks. A time zone makes them UTC; without one
+column that states no clock is the column that is named like time, that the option `time` names,
+or the first of a temporal type: its integers are ticks. A time zone makes them UTC; without one
 they are the logger's own unless the option `epoch` says what they count from.
 """
 

@@ -38,7 +38,7 @@ class IpcSource:
     """The whole record batches of an IPC file or stream."""
 
     def __init__(self, path: Path) -> None:
-        """Count the batches of the file at ``path``; none of their columns is touched."""
+        """Count the batches of the file at ``path``; their columns are not touched."""
         self._path, self._arrow = path, library("pyarrow", "reading Arrow")
         self.warnings: tuple[str, ...] = ()
         self.rows = self._batches = self._packed = self._kept = 0
@@ -147,7 +147,7 @@ def _table(message: bytes, table: int, field: int) -> int:
 
 
 def _place(message: bytes, table: int, field: int) -> int:
-    """Return where ``field`` of a flatbuffer's ``table`` is, 0 if it has none."""
+    """Return where ``field`` of a flatbuffer's ``table`` is, 0 if it is missing."""
     fields = table - struct.unpack_from("<i", message, table)[0]
     if field >= struct.unpack_from("<H", message, fields)[0]:
         return 0

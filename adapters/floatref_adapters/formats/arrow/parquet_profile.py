@@ -105,8 +105,8 @@ def _profile(file: Any) -> Profile:
         for key, value in (file.schema_arrow.metadata or {}).items()
     }
     if metadata.get("format") != FORMAT:
-        held = metadata.get("format", "none")[:40]
-        raise InputError(f"metadata has format {held}; it must be {FORMAT}, as floatref writes it")
+        held = metadata.get("format", "missing")[:40]
+        raise InputError(f"metadata format is {held}; it must be {FORMAT}, as floatref writes it")
     description = read_description(metadata)
     there = file.schema_arrow.names
     names = [*description.columns, *(name for name in description.sigma_columns if name in there)]

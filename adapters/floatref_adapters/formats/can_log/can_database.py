@@ -43,7 +43,7 @@ class Message:
         return not self.multiplexed or self.decoded(data) is not None
 
     def values(self, data: bytes, names: Sequence[str]) -> list[float]:
-        """Return the values of the signals ``names``; NaN where the message has none now."""
+        """Return the values of the signals ``names``; NaN where the message now lacks one."""
         found = self.decoded(data) if names else None
         return [found.get(name, NAN) for name in names] if found else [NAN] * len(names)
 
@@ -60,7 +60,7 @@ class Database:
             self._messages[message.frame_id, bool(message.is_extended_frame)] = message
 
     def message(self, number: int, extended: bool) -> Message | None:
-        """Return the message with the id ``number``, None if there is none."""
+        """Return the message with the id ``number``, None if it is not defined."""
         found = self._messages.get((number, extended))
         return None if found is None else Message(found)
 

@@ -1,4 +1,4 @@
-"""The data frames of a CAN log, read by python-can, with what is none counted.
+"""The data frames of a CAN log, read by python-can; everything else is counted.
 
 Times of text logs are taken from the text itself, in whole ns; python-can has them as floats.
 """
@@ -34,7 +34,7 @@ TROUBLE += (NotImplementedError,)
 
 
 class Frame(NamedTuple):
-    """A data frame: its time in ns, the name of its bus, "" if the log has none, id and data."""
+    """A data frame: its time in ns, the name of its bus, "" if not in the log, id and data."""
 
     tick: int
     bus: str

@@ -20,7 +20,7 @@ BRACKETED = re.compile(r"\s*\((\d{1,10})\.(\d+)\)\s", re.ASCII)
 class Format:
     """A format: ``looks`` finds it in the first bytes, ``reader`` is python-can's class.
 
-    ``time(line, reader)`` is the time of a line in ns, None if it has none. ``headed`` tells that
+    ``time(line, reader)`` is the time of a line in ns, None if it lacks one. ``headed`` tells that
     the reader takes a line for a header whenever it begins. ``dated`` logs count from 1970.
     """
 
@@ -100,7 +100,7 @@ FORMATS = (
 
 
 def find_format(source: Path) -> Format | None:
-    """Return the format that the first bytes of ``source`` show, None if it is none."""
+    """Return the format that the first bytes of ``source`` show, None if it is unknown."""
     head = first_bytes(source, HEAD).removeprefix(MARK)
     # Line ends may be bare carriage returns, which ^ does not know.
     lines = head if head[:4] == b"LOGG" else head.replace(b"\r", b"\n")
@@ -111,7 +111,7 @@ def find_format(source: Path) -> Format | None:
 
 
 def require_format(source: Path) -> Format:
-    """Return the format of ``source``; InputError if it is none that is read."""
+    """Return the format of ``source``; InputError if it is not a CAN log."""
     if not source.is_file():
         raise InputError(f"{source}: not a file; give a CAN log")
     form = find_format(source)

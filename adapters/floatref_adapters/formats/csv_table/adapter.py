@@ -52,7 +52,7 @@ class CsvTable:
                 return False
             return len(find_layout(source, {}).columns) > 1
         except InputError:
-            # A .csv that is none gets its error from reading it.
+            # A .csv that is not a table gets its error from reading it.
             return source.suffix.lower() != ".txt" and b"\0" not in start
         except OSError:
             return False

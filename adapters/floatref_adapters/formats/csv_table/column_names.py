@@ -48,7 +48,7 @@ def name_and_unit(text: str) -> tuple[str, str]:
 def make_columns(
     names: Sequence[str], units: Sequence[str], numeric: Sequence[bool]
 ) -> tuple[Column, ...]:
-    """Return the columns under a row of ``names`` and one of ``units``, "" for none."""
+    """Return the columns under a row of ``names`` and one of ``units``, "" for no unit."""
     first = re.sub(r"^\s*(#+|%+|//)\s*", "", names[0])
     pairs = [name_and_unit(name) for name in (first, *names[1:])]
     plain = [name or f"column {k}" for k, (name, _) in enumerate(pairs, 1)]

@@ -31,7 +31,7 @@ DECIMALS: Mapping[str, str] = {".": ".", "point": ".", ",": ",", "comma": ","}
 
 
 def find_delimiter(lines: Sequence[str], stated: str | None) -> str:
-    """Return the delimiter of ``lines``; the comma if none parts them."""
+    """Return the delimiter of ``lines``; the comma if they have no delimiter."""
     if stated is not None:
         found = SPELLINGS.get(stated, stated)
         if found not in DELIMITERS:

@@ -34,7 +34,7 @@ def is_numeral(text: str) -> bool:
 
 
 def parse(text: str, decimal: str = ".") -> float | None:
-    """Return the number in ``text``, or None if it is none; points of thousands make it none."""
+    """Return the number in ``text``; None if it is not a number, or has points of thousands."""
     plain = text.strip()
     if decimal == ",":
         if "." in plain:

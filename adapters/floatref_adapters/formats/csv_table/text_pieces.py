@@ -19,7 +19,7 @@ Block = tuple[int, bytes]
 
 
 def find_encoding(start: bytes) -> str:
-    """Return the encoding of a text that begins with ``start``; InputError if it is none.
+    """Return the encoding of a text that begins with ``start``; InputError if not text.
 
     Without a byte-order mark it is UTF-8, and Latin-1 where it cannot be that.
     """

@@ -29,7 +29,7 @@ class Writing(Enum):
 
 
 def find_writing(texts: Sequence[str], decimal: str) -> Writing | None:
-    """Return how the times ``texts`` are written, or None if they are none."""
+    """Return how the times ``texts`` are written, or None if they are not times."""
     there = [text for text in texts if text]
     if not there:
         return None
@@ -124,7 +124,7 @@ class Times:
     def ticks(
         self, piece: Piece, values: NDArray[np.float64] | None
     ) -> NDArray[np.int64] | NDArray[np.float64]:
-        """Return the times in ``piece``; InputError with the row if one is none.
+        """Return the times in ``piece``; InputError with the row of one that is not a time.
 
         ``values``, of shape (rows,), are the times as numbers; None where they are text.
         """

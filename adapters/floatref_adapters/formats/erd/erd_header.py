@@ -63,7 +63,8 @@ class ErdHeader:
 def parse_header(raw: bytes) -> ErdHeader:
     """Return the header in ``raw``, the first `LONGEST_HEADER` bytes of a file.
 
-    Raises InputError, without the file's name, for one that is none or cannot be used.
+    Raises InputError, without the file's name, for bytes that are not a header or a header
+    that cannot be used.
     """
     if not raw.removeprefix(BYTE_ORDER_MARK).startswith(VERSION):
         start = raw[:24].decode("latin-1")

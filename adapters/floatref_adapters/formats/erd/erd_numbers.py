@@ -26,8 +26,8 @@ _DOS_END = b"\x1a\0"
 def read_numbers(header: ErdHeader, path: Path, stream: BinaryIO, wanted: Sequence[int]) -> Floats:
     """Return the samples of the channels ``wanted``, shape (samples, channels), NaN as NaN.
 
-    ``stream`` is the open file ``path``. Raises InputError, without the file's name, for numbers
-    that are none, and for another count than the header states.
+    ``stream`` is the open file ``path``. Raises InputError, without the file's name, for data
+    that are not valid numbers, and for another count than the header states.
     """
     if header.key == TEXT:
         stream.seek(header.data_at)

@@ -81,7 +81,7 @@ class Erd:
             raise InputError(f"{path}: {error.strerror or error}; make it readable") from error
 
     def write(self, profile: Profile, path: Path) -> None:
-        """Write ``profile`` as text; InputError for an elevation that no road has, or none."""
+        """Write ``profile`` as text; InputError if a track has no elevation, or one too high."""
         try:
             write_erd(profile, path)
         except InputError as error:

@@ -20,7 +20,7 @@ LONGEST_ATTRIBUTE = 1000
 """Elements of an attribute that is read."""
 _MEANT = "unit units _fillvalue missing_value scale_factor add_offset matlab_class vendor model"
 MEANT = frozenset(_MEANT.split()) | RATES | STEPS | STARTS
-"""Attributes that are read, in small letters. Others may be damaged, and are none of ours."""
+"""Attributes that are read, in small letters. Others may be damaged, and are not used."""
 TROUBLE = (OSError, RuntimeError, ValueError, TypeError, LookupError, AttributeError, MemoryError)
 """What h5py raises for damaged files."""
 
@@ -161,7 +161,7 @@ def read_attributes(item: Any) -> dict[str, Any]:
 
 
 def decode_text(value: Any) -> str:
-    """Return an attribute as text, "" if it is none."""
+    """Return an attribute as text, "" if it is not text."""
     value = getattr(value, "tolist", lambda: value)()
     while isinstance(value, list) and len(value) == 1:
         value = value[0]
@@ -171,7 +171,7 @@ def decode_text(value: Any) -> str:
 
 
 def _scale(item: Any) -> str:
-    """Return the path of the dimension scale of the first axis, "" if it has none."""
+    """Return the path of the dimension scale of the first axis, "" if it is missing."""
     try:
         scales = list(item.dims[0].values()) if item.shape else []
         return str(scales[0].name or "").lstrip("/") if scales else ""

@@ -68,7 +68,7 @@ def check_links(file: BinaryIO, size: int) -> list[int]:
         block = read_block(file, address, size)
         if address in seen or block.kind not in kinds.split():
             raise InputError(
-                f"block {_text(block)} at byte {address} is linked to by mistake; "
+                f"block {_text(block)} at byte {address} has a wrong link to it; "
                 "the file is damaged"
             )
         seen.add(address)

@@ -96,13 +96,13 @@ def _count(conversion: Any) -> int:
 
 
 def _by_value(conversion: Any, raw: Numbers) -> NDArray[np.int64]:
-    """Return which entry of the table each of ``raw`` is of, -1 for none."""
+    """Return which entry of the table each of ``raw`` is of, -1 if it is not in the table."""
     names = ("val", "val") if conversion.conversion_type == BY_VALUE else ("lower", "upper")
     return _entries(conversion, raw, *names, _count(conversion))
 
 
 def _entries(conversion: Any, raw: Numbers, low: str, high: str, count: int) -> NDArray[np.int64]:
-    """Return which of ``count`` ranges each of ``raw`` is in, -1 for none.
+    """Return which of ``count`` ranges each of ``raw`` is in, -1 if outside all of them.
 
     A range holds its upper limit if the values are integers, as the standard has it.
     """

@@ -41,7 +41,7 @@ class Part(NamedTuple):
 
 
 def find_parts(file: BinaryIO, address: int, size: int) -> list[Part]:
-    """Return the parts of the data that begin at ``address``, 0 if there are none.
+    """Return the parts of the data that begin at ``address``, 0 if there is no data.
 
     What lies after the end of the file is left out: the parts then hold less than was recorded.
     InputError for blocks that cannot be data, or that are linked in a ring.

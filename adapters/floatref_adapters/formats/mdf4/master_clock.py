@@ -24,7 +24,7 @@ MASTERS = (2, 3)
 
 @dataclass(frozen=True, eq=False)
 class Timing:
-    """The clock of a group, and the field that the ticks are in, None if it needs none.
+    """The clock of a group, and the field that the ticks are in, None if it needs no field.
 
     ``whole`` tells whether the ticks are the integers of the file.
     """

@@ -114,7 +114,7 @@ class Field:
 
 
 def find_unit(channel: Any) -> str:
-    """Return the unit of ``channel`` or of its conversion as the file has it; "" if none."""
+    """Return the unit of ``channel`` or of its conversion as the file has it; "" if missing."""
     unit = channel.unit or getattr(channel.conversion, "unit", "") or ""
     if not unit and channel.conversion:
         units = {scale.unit or "" for scale in scales_of(channel.conversion).values()}

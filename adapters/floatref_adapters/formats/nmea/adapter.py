@@ -32,7 +32,7 @@ WARNINGS = {
     "sum": "sentences with a wrong checksum: dropped",
     "unsummed": "sentences without a checksum, which others have: dropped",
     "bare": "sentences without a checksum: taken as they are",
-    "broken": "lines or sentences that are cut off or none: dropped",
+    "broken": "lines or sentences that are cut off or not valid: dropped",
     "lines": "lines without a sentence",
     "kinds": f"sentences of more than {MOST_KINDS} kinds: not listed",
     "leap": "times the date leaps; sentences in between have the day before",

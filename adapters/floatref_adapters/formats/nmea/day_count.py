@@ -14,7 +14,7 @@ YEARS = range(1980, 2200)
 
 
 def read_time_of_day_ns(text: str) -> int | None:
-    """Return the ns since midnight of a time `hhmmss.ss`; None if ``text`` is none."""
+    """Return the ns since midnight of a time `hhmmss.ss`; None if ``text`` is not one."""
     found = TIME.match(text)
     if found is None:
         return None

@@ -101,7 +101,7 @@ def _variation(fields: Fields) -> float:
     return -size if fields[10].upper() == "W" else size
 
 
-QUALITY = "0 none, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
+QUALITY = "0 no fix, 1 single, 2 differential, 4 RTK fixed, 5 RTK float"
 OF_EPOCH = "its time is that of the last sentence with one"
 
 

@@ -32,7 +32,7 @@ class Sentence(NamedTuple):
 class Sentences:
     """The sound sentences of ``source``.
 
-    A wrong checksum drops a sentence. So does a missing one, unless the log has none at all.
+    A wrong checksum drops a sentence. So does a missing one, unless the log has no checksums.
     ``InputError`` if pynmea2 is not installed.
     """
 

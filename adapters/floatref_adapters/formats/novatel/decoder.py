@@ -31,7 +31,7 @@ class Decoder:
         self._layouts: dict[tuple[str | int, int | None], LogLayout] = {}
 
     def name_of(self, log: Log) -> str:
-        """Return the name of ``log``, or its number where the list of logs has none."""
+        """Return the name of ``log``, or its number if it is not in the list of logs."""
         definition = self._definition(log.key)
         return str(log.key) if definition is None else str(definition.name)
 

@@ -1,7 +1,7 @@
 """Units of the fields of NovAtel logs, and the quality of their kinds of solution.
 
 The receivers' list of logs has no units. They are given for the logs whose manual says them; a
-field of any other log has none, and the channel map says it.
+field of any other log has no unit, and the channel map says it.
 """
 
 from dataclasses import dataclass
@@ -85,7 +85,7 @@ NOTES = {
 
 @dataclass(frozen=True)
 class Unit:
-    """The unit of a field, "" if it is none or not known, and a note on it."""
+    """The unit of a field, "" if it has no unit or an unknown one, and a note on it."""
 
     text: str
     note: str
@@ -139,4 +139,4 @@ QUALITIES = {
     **dict.fromkeys(("PROPAGATED",), 6.0),
     **dict.fromkeys(("FIXEDPOS", "FIXEDHEIGHT"), 7.0),
 }
-"""Of GGA, by the kind of solution; a kind that is not here has none."""
+"""Of GGA, by the kind of solution; a kind that is not here has no quality."""

@@ -78,7 +78,7 @@ def crc32(content: bytes) -> int:
 
 
 class Frames:
-    """The logs of ``source``; ``faults`` counts what is none. InputError on no file."""
+    """The logs of ``source``; ``faults`` counts everything else. InputError on no file."""
 
     def __init__(self, source: Path, faults: Counter[str]) -> None:
         self._source = source
@@ -141,7 +141,7 @@ def _whole_lines(data: bytes, at: int) -> int:
 
 
 def _length(header: bytes) -> int:
-    """Return how long a binary log is by its header, `NEEDED` if that is cut, 0 if it is none."""
+    """Return how long a binary log is by its header, `NEEDED` if that is cut, 0 if not valid."""
     if len(header) < SHORT_HEADER.size:
         return NEEDED
     if header[2] == 0x13:

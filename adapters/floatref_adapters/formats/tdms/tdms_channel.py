@@ -55,7 +55,7 @@ class TdmsChannel:
 
     @property
     def unit(self) -> str:
-        """Its unit as the file has it; "" if none."""
+        """Its unit as the file has it; "" if missing."""
         properties = self.origin.properties
         unit = properties.get("unit_string") or properties.get("NI_UnitDescription") or ""
         return str(unit).strip()
@@ -100,7 +100,7 @@ class TdmsChannel:
         return True
 
     def scaling(self) -> Any:
-        """Return npTDMS's scaling of it; None if there is none."""
+        """Return npTDMS's scaling of it; None if it is not scaled."""
         from nptdms.scaling import get_scaling
 
         return get_scaling(self.origin.properties, *self.inherited)

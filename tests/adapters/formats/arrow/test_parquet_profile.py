@@ -137,8 +137,8 @@ def test_a_file_by_another_program_with_our_metadata_is_read(tmp_path):
 
 
 BAD = {
-    "metadata has format none": ({}, {"format": None}),
-    "metadata has format floatref-profile/2": ({}, {"format": "floatref-profile/2"}),
+    "metadata format is missing": ({}, {"format": None}),
+    "metadata format is floatref-profile/2": ({}, {"format": "floatref-profile/2"}),
     "metadata interval_m is 'x'": ({}, {"interval_m": "x"}),
     "metadata start_m is 'nan'": ({}, {"start_m": "nan"}),
     "metadata settings is ''": ({}, {"settings": None}),

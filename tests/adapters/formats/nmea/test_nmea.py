@@ -162,7 +162,7 @@ def test_faults_are_told_with_their_counts(tmp_path: Path) -> None:
     assert set(file.warnings) == {
         "1 sentences with a wrong checksum: dropped",
         "1 sentences without a checksum, which others have: dropped",
-        "1 lines or sentences that are cut off or none: dropped",
+        "1 lines or sentences that are cut off or not valid: dropped",
         "2 lines without a sentence",
         "VTG: 1 sentences without a time: dropped",
         "GGA: 1 sentences without a time: dropped",
