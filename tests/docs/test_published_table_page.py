@@ -55,7 +55,7 @@ def test_the_numbers_of_drawn_stops_are_the_codes() -> None:
         f"from {SPEED_KMH[0]:g} to {SPEED_KMH[1]:g} km/h",
         f"a stop of {DWELL_S[0]:g} to {DWELL_S[1]:g} s",
         f"on to {FINAL_SPEED_KMH[0]:g} to {FINAL_SPEED_KMH[1]:g} km/h",
-        f"lies {drawn.event_at_m:g} m into {drawn.length_m:g} m",
+        f"The stop is at {drawn.event_at_m:g} m of {drawn.length_m:g} m",
         f"IRI of {smooth} m/km, fair with {fair} and rough with {rough:g}:",
         f"from {STRETCH_M[0]:g} to {STRETCH_M[1]:g} m",
         f"--stops {StopSettings.stops}",

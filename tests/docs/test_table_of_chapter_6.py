@@ -91,7 +91,7 @@ def test_the_figures_of_the_text_are_the_tables() -> None:
     near = CELLS[CONSTANT[1], "ns_72-11_0.20g"]
     ours, printed = near["cross_correlation"], near["published_cross_correlation"]
     error = abs(near["iri_error_percent"])
-    assert f"has {ours:.3f} for {printed:.3f} there, with an IRI {error:.1f} %" in text
+    assert f"has {ours:.3f} there, print {printed:.3f}, with an IRI {error:.1f} %" in text
     creep = CELLS["kalman-filter", "const_5"]
     ours, printed = creep["iri_error_percent"], creep["published_iri_error_percent"]
     assert f"IRI {ours:.1f} % too high (print {printed:.1f} %)" in text

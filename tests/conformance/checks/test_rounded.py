@@ -32,7 +32,7 @@ def test_no_two_drawn_cases_share_a_road_though_the_same_seed_is_drawn(drives, m
     cases = set()
 
     @settings(deadline=None, max_examples=40, database=None)
-    @given(drives.drawn())
+    @given(drives.case_strategy())
     def collect(case):
         cases.add(case)
 

@@ -99,7 +99,7 @@ def test_incomplete_is_exit_4(call: Callable[..., Result]) -> None:
         (["runs", "--reference", "nowhere"], "nowhere: not found"),
         (["runs/run-9*", "--reference", "reference"], "no file matches this pattern"),
         (["runs", "reference", "--reference", "reference"], "is the reference itself"),
-        (["runs", "--reference", "reference", "--plan", "plan.toml"], "--plan: says runs"),
+        (["runs", "--reference", "reference", "--plan", "plan.toml"], "--plan: names runs"),
         (["--plan", "nowhere.toml"], "nowhere.toml"),
         (["runs", "--reference", "reference", "--section", "a"], "--section a: expected FROM:TO"),
         (["runs", "--reference", "reference", "--section", "9:2"], "from 9 to 2 m is no stretch"),

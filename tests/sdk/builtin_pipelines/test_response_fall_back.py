@@ -101,7 +101,7 @@ def test_an_unknown_vehicle_is_told_and_the_line_stays(drive: Simulation) -> Non
     np.testing.assert_array_equal(
         result.profile.tracks[0].elevation, alone.profile.tracks[0].elevation
     )
-    told = [line for line in result.warnings if "bridged by lines alone" in line]
+    told = [line for line in result.warnings if "bridged by straight lines only" in line]
     assert len(told) == 1
     assert "setup.vehicle" in told[0]
 

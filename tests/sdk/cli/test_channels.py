@@ -34,7 +34,7 @@ class Logger:
     """The adapter of files `*.log`, of which all hold the same run."""
 
     name, summary = "logger", "one run"
-    told = ("3 frames with a wrong checksum: dropped",)
+    warnings = ("3 frames with a wrong checksum: dropped",)
     evil = ""
 
     def __init__(self) -> None:

@@ -122,8 +122,8 @@ def test_of_a_reference_with_holes_the_longest_stretch_counts() -> None:
 @pytest.mark.parametrize(
     ("valid", "text"),
     [
-        (slice(0, 900), "the run from 0.0 to 45.0 m; 50 m have to be both"),
-        (slice(0, 0), "the run nowhere; 50 m"),
+        (slice(0, 900), "the run's profile from 0.0 to 45.0 m; 50 m have to be both"),
+        (slice(0, 0), "the run's profile nowhere; 50 m"),
     ],
 )
 def test_too_little_in_common_is_refused(valid: slice, text: str) -> None:

@@ -80,10 +80,10 @@ def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tup
     Of a run's wheel paths, which share one encoder, the one with the smallest sigma counts. A
     worksheet whose runs do not measure it is INCOMPLETE.
     """
-    known = [_best(run) for run in runs if run.tracks]
-    found = [one.percent for one in known if not isnan(one.percent)]
+    errors = [_best(run) for run in runs if run.tracks]
+    found = [one.percent for one in errors if not isnan(one.percent)]
     words = "distance", "error of distance, the largest of a run", DISTANCE
-    largest = _judge_largest(words, known, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, errors, limits.distance_percent, "", Judged.MISSING)
     title = "error of distance, mean of the runs"
     return largest, report_value("distance-mean", title, DISTANCE, mean(found), "%")
 
@@ -94,11 +94,11 @@ def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimit
     Where no run measures it, it is reported only: R 56-14 does not ask for it.
     """
     tracks = of_track(runs, name)
-    known = [
+    errors = [
         ScaleError(run.name, track.height_percent, track.height_sigma) for run, track in tracks
     ]
     words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
-    return _judge_largest(words, known, limits.height_percent, name, Judged.REPORTED)
+    return _judge_largest(words, errors, limits.height_percent, name, Judged.REPORTED)
 
 
 def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Criterion, ...]:
@@ -109,7 +109,7 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
     for value in (plan.known_m, *plan.readings_m):
         if not 0.0 < value < inf:
             raise InputError(f"[distance] holds {value:g} m; give lengths in m above zero")
-    known = [
+    errors = [
         ScaleError(f"reading {k} ({reading:g} m)", 100.0 * (reading / plan.known_m - 1.0), 0.0)
         for k, reading in enumerate(plan.readings_m, 1)
     ]
@@ -118,9 +118,9 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
         f"distance read for {plan.known_m:g} m, the largest error",
         READINGS,
     )
-    largest = _judge_largest(words, known, limits.distance_percent, "", Judged.MISSING)
+    largest = _judge_largest(words, errors, limits.distance_percent, "", Judged.MISSING)
     title = f"distance read for {plan.known_m:g} m, mean error"
-    average = mean([one.percent for one in known])
+    average = mean([one.percent for one in errors])
     return largest, report_value("distance-readings-mean", title, READINGS, average, "%")
 
 
@@ -135,26 +135,26 @@ def _best(run: RunSheet) -> ScaleError:
 
 def _judge_largest(
     words: tuple[str, str, str],
-    known: Sequence[ScaleError],
+    errors: Sequence[ScaleError],
     limit: float | None,
     track: str,
     unknown: Judged,
 ) -> Criterion:
     """Return the criterion of the largest error; ``unknown`` if no run measures it well enough."""
     bound = inf if limit is None else limit
-    known = [one for one in known if not isnan(one.percent)]
-    beyond = sorted((o for o in known if o.beyond(bound)), key=lambda o: -abs(o.percent))
-    vague = [] if limit is None else [one for one in known if one.vague(bound)]
+    known = [one for one in errors if not isnan(one.percent)]
+    beyond = sorted((o for o in errors if o.beyond(bound)), key=lambda o: -abs(o.percent))
+    vague = [] if limit is None else [one for one in errors if one.vague(bound)]
     counted = beyond or [one for one in known if one not in vague] or known
     value = max((one.percent for one in counted), key=abs, default=nan)
     judged = judge(value, limit, bool(beyond))
-    if limit is not None and not beyond and len(vague) == len(known):
+    if limit is not None and not beyond and len(vague) == len(errors):
         judged = unknown
     reason = join_reasons(
         f"beyond the limit: {list_in_words([str(one) for one in beyond])}" if beyond else "",
         f"not known to {bound:g} %: {list_in_words([str(o) for o in vague if o not in beyond])}"
         if any(o not in beyond for o in vague)
         else "",
-        "" if known else "no run measures it",
+        "" if errors else "no run measures it",
     )
     return Criterion(words[0], words[1], words[2], value, limit, "%", False, judged, track, reason)

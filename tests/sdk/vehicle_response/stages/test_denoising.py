@@ -101,7 +101,7 @@ def test_ten_minutes_at_540_hz_take_a_few_copies_of_memory():
         (np.ones(10), 1, {"components": 1}, "window of 1 of 10"),
         (np.ones(10), 6, {"components": 1}, "window of 6 of 10"),
         (np.array([1.0, np.nan] * 5), 4, {"components": 1}, "sample 1 is nan; bridge gaps"),
-        (np.ones(10), 4, {}, "give one of components, share and noise"),
+        (np.ones(10), 4, {}, "give exactly one of components, share and noise"),
         (np.ones(10), 4, {"share": 0.5, "noise": 1.0}, "give exactly one of"),
         (np.ones(10), 4, {"components": 5}, "5 components; give 1 to 4"),
         (np.ones(10), 4, {"components": 0}, "0 components"),
