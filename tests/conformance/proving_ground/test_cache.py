@@ -105,8 +105,8 @@ def test_changed_source_is_not_answered_with_an_old_recording(
     [
         "floatref_conformance.proving_ground/vehicles/motion.py",
         "floatref_conformance.proving_ground/data/sroubek/profile_1.txt",
-        "floatref.measures/quarter_car.py",
-        "floatref.kernels/golden_car.py",
+        "floatref.measures/roughness/quarter_car.py",
+        "floatref.measures/roughness/golden_car.py",
         "floatref.values/recording.py",
         "floatref.files/samples.py",
     ],

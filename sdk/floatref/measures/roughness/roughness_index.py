@@ -12,78 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.kernels.compiling import compiled
 from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH
 from floatref.values.arrays import FloatArray
-
-
-@compiled
-def car_response(
-    elevation: FloatArray,
-    window: int,
-    start_slope: float,
-    per_step: float,
-    modes: FloatArray,
-    response: FloatArray,
-) -> None:
-    """Write the output after each of the ``elevation.size - 1`` intervals to ``response``."""
-    a_re, a_im, a_gain_re, a_gain_im = modes[0], modes[1], modes[2], modes[3]
-    b_re, b_im, b_gain_re, b_gain_im = modes[4], modes[5], modes[6], modes[7]
-    a_x = a_y = b_x = b_y = 0.0
-    last = elevation.size - 1
-    per_window = per_step / window
-    for k in range(last):
-        if k + window <= last:
-            slope = (elevation[k + window] - elevation[k]) * per_window - start_slope
-        else:
-            slope = (elevation[last] - elevation[k]) * per_step / (last - k) - start_slope
-        # The newest state enters each sum last: the chain from point to point stays short.
-        a_next = (a_gain_re * slope - a_im * a_y) + a_re * a_x
-        a_y = (a_gain_im * slope + a_im * a_x) + a_re * a_y
-        a_x = a_next
-        b_next = (b_gain_re * slope - b_im * b_y) + b_re * b_x
-        b_y = (b_gain_im * slope + b_im * b_x) + b_re * b_y
-        b_x = b_next
-        response[k] = a_x + b_x
-
-
-@compiled
-def rectified_sums(
-    elevation: FloatArray,
-    window: int,
-    start_slope: float,
-    per_step: float,
-    modes: FloatArray,
-    edges: np.ndarray[tuple[int], np.dtype[np.int64]],
-    sums: FloatArray,
-) -> None:
-    """Write the sum of the rectified output from ``edges[j]`` to ``edges[j + 1]`` to ``sums[j]``.
-
-    The car runs once from the first interval to the last edge and is not started again.
-    """
-    a_re, a_im, a_gain_re, a_gain_im = modes[0], modes[1], modes[2], modes[3]
-    b_re, b_im, b_gain_re, b_gain_im = modes[4], modes[5], modes[6], modes[7]
-    a_x = a_y = b_x = b_y = 0.0
-    last = elevation.size - 1
-    per_window = per_step / window
-    for segment in range(sums.size):
-        total = 0.0
-        for k in range(edges[segment], edges[segment + 1]):
-            if k + window <= last:
-                slope = (elevation[k + window] - elevation[k]) * per_window - start_slope
-            else:
-                slope = (elevation[last] - elevation[k]) * per_step / (last - k) - start_slope
-            a_next = (a_gain_re * slope - a_im * a_y) + a_re * a_x
-            a_y = (a_gain_im * slope + a_im * a_x) + a_re * a_y
-            a_x = a_next
-            b_next = (b_gain_re * slope - b_im * b_y) + b_re * b_x
-            b_y = (b_gain_im * slope + b_im * b_x) + b_re * b_y
-            b_x = b_next
-            total += abs(a_x + b_x)
-        sums[segment] = total
-
 
 M_PER_KM = 1000.0
 """Slopes of 1 m/m in m/km."""
@@ -110,6 +42,8 @@ def iri_trace(
     first and after the last measured point. Raises InputError for a profile shorter than the
     start length. Source: steps 1 to 3 of section 2.1.1.
     """
+    from floatref.measures.roughness.golden_car import car_response
+
     run = _Run.of(elevation, interval_m, settings)
     trace = np.full(max(np.size(elevation) - 1, 0), np.nan)
     measured = trace[run.first : run.first + run.elevation.size - 1]
@@ -194,6 +128,8 @@ class _Run:
 
     def rectified_sums(self, edges: NDArray[np.int64]) -> FloatArray:
         """Return the sum of the rectified output in m/km between successive ``edges``."""
+        from floatref.measures.roughness.golden_car import rectified_sums
+
         sums = np.zeros(edges.size - 1)
         rectified_sums(
             self.elevation,

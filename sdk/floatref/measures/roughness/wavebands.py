@@ -6,59 +6,13 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
-from floatref.kernels.state_variable import (
-    MEMORY,
-    high_pass_1,
-    high_pass_2,
-    high_pass_21,
-    low_pass_1,
-    low_pass_2,
-)
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
-
-
-def _c(interval: float, cutoff_wavelength: float) -> float:
-    return math.tan(math.pi * interval / cutoff_wavelength)
-
-
-def _new_memory() -> NDArray[np.float64]:
-    return np.zeros(MEMORY)
-
-
-def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
-    """Return HPF_B3x2 of ``x``: HPF_B3S1, HPF_B3S2R, HPF_B3S1R and HPF_B3S2 in this order.
-
-    ``cutoff_wavelength`` is that of each third-order pass; (A.22) gives it from the -3 dB
-    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
-    """
-    c = _c(interval, cutoff_wavelength)
-    y = np.empty(x.size)
-    high_pass_1(x, y, _new_memory(), c, False)
-    high_pass_21(y, y, _new_memory(), _new_memory(), c, True)
-    high_pass_2(y, y, _new_memory(), c, False)
-    return y
-
-
-def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
-    """Return LPF_B3x2 of ``x``: LPF_B3S1, LPF_B3S2R, LPF_B3S1R and LPF_B3S2 in this order.
-
-    ``cutoff_wavelength`` is that of each third-order pass; (A.21) gives it from the -3 dB
-    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
-    """
-    c = _c(interval, cutoff_wavelength)
-    y = np.empty(x.size)
-    low_pass_1(x, y, _new_memory(), c, False)
-    low_pass_2(y, y, _new_memory(), c, True)
-    low_pass_1(y, y, _new_memory(), c, True)
-    low_pass_2(y, y, _new_memory(), c, False)
-    return y
 
 
 class Waveband(NamedTuple):
@@ -89,6 +43,8 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     measured point and, after the bridge has been filtered, in gaps again. Raises InputError for a
     wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
+    from floatref.measures.roughness.zero_phase import high_pass_b3x2
+
     values = check_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
@@ -146,6 +102,8 @@ def agreement(
 
 def _pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
+    from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
+
     passed = high_pass_b3x2(slope, interval_m, limits.long_m)
     if limits.short_m <= 2 * interval_m:
         return passed

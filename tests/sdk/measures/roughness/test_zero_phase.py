@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.measures.roughness.wavebands import high_pass_b3x2, low_pass_b3x2
+from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
 from floatref_reference.appendix_a import filters
 
 INTERVAL = 0.00508

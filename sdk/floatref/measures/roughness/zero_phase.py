@@ -1,0 +1,53 @@
+"""The zero-phase sets HPF_B3x2 and LPF_B3x2 of appendix A.1, on whole arrays."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.kernels.state_variable import (
+    MEMORY,
+    high_pass_1,
+    high_pass_2,
+    high_pass_21,
+    low_pass_1,
+    low_pass_2,
+)
+from floatref.values.arrays import FloatArray
+
+
+def _c(interval: float, cutoff_wavelength: float) -> float:
+    return math.tan(math.pi * interval / cutoff_wavelength)
+
+
+def _new_memory() -> NDArray[np.float64]:
+    return np.zeros(MEMORY)
+
+
+def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+    """Return HPF_B3x2 of ``x``: HPF_B3S1, HPF_B3S2R, HPF_B3S1R and HPF_B3S2 in this order.
+
+    ``cutoff_wavelength`` is that of each third-order pass; (A.22) gives it from the -3 dB
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    """
+    c = _c(interval, cutoff_wavelength)
+    y = np.empty(x.size)
+    high_pass_1(x, y, _new_memory(), c, False)
+    high_pass_21(y, y, _new_memory(), _new_memory(), c, True)
+    high_pass_2(y, y, _new_memory(), c, False)
+    return y
+
+
+def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+    """Return LPF_B3x2 of ``x``: LPF_B3S1, LPF_B3S2R, LPF_B3S1R and LPF_B3S2 in this order.
+
+    ``cutoff_wavelength`` is that of each third-order pass; (A.21) gives it from the -3 dB
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    """
+    c = _c(interval, cutoff_wavelength)
+    y = np.empty(x.size)
+    low_pass_1(x, y, _new_memory(), c, False)
+    low_pass_2(y, y, _new_memory(), c, True)
+    low_pass_1(y, y, _new_memory(), c, True)
+    low_pass_2(y, y, _new_memory(), c, False)
+    return y
