@@ -21,6 +21,9 @@ PATTERNS = {
     "mistake": r"\bmistak\w+",
 }
 ALLOWED: dict[str, dict[str, str]] = {
+    "adapters/floatref_adapters/formats/csv_table/table_fields.py": {
+        "none": "text in a user's file"
+    },
     "adapters/floatref_adapters/shared/time_columns.py": {"none": "the value of an option"},
     "conformance/floatref_conformance/certify/worksheet/worksheet_document.py": {
         "said": "a key of the worksheet's JSON"
@@ -28,6 +31,8 @@ ALLOWED: dict[str, dict[str, str]] = {
     "conformance/floatref_conformance/cli/certify.py": {"none:": "the value of an option"},
     "conformance/floatref_conformance/cli/certify_options.py": {"none": "the value of an option"},
     "conformance/floatref_conformance/render/junit.py": {"none": "a value that scripts read"},
+    "conformance/floatref_conformance/render/templates/page.html.j2": {"'none'": "HTML"},
+    "conformance/floatref_conformance/render/templates/parts.html.j2": {"is not none": "Jinja"},
     "docs/certify.md": {"`none`": "the value of an option"},
     "docs/native-files.md": {"clock `none`": "a value in the output of `floatref channels`"},
     "docs/road-prior-limits.md": {"| none |": "a value of the table's data file"},
