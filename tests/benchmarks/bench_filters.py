@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy.signal
 
-from floatref.measures.roughness.wavebands import high_pass_b3x2
+from floatref.measures.roughness.zero_phase import high_pass_b3x2
 
 INTERVAL_M, WAVELENGTH_M = 0.00508, 105.91
 ROUNDS = 31

@@ -79,6 +79,7 @@ def test_the_truth_along_the_encoders_distance(run: str) -> None:
     assert_right(along_encoder(run, REFLECTION))
 
 
+@pytest.mark.slow
 @every_run
 def test_the_truth_along_the_true_distance(run: str) -> None:
     """All errors, and all of sigma."""

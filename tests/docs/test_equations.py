@@ -46,6 +46,7 @@ def test_the_page_is_what_the_script_writes(generator, monkeypatch, capsys):
     assert generator.main() == 0, capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_page_of_yesterday_fails(generator, monkeypatch, capsys, tmp_path):
     page = tmp_path / "equations.md"
     page.write_text("# Yesterday\n", encoding="utf-8")

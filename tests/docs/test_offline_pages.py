@@ -51,6 +51,7 @@ def opened(page: Path, scratch: Path, width: int) -> str:
     ).stdout
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(BROWSER is None, reason=f"none of {', '.join(BROWSERS)} is installed")
 @pytest.mark.parametrize("name", PAGES)
 @pytest.mark.parametrize("width", [1280, 500])

@@ -230,6 +230,7 @@ def test_tests_at_rest_and_readings_are_judged_with_the_rest(
     assert certified(longer, limits).verdict is Verdict.FAIL
 
 
+@pytest.mark.slow
 def test_recordings_are_processed_on_the_way(tmp_path: Path) -> None:
     drive = Scenario(road_seed=4, length_m=420.0, rate_hz=2000.0, imu=False, gnss=False)
     drive = replace(drive, response=False, profile_interval_m=0.05, sensors=0.3)

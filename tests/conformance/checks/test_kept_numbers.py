@@ -107,6 +107,7 @@ def test_a_flat_road_has_no_iri_that_could_be_wrong(id_):
         CHECKS[id_].judge(replace(case, scenario=level), Flat())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "key"), [(INVARIANCE.cases(1, Effort.QUICK)[0], "samples"), (FAULTS.simplest, "fault")]
 )

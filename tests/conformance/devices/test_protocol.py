@@ -216,6 +216,7 @@ JSON = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @given(st.dictionaries(st.text(max_size=5), JSON, max_size=5))
 def test_every_json_object_is_read_as_it_is(said):

@@ -42,6 +42,7 @@ def test_every_pass_is_announced_and_every_wheel_path_counts(watched):
         assert cell.mean.peak_m_per_km == pytest.approx(mean)
 
 
+@pytest.mark.slow
 def test_a_narrower_table_holds_the_same_figures(watched):
     table, _ = watched
     narrow = TableSettings(seed=3, roads=1, seeds=1, runs=BRAKES[1:], pipelines=PIPELINES[1:])

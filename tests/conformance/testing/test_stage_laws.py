@@ -225,6 +225,7 @@ def test_a_reach_is_no_longer_than_declared(reach, stage):
         Laws().test_5_a_missing_sample_is_flagged_on_the_way_out()
 
 
+@pytest.mark.slow
 def test_a_flag_is_asked_of_all_that_is_computed_from_it():
     class Beside(Gain):
         """Puts the result beside its source, which alone keeps its flags."""

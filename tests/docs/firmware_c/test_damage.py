@@ -79,6 +79,7 @@ def test_nothing_is_damaged_in_coarse_and_slow_sensors(start, whole, sound, tmp_
         assert changed * found.interval_m < 20.0
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_holds_steps_and_holes_anywhere_in_the_encoder_give_a_whole_profile(

@@ -105,7 +105,10 @@ def same(one: Profile, other: Profile) -> bool:
     )
 
 
-@every_pipeline
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=() if n == "kalman-smoother" else pytest.mark.slow) for n in PIPELINES],
+)
 @pytest.mark.parametrize("setting", SETTINGS)
 def test_every_setting_changes_the_profile_where_it_is_of_any_use(name: str, setting: str) -> None:
     value = PIPELINES[name].settings[setting] or 0.05

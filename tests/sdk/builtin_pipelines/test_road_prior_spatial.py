@@ -169,6 +169,7 @@ def test_the_elevation_goes_on_whatever_the_stop_lasts(dwell_s: float) -> None:
     assert np.mean(np.abs(ours - expected)[inside] < 2.0 * track.sigma[inside]) > 0.9
 
 
+@pytest.mark.slow
 def test_a_stop_makes_less_known_around_it_and_so_does_creeping() -> None:
     (stopped,) = profile(driven(dwell_s=3.0).recording).tracks
     (passing,) = profile(driven("constant").recording).tracks

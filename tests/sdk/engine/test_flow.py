@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref.engine import flow
 from floatref.errors import InputError, StageError
-from floatref.measures.roughness.wavebands import high_pass_b3x2
+from floatref.measures.roughness.zero_phase import high_pass_b3x2
 from floatref.stages.filters.butterworth import high_pass_b3x2 as high_pass_stages
 from floatref.stages.integration import RemoveMean
 from floatref.stages.protocol import Direction, Stage

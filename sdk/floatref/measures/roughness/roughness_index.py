@@ -128,8 +128,9 @@ class _Run:
 
     def rectified_sums(self, edges: NDArray[np.int64]) -> FloatArray:
         """Return the sum of the rectified output in m/km between successive ``edges``."""
-        sums = np.zeros(edges.size - 1)
         from floatref.measures.roughness.golden_car import rectified_sums
+
+        sums = np.zeros(edges.size - 1)
 
         rectified_sums(
             self.elevation,

@@ -43,13 +43,14 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     measured point and, after the bridge has been filtered, in gaps again. Raises InputError for a
     wavelength of two intervals or less. Source: appendix A.1, A.5 and (A.22).
     """
+    from floatref.measures.roughness.zero_phase import high_pass_b3x2
+
     values = check_elevation(elevation, interval_m)
     _check_cutoff(wavelength_m, interval_m)
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
     cutoff = high_pass_wavelength_setting(wavelength_m)
     rise = bridged(values[stretch]) - values[stretch.start]
-    from floatref.measures.roughness.zero_phase import high_pass_b3x2
 
     filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan

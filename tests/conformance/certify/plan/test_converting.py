@@ -110,6 +110,7 @@ def test_a_profile_keeps_flags_and_sigma_and_does_not_hang_on_its_files(
     assert one.profile.track("left").elevation.any()
 
 
+@pytest.mark.slow
 def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Converted]) -> None:
     one = found["run"]
     assert one.error == ""

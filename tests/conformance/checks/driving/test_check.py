@@ -89,6 +89,7 @@ def test_the_recommended_pipelines_pass_the_simplest_case_as_nominal(check, pipe
     assert failing(check, taken(check), device) == set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", [STOP, NEAR_STOP], ids=lambda check: check.id)
 def test_the_basic_pipeline_fails_the_simplest_stop(check, taken):
     def device(given):
@@ -97,6 +98,7 @@ def test_the_basic_pipeline_fails_the_simplest_stop(check, taken):
     assert "IRI error, 160.9 m" in failing(check, taken(check), device)
 
 
+@pytest.mark.slow
 @each
 def test_a_flat_profile_fails_by_its_roughness_and_the_bump(check, taken):
     found = failing(check, taken(check), spoilt(lambda z: 0.0 * z))

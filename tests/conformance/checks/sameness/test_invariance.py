@@ -89,6 +89,7 @@ def stop_error(right_bench, gain):
     return 10.0 * (measured.limits[DeviceClass.NOMINAL] - 0.1)
 
 
+@pytest.mark.slow
 @few
 @given(first=st.floats(1.0, 1.5), more=st.floats(-0.3, 0.6))
 def test_the_error_at_a_stop_may_rise_by_a_tenth_of_it(right_bench, first, more):
@@ -102,6 +103,7 @@ def test_the_error_at_a_stop_may_rise_by_a_tenth_of_it(right_bench, first, more)
     assert rise.limits[DeviceClass.NOMINAL] == pytest.approx(0.1 * before + 0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [ALIKE, LONGER], ids=lambda c: c.name)
 def test_the_reference_measures_the_same(right_bench, case):
     bench = right_bench(lambda label, p: scaled(p, 1.1 if label == "changed" else 1.0))

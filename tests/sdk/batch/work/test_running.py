@@ -96,6 +96,7 @@ def test_every_job_has_one_record(kinds: tuple[Path, list[list[Any]]]) -> None:
     assert sorted(name for name, *_ in kinds[1]) == sorted([*names, "deadly", "raises"])
 
 
+@pytest.mark.slow
 def test_only_files_that_are_to_blame_fail(kinds: tuple[Path, list[list[Any]]]) -> None:
     errors = {name: error for name, error, _ in kinds[1] if error}
     assert set(errors) == {"deadly", "raises"}
@@ -103,6 +104,7 @@ def test_only_files_that_are_to_blame_fail(kinds: tuple[Path, list[list[Any]]]) 
     assert "the worker ended 2 times while it processed this file alone" in errors["deadly"]
 
 
+@pytest.mark.slow
 def test_a_deadly_file_leaves_its_record(kinds: tuple[Path, list[list[Any]]]) -> None:
     from floatref.batch.results.record import read_record
 

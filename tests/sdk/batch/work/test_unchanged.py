@@ -52,6 +52,7 @@ def flip(path: Path) -> None:
     path.write_bytes(content)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "name"),
     [
@@ -124,6 +125,7 @@ def test_another_wish_is_another_profile(
     assert counted.count == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("library", ["floatref", *unchanged.LIBRARIES])
 def test_another_version_does_the_work_again(
     jobs: dict[str, Job], counted: Counted, monkeypatch: pytest.MonkeyPatch, library: str

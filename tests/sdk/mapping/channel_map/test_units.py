@@ -145,6 +145,7 @@ def test_an_unknown_unit_is_told_with_one_like_it(text: str, near: str) -> None:
     assert unit_of(meant).si == unit_of(near).si
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=200)
 @given(st.text(max_size=300))
 def test_any_text_is_a_unit_or_refused_in_one_line(text: str) -> None:

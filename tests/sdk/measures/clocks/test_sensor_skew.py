@@ -118,6 +118,7 @@ def test_what_a_sensor_has_of_its_own_moves_nothing() -> None:
     assert found.skew_s == pytest.approx(2e-3 + HOLD_S, abs=5e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("manoeuvre", ["quiescent", "braking", "constant", "creeping", "near-stop"])
 def test_where_the_road_moves_both_nothing_is_told(manoeuvre: str) -> None:
     force, height, distance = parts(driven(manoeuvre, "soft-van", 5))

@@ -92,6 +92,7 @@ class TestJoinTyres(StageLaws):
         return JoinTyres(dict.fromkeys(TRACKS, (0, 1)))
 
 
+@pytest.mark.slow
 class TestEstimateRoad(StageLaws):
     reads = "sprung_displacement", "unsprung_displacement", "unsprung_acceleration"
     shared = ("high_pass_cutoff",)
