@@ -131,7 +131,6 @@ class _Run:
         from floatref.measures.roughness.golden_car import rectified_sums
 
         sums = np.zeros(edges.size - 1)
-
         rectified_sums(
             self.elevation,
             self.window,
