@@ -65,6 +65,7 @@ def test_a_case_is_told_by_what_differs_from_the_defaults_alone(case):
     assert Case.of(case.check, json.loads(json.dumps(case.parameters))) == case
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(cases(), cases())
 def test_files_are_named_apart_by_the_numbers_alone(case, other):

@@ -55,6 +55,7 @@ def test_a_page_of_yesterday_fails(generator, monkeypatch, capsys, tmp_path):
     assert "is out of date" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_complete_row_is_a_line_with_four_columns(generator):
     text = generator.page({"intro": "", "outro": "", "groups": [{"title": "One", "rows": [GOOD]}]})
     row = next(line for line in text.splitlines() if "(2.7)" in line)

@@ -50,6 +50,7 @@ def figures(text):
     return {name: (float(mm), tilt) for name, mm, tilt in ROWS.findall(text)[1:]}
 
 
+@pytest.mark.slow
 def test_the_observer_leaves_nothing_and_the_cascade_millimetres(run):
     printed, picture = run
     assert picture.startswith(b"\x89PNG")
@@ -71,6 +72,7 @@ def test_the_page_shows_what_the_script_prints(run):
             assert float(found[name][1]) == pytest.approx(float(tilt), abs=0.11), name
 
 
+@pytest.mark.slow
 def test_the_cascade_keeps_its_drift_and_the_observer_takes_it_back(script):
     times, distance, *_ = script.drive()
     error = script.TILT * script.swelling(times, script.BEGINS[3], script.TO_STOP_S)[0]
@@ -85,6 +87,7 @@ def test_the_cascade_keeps_its_drift_and_the_observer_takes_it_back(script):
     assert np.abs(observer[rolls:]).max() < 0.1
 
 
+@pytest.mark.slow
 def test_bounce_and_dive_alone_leave_what_the_page_says(script):
     times, distance, *_ = script.drive()
 

@@ -131,6 +131,7 @@ def test_every_page_is_in_the_menu_once_under_a_tab() -> None:
     assert sorted(files) == [page.relative_to(DOCS).as_posix() for page in PAGES]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", ["index.md", "decisions/0004-gaps.md"])
 def test_every_title_of_the_menu_opens_the_page_of_its_own_file(site: Path, start: str) -> None:
     (side,) = [e for e in parsed(site, start).inside("md-nav--primary") if e.tag == "nav"]
@@ -155,6 +156,7 @@ def test_a_tab_opens_the_first_page_of_its_own(site: Path) -> None:
     assert {text_of(tab): tab.attributes["href"] for tab in tabs} == first
 
 
+@pytest.mark.slow
 def test_every_equation_is_typeset(site: Path) -> None:
     seen = 0
     for source in PAGES:
@@ -199,6 +201,7 @@ def loaded(page: Page) -> Iterator[str]:
                 yield element.attributes[name]
 
 
+@pytest.mark.slow
 def test_what_a_page_loads_is_in_the_site(site: Path) -> None:
     for path in site.rglob("*.html"):
         if path.name != "404.html":

@@ -165,6 +165,7 @@ def peak(recording: floatref.Recording, pipeline: str) -> float:
     return float(np.max(roughness[slice(*ends)]))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::floatref.FloatrefWarning")
 def test_quoted_peaks_on_a_flat_road_come_out_again() -> None:
     assert len(FLAT) == 10

@@ -147,6 +147,7 @@ def test_the_time_step_saves_the_spatial_engine_and_the_reflection_more(engine, 
     assert peak(over_distance(reflecting, stop)) < min(10.0, 0.5 * worst)
 
 
+@pytest.mark.slow
 def test_the_limit_of_its_own_needs_the_reflection(engine, stop):
     module = engine("spatial_engine", "Our reflection in its second integral")
     reflected = peak(over_distance(module, stop))

@@ -68,6 +68,7 @@ def circle(known: Mapping[str, str]) -> list[str]:
     return []
 
 
+@pytest.mark.slow
 def test_no_module_imports_itself_by_way_of_others() -> None:
     assert circle(sources()) == []
 
@@ -77,6 +78,7 @@ def test_imports_inside_functions_are_among_those_that_count() -> None:
     assert imports(code) == {"a": {"b"}, "b": set()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "planted",
     [

@@ -9,6 +9,7 @@ HEAVY = ("numba", "scipy.signal", "matplotlib", "jsonschema", "rich", "dask", "d
 REPORT = "import sys; print(*(m for m in {heavy!r} if m in sys.modules))"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "statement",
     [

@@ -72,6 +72,7 @@ def test_every_breach_is_planted_in_a_file_that_is_there() -> None:
     assert [file for file in BREACHES if not (ROOT / file).is_file()] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", BREACHES)
 def test_a_forbidden_import_is_caught(said: str, file: str) -> None:
     importer = file.partition("/")[2].removesuffix(".py").replace("/", ".")

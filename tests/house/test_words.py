@@ -80,6 +80,7 @@ def hits(lines: Iterable[Line], pattern: str) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", PATTERNS)
 def test_no_text_has_the_word(word: str) -> None:
     found = hits(every_line(), PATTERNS[word])

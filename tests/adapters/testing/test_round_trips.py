@@ -158,6 +158,7 @@ def test_times_of_a_rate_with_finite_decimals_are_exact(tmp_path: Path) -> None:
     np.testing.assert_array_equal(ticks, 5_000_000 + 625 * np.arange(100_000))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [*READERS, ".csv"])
 def test_a_long_channel_comes_in_pieces_of_bounded_size(tmp_path: Path, suffix: str) -> None:
     rng = np.random.default_rng(3)

@@ -21,6 +21,7 @@ from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
+pytestmark = pytest.mark.slow
 PERFECT = "without error"
 DEVICES = {
     DeviceClass.NOMINAL: "road-prior-smoother",
@@ -41,13 +42,7 @@ def taken() -> list[Taken]:
     return [*good, _drive(1, encoder_error_percent=1.0)]
 
 
-@pytest.fixture(
-    scope="module",
-    params=[
-        pytest.param(c, marks=() if c is DeviceClass.NOMINAL else pytest.mark.slow) for c in DEVICES
-    ],
-    ids=str,
-)
+@pytest.fixture(scope="module", params=DEVICES, ids=str)
 def written(
     request: pytest.FixtureRequest, taken: list[Taken], tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[DeviceClass, Path]:

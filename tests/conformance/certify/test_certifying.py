@@ -77,6 +77,7 @@ def test_every_number_is_that_of_compare(written: Path) -> None:
             assert isnan(pairs[j, i])
 
 
+@pytest.mark.slow
 def test_good_runs_pass(written: Path) -> None:
     worksheet = certified(section(written, *(f"run-{k}" for k in range(1, 11))))
     assert worksheet.verdict is Verdict.PASS
@@ -160,6 +161,7 @@ def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
+@pytest.mark.slow
 def test_errors_of_distance_and_height_fail_and_are_named(
     written: Path, run_over: Callable[..., Profile], tmp_path: Path
 ) -> None:
@@ -208,6 +210,7 @@ def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None
     assert sum(doing.startswith("read run-1") for doing, _ in warnings) == 1
 
 
+@pytest.mark.slow
 def test_tests_at_rest_and_readings_are_judged_with_the_rest(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:

@@ -48,6 +48,7 @@ def test_a_kept_case_of_a_receiver_is_skipped_without_one(
     assert "needs gnss" in again["reason"]
 
 
+@pytest.mark.slow
 def test_a_kept_case_of_a_laser_is_skipped_without_one(plan, result_of, fake_device, monkeypatch):
     cases = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
     kept = KeptCase("kept.json", cases["laser-stuck"], DeviceClass.NOMINAL)

@@ -44,6 +44,7 @@ def with_number(case, key, value):
     return replace(case, variation=others if value is None else {**others, key: value})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("case", "key"), OWN, ids=lambda part: getattr(part, "name", part))
 @pytest.mark.parametrize("value", [None, "x", True, 1e300])
 def test_a_number_that_is_missing_or_none_is_refused_by_its_name(right_bench, case, key, value):

@@ -54,6 +54,7 @@ def slow(case):
     return replace(case, scenario=replace(case.scenario, rate_hz=1000.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id_", WHOLE)
 def test_a_point_without_elevation_counts_within_what_is_scored_alone(right_bench, id_):
     check = load_registry().checks[id_]

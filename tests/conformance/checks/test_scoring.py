@@ -119,6 +119,7 @@ def test_the_better_of_two_is_limited_in_one_class_alone(gain, better):
     assert chosen.ratio(NOMINAL) == min(loss.ratio(NOMINAL), error.ratio(NOMINAL))
 
 
+@pytest.mark.slow
 def test_the_reference_implementation_finds_the_same_and_a_wrong_value_is_the_suites_fault():
     noise = np.random.default_rng(2).normal(0.0, 2e-3, road().size)
     pair = compared(lambda z: z + np.convolve(noise, np.full(20, 0.05), "same")).whole(150.0, 300.0)

@@ -181,6 +181,7 @@ def test_sections_have_their_names_and_stretches(call: Callable[..., Result]) ->
     ]
 
 
+@pytest.mark.slow
 def test_tests_at_rest(call: Callable[..., Result], folder: Path) -> None:
     told = document(call("runs", "--quiescent", "rest", "--bounce", "other@20:140", "--json"))
     assert [test["id"] for test in told["stationary"]] == ["quiescent", "bounce"]
@@ -205,6 +206,7 @@ def test_a_plan_says_it_all(folder: Path) -> None:
     assert told["stationary"][0]["id"] == "quiescent"
 
 
+@pytest.mark.slow
 def test_a_report_holds_worksheet_and_profiles(
     call: Callable[..., Result], folder: Path, tmp_path: Path
 ) -> None:

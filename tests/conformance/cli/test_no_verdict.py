@@ -51,6 +51,7 @@ def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
     assert (answer.exit_code, answer.stderr) == (130, "Interrupted: no verdict\n")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("both", [False, pytest.param(True, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     "words",

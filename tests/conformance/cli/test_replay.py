@@ -96,6 +96,7 @@ def test_a_device_that_cannot_describe_itself_fails(replay, devices):
     assert devices["good"].closed == 1
 
 
+@pytest.mark.slow
 def test_a_case_of_a_report_fails_alike_and_passes_when_the_device_is_mended(
     run_toy, call, tmp_path
 ):

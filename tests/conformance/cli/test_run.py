@@ -28,6 +28,7 @@ def files_in(folder):
     return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.slow
 def test_a_selection_that_passes_is_incomplete_and_says_what_was_not_run(run_toy):
     answer = run_toy("good")
     assert answer.exit_code == 4
@@ -46,6 +47,7 @@ def test_a_failure_is_exit_1_with_reason_and_how_to_reproduce_it_last(run_toy):
     )
 
 
+@pytest.mark.slow
 def test_a_whole_suite_that_passes_is_exit_0(call, registry, toy_check, monkeypatch):
     monkeypatch.setattr("floatref_conformance.registry.not_built", lambda built: ())
     for id_ in ("skewed", "needy"):
@@ -136,6 +138,7 @@ def unread():
         file.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("device", "code"), [("good", 4), ("bad", 1)])
 def test_a_run_goes_on_and_reports_when_nobody_reads_what_it_shows(
     run_toy, tmp_path, monkeypatch, unread, device, code
@@ -166,6 +169,7 @@ def test_a_report_that_fails_after_judging_is_exit_3_beneath_the_verdict(
     assert "Traceback" not in answer.output
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("effort", ["quick", "certification"])
 def test_the_report_keeps_its_schema_at_every_effort(run_toy, tmp_path, effort):
     assert run_toy("good", "--effort", effort, "--report", tmp_path).exit_code == 4
@@ -183,6 +187,7 @@ def test_the_report_says_what_the_terminal_says(run_toy, tmp_path):
     assert answer.exit_code == 1
 
 
+@pytest.mark.slow
 def test_the_same_seed_and_kept_cases_write_the_same_bytes(run_toy, tmp_path):
     first, *others = (tmp_path / name for name in "abc")
     run_toy("bad", "--report", first)
@@ -220,6 +225,7 @@ def test_a_broken_plugin_is_reported_and_the_run_goes_on(run_toy):
     assert "Warning: plug-in sad: ImportError: gone" in answer.stderr
 
 
+@pytest.mark.slow
 def test_help_needs_no_compiler():
     code = (
         "import sys; from click.testing import CliRunner; "

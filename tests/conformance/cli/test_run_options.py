@@ -50,6 +50,7 @@ def test_the_device_by_default_is_a_built_in_that_claims_a_class():
     assert class_of(device, None) is builtin.CLAIMS[device.pipeline]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "limit"), [((), None), (("--device-timeout", 2.5), 2.5)])
 def test_the_time_for_a_recording_goes_to_a_device_that_has_one(run_toy, devices, words, limit):
     run_toy("low", *words)
@@ -147,6 +148,7 @@ def test_a_kept_case_may_be_waived_though_its_check_passes(run_toy, keep, waive,
     assert [r["outcome"] for r in report_in(tmp_path)["replayed"]] == ["waived"]
 
 
+@pytest.mark.slow
 def test_what_one_run_keeps_the_next_one_runs_again(run_toy, tmp_path):
     run_toy("bad", "--report", tmp_path)
     (kept,) = read_cases(tmp_path)

@@ -41,6 +41,7 @@ def test_a_sound_program_is_started_once_runs_and_ends(device, recording, tmp_pa
     assert starts(tmp_path) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fault", "timeout_s", "error", "words"),
     [
@@ -99,6 +100,7 @@ def test_a_device_that_becomes_another_is_refused(device, recording):
             exercise(one, description, recording)
 
 
+@pytest.mark.slow
 def test_a_start_that_hangs_is_a_hang_and_a_stop_that_hangs_is_told(device):
     with pytest.raises(DeviceHung, match=r"^start: no answer within 0\.3 s$"):
         describe(device("hang()", start_s=0.3))

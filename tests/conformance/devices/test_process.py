@@ -95,6 +95,7 @@ def test_what_cannot_be_started_is_a_fault_and_leaves_nothing(argv, why, tmp_pat
     assert not is_adopting()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "fate"),
     [
@@ -181,6 +182,7 @@ ESCAPES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ESCAPES)
 @pytest.mark.parametrize("leaves", ["hang()", "os._exit(0)"])
 def test_what_comes_from_a_program_ends_with_it(child, way, leaves, tmp_path):
@@ -233,6 +235,7 @@ def test_an_interrupted_wait_leaves_no_process_behind(child):
     assert not is_there(program._process.pid)
 
 
+@pytest.mark.slow
 def test_a_judge_that_forgets_its_device_ends_it_when_it_ends_itself(written, tmp_path):
     forgetful = (
         "import sys; from pathlib import Path; from floatref_conformance.devices import process\n"

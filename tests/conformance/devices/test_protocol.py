@@ -66,6 +66,7 @@ def refused(question, *words):
     return caught.value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", ANSWERS)
 def test_a_wrong_answer_to_start_is_a_fault_of_start(written, answer):
     argv = written(f"ask()\nprint('bye', file=sys.stderr)\n{answer}")
@@ -73,6 +74,7 @@ def test_a_wrong_answer_to_start_is_a_fault_of_start(written, answer):
     assert not isinstance(fault, DeviceHung)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", ANSWERS)
 def test_a_wrong_answer_to_run_is_a_fault_of_run(opened, answer):
     device = opened(f"ask()\nprint('bye', file=sys.stderr)\n{answer}\nhang()")
@@ -81,6 +83,7 @@ def test_a_wrong_answer_to_run_is_a_fault_of_run(opened, answer):
     assert device.is_over
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", [a for a in ANSWERS if "exit(0)" not in a])
 def test_a_wrong_end_is_a_fault_of_stop(opened, answer):
     device = opened(f"ask()\nprint('bye', file=sys.stderr)\n{answer}")
@@ -89,6 +92,7 @@ def test_a_wrong_end_is_a_fault_of_stop(opened, answer):
     assert device.is_over
 
 
+@pytest.mark.slow
 def test_silence_is_a_hang_of_its_step(written, opened):
     argv = written("ask()\nhang()")
     hung = refused(lambda: session(argv, limit_s=SHORT_S), r"^start: no answer within 0\.3 s$")
@@ -224,6 +228,7 @@ def test_every_json_object_is_read_as_it_is(said):
     assert parse_line(json.dumps(said).encode()) == said
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(st.one_of(st.binary(max_size=100), JSON.map(lambda value: json.dumps(value).encode())))
 def test_whatever_else_is_read_is_a_fault_on_one_line(line):

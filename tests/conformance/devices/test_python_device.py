@@ -149,6 +149,7 @@ def test_what_does_not_exist_is_wrong_usage(vendor, spec, words):
         python_device.make(spec)
 
 
+@pytest.mark.slow
 def test_an_import_that_hangs_or_floods_is_left_to_the_start(vendor, monkeypatch):
     monkeypatch.setattr(python_device, "START_S", 0.5)
     device = vendor("import time; time.sleep(3600)")

@@ -57,6 +57,7 @@ def judged(simulation, pipeline, track):
     return agreement(p, q, interval).cross_correlation, iri(q, interval), iri(p, interval)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 @pytest.mark.parametrize("track", ["left", "right"])
 @pytest.mark.parametrize("road", ["synthetic", "measured"])
@@ -76,6 +77,7 @@ def peak(simulation, pipeline, track):
     return within(profile, roughness, PEAK_M).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 @pytest.mark.parametrize("track", ["left", "right"])
 def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
@@ -122,6 +124,7 @@ def test_the_velocity_error_at_the_stop_is_tilt_and_bias_integrated(stop, track)
     assert 0.5 <= velocity_error(stop, track, stands(stop)) / expected <= 2.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("track", ["left", "right"])
 def test_what_tilt_and_bias_leave_unexplained_is_small(other_stop, track):
     at = stands(other_stop)

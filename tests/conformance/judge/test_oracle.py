@@ -58,6 +58,7 @@ def in_m_per_km(compared, track):
 KINDS = pytest.mark.parametrize("measure", [roughness, correlated, in_percent, in_m_per_km])
 
 
+@pytest.mark.slow
 @KINDS
 @pytest.mark.parametrize("holes", [False, True])
 @settings(deadline=None, max_examples=8)

@@ -226,6 +226,7 @@ def test_a_device_whose_end_was_interrupted_is_closed_again(plan, fake_device):
     assert device.closed == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gain", [1.0, 0.95, 0.5])
 def test_the_same_seed_makes_the_same_report_and_another_seed_another(
     plan, result_of, fake_device, gain

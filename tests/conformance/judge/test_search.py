@@ -60,6 +60,7 @@ def test_each_check_draws_its_own_cases(drawn, toy_check):
     assert len(numbers[0] & numbers[1]) == 1
 
 
+@pytest.mark.slow
 def test_the_modules_that_happen_to_be_imported_are_without_effect(drawn, tmp_path, monkeypatch):
     before = drawn(3, 300)
     numbers = tmp_path / "of_mine.py"
@@ -106,6 +107,7 @@ def test_without_hypothesis_there_is_a_line_that_says_how_to_get_it(toy_check, m
         search(toy_check(), 0, 1, lambda case: 0.0)
 
 
+@pytest.mark.slow
 def test_it_finds_a_failure_that_the_seeded_cases_miss(plan, events_of, clipping):
     _, seeded = events_of(plan(clipping, searching=False))
     assert seeded.verdict is Verdict.PASS

@@ -61,6 +61,7 @@ def test_each_check_is_the_only_one_that_some_mutant_names():
     assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "mutation",
     [pytest.param(m, marks=() if m.name in SHORT else pytest.mark.slow) for m in MUTATIONS],

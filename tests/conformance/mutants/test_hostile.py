@@ -27,6 +27,7 @@ def test_every_hostile_program_is_named_once_and_says_what_is_wrong():
     assert all(hostile.wrong for hostile in HOSTILE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "hostile",
     [pytest.param(h, marks=() if h.name in SHORT else pytest.mark.slow) for h in HOSTILE],

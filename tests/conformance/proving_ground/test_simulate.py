@@ -54,6 +54,7 @@ def test_channels_left_out_leave_the_others_alone() -> None:
     assert {"pitch_rate", "gnss_height", "left.longitudinal_specific_force"} <= whole.keys()
 
 
+@pytest.mark.slow
 def test_flat_road_at_constant_speed_with_a_bias_is_known_exactly() -> None:
     """Nothing moves: g plus the bias, the range at rest, the distance speed times time."""
     bias_only = replace(SensorSuite.ideal(), force_bias=0.005)
@@ -122,6 +123,7 @@ def test_truth_is_the_road_behind_the_vehicle_point() -> None:
     assert middle == pytest.approx(25.0 + 2.91, abs=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate_hz", [1000.0, 1600.0, 2700.0, 3000.0, 3900.0, 16000.0])
 def test_acceleration_is_in_step_with_height_at_any_rate(rate_hz: float) -> None:
     """Its double integral is the height; a lag of half a model step leaves 3 µm."""
@@ -171,6 +173,7 @@ def test_reference_pass_is_measured_well_with_all_errors_on(pipeline: str) -> No
         assert iri(measured, interval) == pytest.approx(iri(true, interval), rel=0.005)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
 def test_long_stop_ruins_the_basic_architectures(stopped: Simulation, pipeline: str) -> None:
     interval = stopped.truth.interval_m
@@ -213,6 +216,7 @@ def test_ideal_sensors_see_the_parked_body_move(kind: str) -> None:
     assert fallen == pytest.approx(motion.road_m, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "limit"), [("quiescent", 0.047), ("bounce", 0.126)])
 def test_stationary_tests_pass_the_standards_limits(kind: str, limit: float) -> None:
     """AASHTO R 57-14, with all sensor errors on, away from the plate."""

@@ -9,6 +9,7 @@ CHECKS = load_registry().checks
 LONG = {"invariance", "braking", "stop", "throttle", "low-speed", "near-stop"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "id_", [pytest.param(i, marks=pytest.mark.slow if i in LONG else ()) for i in CHECKS]
 )

@@ -53,6 +53,7 @@ def test_options_reach_the_settings(call):
     assert made == [TableSettings(), TableSettings(7, 4, 3, "minivan", ("const_16", "const_5"))]
 
 
+@pytest.mark.slow
 def test_the_picture_is_written(call, tmp_path):
     answer = call[0]("--plot", tmp_path / "table.png", "--run", "const_16")
     assert answer.exit_code == 0, answer.output

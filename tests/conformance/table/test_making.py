@@ -52,6 +52,7 @@ def test_a_narrower_table_holds_the_same_figures(watched):
     assert not set(make_table(other).cells[0].passes) & set(cell.passes)
 
 
+@pytest.mark.slow
 def test_the_reference_pass_is_on_the_same_road_with_other_errors(watched):
     table, _ = watched
     for cell in table.cells:
@@ -111,6 +112,7 @@ def test_a_pipeline_that_fails_is_named_with_its_run(monkeypatch, small):
         make_table(small)
 
 
+@pytest.mark.slow
 def test_a_profile_with_a_hole_is_no_score(monkeypatch, small):
     monkeypatch.setattr(builtin.BuiltinDevice, "run", run_of(spoilt(("left", "right"))))
     with pytest.raises(SuiteError, match=r"^pipeline temporal-basic, run sg_5.*: track left: 1 of"):

@@ -104,6 +104,7 @@ def drawn(table, path):
     return path.read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "changed", [Scores(2.5, -1.5, 0.35), Scores(80.0, -1.5, 0.87)], ids=["correlation", "peak"]
 )
@@ -116,6 +117,7 @@ def test_the_picture_is_a_png_that_shows_the_data(hand_table, small, table, tmp_
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.png", "b.png"]
 
 
+@pytest.mark.slow
 def test_the_picture_shows_what_was_not_published(table, tmp_path):
     bare = replace(table, cells=tuple(replace(cell, published=None) for cell in table.cells))
     assert drawn(bare, tmp_path / "a.png") != drawn(table, tmp_path / "b.png")

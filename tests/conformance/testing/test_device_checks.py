@@ -78,10 +78,12 @@ def judged(request):
     return run
 
 
+@pytest.mark.slow
 def test_a_sound_device_passes(judged):
     judged(DeviceChecks.device, checks=("quiescent",))
 
 
+@pytest.mark.slow
 def test_a_wrong_device_fails_with_the_command_that_shows_it_again(judged):
     with pytest.raises(pytest.fail.Exception, match=r"quiescent: .*conformance run --device"):
         judged("mutant:scaled")
@@ -122,6 +124,7 @@ def test_every_registered_check_is_a_test(monkeypatch):
     assert asked == {"check": (*registry.checks, "ours:wet")}
 
 
+@pytest.mark.slow
 def test_an_object_of_the_vendors_passes(judged):
     judged(Sound)
 
@@ -129,6 +132,7 @@ def test_an_object_of_the_vendors_passes(judged):
 MAKERS = [Declining, staticmethod(lambda: Declining()), lambda: Declining()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", MAKERS, ids=["class", "static", "function"])
 def test_each_check_has_an_object_of_its_own_that_is_closed_once(judged, make):
     before = len(Declining.made)

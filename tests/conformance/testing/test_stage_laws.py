@@ -212,6 +212,7 @@ def test_each_law_fails_a_stage_that_breaks_it(stage):
         getattr(Laws(), BROKEN[stage])()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("reach", "stage"), [(1, Smoothing), (20, Summing), (None, Filling)])
 def test_a_reach_is_no_longer_than_declared(reach, stage):
     class Laws(StageLaws):

@@ -33,6 +33,7 @@ def sound(start, whole, tmp_path_factory):
     return {key: start().profile_of(r, folder / str(key)) for key, r in whole.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("fault", "n"), CASES)
 def test_damage_is_repaired_or_flagged_and_the_road_far_before_it_is_as_it_was(
     start, whole, sound, fault, n, tmp_path

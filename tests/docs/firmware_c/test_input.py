@@ -30,6 +30,7 @@ def sanitized(start, simulated, tmp_path_factory):
     return start(*([f"CFLAGS={SANITIZED}"] if able else [])), folder
 
 
+@pytest.mark.slow
 def test_a_run_stays_within_its_memory(sanitized):
     firmware, folder = sanitized
     answer, profile = firmware.run(folder)
@@ -37,6 +38,7 @@ def test_a_run_stays_within_its_memory(sanitized):
     assert len(read_profile(profile).tracks) == 2
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_a_spoilt_recording_gets_an_answer(sanitized, tmp_path, data):

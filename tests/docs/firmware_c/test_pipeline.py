@@ -79,6 +79,7 @@ def starting_late(name, x, clock):
     return (x[100:], UniformClock.of(4000, 0.025)) if name == "height" else (x, clock)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "drive",
     [
@@ -114,6 +115,7 @@ def test_gaps_and_clocks_are_taken_as_the_pipeline_takes_them(
     assert_same(start().profile_of(recording, tmp_path / "run"), expected(recording))
 
 
+@pytest.mark.slow
 def test_single_precision_is_within_a_fifth_of_a_millimetre(
     start, drives, expected, assert_same, tmp_path
 ):
@@ -143,6 +145,7 @@ def test_each_fault_shows_where_it_must_and_only_there(start, drives, expected, 
         assert not track.valid.all()
 
 
+@pytest.mark.slow
 def test_a_run_takes_memory_once_however_long_it_is(counted, simulated, tmp_path):
     taken = []
     for length_m in (150.0, 300.0):

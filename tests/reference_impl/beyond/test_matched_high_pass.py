@@ -72,6 +72,7 @@ def test_whatever_both_sensors_see_cancels_under_any_cut_off(seed: int) -> None:
     assert profile == pytest.approx(np.zeros(len(profile)), abs=1e-15)
 
 
+@pytest.mark.slow
 def test_bounce_under_a_sweeping_cut_off_cancels_in_the_observer_and_not_in_the_cascade() -> None:
     t, x = stop_and_go()
     a, lift = bounce(t)

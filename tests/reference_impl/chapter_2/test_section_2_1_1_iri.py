@@ -36,6 +36,7 @@ def test_iri_grows_with_the_amplitude(factor: float, seed: int) -> None:
     assert section.iri(factor * z, 0.1) == pytest.approx(expected, rel=1e-10, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wavelength", [1.0, 2.5, 10.0, 25.0])
 def test_sinusoid_comes_out_with_the_gain_of_2_7_and_2_9(wavelength: float) -> None:
     dx, nu = 0.01, 1 / wavelength

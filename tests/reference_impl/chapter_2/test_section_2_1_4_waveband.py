@@ -31,6 +31,7 @@ def near(printed: float) -> float:
     return max(0.0015 * printed, 0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.11)", "Tables 2.4 to 2.6")
 @pytest.mark.parametrize("column", range(4))
 @pytest.mark.parametrize("index", waveband.INDICES)

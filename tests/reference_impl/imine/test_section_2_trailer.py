@@ -54,6 +54,7 @@ def test_matrices_are_symmetric_and_make_no_energy(trailer: Trailer) -> None:
         assert np.linalg.eigvalsh(matrix)[0] >= -1e-9 * np.abs(matrix).max()
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(7) of Imine")
 @settings(deadline=None, max_examples=40)
 @given(trailer=TRAILERS, q=MOTIONS, q_dot=MOTIONS, u=ROADS, u_dot=ROADS)

@@ -62,6 +62,7 @@ def observed(driven) -> tuple[Matrix, Matrix]:
     return observe(wheels, x @ POSITIONS.T, 1 / F_S, FORM, GAINS, POSITIONS, steps)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(10) of Imine", "(11) of Imine")
 def test_chirp_is_followed_within_half_a_per_cent(driven, observed) -> None:
     """Figure 5: an error of 5e-6 m, 0.5 %, once the start is forgotten, here after 1 s."""

@@ -100,6 +100,7 @@ def test_every_state_errs_as_its_covariance_says(draws: Drawn, smoothed: list[Sm
     assert np.abs(np.mean(error / sigma, axis=0)).max() < 4 / np.sqrt(DRAWS)
 
 
+@pytest.mark.slow
 def test_states_err_together_as_their_covariance_says(
     draws: Drawn, smoothed: list[Smoothed]
 ) -> None:

@@ -31,6 +31,7 @@ def carried(theta: np.ndarray, phi: np.ndarray, a_w: np.ndarray) -> np.ndarray:
     return seen
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.20)")
 @laws
 @given(theta=ANGLES, v=st.floats(10.0, 30.0), a=st.floats(-3.0, -0.1))
@@ -47,6 +48,7 @@ def test_a_brake_on_a_hill_is_level_to_the_last_digit(theta: float, v: float, a:
     assert level(steady, HOW) == pytest.approx(np.zeros(200), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.20)", "(6.27)", "(6.28)")
 @laws
 @given(v=st.floats(5.0, 30.0), yaw=st.floats(-0.3, 0.3), phi=ANGLES)
@@ -64,6 +66,7 @@ def test_a_banked_curve_is_level(v: float, yaw: float, phi: float) -> None:
     assert level(unit, HOW) == pytest.approx(np.zeros(N), abs=1e-7)
 
 
+@pytest.mark.slow
 @laws
 @given(bias=st.floats(-0.01, 0.01), amplitude=st.floats(0.0, 0.03), hz=st.floats(1.0, 2.0))
 def test_a_bias_of_the_gyro_is_nothing_and_fast_pitch_is_as_it_is(

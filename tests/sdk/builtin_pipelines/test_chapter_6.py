@@ -105,6 +105,7 @@ def same(one: Profile, other: Profile) -> bool:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [pytest.param(n, marks=() if n == "kalman-smoother" else pytest.mark.slow) for n in PIPELINES],

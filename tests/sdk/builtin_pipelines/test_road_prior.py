@@ -63,6 +63,7 @@ def usual() -> Profile:
     return profile()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("setting", PIPELINE.settings)
 def test_every_setting_changes_the_profile(setting: str) -> None:
     # What is vouched for is set above; there is less of it with less.

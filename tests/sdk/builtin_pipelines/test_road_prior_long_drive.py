@@ -12,6 +12,7 @@ from floatref.measures import cross_correlation, high_pass, iri_trace
 from floatref.values.profile import Profile
 from floatref_conformance.proving_ground import Scenario, Simulation, simulate
 
+pytestmark = pytest.mark.slow
 STOPS_M = (900.0, 2100.0, 3300.0)
 INTERVAL_M = 0.05
 DRIVE = Scenario(
@@ -49,7 +50,6 @@ def driven() -> tuple[Simulation, Profile, int]:
         return made, floatref.process(made.recording, "road-prior-smoother"), max(kept)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("stop_m", STOPS_M)
 def test_every_stop_is_adequate(stop_m: float) -> None:
     made, profile, _ = driven()

@@ -88,6 +88,7 @@ def usual() -> Profile:
     return profile(damaged())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("setting", PIPELINE.settings)
 def test_every_setting_changes_the_profile(setting: str) -> None:
     # What is vouched for is set above; there is less of it with less.
@@ -151,6 +152,7 @@ def test_at_a_constant_speed_it_is_the_profile_from_all_samples(speed_kmh: float
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dwell_s", [0.0, 0.5, 3.0, 45.0])
 def test_the_elevation_goes_on_whatever_the_stop_lasts(dwell_s: float) -> None:
     simulation = driven(dwell_s=dwell_s)

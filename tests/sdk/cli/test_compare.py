@@ -116,6 +116,7 @@ def test_impossible_offset_is_exit_2(tmp_path: Path, offset: str) -> None:
     assert "offset" in result.stderr
 
 
+@pytest.mark.slow
 def test_drawing_is_written(tmp_path: Path) -> None:
     same = written(tmp_path / "a", main=road(1))
     result = run(same, same, "--plot", tmp_path / "c.png")

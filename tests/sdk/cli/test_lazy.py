@@ -38,6 +38,7 @@ def test_an_error_of_the_system_is_one_line(
     assert (result.exit_code, result.stderr) == (2, line)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unbuffered", [pytest.param("", marks=pytest.mark.slow), "1"])
 @pytest.mark.parametrize("words", [["--help"], ["iri", "--help"], ["iri", "P"]])
 def test_a_full_standard_output_is_named(tmp_path: Path, unbuffered: str, words: list[str]) -> None:

@@ -51,6 +51,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_runs_of_one_vehicle_tell_the_same_tilt(runs: Path) -> None:
     told = [read_profile(runs / name).provenance["learned"] for name in ("first", "second")]
     apart = abs(told[0]["tilt_expected"] - told[1]["tilt_expected"])

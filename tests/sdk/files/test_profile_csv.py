@@ -16,6 +16,7 @@ from floatref.values.profile import Profile, ProfileTrack
 FINITE = st.floats(allow_infinity=False)
 
 
+@pytest.mark.slow
 @given(
     columns=st.lists(st.tuples(FINITE, st.booleans(), FINITE), min_size=2, max_size=40),
     interval=st.floats(1e-5, 1e3),

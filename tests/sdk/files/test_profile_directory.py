@@ -40,6 +40,7 @@ def profiles(draw: st.DrawFn) -> Profile:
     return Profile(interval, tracks, start, draw(st.text()), draw(OBJECT), draw(OBJECT))
 
 
+@pytest.mark.slow
 @given(profiles())
 @settings(deadline=None, max_examples=40)
 def test_a_profile_written_reads_back_the_same(profile: Profile) -> None:

@@ -79,6 +79,7 @@ def assert_same(found: Recording, expected: Recording) -> None:
     assert (found.vendor, found.model) == (expected.vendor, expected.model)
 
 
+@pytest.mark.slow
 @given(recordings())
 @settings(deadline=None, max_examples=40)
 def test_a_recording_written_reads_back_the_same(recording: Recording) -> None:

@@ -3,6 +3,7 @@
 from itertools import groupby, pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -53,6 +54,7 @@ def test_runs_are_those_of_the_signal_in_any_pieces(x, least, more):
     assert found_in(x, least, ends, 2 * least + more) == extreme
 
 
+@pytest.mark.slow
 @laws
 @given(x=samples, over=st.sampled_from([0.0, 0.5, 2.5]), data=st.data())
 def test_every_run_is_counted_in_any_pieces(x, over, data):

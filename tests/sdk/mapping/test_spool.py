@@ -25,6 +25,7 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=30)
 @given(pieces=st.lists(arrays(np.float64, st.integers(0, 20)), max_size=6))
 def test_samples_come_back_bit_for_bit(pieces: list[np.ndarray]) -> None:

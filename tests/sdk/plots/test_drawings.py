@@ -38,6 +38,7 @@ def colour_share(path: Path, colour: str) -> float:
     return float(same.any(axis=0).mean())
 
 
+@pytest.mark.slow
 def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path) -> None:
     draw_profile(profile("left", "right"), tmp_path / "p.png")
     for colour in COLOURS[:2]:
@@ -47,6 +48,7 @@ def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path) -> None:
     assert [entry.name for entry in tmp_path.iterdir()] == ["p.png"]
 
 
+@pytest.mark.slow
 def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path) -> None:
     shares = []
     for end in (1000, 3000):
@@ -56,6 +58,7 @@ def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path) -> None:
     assert np.diff(shares) == pytest.approx(0.46, abs=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speeds", [np.zeros(0), np.full(3, np.nan)])
 def test_without_any_speed_there_is_no_panel(tmp_path: Path, speeds: np.ndarray) -> None:
     run = profile("left")
@@ -90,6 +93,7 @@ def test_an_elevation_that_no_road_has_is_refused(tmp_path: Path) -> None:
         draw_profile(run, tmp_path / "p.png")
 
 
+@pytest.mark.slow
 def test_speed_adds_a_panel(tmp_path: Path) -> None:
     run = profile("left")
     draw_profile(run, tmp_path / "without.png")
@@ -98,6 +102,7 @@ def test_speed_adds_a_panel(tmp_path: Path) -> None:
     assert heights[1] > heights[0] + 100
 
 
+@pytest.mark.slow
 def test_comparison_has_a_column_for_each_wheel_path(tmp_path: Path) -> None:
     run = profile("left", "right")
     draw_comparison(profile("left"), run, tmp_path / "one.png")
@@ -106,6 +111,7 @@ def test_comparison_has_a_column_for_each_wheel_path(tmp_path: Path) -> None:
     assert (tmp_path / "two.svg").read_text(encoding="utf-8").count('<g id="axes_') == 6
 
 
+@pytest.mark.slow
 def test_gaps_and_short_profiles_are_drawn_all_the_same(tmp_path: Path) -> None:
     z = road(1)
     z[:100] = z[2000:2500] = np.nan
@@ -158,6 +164,7 @@ def test_wheel_path_missing_in_the_profile_is_named(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_importing_loads_no_matplotlib_and_drawing_no_pyplot(tmp_path: Path) -> None:
     code = (
         "import sys, numpy as np, floatref.plots as plots\n"

@@ -57,6 +57,7 @@ def text_of(path: Path) -> str:
     return path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("located", [True, False])
 @pytest.mark.parametrize("paths", [1, 2])
 def test_lengths_shares_and_failures_are_told(tmp_path: Path, located: bool, paths: int) -> None:
@@ -73,6 +74,7 @@ def test_lengths_shares_and_failures_are_told(tmp_path: Path, located: bool, pat
     assert ("bad.mf4" in text) != located
 
 
+@pytest.mark.slow
 def test_one_degree_is_as_long_one_way_as_the_other(tmp_path: Path) -> None:
     # Sixty degrees north a circle is half as wide in longitude as it is long, so twice in degrees.
     turn = np.linspace(0.0, 2.0 * math.pi, 200)
@@ -164,6 +166,7 @@ def test_the_index_of_two_paths_goes_before_their_mean() -> None:
     np.testing.assert_array_equal(found.file, [0, 1, 3])
 
 
+@pytest.mark.slow
 def test_one_wild_segment_does_not_hide_the_others(tmp_path: Path) -> None:
     given = network(False)
     given["iri_m_per_km"] = [1e6, *given["iri_m_per_km"][1:]]
@@ -194,6 +197,7 @@ def test_nothing_but_failures_or_unknown_is_drawn_all_the_same(
     assert (tmp_path / "none.png").exists()
 
 
+@pytest.mark.slow
 def test_names_are_told_while_there_is_room(tmp_path: Path) -> None:
     for files, told in ((24, True), (25, False)):
         draw_summary(network(False, files=files), tmp_path / "n.svg")

@@ -32,6 +32,7 @@ def with_arm(recording: Recording, x: float, y: float, z: float) -> Recording:
     return replace(recording, setup=replace(recording.setup, gnss_antenna_offset_m=(x, y, z)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vehicle", ["minivan", "pickup", "soft-van"])
 def test_the_arm_is_found_within_its_uncertainty(vehicle: str) -> None:
     recording, motion = driven(vehicle)

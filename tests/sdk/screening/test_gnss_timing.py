@@ -37,6 +37,7 @@ def checked(recording: Recording) -> tuple[str, ...]:
     return check_kinematics(recording, use, gnss_faults(recording))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=12)
 @given(seed=st.integers(0, 2), by_s=st.sampled_from([-0.4, -0.2, -0.1, 0.1, 0.25, 0.45]))
 def test_a_delay_is_told_with_its_size_and_nothing_else_is_blamed(seed: int, by_s: float) -> None:

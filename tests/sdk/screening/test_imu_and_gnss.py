@@ -81,6 +81,7 @@ def no_gnss(recording: Recording) -> Recording:
     return replace(recording, channels=channels)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_sound_recording_gives_no_warning(drive: str) -> None:
     assert warnings_of(driven(drive), "left", "right") == ()
@@ -123,6 +124,7 @@ FAULTS = (
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(fault=st.sampled_from(FAULTS), seed=st.integers(0, 3))
 def test_a_wrong_sign_unit_or_axis_is_refused_by_name(fault: Fault, seed: int) -> None:

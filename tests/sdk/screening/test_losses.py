@@ -153,6 +153,7 @@ def spoilt(channel: Channel, kind: str, begin: float, share: float) -> Channel:
     return replace(channel, values=values)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     damage=st.lists(

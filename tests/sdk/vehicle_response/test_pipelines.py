@@ -26,6 +26,7 @@ laws = settings(
 )
 
 
+@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("mps", [12.0, 25.0])
 def test_the_road_is_recovered_from_ideal_sensors(drive, pipeline, mps):
@@ -35,6 +36,7 @@ def test_the_road_is_recovered_from_ideal_sensors(drive, pipeline, mps):
     assert np.sqrt(np.mean(error**2)) < 0.03 * road[track.valid].std()
 
 
+@pytest.mark.slow
 @PIPELINES
 @laws
 @given(wheel_m=st.floats(-3.0, 3.0), laser_m=st.floats(-3.0, 3.0))
@@ -60,6 +62,7 @@ def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
     assert not profile.tracks[0].valid[unseen].any()
 
 
+@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("seed", range(3))
 def test_the_error_is_within_two_sigma(drive, quarter_car, pipeline, seed):
@@ -85,6 +88,7 @@ def test_any_split_gives_the_same_profile(drive, pipeline, monkeypatch):
     np.testing.assert_array_equal(whole.valid, split.valid)
 
 
+@pytest.mark.slow
 @PIPELINES
 def test_a_long_gap_of_an_accelerometer_spoils_what_is_around(drive, pipeline):
     known = drive(length_m=400.0).recording()

@@ -48,6 +48,7 @@ def test_the_obstacle_is_found_within_15_percent(bench, seed):
     assert np.abs(found - true)[~edges].max() <= SHARE_OF_OBSTACLE * 0.2
 
 
+@pytest.mark.slow
 def test_with_the_tied_rate_two_speeds_give_like_spectra(bench):
     slow, fast = (bench.at_speed(*pair, 200.0) for pair in ((10.0, 200.0), (20.0, 400.0)))
     np.testing.assert_allclose(slow[0], fast[0])

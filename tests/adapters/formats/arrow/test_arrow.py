@@ -115,6 +115,7 @@ def test_a_dictionary_that_grows_or_is_replaced_gives_the_numbers_that_were_mean
     np.testing.assert_array_equal(found["x"], [1, 2, 1, 5, 1, np.nan])
 
 
+@pytest.mark.slow
 @few
 @given(
     unit=st.sampled_from(["s", "ms", "us", "ns"]),

@@ -128,6 +128,7 @@ def test_a_compressed_batch_that_swells_is_refused(tmp_path: Path) -> None:
         ArrowIpc().streams(path, {})
 
 
+@pytest.mark.slow
 def test_a_compressed_dictionary_that_swells_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "run.arrow"
     values = pa.array([b"\0" * (1 << 27)])

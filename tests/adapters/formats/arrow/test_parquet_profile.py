@@ -55,6 +55,7 @@ def same(found, expected):
             np.testing.assert_array_equal(one.sigma, other.sigma)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=120)
 @given(profile=profiles(), rows=st.integers(1, 8))
 def test_what_is_read_is_what_was_written(tmp_path_factory, profile, rows):

@@ -150,6 +150,7 @@ def test_a_blf_log_that_is_cut_off_keeps_what_was_written(tmp_path: Path, cut: i
     assert file.warnings
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=120)
 @given(data=st.data(), form=st.sampled_from(["asc", "log", "blf", "trc", "csv"]))
 def test_mutated_logs_are_read_or_refused(

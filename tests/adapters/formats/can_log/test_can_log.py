@@ -43,6 +43,7 @@ def opened(
     return CanLog().streams(path, options)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @given(
     drawn=st.lists(st.tuples(st.integers(1, 10**6), counts), min_size=1, max_size=12),

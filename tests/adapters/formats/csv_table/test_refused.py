@@ -81,6 +81,7 @@ def test_a_line_without_an_end_is_refused_before_it_fills_the_memory(tmp_path: P
         read(tmp_path, "a,b\n1,2\n" + "1" * (18 << 20))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
 def test_a_damaged_table_is_read_or_refused(

@@ -55,6 +55,7 @@ def lines_of(raw):
     return lines[:end], lines[end + 1 :]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(profile=profiles())
 def test_what_is_read_are_the_written_digits(tmp_path_factory, profile):
@@ -83,6 +84,7 @@ def test_digits_are_rounded_half_to_even(tmp_path_factory, values):
     assert [Decimal(line) for line in lines_of(raw)[1]] == expected
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(profile=profiles())
 def test_the_header_follows_the_layout_facts(tmp_path_factory, profile):

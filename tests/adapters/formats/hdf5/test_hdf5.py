@@ -37,6 +37,7 @@ def ticks(native: NativeFile, stream: str) -> np.ndarray:
     return np.concatenate([piece.ticks for piece in chosen.read([])])
 
 
+@pytest.mark.slow
 def test_groups_are_streams_and_datasets_columns(path: Path) -> None:
     with h5py.File(path, "w") as file:
         fast, slow = file.create_group("daq/fast"), file.create_group("daq/slow")
@@ -118,6 +119,7 @@ def test_a_dimension_scale_is_the_clock_of_what_it_is_the_scale_of(path: Path) -
     assert ticks(native, "data").tolist() == [0.5, 1.5, 2.5]
 
 
+@pytest.mark.slow
 def test_a_matlab_file_has_its_columns_across(path: Path) -> None:
     def put(group: Any, name: str, values: np.ndarray, kind: bytes = b"double") -> None:
         group[name] = values
@@ -139,6 +141,7 @@ def test_a_matlab_file_has_its_columns_across(path: Path) -> None:
     assert {s.clock.rate for s in native.streams} == {Fraction(1000)}
 
 
+@pytest.mark.slow
 def test_the_option_time_names_a_dataset(path: Path) -> None:
     with h5py.File(path, "w") as file:
         file["a/clock"], file["a/x"] = np.array([3, 4]), np.zeros(2)

@@ -94,6 +94,7 @@ def test_a_dataset_of_a_billion_rows_is_listed_at_once(path: Path) -> None:
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 64 << 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", ["fast", 0, -1.0, np.nan, np.arange(3)])
 def test_attributes_of_no_clock_are_refused(path: Path, value: Any) -> None:
     with h5py.File(path, "w") as file:
@@ -138,6 +139,7 @@ def test_a_damaged_file_is_read_or_refused(
     assert "\n" not in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "ill", ["import os; os.abort()", "import time; time.sleep(60)", "print(1)"]
 )
@@ -156,6 +158,7 @@ def test_a_library_that_breaks_down_does_no_harm(
         list(stream.read(["x"]))
 
 
+@pytest.mark.slow
 def test_a_reader_that_is_left_early_leaves_no_process(path: Path) -> None:
     with h5py.File(path, "w") as file:
         file["x"] = np.zeros(1 << 20)

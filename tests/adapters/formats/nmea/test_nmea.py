@@ -207,6 +207,7 @@ def summed(found: re.Match[bytes]) -> bytes:
     return b"$%s*%02X" % (found[1], reduce(xor, found[1], 0))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=120)
 @given(data=st.data())
 def test_mutated_logs_are_read_or_refused(

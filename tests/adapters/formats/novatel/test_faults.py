@@ -114,6 +114,7 @@ def test_beginnings_without_end_are_given_up(tmp_path: Path) -> None:
         opened(tmp_path, start * 300_000)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
 def test_mutated_files_are_read_or_refused(
@@ -128,6 +129,7 @@ def test_mutated_files_are_read_or_refused(
     read_or_refused(NovAtel(), path, {})
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
 def test_strange_logs_with_a_right_checksum_do_no_harm(

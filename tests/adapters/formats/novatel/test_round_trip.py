@@ -81,6 +81,7 @@ def test_every_fix_comes_back(
         np.testing.assert_allclose(found, expected, rtol=0, atol=quantum)
 
 
+@pytest.mark.slow
 def test_logs_across_the_blocks_of_a_large_file_are_all_found(tmp_path: Path) -> None:
     log = binary_log(ONE) + ascii_log(ONE) + b"[ICOM1]"
     times = 3_500_000 // len(log)

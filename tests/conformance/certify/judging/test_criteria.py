@@ -48,6 +48,7 @@ def test_of_the_errors_of_the_iri_the_largest_comes_first_whatever_its_sign(shee
     assert named.index("run-2") < named.index("run-3") < named.index("run-1")
 
 
+@pytest.mark.slow
 def test_the_averages_are_over_all_pairs_and_over_all_runs(sheet_of, ten_runs):
     sheet = sheet_of(ten_runs)
     pairs = sheet.pairs["left"]
@@ -58,6 +59,7 @@ def test_the_averages_are_over_all_pairs_and_over_all_runs(sheet_of, ten_runs):
     assert criterion(sheet, "accuracy", "left").value == pytest.approx(np.mean(scores))
 
 
+@pytest.mark.slow
 def test_wheel_paths_are_judged_apart(sheet_of, ten_runs, run_over):
     noisy = [run_over(seed, noise_m=NOISY_M) for seed in range(1, 11)]
     mixed = tuple(
@@ -99,6 +101,7 @@ def test_one_bad_run_is_blamed_for_the_pairs_of_all_others(sheet_of, ten_runs, r
     assert "run-" not in found.reason
 
 
+@pytest.mark.slow
 def test_of_many_runs_below_the_worst_are_named_and_the_rest_counted(sheet_of, run_over):
     sheet = sheet_of(tuple(run_over(seed, noise_m=NOISY_M) for seed in range(1, 9)))
     found = criterion(sheet, "accuracy", "right")

@@ -50,6 +50,7 @@ def test_every_number_of_whole_runs_is_compares(tmp_path, sheet_of, reference, t
     check_against_compare(tmp_path, sheet)
 
 
+@pytest.mark.slow
 def test_so_it_is_with_runs_that_are_cut_coarse_offset_or_holed(
     tmp_path, sheet_of, run_over, without
 ):

@@ -12,6 +12,7 @@ from floatref.values.profile import ProfileTrack
 from floatref_conformance.certify.locating.fit import fit
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(
     percent=st.floats(-5.0, 5.0),
@@ -39,6 +40,7 @@ def test_an_error_of_distance_of_a_twentieth_of_a_percent_is_resolved(road) -> N
         assert found.distance_sigma < 0.005
 
 
+@pytest.mark.slow
 def test_sigma_covers_the_truth_as_often_as_it_says(roads) -> None:
     distances, heights = [], []
     for seed in range(40):

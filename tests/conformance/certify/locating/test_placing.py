@@ -35,6 +35,7 @@ def test_a_run_that_lies_right_comes_back_as_the_same_object(road, start_m) -> N
     assert placement.notes == ()
 
 
+@pytest.mark.slow
 @settings(max_examples=12, deadline=None)
 @given(
     start_m=st.floats(-55.0, -1.5),
@@ -155,6 +156,7 @@ def test_a_section_lies_somewhere_in_a_run_of_many_kilometres(road, roads) -> No
     assert placement.offset_m == pytest.approx(5000.0, abs=0.1)
 
 
+@pytest.mark.slow
 def test_another_road_is_not_found_and_it_is_said_what_was_tried(road, roads) -> None:
     for seed in range(20, 25):
         run = roads(seed).run(-50.0, 600.0)
@@ -191,6 +193,7 @@ def test_of_the_repeats_of_a_road_the_nearest_is_taken_and_said() -> None:
     assert any("the road repeats itself" in s for s in placement.notes)
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(percent=st.floats(0.2, 5.0), length_m=st.sampled_from([160.0, 400.0]))
 def test_a_road_that_does_not_repeat_itself_is_not_said_to(road, percent, length_m) -> None:

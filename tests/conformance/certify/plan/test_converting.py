@@ -133,6 +133,7 @@ def test_warnings_of_processing_are_told(
     assert only(tmp_path / "drive").notes == ("processed by any", "half of it", "is missing")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "said"),
     [

@@ -159,6 +159,7 @@ def test_an_empty_worksheet_is_a_page_too(certified, judged):
     assert found.crossed == found.open == []
 
 
+@pytest.mark.slow
 def test_a_page_replaces_an_older_one_or_leaves_it(certified, tmp_path, monkeypatch):
     path = tmp_path / "worksheet.html"
     path.write_text("old", encoding="utf-8")

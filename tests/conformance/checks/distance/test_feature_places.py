@@ -73,6 +73,7 @@ def failing(taken, device_class=DeviceClass.NOMINAL, **spoiled):
     return {m.quantity for m in judged(taken, **spoiled) if not m.within(device_class)}
 
 
+@pytest.mark.slow
 def test_the_truth_keeps_every_limit_of_the_strictest_class(stopped):
     assert failing(stopped, DeviceClass.REFERENCE) == set()
 
@@ -146,6 +147,7 @@ def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there():
     assert SCALE in failing(taken)
 
 
+@pytest.mark.slow
 def test_the_axis_of_an_encoder_that_slips_is_what_it_told():
     taken = taken_of(DISTANCE.cases(1, Effort.QUICK)[0].scenario)
     channel = taken.recording.channel("distance")
@@ -177,6 +179,7 @@ def seen_by_wheels(taken):
     return replace(taken, recording=recording), Profile(0.05, tracks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("percent", [-1.0, 1.0])
 def test_what_the_encoder_tells_wrong_between_wheel_and_laser_is_no_fault_of_a_device(percent):
     case = DISTANCE.cases(1, Effort.QUICK)[2]
@@ -231,6 +234,7 @@ def test_cases_follow_the_seed_and_survive_as_parameters():
         assert drive_of(case.scenario).length_m >= case.scenario.length_m - 1e-6
 
 
+@pytest.mark.slow
 def test_the_recommended_pipeline_passes_braking_with_slip():
     case = DISTANCE.cases(0, Effort.QUICK)[2]
     name = "spatial-hpf-timer-distortion-reflection"

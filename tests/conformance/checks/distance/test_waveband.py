@@ -72,6 +72,7 @@ def gain_at(wavelength_m, minus_3db_m):
     return 1 / (1 + (wavelength_m / setting) ** 6)
 
 
+@pytest.mark.slow
 def test_the_truth_filtered_alike_keeps_every_limit_of_the_strictest_class(taken):
     assert failing(taken, DeviceClass.REFERENCE) == set()
     values = read(taken)
@@ -117,6 +118,7 @@ def test_a_flat_profile_and_a_smoothed_one_fail_by_gain(taken):
     assert lost == pytest.approx(100 * (1 - np.sinc(0.25 / 0.6)), abs=1.0)
 
 
+@pytest.mark.slow
 def test_an_encoder_that_is_wrong_by_a_known_share_moves_no_wave():
     scenario = replace(WAVEBAND.simplest.scenario, encoder_error_percent=1.0)
     assert failing(taken_of(scenario), DeviceClass.REFERENCE, stretched=1.01) == set()
@@ -141,6 +143,7 @@ def test_cases_follow_the_seed_and_survive_as_parameters():
     assert [Case.of("waveband", c.parameters, c.name) for c in cases] == list(cases)
 
 
+@pytest.mark.slow
 def test_the_basic_pipeline_passes_its_first_case():
     case = WAVEBAND.cases(0, Effort.QUICK)[0]
     bench = Bench(

@@ -106,6 +106,7 @@ def test_a_flat_profile_fails_by_its_roughness_and_the_bump(check, taken):
     assert {q for q in found if q.startswith(("IRI", "correlation"))}
 
 
+@pytest.mark.slow
 @each
 def test_a_smooth_profile_fails(check, taken):
     def smooth(z):
@@ -136,6 +137,7 @@ def test_a_wheel_path_without_elevations_is_the_devices_fault_unless_all_of_it_i
             failing(check, taken(check), device)
 
 
+@pytest.mark.slow
 def test_what_a_device_gets_wrong_behind_the_second_stop_counts(taken):
     scenario = replace(
         STOP.simplest.scenario,

@@ -41,6 +41,7 @@ def drives(request):
     return strategies.drives(request.param)
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @DRAWS
 def test_a_drive_is_possible_and_what_is_scored_lies_far_from_its_ends(drives, data):
@@ -53,6 +54,7 @@ def test_a_drive_is_possible_and_what_is_scored_lies_far_from_its_ends(drives, d
         assert end <= scenario.length_m - END_M
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @DRAWS
 def test_the_bump_lies_in_no_scored_stretch_and_ahead_of_every_brake(drives, data):
@@ -75,6 +77,7 @@ def test_numbers_are_rounded_and_make_the_same_case_again(drives, data):
     assert all(value == round(value, 5) for value in values)
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @DRAWS
 def test_speeds_stay_on_their_side_of_16_km_per_h(data):
@@ -155,6 +158,7 @@ def test_a_drive_without_room_for_what_is_scored_is_refused(change):
         layout_of(Scenario(**{"manoeuvre": "stop", **change}))
 
 
+@pytest.mark.slow
 def test_hypothesis_is_imported_only_when_a_strategy_is_asked_for():
     code = (
         "import sys; import floatref_conformance.checks.driving.strategies;"

@@ -52,6 +52,7 @@ def spoiling(change, label="with the fault"):
     return lambda said, profile: changed(profile, change) if said == label else profile
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
 def test_a_right_device_need_flag_nothing(right_bench, case):
     measured = FAULTS.judge(case, right_bench(augmented=True))
@@ -60,6 +61,7 @@ def test_a_right_device_need_flag_nothing(right_bench, case):
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.6
 
 
+@pytest.mark.slow
 @few
 @given(before_m=st.floats(0.0, 60.0), behind_m=st.floats(21.0, 90.0))
 def test_what_is_flagged_beyond_the_fault_is_read(right_bench, before_m, behind_m):
@@ -82,6 +84,7 @@ def test_what_is_flagged_without_the_fault_too_is_not_its_doing(right_bench):
     assert found["flagged elsewhere"].limits[NOMINAL] == 10.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
 def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
     def flag(x, z, valid):
@@ -92,6 +95,7 @@ def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
     assert fails == (case.scenario.manoeuvre != "stop")
 
 
+@pytest.mark.slow
 @few
 @given(height_mm=st.floats(1.0, 20.0), at_m=st.floats(150.0, 400.0))
 def test_what_is_wrong_counts_unless_it_is_flagged(right_bench, height_mm, at_m):
@@ -109,6 +113,7 @@ def test_what_is_wrong_counts_unless_it_is_flagged(right_bench, height_mm, at_m)
     assert doubled["local error, unflagged"].value == pytest.approx(2 * said.value, rel=1e-6)
 
 
+@pytest.mark.slow
 @few
 @given(gain=st.floats(0.8, 1.2))
 def test_the_roughness_of_what_is_vouched_for_is_read(right_bench, gain):
@@ -121,6 +126,7 @@ def test_the_roughness_of_what_is_vouched_for_is_read(right_bench, gain):
     assert error == pytest.approx(abs(gain - 1.0) * true, rel=0.02, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_reference_measures_the_same(right_bench):
     found = judged(LASER, right_bench(spoiling(lambda x, z, valid: (1.2 * z, valid))))
     for measurement in found.values():
@@ -136,6 +142,7 @@ def test_a_profile_that_says_nothing_fails(right_bench, wrong):
     assert max(m.ratio(NOMINAL) for m in measured) > 1.0
 
 
+@pytest.mark.slow
 @few
 @given(flagged_m=st.floats(1.0, 120.0), untold=st.integers(0, 20))
 def test_of_what_is_flagged_at_an_end_nothing_is_what_the_encoder_did_not_tell(

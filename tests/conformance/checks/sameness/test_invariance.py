@@ -37,6 +37,7 @@ def judged(case, bench):
     return {m.quantity: m for m in INVARIANCE.judge(case, bench)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", INVARIANCE.cases(3, Effort.CERTIFICATION), ids=lambda c: c.name)
 def test_a_right_device_keeps_every_limit_of_every_case(right_bench, case):
     bench = right_bench(augmented=True)
@@ -46,6 +47,7 @@ def test_a_right_device_keeps_every_limit_of_every_case(right_bench, case):
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.3
 
 
+@pytest.mark.slow
 @few
 @given(gain=st.floats(0.9, 1.1))
 def test_another_height_is_read_as_a_difference_of_the_iri(right_bench, gain):
@@ -56,6 +58,7 @@ def test_another_height_is_read_as_a_difference_of_the_iri(right_bench, gain):
     assert measured["displacement between both"].value == 0.0
 
 
+@pytest.mark.slow
 @few
 @given(points=st.integers(-19, 19))
 def test_another_place_is_read_as_a_displacement(right_bench, points):

@@ -74,6 +74,7 @@ def times(factor):
     return lambda z: factor * z
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [CASE, REPEATABILITY.cases(3, Effort.QUICK)[1]])
 def test_the_truth_of_both_passes_agrees_whatever_the_vehicle(case):
     assert failing(case, DeviceClass.REFERENCE) == set()
@@ -103,6 +104,7 @@ def test_two_passes_that_show_the_same_wrong_road_fail_against_the_truth():
     assert failing(first=elsewhere, second=elsewhere) == {TO_TRUTH}
 
 
+@pytest.mark.slow
 def test_two_flat_passes_fail_and_the_oracle_finds_the_same():
     flat = {"first": times(0.0), "second": times(0.0)}
     measured = REPEATABILITY.judge(CASE, spoiled(**flat))

@@ -109,6 +109,7 @@ def of_the_left_track(z, simulated):
     return high_pass(simulated.truth.track("left").elevation, simulated.truth.interval_m)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "cheat", [at_480_m, of_the_case_before, of_the_other_track, of_the_left_track]
 )

@@ -59,6 +59,7 @@ def assert_density(wave_number: FloatArray, spectra: np.ndarray, density: FloatA
         assert abs(ratio - 1) < 4 / np.sqrt(independent) + 0.02, (low, high, ratio)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.4)")
 @pytest.mark.parametrize("case", TABLE_2_2)
 def test_sayers_roads_have_the_spectrum_of_equation_2_4(case: str) -> None:

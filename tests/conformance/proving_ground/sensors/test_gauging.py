@@ -31,6 +31,7 @@ def freedoms(simulation: Simulation) -> SuspensionMotion:
     return simulation.motion.suspension
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(
     seed=st.integers(0, 2**63 - 1),
@@ -126,6 +127,7 @@ def test_a_body_accelerometer_feels_gravity_and_braking_through_its_tilt() -> No
     assert own == pytest.approx(motion.lane[0] * pitch - G * pitch**2 / 2, abs=2e-4)
 
 
+@pytest.mark.slow
 def test_a_brake_winds_the_wheel_carrier_up() -> None:
     """A tilt of w·b/g nose down under a deceleration b takes w·b²/g from the reading."""
     scenario = replace(
@@ -144,6 +146,7 @@ def test_a_brake_winds_the_wheel_carrier_up() -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "bias", "density", "step"),
     [

@@ -168,6 +168,7 @@ def test_figure_2_22_the_bulge_is_a_small_and_local_roughness(pulse: PendulumMot
     assert abs(np.mean(rough) - 22.0 * 6.5) < 20.0
 
 
+@pytest.mark.slow
 def test_figure_2_25_a_long_brake_adds_more_and_at_low_speed_far_more() -> None:
     middle, motion = braked(79.0)
     at_79 = section_iri(*profile(motion), middle)

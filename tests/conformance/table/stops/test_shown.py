@@ -107,6 +107,7 @@ def drawn(table, path):
     return path.read_bytes()
 
 
+@pytest.mark.slow
 def test_the_picture_is_a_png_that_shows_the_data(hand_stops, table, tmp_path):
     first = drawn(table, tmp_path / "a.png")
     assert first.startswith(b"\x89PNG\r\n\x1a\n")
@@ -115,6 +116,7 @@ def test_the_picture_is_a_png_that_shows_the_data(hand_stops, table, tmp_path):
     assert drawn(other, tmp_path / "b.png") != first
 
 
+@pytest.mark.slow
 def test_the_picture_takes_what_lies_beyond_its_ends(hand_stops, tmp_path):
     def of(*correlations):
         scores = [StopScores(value, 0.0, 1.0) for value in correlations]

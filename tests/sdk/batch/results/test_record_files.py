@@ -48,6 +48,7 @@ def without_nan(record: Record) -> Record:
     return replace(record, rows=tuple(bare))
 
 
+@pytest.mark.slow
 @given(records)
 def test_a_record_comes_back_from_disk(record: Record) -> None:
     with TemporaryDirectory() as folder:

@@ -56,6 +56,7 @@ def known(value: float) -> float | None:
     return None if isnan(value) else value
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.lists(records | failures, max_size=6))
 def test_both_files_hold_every_row_as_it_is(given: list[Record]) -> None:
@@ -116,6 +117,7 @@ def test_the_same_records_give_the_same_bytes(tmp_path: Path) -> None:
     assert contents[0] == contents[1]
 
 
+@pytest.mark.slow
 def test_records_go_through_in_bounded_memory(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -33,6 +33,7 @@ class Gone:
         raise OSError("connection closed")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("status", ["cancelled", "lost", "finished"])
 @pytest.mark.parametrize("resume", [False, True])
 def test_a_file_is_done_if_its_task_has_written_so(

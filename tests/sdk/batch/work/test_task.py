@@ -29,6 +29,7 @@ def without_effort(record: Record) -> Record:
     return replace(record, effort=Effort())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("settings", [{}, {"interval_m": 0.1}])
 def test_the_profile_is_that_of_process_bit_by_bit(
@@ -65,6 +66,7 @@ def test_every_file_that_is_read_is_among_the_inputs(jobs: dict[str, Job], kind:
     assert set(map(Path, run_job(job).inputs)) == expected[kind]
 
 
+@pytest.mark.slow
 def test_a_task_done_twice_gives_the_same_but_for_its_effort(jobs: dict[str, Job]) -> None:
     job = replace(jobs["mapped"], segment_m=30.0)
     first, before = run_job(job), content(job.profile)
@@ -78,6 +80,7 @@ STEPS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("when", ["before", "after"])
 @pytest.mark.parametrize(("module", "step"), [(m, step) for m in STEPS for step in STEPS[m]])
 def test_an_interrupted_task_leaves_the_old_or_the_new(
@@ -125,6 +128,7 @@ DAMAGE: dict[str, tuple[str, str, Callable[[Path], object]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_a_bad_file_is_a_record_with_one_line_and_its_old_profile_goes(
     jobs: dict[str, Job], folder: Path, damage: str

@@ -32,6 +32,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> Counted:
     return Counted(monkeypatch)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["directory", "native", "mapped"])
 def test_nothing_is_processed_again_if_nothing_has_changed(
     jobs: dict[str, Job], counted: Counted, kind: str
@@ -76,6 +77,7 @@ def test_one_byte_of_an_input_or_output_is_enough(
     assert counted.count == 2 or read_record(jobs[kind].record).error
 
 
+@pytest.mark.slow
 def test_a_comment_in_the_map_is_enough(jobs: dict[str, Job], counted: Counted) -> None:
     job = jobs["mapped"]
     run_job(job)
@@ -85,6 +87,7 @@ def test_a_comment_in_the_map_is_enough(jobs: dict[str, Job], counted: Counted) 
     assert counted.count == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["left.f64", "profile.json"])
 def test_an_output_that_is_gone_is_made_again(
     jobs: dict[str, Job], counted: Counted, name: str
@@ -96,6 +99,7 @@ def test_an_output_that_is_gone_is_made_again(
     assert counted.count == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spoil", [Path.unlink, flip, lambda p: p.write_text("")])
 def test_a_record_that_is_gone_or_damaged_is_made_again(
     jobs: dict[str, Job], spoil: Callable[[Path], object]
@@ -107,6 +111,7 @@ def test_a_record_that_is_gone_or_damaged_is_made_again(
     assert replace(again, effort=first.effort) == first
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change",
     [
@@ -151,6 +156,7 @@ def test_a_link_that_leads_elsewhere_is_another_input(
     assert counted.count == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["directory", "mapped"])
 def test_another_segment_measures_anew_and_processes_nothing(
     jobs: dict[str, Job], counted: Counted, kind: str

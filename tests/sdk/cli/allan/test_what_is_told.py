@@ -108,6 +108,7 @@ def test_every_setting_is_one_of_the_kalman_pipelines() -> None:
         assert set(SETTINGS) <= set(pipeline.settings)
 
 
+@pytest.mark.slow
 def test_the_plot_is_a_picture(still: Path, tmp_path: Path, run: Runs) -> None:
     assert run(still, "--plot", tmp_path / "a.png").exit_code == 0
     assert imread(tmp_path / "a.png").shape[0] > 800
@@ -142,6 +143,7 @@ def test_a_failed_plot_leaves_no_settings(
     assert [entry.name for entry in tmp_path.iterdir()] == ["still"]
 
 
+@pytest.mark.slow
 def test_progress_is_shown_on_a_terminal_only(
     still: Path, monkeypatch: pytest.MonkeyPatch, run: Runs
 ) -> None:

@@ -13,7 +13,10 @@ from typing import Any
 import pytest
 from matplotlib.image import imread
 
-pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes"),
+]
 COMMAND = which("floatref", path=os.pathsep.join([str(Path(sys.executable).parent), os.defpath]))
 READY = {f"r{index}": ("ready", 900 - index) for index in range(6)}
 WAITING = {"w": ("wait", 400)}
@@ -26,7 +29,6 @@ def in_summary(out: Path) -> Counter[tuple[str, str]]:
     return Counter((row["name"].removesuffix(".gate"), row["status"]) for row in rows)
 
 
-@pytest.mark.slow
 def test_a_worker_killed_in_mid_file_costs_nothing(bench: Any) -> None:
     bench.put(**READY, held=("wait", 2000))
     process = bench.batch("--jobs", "2")
@@ -94,12 +96,10 @@ def story(module_bench: Any) -> Story:
     )
 
 
-@pytest.mark.slow
 def test_killed_commands_leave_no_workers(story: Story) -> None:
     assert story.survivors == story.survivors_of_interruption == []
 
 
-@pytest.mark.slow
 def test_what_is_done_is_never_done_again(story: Story) -> None:
     files = story.report["files"]
     assert (files["found"], files["done"], files["skipped"]) == (7, 7, 6)
@@ -110,25 +110,21 @@ def test_what_is_done_is_never_done_again(story: Story) -> None:
     assert {name: after[name] for name in READY} == story.records
 
 
-@pytest.mark.slow
 def test_every_file_is_in_the_summary_once(story: Story) -> None:
     assert in_summary(story.bench.out) == {(name, "done"): 1 for name in (*READY, *WAITING)}
 
 
-@pytest.mark.slow
 def test_leftovers_are_swept(story: Story) -> None:
     assert not story.leftover.exists()
     assert list(story.bench.out.rglob(".floatref-*")) == []
 
 
-@pytest.mark.slow
 def test_an_interruption_is_one_line_and_130(story: Story) -> None:
     code, out, err = story.interrupted
     assert (code, out) == (130, "")
     assert err == "Interrupted: 6 of 7 files are done; the same command with --resume goes on"
 
 
-@pytest.mark.slow
 def test_a_second_command_stays_out_of_the_folder(story: Story) -> None:
     code, out, err = story.intruder
     assert (code, out) == (2, "")

@@ -90,6 +90,7 @@ def processed(made: Path, target: Path, run: str, settings: str) -> Profile:
     return read_profile(target)
 
 
+@pytest.mark.slow
 def test_settings_are_those_given_and_the_four_that_are_tuned(made: Path) -> None:
     written = json.loads((made / "tuned.json").read_text(encoding="utf-8"))
     assert set(written) == {*TUNED, "cutoff_wavelength_m"}

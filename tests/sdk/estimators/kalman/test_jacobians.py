@@ -125,5 +125,6 @@ def test_readings_and_their_rows_are_the_measurement_model_and_its_derivative(se
     np.testing.assert_allclose(predicted, derived("h", x, u, level)[:, 0], rtol=1e-11, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_the_page_shows_these_derivatives():
     assert symbolic.PAGE.read_text(encoding="utf-8") == symbolic.page()

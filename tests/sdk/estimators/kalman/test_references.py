@@ -108,6 +108,7 @@ def observed_at(schedule, wanted):
     return part(schedule, place)
 
 
+@pytest.mark.slow
 @laws
 @given(stretch=RUNS)
 def test_every_reading_is_observed_and_its_height_unless_the_vehicle_stands(stretch):
@@ -173,6 +174,7 @@ def test_every_outage_captures_a_height_once_and_ends_with_another_datum(stretch
             outage = -1
 
 
+@pytest.mark.slow
 @laws
 @given(stretch=RUNS)
 def test_the_drift_walks_for_all_of_the_time_between_two_heights(stretch):

@@ -67,6 +67,7 @@ def test_it_is_the_literal_one(seed, rate, seconds):
     np.testing.assert_allclose(found, literal(values, rate), rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=SEEDS,

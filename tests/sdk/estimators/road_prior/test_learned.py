@@ -51,6 +51,7 @@ def test_brakes_of_one_vehicle_tell_what_all_their_readings_tell_at_once(
     assert found["tilt_sigma"] >= least[1] * (1 - 1e-9)
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS)
 def test_the_sigma_is_that_of_brakes_which_differ(seed):

@@ -236,6 +236,7 @@ def driven(seed, q, g, kilometres):
     return rate, force, height, np.cumsum(travel) - travel[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("q", "g"), [(2e-6, 5e-7), (4e-6, 2.5e-8), (1e-5, 2e-6)])
 def test_a_run_learns_the_spectrum_of_its_road_and_goes_on_believing_it(drive, through, q, g):
     """The filter follows the road that it expects: that shall not make it expect more of it."""

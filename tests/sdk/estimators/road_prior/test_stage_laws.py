@@ -29,6 +29,7 @@ def lacking(drive, seed):
     return drawn
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=SEEDS,

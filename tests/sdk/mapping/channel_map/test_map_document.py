@@ -121,6 +121,7 @@ def test_line_ends_and_a_byte_order_mark_mean_nothing(save: Save, ends: str, mar
     assert chart.channels == (ChannelEntry("laser", "height"),)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
 def test_whatever_is_in_a_map_it_is_read_or_refused_in_one_line(

@@ -26,6 +26,7 @@ def times_of(reading: Reading, name: str) -> np.ndarray:
     return reading.recording.channel(name).times_s
 
 
+@pytest.mark.slow
 @drawn
 @given(
     offset=st.floats(-50, 50),

@@ -60,6 +60,7 @@ def holds(text: str) -> bool:
     return len(text) <= 256 and not any("\ud800" <= c <= "\udfff" for c in text)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=300)
 @given(native=natives(), source=names, adapter=names.filter(holds))
 def test_the_draft_of_any_file_is_toml_and_what_is_active_in_it_maps(

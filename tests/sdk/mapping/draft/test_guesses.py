@@ -121,6 +121,7 @@ words = st.sampled_from([n for _, n, *_ in SURE])
 texts = st.one_of(words, st.text(max_size=12), st.lists(words, max_size=3).map("".join))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=300)
 @given(stream=texts, name=texts, unit=units)
 def test_what_is_sure_has_a_unit_that_speaks_for_it(stream: str, name: str, unit: str) -> None:

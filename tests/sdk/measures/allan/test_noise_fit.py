@@ -55,6 +55,7 @@ def test_the_curve_is_the_printed_one(values: list[float], times: list[float]) -
     assert found**2 == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.slow
 @FEW
 @given(
     logs=st.lists(st.floats(-1.0, 1.0), min_size=5, max_size=5),

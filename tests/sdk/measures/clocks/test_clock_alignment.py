@@ -70,6 +70,7 @@ def test_streams_begin_and_end_where_they_like(seed, offset, drift, ahead, behin
     assert off(found, trains.true_own, offset, drift) <= 1e-3
 
 
+@pytest.mark.slow
 @FEW
 @given(
     seed=seeds,
@@ -97,6 +98,7 @@ def test_between_two_shifts_an_offset_has_to_be_stated() -> None:
         align_by_pulses(4.0 * np.arange(50), 4.0 * np.arange(50) + 0.1, near_s=2.1)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("section 4.4")
 @settings(deadline=None, max_examples=15)
 @given(
@@ -180,6 +182,7 @@ def test_order_is_kept_and_the_inverse_takes_it_back(times, offset, drift, seed,
     assert found.rate(16_000.0) == pytest.approx(16_000.0 / (1 + found.drift))
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, drift=drifts, epoch=st.sampled_from([0.0, 1.4e9]))
 def test_whole_seconds_of_gnss_time(seed, drift, epoch) -> None:

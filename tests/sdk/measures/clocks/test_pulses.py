@@ -109,6 +109,7 @@ def test_one_spike_is_one_pulse_and_no_other_level() -> None:
     assert pulse_levels(values) == pytest.approx((0.0, 1.0), abs=0.01)
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, chunk=st.sampled_from([7, 64, 1000, 4096]))
 def test_the_size_of_the_pieces_changes_nothing(seed: int, chunk: int) -> None:

@@ -44,6 +44,7 @@ def times(channel: Channel, scale: float) -> Channel:
     return replace(channel, values=scale * channel.values)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=25)
 @given(
     vehicle=st.sampled_from(VEHICLES),

@@ -54,6 +54,7 @@ def later(channel: Channel, by_s: float) -> Channel:
     return replace(channel, clock=UniformClock(clock.rate, clock.start_s + by_s))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shift_ms", SHIFTS_MS)
 @pytest.mark.parametrize(
     ("vehicle", "seed"), [("pickup", 38), ("loaded-van", 30), ("soft-van", 42)]
@@ -73,6 +74,7 @@ def test_a_shift_is_found_at_a_stop(vehicle: str, seed: int, shift_ms: float) ->
         assert warning.startswith(f"channel {(height if shift_ms > 0 else force).id}: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vehicle", ["loaded-van", "minivan", "pickup", "trailer", "soft-van"])
 @pytest.mark.parametrize("seed", [3, 4])
 def test_a_stop_says_how_well_it_knows(vehicle: str, seed: int) -> None:

@@ -34,6 +34,7 @@ def told(case):
     return settled[:, 0]
 
 
+@pytest.mark.slow
 def test_the_chirp_is_followed_within_half_a_percent(cases):
     case = cases.observed(cases.drive(cases.chirps))
     assert case.road.shape == (2559, 2)
@@ -43,6 +44,7 @@ def test_the_chirp_is_followed_within_half_a_percent(cases):
     assert told(case)[128:].all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_left_wheel_is_followed_within_four_thousandths(cases, left_drive, seed):
     case = cases.observed(left_drive, cases.BENCH, seed)

@@ -95,6 +95,7 @@ def test_a_reading_that_is_never_there_is_no_reading(seed, gone):
         np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("columns", [[1], [0, 1, 2, 3]], ids=["wheel", "all"])
 def test_without_what_tells_the_force_there_is_no_road_and_no_claim(columns):
     """In a gap, and behind it, errors are as large as the standard deviations say."""

@@ -55,6 +55,7 @@ def drift_of(readings, hold=Hold.ZERO_ORDER, count=4000):
     return found[count // 2], found[-1]
 
 
+@pytest.mark.slow
 def test_the_drift_that_is_told_is_that_of_the_filter():
     for readings, drifts in ((FIVE, True), (FIVE + DEFLECTIONS, True), (FIVE + HEIGHTS, False)):
         earlier, later = drift_of(readings)
@@ -128,6 +129,7 @@ def test_an_undamped_motion_that_nothing_tells_is_named():
     check_readings(model, [*readings, Reading(Kind.VELOCITY, "one horn", 1e-3)], STEP)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=25)
 @given(data=st.data())
 def test_what_is_named_is_enough(data, drawn_parameters):

@@ -80,6 +80,7 @@ def literal(model, readings, hold, noise, start, samples):
     return told.F, force_spread, told.X + told.F @ after.T, spread
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(13) of Zhu", "step (a) of Zhu", "step (b) of Zhu", "step (c) of Zhu")
 @laws
 @given(seed=SEEDS, masses=st.integers(1, 5), tyres=st.integers(1, 2), hold=st.sampled_from(Hold))
