@@ -56,6 +56,7 @@ def overridden(tree: ast.AST) -> Iterator[str]:
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: p.relative_to(PACKAGE).as_posix())
 def test_no_private_name_of_a_library_is_touched(path: Path) -> None:
     tree = ast.parse(path.read_text(encoding="utf-8"))

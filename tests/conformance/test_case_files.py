@@ -45,6 +45,7 @@ def cases(draw):
     return Case(draw(st.text(min_size=1, max_size=12)), scenario, draw(VARIATIONS))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(case=cases(), device_class=st.sampled_from(DeviceClass), reason=st.text(max_size=40))
 def test_what_is_written_is_read_back(tmp_path_factory, case, device_class, reason):
@@ -56,6 +57,7 @@ def test_what_is_written_is_read_back(tmp_path_factory, case, device_class, reas
     assert kept.case.digest == case.digest
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(cases())
 def test_a_case_is_told_by_what_differs_from_the_defaults_alone(case):

@@ -15,6 +15,8 @@ from floatref.measures import high_pass
 from floatref_conformance.proving_ground.scenario import scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 
+pytestmark = pytest.mark.slow
+
 RATE_HZ = 4000.0
 RUN_IN_M = 53.0
 SEEDS = range(4)
@@ -73,13 +75,11 @@ def along_encoder(run: str, pipeline: str) -> list[np.ndarray]:
     return found
 
 
-@pytest.mark.slow
 @every_run
 def test_the_truth_along_the_encoders_distance(run: str) -> None:
     assert_right(along_encoder(run, REFLECTION))
 
 
-@pytest.mark.slow
 @every_run
 def test_the_truth_along_the_true_distance(run: str) -> None:
     """All errors, and all of sigma."""
@@ -87,7 +87,6 @@ def test_the_truth_along_the_true_distance(run: str) -> None:
     assert_right([ratios(s, REFLECTION, s.motion.distance) for s in simulations])
 
 
-@pytest.mark.slow
 @every_run
 @pytest.mark.parametrize("pipeline", OTHERS)
 def test_constants_in_place_of_readings_are_told_to_be_no_better_than_they_are(

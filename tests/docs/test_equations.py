@@ -63,6 +63,7 @@ def test_a_complete_row_is_a_line_with_four_columns(generator):
     assert row.count("|") == 5
 
 
+@pytest.mark.slow
 def test_a_row_without_what_it_cites_or_a_title_is_refused(generator):
     assert "cites no equation, table or section" in list(generator.faults(GOOD | {"cites": ""}))
     assert "no title given in what" in list(generator.faults(GOOD | {"what": ""}))

@@ -16,6 +16,8 @@ from floatref_conformance.proving_ground import scenario_of_run, simulate
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table.scores import score
 
+pytestmark = pytest.mark.slow
+
 DOCS = Path(__file__).parents[2] / "docs"
 SCRIPT = DOCS / "examples" / "matched_high_pass.py"
 PAGE = (DOCS / "matched-high-pass.md").read_text(encoding="utf-8")
@@ -50,7 +52,6 @@ def figures(text):
     return {name: (float(mm), tilt) for name, mm, tilt in ROWS.findall(text)[1:]}
 
 
-@pytest.mark.slow
 def test_the_observer_leaves_nothing_and_the_cascade_millimetres(run):
     printed, picture = run
     assert picture.startswith(b"\x89PNG")
@@ -72,7 +73,6 @@ def test_the_page_shows_what_the_script_prints(run):
             assert float(found[name][1]) == pytest.approx(float(tilt), abs=0.11), name
 
 
-@pytest.mark.slow
 def test_the_cascade_keeps_its_drift_and_the_observer_takes_it_back(script):
     times, distance, *_ = script.drive()
     error = script.TILT * script.swelling(times, script.BEGINS[3], script.TO_STOP_S)[0]
@@ -87,7 +87,6 @@ def test_the_cascade_keeps_its_drift_and_the_observer_takes_it_back(script):
     assert np.abs(observer[rolls:]).max() < 0.1
 
 
-@pytest.mark.slow
 def test_bounce_and_dive_alone_leave_what_the_page_says(script):
     times, distance, *_ = script.drive()
 
@@ -135,7 +134,6 @@ def level(simulation):
     return floatref.Recording(tuple(channels), simulation.recording.setup)
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::floatref.FloatrefWarning")
 @pytest.mark.parametrize("row", SHOWN)
 def test_the_page_says_what_tilt_does(row):

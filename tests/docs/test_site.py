@@ -150,6 +150,7 @@ def test_every_title_of_the_menu_opens_the_page_of_its_own_file(site: Path, star
     assert opened == {}
 
 
+@pytest.mark.slow
 def test_a_tab_opens_the_first_page_of_its_own(site: Path) -> None:
     tabs = [e for e in parsed(site, "index.md").inside("md-tabs__link") if e.tag == "a"]
     first = {title: built(next(leaves(inner))[1]) for tab in menu() for title, inner in tab.items()}

@@ -175,6 +175,7 @@ def test_quoted_peaks_on_a_flat_road_come_out_again() -> None:
         assert found == pytest.approx(float(shown), abs=0.051, rel=1e-4), (run, pipeline)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::floatref.FloatrefWarning")
 def test_at_the_near_stop_plumb_sensors_leave_the_sweep_of_the_cut_off() -> None:
     run, adaptive = "ns_72-11_0.20g", "temporal-adaptive-hpf"

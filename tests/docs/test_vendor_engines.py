@@ -129,6 +129,7 @@ def test_the_stop_ruins_the_temporal_engine_as_it_is(engine, stop):
     assert peak(in_time(engine("temporal_engine"), stop)) > 100.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("heading", changes("temporal_engine"))
 def test_one_stage_saves_the_temporal_engine(engine, stop, heading):
     assert peak(in_time(engine("temporal_engine", heading), stop)) < 5.0
@@ -163,6 +164,7 @@ def test_the_limit_of_its_own_needs_the_reflection(engine, stop):
     assert peak(over_distance(module, stop)) > 2.0 * reflected
 
 
+@pytest.mark.slow
 def test_the_temporal_engine_with_our_high_pass_is_our_pipeline(engine, stop):
     heading = "Our high-pass before its integrals"
     profile = in_time(engine("temporal_engine", heading), stop)
@@ -176,6 +178,7 @@ def test_the_spatial_engine_with_all_three_is_our_pipeline(engine, slow_part):
     np.testing.assert_allclose(profile, expected, rtol=0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_engines_run_as_programs(engine, slow_part, tmp_path):
     module = engine("temporal_engine")
     (tmp_path / "run.bin").write_bytes(temporal_record(module, slow_part).tobytes())

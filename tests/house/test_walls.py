@@ -79,5 +79,6 @@ def test_a_forbidden_import_is_caught(said: str, file: str) -> None:
     assert f"{importer} -> {BREACHES[file]} " in said
 
 
+@pytest.mark.slow
 def test_every_contract_is_broken_by_some_breach(said: str) -> None:
     assert "Contracts: 0 kept" in said

@@ -87,6 +87,7 @@ def test_no_text_has_the_word(word: str) -> None:
     assert not found, "\n".join(found)
 
 
+@pytest.mark.slow
 def test_what_is_allowed_is_still_there() -> None:
     there = dict.fromkeys(ALLOWED, "")
     for name, _, line in every_line():

@@ -43,6 +43,7 @@ FORMS = {
 every_form = pytest.mark.parametrize("name", FORMS)
 
 
+@pytest.mark.slow
 @every_form
 @settings(deadline=None, max_examples=40)
 @given(data=st.data())
@@ -61,6 +62,7 @@ def test_a_recording_comes_back_to_the_last_bit(
     check_round_trip(form.adapter, recording, path, lambda _: 0.0)
 
 
+@pytest.mark.slow
 @every_form
 @settings(deadline=None, max_examples=25)
 @given(data=st.data(), quantum=st.sampled_from([1e-6, 0.01, 0.3]))

@@ -93,6 +93,7 @@ def written(
     return reader.streams(path, {})
 
 
+@pytest.mark.slow
 @few
 @given(recording=recordings(), suffix=st.sampled_from(list(READERS)))
 def test_samples_and_times_come_back_exactly(
@@ -109,6 +110,7 @@ def test_samples_and_times_come_back_exactly(
         assert unit == channel.unit
 
 
+@pytest.mark.slow
 @few
 @given(
     recording=recordings(),
@@ -132,6 +134,7 @@ def test_samples_come_back_within_half_their_quantum(
     assert (np.abs(values - expected)[there] <= room).all()
 
 
+@pytest.mark.slow
 @few
 @given(recording=recordings())
 def test_a_table_has_every_sample_at_its_time(

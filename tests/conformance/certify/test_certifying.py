@@ -59,6 +59,7 @@ def only(worksheet: Worksheet) -> RunSheet:
     return run
 
 
+@pytest.mark.slow
 def test_every_number_is_that_of_compare(written: Path) -> None:
     names = [f"run-{k}" for k in range(1, 5)]
     (sheet,) = certified(section(written, *names)).sections
@@ -117,6 +118,7 @@ def test_the_reference_is_no_run(written: Path, tmp_path: Path) -> None:
         certified(section(written, "run-1", tmp_path / "link"))
 
 
+@pytest.mark.slow
 def test_a_run_that_starts_elsewhere_is_moved_and_said(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:
@@ -126,6 +128,7 @@ def test_a_run_that_starts_elsewhere_is_moved_and_said(
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
+@pytest.mark.slow
 def test_what_was_said_of_a_reference_is_in_its_section(
     written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -149,6 +152,7 @@ def test_a_run_over_the_section_alone_is_taken_as_it_is(
     assert max(track.missing_m for track in run.tracks) == 0.0
 
 
+@pytest.mark.slow
 def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:
@@ -183,6 +187,7 @@ def test_errors_of_distance_and_height_fail_and_are_named(
         assert abs(high.height_percent - 3.0) < 3.0 * high.height_sigma
 
 
+@pytest.mark.slow
 def test_a_stretch_is_all_that_counts(written: Path, tmp_path: Path) -> None:
     spoilt = read_profile(written / "runs" / "run-1")
     tracks = []
@@ -197,6 +202,7 @@ def test_a_stretch_is_all_that_counts(written: Path, tmp_path: Path) -> None:
     assert max(track.accuracy for track in whole.tracks) < 0.9
 
 
+@pytest.mark.slow
 def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None:
     one = section(written, "run-1", "run-2").sections[0]
     plan = Plan((one, replace(one, name="part", stretch_m=(50.0, 150.0))))

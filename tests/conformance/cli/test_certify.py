@@ -72,6 +72,7 @@ def document(result: Result) -> dict[str, Any]:
     return dict(json.loads(result.stdout))
 
 
+@pytest.mark.slow
 def test_pass_is_exit_0(call: Callable[..., Result]) -> None:
     result = call("runs")
     assert result.exit_code == 0, result.output
@@ -171,6 +172,7 @@ def test_a_class_brings_its_limits(call: Callable[..., Result]) -> None:
     assert told["limits"]["distance_percent"] is None
 
 
+@pytest.mark.slow
 def test_sections_have_their_names_and_stretches(call: Callable[..., Result]) -> None:
     told = document(call("runs", "--section", "10:100:first", "--section", "50:140", "--json"))
     found = [(s["name"], s["start_m"], s["end_m"]) for s in told["sections"]]
@@ -224,6 +226,7 @@ def test_a_report_holds_worksheet_and_profiles(
     assert [path.name for path in tmp_path.iterdir()] == ["report"]
 
 
+@pytest.mark.slow
 def test_a_run_of_another_road_is_named(call: Callable[..., Result]) -> None:
     told = document(call("runs", "other", "--json"))
     assert told["verdict"] == "FAIL"

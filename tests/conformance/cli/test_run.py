@@ -28,7 +28,6 @@ def files_in(folder):
     return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
 
 
-@pytest.mark.slow
 def test_a_selection_that_passes_is_incomplete_and_says_what_was_not_run(run_toy):
     answer = run_toy("good")
     assert answer.exit_code == 4
@@ -47,7 +46,6 @@ def test_a_failure_is_exit_1_with_reason_and_how_to_reproduce_it_last(run_toy):
     )
 
 
-@pytest.mark.slow
 def test_a_whole_suite_that_passes_is_exit_0(call, registry, toy_check, monkeypatch):
     monkeypatch.setattr("floatref_conformance.registry.not_built", lambda built: ())
     for id_ in ("skewed", "needy"):
@@ -57,6 +55,7 @@ def test_a_whole_suite_that_passes_is_exit_0(call, registry, toy_check, monkeypa
     assert answer.stdout.splitlines()[-1].startswith("PASS: 2 of 2 checks that ran passed")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("device", "code", "said"),
     [
@@ -213,15 +212,11 @@ def test_a_report_that_cannot_be_written_is_exit_2_before_anything_runs(
     assert devices["good"].seen == []
 
 
-def test_piped_output_is_plain_lines_without_control_codes(run_toy):
+def test_piped_output_is_plain_lines_and_a_broken_plugin_is_one_of_them(run_toy):
     answer = run_toy("good")
     assert "\x1b" not in answer.output
     assert "toy: 2 cases" in answer.stdout
     assert "toy: pass" in answer.stdout
-
-
-def test_a_broken_plugin_is_reported_and_the_run_goes_on(run_toy):
-    answer = run_toy("good")
     assert "Warning: plug-in sad: ImportError: gone" in answer.stderr
 
 
@@ -249,6 +244,7 @@ def test_a_device_that_was_made_is_closed_whatever_keeps_it_from_being_run(
     assert (answer.exit_code, devices["bad"].closed) == (2, 1)
 
 
+@pytest.mark.slow
 def test_a_kept_case_is_replayed_as_told_from_where_the_run_was_started(
     run_toy, call, tmp_path, monkeypatch
 ):

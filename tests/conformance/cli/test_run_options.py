@@ -76,6 +76,7 @@ def waive(tmp_path):
     return make
 
 
+@pytest.mark.slow
 def test_a_waived_failure_is_incomplete_and_the_report_says_waived(run_toy, waive, tmp_path):
     answer = run_toy("bad", *waive("# ours\ntoy halves # since May\n"), "--report", tmp_path)
     assert answer.exit_code == 4
@@ -89,6 +90,7 @@ def test_a_waived_failure_is_incomplete_and_the_report_says_waived(run_toy, waiv
     assert len(read_cases(tmp_path)) == 1
 
 
+@pytest.mark.slow
 def test_a_waiver_covers_no_other_check(call, waive):
     words = ("run", "--device", "fake:bad", "--check", "toy", "--check", "second")
     answer = call(*words, *waive("toy halves"))
@@ -158,6 +160,7 @@ def test_what_one_run_keeps_the_next_one_runs_again(run_toy, tmp_path):
     assert [(r["file"], r["outcome"]) for r in replayed] == [(kept.file, "pass")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("check", ["second", "stop", "gone"])
 def test_a_kept_case_of_a_check_that_is_not_run_is_listed_and_leaves_a_verdict_open(
     run_toy, keep, tmp_path, check

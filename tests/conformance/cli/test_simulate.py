@@ -53,6 +53,7 @@ def test_seed_replaces_that_of_the_file(case: Path, tmp_path: Path) -> None:
     assert not np.array_equal(read["plain"], read["other"])
 
 
+@pytest.mark.slow
 def test_reference_pass_by_name(tmp_path: Path) -> None:
     result = invoked("ref_72", "--out", tmp_path / "run")
     assert result.exit_code == 0, result.output

@@ -127,6 +127,7 @@ def strange_name(profile):
     (profile / "a\nb\x1b[31m").symlink_to("/")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [

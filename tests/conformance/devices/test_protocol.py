@@ -160,6 +160,7 @@ def test_an_error_fails_the_run_and_a_skip_says_why_and_the_device_goes_on(opene
     device.stop(LONG_S)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "answer",
     [

@@ -62,6 +62,7 @@ def test_an_object_is_run_in_another_process_and_may_print(vendor, recording):
     assert "vendor_package" not in sys.modules
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "words"),
     [
@@ -94,6 +95,7 @@ def test_it_may_skip_a_recording(vendor, recording, body):
         exercise(device, describe(device), recording)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("more", "words"),
     [
@@ -129,6 +131,7 @@ def test_it_is_closed_at_the_end_if_it_can_be(vendor, tmp_path):
     assert close(device).startswith("stop: exited with status 1 ; stderr: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spec", "words"),
     [

@@ -14,6 +14,8 @@ from floatref.values.channels import ChannelId
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
+pytestmark = pytest.mark.slow
+
 PIPELINES = ("temporal-basic", "spatial-basic")
 SECTION_M, PEAK_M = (220.0, 380.9), (280.0, 328.0)
 
@@ -57,7 +59,6 @@ def judged(simulation, pipeline, track):
     return agreement(p, q, interval).cross_correlation, iri(q, interval), iri(p, interval)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 @pytest.mark.parametrize("track", ["left", "right"])
 @pytest.mark.parametrize("road", ["synthetic", "measured"])
@@ -77,7 +78,6 @@ def peak(simulation, pipeline, track):
     return within(profile, roughness, PEAK_M).max()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 @pytest.mark.parametrize("track", ["left", "right"])
 def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
@@ -86,7 +86,6 @@ def test_at_a_stop_the_basic_algorithms_fail(stop, pipeline, track):
     assert peak(stop, pipeline, track) > 200.0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 def test_they_fail_with_the_errors_of_other_seeds_too(other_stop, pipeline):
     for track in ("left", "right"):
@@ -124,7 +123,6 @@ def test_the_velocity_error_at_the_stop_is_tilt_and_bias_integrated(stop, track)
     assert 0.5 <= velocity_error(stop, track, stands(stop)) / expected <= 2.0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("track", ["left", "right"])
 def test_what_tilt_and_bias_leave_unexplained_is_small(other_stop, track):
     at = stands(other_stop)

@@ -67,6 +67,7 @@ def test_what_is_measured_rightly_is_confirmed(measure, holes, seed, gain, shift
     confirm("toy", measure(pair(seed, gain, shift, holes), "left"))
 
 
+@pytest.mark.slow
 @KINDS
 @settings(deadline=None, max_examples=8)
 @given(seed=st.integers(0, 1000), share=st.floats(-0.5, 0.5).filter(lambda s: abs(s) > 2e-3))

@@ -95,6 +95,7 @@ def test_an_unknown_mutant_is_wrong_usage():
         KIND.make("none")
 
 
+@pytest.mark.slow
 def test_a_mutant_that_remembers_begins_with_nothing(tmp_path):
     case = BOUNCE.cases(0, Effort.QUICK)[1]
     delivered = []

@@ -75,6 +75,7 @@ def test_flat_road_at_constant_speed_with_a_bias_is_known_exactly() -> None:
     assert distance.values == pytest.approx(20.0 * distance.times_s, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_truth_takes_the_first_sample_at_or_beyond_each_point() -> None:
     simulation = simulate(
         replace(SHORT, manoeuvre="stop", rate_hz=16000.0, speed_kmh=30.0, final_speed_kmh=20.0)
@@ -164,6 +165,7 @@ def filtered_alike(simulation: Simulation, pipeline: str) -> list[tuple[np.ndarr
     return pairs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-basic"])
 def test_reference_pass_is_measured_well_with_all_errors_on(pipeline: str) -> None:
     simulation = simulate(scenario_of_run("ref_72", seed=11))
@@ -182,6 +184,7 @@ def test_long_stop_ruins_the_basic_architectures(stopped: Simulation, pipeline: 
         assert short_interval_roughness(measured, interval).max() > 200.0
 
 
+@pytest.mark.slow
 def test_velocity_error_at_the_stop_is_tilt_bias_and_misalignment(stopped: Simulation) -> None:
     """All but a fifth is the integral of a_x·sin θ and bias; the axis' own tilt adds to θ."""
     motion, rate = stopped.motion, 16000.0

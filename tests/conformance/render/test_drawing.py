@@ -80,6 +80,7 @@ def test_an_event_lies_where_the_speed_begins_or_ceases_to_change(manoeuvre):
         assert before[0] > before[-1]
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(st.lists(st.tuples(st.integers(0, 30), st.integers(0, 9)).map(lambda p: (p[0], sum(p)))))
 def test_stretches_are_joined_where_they_overlap_and_nothing_else_is(stretches):

@@ -90,6 +90,7 @@ def test_a_scale_without_values_is_that_from_0_to_1():
     assert scale_of([np.array([np.nan])], 0.0, 1.0) == Scale(0.0, 1.0, 0.0, 1.0)
 
 
+@pytest.mark.slow
 @FEW
 @given(VALUES)
 def test_a_plot_is_sound_small_and_the_same_every_time(values):

@@ -38,6 +38,7 @@ def two_mutants(monkeypatch):
     return name
 
 
+@pytest.mark.slow
 def test_mutants_that_are_killed(two_mutants):
     two_mutants(("quiescent",), ("stop",))
     answer = run("--seeds", "1", "--false-alarms", "0", "--no-limits")

@@ -49,6 +49,7 @@ def test_a_device_that_cannot_describe_itself_fails(registered, fake_device):
     assert "without a version" in attempt(Try("fake:device", "toy", 0)).fails
 
 
+@pytest.mark.slow
 def test_one_process_tries_in_order(registered, fake_device):
     registered(fake_device())
     tries = tuple(Try("fake:device", "toy", seed) for seed in range(3))

@@ -45,6 +45,7 @@ def test_the_terminal_gets_a_block_for_each_pipeline(call):
     assert "temporal-basic" not in answer.stdout
 
 
+@pytest.mark.slow
 def test_options_reach_the_settings(call):
     command, made = call
     assert command().exit_code == 0

@@ -142,6 +142,7 @@ def test_each_check_has_an_object_of_its_own_that_is_closed_once(judged, make):
     assert [one.closed for one in Declining.made[before:]] == [1, 1]
 
 
+@pytest.mark.slow
 def test_one_object_for_all_checks_stays_open(judged):
     one = Declining()
     for check in ("quiescent", "bounce"):
@@ -150,6 +151,7 @@ def test_one_object_for_all_checks_stays_open(judged):
     assert one.closed == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", [Broken, Broken()], ids=["class", "object"])
 def test_a_device_may_be_an_object(judged, device):
     with pytest.raises(pytest.fail.Exception, match="no power"):

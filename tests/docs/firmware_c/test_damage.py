@@ -67,6 +67,7 @@ def with_values(recording, name, change, clock=None):
     return Recording(channels, recording.setup)
 
 
+@pytest.mark.slow
 def test_nothing_is_damaged_in_coarse_and_slow_sensors(start, whole, sound, tmp_path):
     coarse = with_values(
         whole[True], "height", lambda x: np.round(x[::40], 3), UniformClock.of(100)

@@ -97,6 +97,7 @@ SPOILT = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reason", SPOILT)
 def test_samples_that_cannot_be_used_are_refused_by_name(sanitized, reason, tmp_path):
     firmware, folder = sanitized
@@ -164,6 +165,7 @@ def test_the_device_says_what_it_is(sanitized):
     assert (device["architecture"], device["capabilities"]) == ("temporal", [])
 
 
+@pytest.mark.slow
 def test_the_least_device_leaves_everything_out(build):
     requests = '{"seq": 1, "cmd": "start", "version": 1}\n{"seq": 2, "cmd": "run", "recording": "a"'
     found = subprocess.run(

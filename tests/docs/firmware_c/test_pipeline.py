@@ -92,6 +92,7 @@ def test_a_profile_is_that_of_the_pipeline(start, drives, drive, expected, asser
     assert_same(found, expected(drives[drive]))
 
 
+@pytest.mark.slow
 def test_the_judge_gets_that_profile_too(build, drives, expected, assert_same, tmp_path):
     write_recording(drives["stop"], tmp_path / "run")
     device = make(str(build("firmware")))

@@ -31,6 +31,7 @@ def central_differences(g: Callable[[Vector], Vector], at: Vector) -> Vector:
     return np.array(columns).T
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(C.2)", "(C.3)", "(C.4)", "(6.11)", "(6.18)")
 @settings(deadline=None, max_examples=100)
 @given(x=STATES, u=INPUTS, dt=st.floats(0.1, 1.0))
@@ -39,6 +40,7 @@ def test_a_differentiates_the_state(x: Vector, u: Vector, dt: float) -> None:
     assert matrix_a(x, u, dt) == pytest.approx(expected, abs=5e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(C.6)", "(6.12)", "(6.21)")
 @settings(deadline=None, max_examples=100)
 @given(x=STATES, u=INPUTS, dt=st.floats(0.1, 1.0))

@@ -85,6 +85,7 @@ def test_bounce_under_a_sweeping_cut_off_cancels_in_the_observer_and_not_in_the_
         assert np.abs(residue).max() > 1e-3
 
 
+@pytest.mark.slow
 def test_bump_survives_the_bounce() -> None:
     t, x = stop_and_go()
     a, lift = bounce(t)

@@ -79,6 +79,7 @@ def test_the_state_is_the_integral_at_every_sample(seed: int, dx: float) -> None
     assert hp[:-1] + lp == pytest.approx(x[:-1], abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stage", "decay"),
     [
@@ -99,6 +100,7 @@ def test_a_step_decays_with_the_phase_whatever_the_cut_off_sweeps(
     assert stage(1.0 * (x < step), f_c, 1e-3) == pytest.approx(expected, abs=0.02)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=15)
 @given(deceleration=st.floats(0.5, 8.0), place=st.floats(-1.0, 1.0))
 def test_a_step_near_a_stop_stays_a_step(deceleration: float, place: float) -> None:

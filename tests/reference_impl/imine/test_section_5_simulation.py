@@ -86,6 +86,7 @@ def test_straight_lines_between_samples_flatten_fast_waves() -> None:
     assert error == pytest.approx((omega / F_S) ** 2 / 12, rel=0.2)
 
 
+@pytest.mark.slow
 def test_states_that_are_not_measured_are_found(driven, observed) -> None:
     """The rates of all five freedoms, of which only displacements are given."""
     rates, found = driven[1][128:, 5:], observed[0][128:, 5:]

@@ -113,6 +113,7 @@ def test_states_err_together_as_their_covariance_says(
     assert np.mean(squares) == pytest.approx(5, abs=0.4)
 
 
+@pytest.mark.slow
 def test_the_profile_errs_as_its_deviation_says(draws: Drawn, smoothed: list[Smoothed]) -> None:
     error = np.array([run.e[0] for run in smoothed]) - draws.truth[:, :, 3]
     squares = np.mean((error / smoothed[0].sigma_e[0]) ** 2, axis=0)

@@ -97,6 +97,7 @@ def test_a_height_of_one_track_is_used_without_the_other() -> None:
     assert after == pytest.approx(np.diag([1, 0.4, 3]))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(seed=st.integers(0, 9999), sigma_h=st.sampled_from([1e-3, 1e-2, 0.1]))
 def test_deviation_of_the_profile_is_that_of_its_error(drawn, seed: int, sigma_h: float) -> None:

@@ -159,6 +159,7 @@ def test_a_channel_that_is_not_there_is_refused_by_name(name: str, channel: str)
         profile(without(channel), name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "channels"),
     [

@@ -115,6 +115,7 @@ OTHER_SETTINGS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", REFERENCES)
 def test_every_setting_of_an_algorithm_reaches_it(steady, pipeline):
     ours, theirs = OTHER_SETTINGS[pipeline]

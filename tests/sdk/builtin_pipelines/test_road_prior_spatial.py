@@ -130,6 +130,7 @@ def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
     return found[marked], found[ChannelId(SIGMA, "left")], flags
 
 
+@pytest.mark.slow
 def test_blocks_of_any_size_give_the_same_bits() -> None:
     source, rng = Source(Screening.of(damaged())), np.random.default_rng(0)
     whole = taken(source, lambda: 1 << 40)
@@ -138,6 +139,7 @@ def test_blocks_of_any_size_give_the_same_bits() -> None:
             np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed_kmh", [30.0, 90.0])
 def test_at_a_constant_speed_it_is_the_profile_from_all_samples(speed_kmh: float) -> None:
     """Triggers come every 0.8 to 2.4 ms; tenths of a millimetre of the road's centimetres."""

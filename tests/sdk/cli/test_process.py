@@ -75,6 +75,7 @@ def test_settings_and_pipeline_from_outside(folder):
     assert (profile.interval_m, profile.pipeline) == (0.1, "spatial-basic")
 
 
+@pytest.mark.slow
 def test_a_drawing_beside_it(folder):
     plot = folder / "profile.png"
     result = invoke("process", folder / "run", "--out", folder / "profile", "--plot", plot)
@@ -166,6 +167,7 @@ def test_profile_and_drawing_need_names_of_their_own(folder):
     assert not same.exists()
 
 
+@pytest.mark.slow
 def test_a_drawing_is_not_left_behind_when_the_profile_fails(folder, monkeypatch):
     def refused(*args):
         raise InputError("disk full")

@@ -60,6 +60,7 @@ def test_runs_of_one_vehicle_tell_the_same_tilt(runs: Path) -> None:
     assert all(-0.013 < one["tilt_expected"] < -0.006 for one in told)
 
 
+@pytest.mark.slow
 def test_what_is_kept_goes_into_the_next_run(runs: Path, tmp_path: Path) -> None:
     out = tmp_path / "van.json"
     done = invoke("vehicle", runs / "first", runs / "second", "--out", out, "--json")

@@ -137,6 +137,7 @@ def refusal(call: Callable[[Path], object], path: Path) -> str:
     return line
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("change", "text"), [case[1:] for case in DOCUMENTS],
                          ids=[case[0] for case in DOCUMENTS])  # fmt: skip
 def test_a_spoilt_document_is_named(folder: Path, edit: Edit, change: Change, text: str) -> None:

@@ -59,6 +59,7 @@ def test_another_clock_is_linear_in_between(steady, rate, start):
     assert source.origin_m == values[DISTANCE][0]
 
 
+@pytest.mark.slow
 @laws
 @given(seed=st.integers(0, 2**32 - 1), cut=st.integers(50, 900))
 def test_any_split_gives_the_same_samples(steady, seed, cut):
@@ -87,6 +88,7 @@ def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
     assert set(flags.tolist()) == {0, int(Flag.MISSING)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [3, 7, 4000])
 @pytest.mark.parametrize(("count", "kind"), [(10, Flag.MISSING), (11, Flag.MISSING | Flag.DRIFT)])
 def test_a_long_gap_of_the_accelerometer_is_flagged_as_drift(steady, size, count, kind):

@@ -176,6 +176,7 @@ def test_one_wild_segment_does_not_hide_the_others(tmp_path: Path) -> None:
     assert "at the end: 1 segment above" in text_of(tmp_path / "n.svg")
 
 
+@pytest.mark.slow
 def test_segments_without_a_position_or_an_iri_are_counted(tmp_path: Path) -> None:
     given = network(True)
     given["latitude_deg"] = [*[None] * 7, *given["latitude_deg"][7:]]

@@ -26,6 +26,7 @@ def in_chunks(stage, call, drive, cuts):
     return np.concatenate(parts, axis=-1)
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, cuts=CUTS)
 @example(seed=0, cuts=ALL)
@@ -35,6 +36,7 @@ def test_chunks_of_any_length_give_the_same_bits(every, drive, seed, cuts):
     np.testing.assert_array_equal(in_chunks(make(), call, run, cuts), call(make(), run))
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, cuts=CUTS, lost=st.lists(st.integers(0, 239), unique=True, max_size=30))
 @example(seed=0, cuts=ALL, lost=[0, 1, 2, 3])

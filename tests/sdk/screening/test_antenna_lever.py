@@ -45,6 +45,7 @@ def test_the_arm_is_found_within_its_uncertainty(vehicle: str) -> None:
     assert told(recording, motion) == ()
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=12)
 @given(axis=st.sampled_from([0, 1]), by_m=st.sampled_from([-3.0, -1.5, 1.5, 3.0]))
 def test_an_arm_that_contradicts_the_swing_is_told(axis: int, by_m: float) -> None:

@@ -98,6 +98,7 @@ def test_the_origin_of_time_is_arbitrary(origin: float) -> None:
     assert checked(shifted) == checked(recording) == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_velocity_that_is_positive_down_is_refused(seed: int) -> None:
     def down(channel: Channel) -> Channel:

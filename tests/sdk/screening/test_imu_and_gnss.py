@@ -142,6 +142,7 @@ def test_gravity_tells_which_pair_is_exchanged(names: tuple[str, str]) -> None:
         warnings_of(exchanged(*names)(driven("hill")), "left")
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=8)
 @given(seed=st.integers(0, 3), fault=st.sampled_from(["sign", "unit"]))
 def test_without_gnss_gravity_tells_what_braking_does(seed: int, fault: str) -> None:

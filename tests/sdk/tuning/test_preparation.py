@@ -31,6 +31,7 @@ def without(recording: Recording, *names: str) -> Recording:
     return replace(recording, channels=kept)
 
 
+@pytest.mark.slow
 def test_runs_are_told_apart_and_the_nominal_profiler_is_good_at_speed_alone(
     driven: Driven, given: Given
 ) -> None:

@@ -35,6 +35,7 @@ def test_every_profile_is_made_once_and_told(trials: Callable[[], Trials]) -> No
     assert (made.profiles, made.combinations) == (3, 2)
 
 
+@pytest.mark.slow
 def test_workers_change_nothing(trials: Callable[[], Trials]) -> None:
     point = (0, -8, 0, 0)
     with trials().working() as several:

@@ -44,6 +44,7 @@ def agreement(track, true: np.ndarray, interval_m: float) -> float:
     return float(np.corrcoef(made[inner], road[inner])[0, 1])
 
 
+@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("vehicle", ["quarter-car", "zhu-half-car"])
 def test_a_model_in_the_middle_tells_the_road_there(vehicle, pipeline):

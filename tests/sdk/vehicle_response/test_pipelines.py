@@ -49,6 +49,7 @@ def test_a_bump_lies_where_a_laser_would_see_it(drive, pipeline, wheel_m, laser_
     assert np.nanmax(track.elevation) == pytest.approx(0.02, rel=0.1)
 
 
+@pytest.mark.slow
 @PIPELINES
 def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
     ahead = drive(wheel_m=2.0, length_m=200.0)

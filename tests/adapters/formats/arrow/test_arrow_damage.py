@@ -42,6 +42,7 @@ def rows(native: NativeFile, stream: int = 0) -> tuple[dict[str, list[float]], n
     return values, np.concatenate(ticks) if ticks else None
 
 
+@pytest.mark.slow
 @few
 @given(data=st.data(), suffix=st.sampled_from([".parquet", ".arrow"]))
 def test_a_damaged_file_is_read_or_refused(

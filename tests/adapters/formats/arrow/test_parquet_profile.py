@@ -184,6 +184,7 @@ def test_settings_that_json_cannot_hold_are_named(tmp_path):
             ParquetProfile().write(profile, tmp_path / "a.parquet")
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=200)
 @given(place=st.integers(0, 3000), junk=st.binary(max_size=8), cut=st.integers(0, 60))
 def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place, junk, cut):

@@ -81,6 +81,7 @@ def test_every_wheel_speed_comes_back(
     assert {c.name: c.unit for c in of.columns} == dict.fromkeys(WHEELS, "km/h")
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @given(data=st.binary(min_size=4, max_size=4), wheels=counts)
 def test_values_are_those_of_cantools(

@@ -14,6 +14,8 @@ from floatref_adapters.testing.whole_reading import make_columns as columns
 from floatref_adapters.testing.whole_reading import opened
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 
+pytestmark = pytest.mark.slow
+
 samples = st.none() | st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6)
 few = settings(deadline=None, max_examples=80)
 MISSING = ("", "nan", "NaN", "NA", "-", "n/a", "#DIV/0!", "#NUM!")
@@ -24,7 +26,6 @@ def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     return opened(CsvTable(), folder / "run.csv", text, **options)
 
 
-@pytest.mark.slow
 @few
 @given(
     rows=st.lists(st.tuples(samples, samples, samples), min_size=2, max_size=12),
@@ -71,7 +72,6 @@ def test_every_sample_comes_back_whatever_the_writing(
     assert native.warnings == ((f"{above} lines above the table: skipped",) if above else ())
 
 
-@pytest.mark.slow
 @few
 @given(
     values=st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=2, max_size=40),
@@ -86,7 +86,6 @@ def test_numbers_are_read_as_python_reads_them(
     assert columns(native)["a"] == [float(t) for t in texts]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("size", [1 << 16, (1 << 16) + 1, 1 << 20])
 def test_rows_over_the_edges_of_blocks_are_whole(tmp_path: Path, size: int) -> None:
     rng = np.random.default_rng(size)

@@ -116,6 +116,7 @@ def test_no_text_breaks_the_reader(tmp_path_factory: pytest.TempPathFactory, tex
     assert len({len(values) for values in found.values()}) <= 1
 
 
+@pytest.mark.slow
 @few
 @given(
     rows=st.lists(

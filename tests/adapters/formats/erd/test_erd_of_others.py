@@ -245,6 +245,7 @@ def test_what_is_no_file_is_refused(tmp_path):
             Erd().read(path)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=300)
 @given(place=st.integers(0, 400), junk=st.binary(max_size=12), cut=st.integers(0, 12))
 def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place, junk, cut):

@@ -66,6 +66,7 @@ def test_what_is_in_other_files_is_not_followed(path: Path) -> None:
     assert (listed["raw"], listed["virtual"], listed["reference"]) == (False, False, False)
 
 
+@pytest.mark.slow
 def test_rows_that_were_never_written_are_missing(path: Path) -> None:
     with h5py.File(path, "w") as file:
         dataset = file.create_dataset("x", (50,), "f8", chunks=(10,))

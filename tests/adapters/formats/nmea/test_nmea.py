@@ -73,6 +73,7 @@ def rows(of: Stream) -> tuple[Table, NDArray[np.int64]]:
     return values, of.clock.origin_ns + ticks * unit.numerator
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(
     drawn=fixes(),

@@ -50,6 +50,7 @@ def fixes(draw: st.DrawFn) -> Fixes:
     )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     drawn=fixes(),
@@ -100,6 +101,7 @@ def test_the_clock_counts_on_over_the_end_of_a_week(tmp_path: Path) -> None:
     assert [b - a for a, b in pairwise(ticks.tolist())] == [50] * 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ahead", [1, 2, 3, 9, 15, 27, 60, 103])
 @pytest.mark.parametrize("log", [binary_log(ONE), ascii_log(ONE), ascii_log(ONE, b"\n")])
 def test_a_log_that_begins_in_one_block_and_ends_in_the_next_is_found(

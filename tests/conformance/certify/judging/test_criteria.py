@@ -27,6 +27,7 @@ def failed(sheet):
     return {(c.id, c.track) for c in sheet.criteria if c.judged is Judged.FAIL}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device_class", DeviceClass)
 def test_perfect_runs_pass_every_class_with_a_correlation_of_one(
     sheet_of, reference, run_over, device_class
@@ -82,6 +83,7 @@ def test_a_correlation_at_its_limit_passes_and_below_fails(sheet_of, ten_runs, a
         assert criterion(again, id_, "left").limit == limit
 
 
+@pytest.mark.slow
 def test_a_run_below_the_limit_is_named_though_the_average_passes(sheet_of, ten_runs, run_over):
     sheet = sheet_of((*ten_runs[:9], run_over(10, noise_m=1e-3)))
     found = criterion(sheet, "accuracy", "left")
@@ -169,6 +171,7 @@ def test_an_average_that_lacks_a_run_is_not_complete(sheet_of, ten_runs, without
     assert criterion(sheet, "accuracy", "right").judged is Judged.PASS
 
 
+@pytest.mark.slow
 def test_the_bias_of_the_iri_is_reported_and_judged_where_a_limit_is_given(sheet_of, run_over):
     runs = tuple(run_over(seed, height=1.04) for seed in range(1, 4))
     free = criterion(sheet_of(runs), "iri-bias", "left")

@@ -87,6 +87,7 @@ def test_every_unit_of_distance_is_told(road, unit) -> None:
     assert any(f"in {unit}," in s for s in placement.notes) == (unit != "m")
 
 
+@pytest.mark.slow
 @settings(max_examples=15, deadline=None)
 @given(percent=st.floats(-5.0, 5.0), start_m=st.floats(-50.0, -20.0))
 def test_errors_of_distance_do_not_hide_the_section(road, percent, start_m) -> None:

@@ -83,6 +83,7 @@ def averaged(taken, length_m):
     return lambda z: np.convolve(z, np.full(window, 1 / window), "same")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("interval_m", [0.05, 0.25])
 def test_a_coarser_profile_that_is_averaged_first_has_its_features_in_place(stopped, interval_m):
     assert failing(stopped, change=averaged(stopped, interval_m), interval_m=interval_m) == set()
@@ -108,6 +109,7 @@ def test_a_scale_of_one_percent_fails(stopped):
     assert SCALE in failing(stopped, stretched=1.01)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(metres=st.floats(0.06, 1.5))
 def test_distance_that_is_lost_at_the_stop_is_read_as_a_step(stopped, metres):

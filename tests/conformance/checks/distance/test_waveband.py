@@ -80,6 +80,7 @@ def test_the_truth_filtered_alike_keeps_every_limit_of_the_strictest_class(taken
     assert values[GAIN] == pytest.approx(100 * (1 - gain_at(42.9, 91.44)), abs=0.1)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(percent=st.floats(1.5, 40.0))
 def test_an_error_of_scale_is_read_as_one_of_gain(taken, percent):

@@ -116,6 +116,7 @@ def test_a_smooth_profile_fails(check, taken):
     assert failing(check, taken(check), spoilt(smooth))
 
 
+@pytest.mark.slow
 @each
 def test_flagging_everything_fails_unless_all_of_it_is_slow(check, taken):
     device = spoilt(lambda z: z, lambda z: np.zeros(z.size, dtype=bool))

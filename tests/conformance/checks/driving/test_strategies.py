@@ -68,6 +68,7 @@ def test_the_bump_lies_in_no_scored_stretch_and_ahead_of_every_brake(drives, dat
         assert np.ptp(motion.speed[near]) < 1e-9
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @DRAWS
 def test_numbers_are_rounded_and_make_the_same_case_again(drives, data):
@@ -143,6 +144,7 @@ def test_the_roads_of_cases_are_of_every_kind_and_within_their_roughness(roads):
     assert roads.draw_for(Scenario(), (7, 3)) == drawn[3]
 
 
+@pytest.mark.slow
 @given(data=st.data())
 @DRAWS
 def test_placing_a_placed_drive_changes_nothing(drives, data):

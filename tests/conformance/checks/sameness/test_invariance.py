@@ -71,6 +71,7 @@ def test_another_place_is_read_as_a_displacement(right_bench, points):
     assert measured["correlation loss between both"].value == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.slow
 @few
 @given(share=st.floats(0.05, 0.4))
 def test_another_shape_is_read_as_a_loss_of_correlation(right_bench, share):
@@ -144,6 +145,7 @@ def test_every_change_comes_in_turn_and_the_seed_draws_the_road_alone(effort, ti
         assert Case.of("invariance", case.parameters, case.name) == case
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(case=INVARIANCE.strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_change(case):

@@ -80,6 +80,7 @@ def test_the_truth_of_both_passes_agrees_whatever_the_vehicle(case):
     assert failing(case, DeviceClass.REFERENCE) == set()
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=6)
 @given(factor=st.floats(0.5, 2.0))
 def test_a_second_pass_of_another_height_is_read_in_percent_of_the_rougher(factor):

@@ -78,6 +78,7 @@ def test_the_near_stop_coasts_over_its_published_stretch() -> None:
     assert np.ptp(times[coasting]) == pytest.approx(2.19, abs=0.001)
 
 
+@pytest.mark.slow
 def test_constant_runs_keep_their_speed() -> None:
     for name, kmh in [("const_16", 16.0), ("ref_72", 72.0)]:
         speed = sampled(name)[1].speed * 3.6

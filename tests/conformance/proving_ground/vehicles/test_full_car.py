@@ -122,6 +122,7 @@ def test_steady_braking_reaches_the_tilt_of_the_springs_in_series(vehicle: Vehic
     assert body[PITCH, -1] == pytest.approx(sum(travel) / vehicle.wheelbase_m, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hertz", [0.7, 1.3, 3.0, 10.0])
 def test_response_to_a_sinusoidal_road_is_the_transfer_function(hertz: float) -> None:
     """Against M, C, K solved at one frequency, wheelbase delay and tyre envelope included."""

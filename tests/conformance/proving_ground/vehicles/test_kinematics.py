@@ -76,6 +76,7 @@ def test_velocity_and_acceleration_are_derivatives_of_height(seed: int, course: 
     assert np.abs(bend - point.acceleration[1:-1]).max() < 4e-3
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.17)")
 @settings(deadline=None, max_examples=15)
 @given(seed=seeds)

@@ -51,6 +51,7 @@ def pulse() -> PendulumMotion:
     return simulate_pendulum(Pendulum(), PULSE, 25.0, rate_hz=500.0)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.23)", "(2.24)")
 @given(st.floats(-1.0, 1.5), st.floats(-3.0, 3.0), st.floats(0.05, 0.6))
 @settings(deadline=None, max_examples=8)
@@ -67,6 +68,7 @@ def test_accelerations_are_second_derivatives_of_the_profilers_place(
         np.testing.assert_allclose(derived, truth[1:-1], atol=2e-3 * peak_g * G)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.20)", "(2.25)")
 @given(st.floats(-1.0, 1.5), st.floats(-3.0, 3.0))
 @settings(deadline=None, max_examples=5)
@@ -120,6 +122,7 @@ def test_the_pulse_takes_22_to_20_metres_per_second() -> None:
     assert motion.acceleration.min() == pytest.approx(-0.4 * G)
 
 
+@pytest.mark.slow
 def test_figure_2_18_the_body_reads_gravity_while_it_leans(pulse: PendulumMotion) -> None:
     braking = (pulse.time > 6.2) & (pulse.time < 6.9)
     assert (pulse.body_longitudinal - pulse.longitudinal)[braking].max() < 0.0

@@ -100,6 +100,7 @@ def test_wheels_meet_the_road_one_after_the_other() -> None:
     assert motion.road[2][started] == pytest.approx(late[started], abs=1e-5)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(grade=st.floats(-0.1, 0.1), cross=st.floats(-0.08, 0.08), curvature=st.floats(-0.01, 0.01))
 def test_lane_force_is_gravity_and_what_the_drive_adds(

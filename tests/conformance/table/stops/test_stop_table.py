@@ -63,6 +63,7 @@ def test_sigma_gets_from_the_device_to_the_table(monkeypatch):
         assert path.scores.iri_error_percent == pytest.approx(-100.0)
 
 
+@pytest.mark.slow
 def test_a_pipeline_that_fails_is_named_with_its_drive(monkeypatch):
     def broken(_device, _recording, _target):
         raise ZeroDivisionError("out\nof luck")
@@ -73,6 +74,7 @@ def test_a_pipeline_that_fails_is_named_with_its_drive(monkeypatch):
         make_stop_table(StopSettings(vehicles=("trailer",), pipelines=PIPELINES[:1]))
 
 
+@pytest.mark.slow
 def test_a_profile_that_ends_early_is_no_score(monkeypatch):
     def short(_device, _recording, target):
         tracks = tuple(ProfileTrack.of(name, np.zeros(10000)) for name in ("left", "right"))

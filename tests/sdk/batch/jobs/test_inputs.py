@@ -157,6 +157,7 @@ def test_the_adapter_of_the_map_is_for_files(tree, find):
     assert names(find(tree, channel_map=chart)) == ["damaged.mf4", "mf4/run.mf4", "ours/run"]
 
 
+@pytest.mark.slow
 def test_a_folder_that_an_adapter_recognises_is_one_source(tree, find, know):
     class Vendor:
         name, summary = "vendor", "folders of a vendor"

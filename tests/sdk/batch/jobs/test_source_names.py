@@ -28,6 +28,7 @@ def folded(path: Path) -> tuple[str, ...]:
     return tuple(unicodedata.normalize("NFC", part).casefold() for part in path.parts)
 
 
+@pytest.mark.slow
 @given(path=PATHS)
 @FEW
 def test_a_name_is_a_path_that_stays_inside_and_can_be_written(path: str) -> None:

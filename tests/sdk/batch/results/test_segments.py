@@ -26,6 +26,7 @@ def road(points: int, interval_m: float, start_m: float = 0.0, tracks: int = 2) 
     return Profile(interval_m, tuple(made), start_m)
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     points=st.integers(700, 5000),

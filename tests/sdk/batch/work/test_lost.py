@@ -47,6 +47,7 @@ def test_a_file_is_done_if_its_task_has_written_so(
     assert (found.outputs, len(found.rows)) == (written.outputs, len(written.rows))
 
 
+@pytest.mark.slow
 def test_what_an_earlier_command_wrote_of_other_bytes_does_not_count(jobs: dict[str, Job]) -> None:
     job = jobs["native"]
     run_job(job)

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = """
 import json
 import os
@@ -90,13 +92,11 @@ def kinds(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[list[Any
     return out, run(out, "all_kinds")
 
 
-@pytest.mark.slow
 def test_every_job_has_one_record(kinds: tuple[Path, list[list[Any]]]) -> None:
     names = [f"r{index:02d}" for index in range(16)]
     assert sorted(name for name, *_ in kinds[1]) == sorted([*names, "deadly", "raises"])
 
 
-@pytest.mark.slow
 def test_only_files_that_are_to_blame_fail(kinds: tuple[Path, list[list[Any]]]) -> None:
     errors = {name: error for name, error, _ in kinds[1] if error}
     assert set(errors) == {"deadly", "raises"}
@@ -104,14 +104,12 @@ def test_only_files_that_are_to_blame_fail(kinds: tuple[Path, list[list[Any]]]) 
     assert "the worker ended 2 times while it processed this file alone" in errors["deadly"]
 
 
-@pytest.mark.slow
 def test_a_deadly_file_leaves_its_record(kinds: tuple[Path, list[list[Any]]]) -> None:
     from floatref.batch.results.record import read_record
 
     assert "worker ended" in read_record(kinds[0] / "records" / "deadly.json").error
 
 
-@pytest.mark.slow
 def test_what_waits_beside_a_deadly_file_is_not_blamed(tmp_path: Path) -> None:
     # Both are given to the worker at once, and its first death is held against both.
     found = {n: (error, skipped) for n, error, skipped in run(tmp_path, "few", 1, deaths=0)}
@@ -123,7 +121,6 @@ def test_what_waits_beside_a_deadly_file_is_not_blamed(tmp_path: Path) -> None:
     assert sorted(begun[1:]) == ["deadly", "small"]
 
 
-@pytest.mark.slow
 def test_what_the_cluster_drops_or_nobody_does_is_a_record_as_well(tmp_path: Path) -> None:
     found = run(tmp_path, "cancelled_and_deserted")
     names = [*(f"d{index}" for index in range(4)), *(f"r{index}" for index in range(40))]

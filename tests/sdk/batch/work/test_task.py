@@ -46,6 +46,7 @@ def test_the_profile_is_that_of_process_bit_by_bit(
     assert content(job.profile) == content(folder / "one")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_comes_back_is_what_is_written(jobs: dict[str, Job], kind: str) -> None:
     record = run_job(jobs[kind])
@@ -147,6 +148,7 @@ def test_a_bad_file_is_a_record_with_one_line_and_its_old_profile_goes(
         assert not job.profile.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("error", "said"),
     [

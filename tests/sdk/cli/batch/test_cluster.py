@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 FILES = {"a": ("ready", 300), "b": ("ready", 200), "c": ("ready", 100), "bad": ("odd", 50)}
 IMPATIENT = (
     "import floatref.batch.work.cluster as cluster; cluster.WORKERS_S = cluster.ANSWER_S = 0.5\n"
@@ -43,7 +45,6 @@ def unused() -> Iterator[str]:
         yield f"tcp://127.0.0.1:{held.getsockname()[1]}"
 
 
-@pytest.mark.slow
 def test_the_summary_is_that_of_the_local_cluster(bench: Any, address: str) -> None:
     bench.put(**FILES)
     for _ in range(2):
@@ -59,7 +60,6 @@ def test_the_summary_is_that_of_the_local_cluster(bench: Any, address: str) -> N
     assert not (bench.out / ".cluster").exists()
 
 
-@pytest.mark.slow
 def test_a_scheduler_that_dies_leaves_rows_that_say_so(bench: Any, address: str) -> None:
     bench.put(a=("ready", 300), w0=("wait", 200))
     start_worker(bench)
@@ -73,7 +73,6 @@ def test_a_scheduler_that_dies_leaves_rows_that_say_so(bench: Any, address: str)
     assert "the cluster was lost before this file was done" in errors["w0.gate"]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("there", "text"), [(True, "has no workers"), (False, "no scheduler")])
 def test_a_cluster_that_cannot_work_is_one_line(
     bench: Any, unused: str, request: pytest.FixtureRequest, there: bool, text: str

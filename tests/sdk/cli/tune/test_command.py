@@ -98,6 +98,7 @@ def test_settings_are_those_given_and_the_four_that_are_tuned(made: Path) -> Non
     assert written["acceleration_walk"] < 0.2 * GIVEN["acceleration_walk"]
 
 
+@pytest.mark.slow
 def test_a_profile_made_with_them_agrees_better_with_the_road(made: Path, tmp_path: Path) -> None:
     road = read_profile(made / "road").track("left").elevation
     inside = slice(300, 2900)

@@ -4,6 +4,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -58,6 +59,7 @@ def test_each_reading_is_at_the_sample_next_to_it_and_no_two_at_one(places, cuts
         np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.slow
 @laws
 @given(
     drawn=st.lists(

@@ -10,6 +10,8 @@ from floatref.measures import high_pass
 from floatref.values.block import join_blocks
 from floatref.values.channels import ChannelId
 
+pytestmark = pytest.mark.slow
+
 RATE, SEGMENT = 50, 256
 HEIGHT = ChannelId("floating_reference_height", "left")
 SIGMA = ChannelId("elevation_sigma", "left")
@@ -32,7 +34,6 @@ def over_distance(drive, samples):
     return np.interp(np.arange(0.0, place[-1], 0.5), place, samples[first])
 
 
-@pytest.mark.slow
 @laws
 @given(
     seed=st.integers(0, 2**32 - 1),
@@ -55,7 +56,6 @@ def test_waiting_for_the_end_would_change_less_than_ten_micrometres(
     np.testing.assert_allclose(early[SIGMA], late[SIGMA], rtol=0.02)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("tolerance_m", [3e-6, 1e-5])
 def test_the_bound_alone_holds_what_comes_later_to_it(drive, seed, tolerance_m):
@@ -68,7 +68,6 @@ def test_the_bound_alone_holds_what_comes_later_to_it(drive, seed, tolerance_m):
     assert np.abs(change).max() < 5.0 * tolerance_m
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("plan", [Plan(), Plan(gnss=False, attitude=False)])
 def test_what_is_kept_does_not_grow_with_the_run(drive, plan):
     stops = [(40.0 + 120.0 * k, 50.0 + 120.0 * k) for k in range(6)]

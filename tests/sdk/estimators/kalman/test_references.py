@@ -79,6 +79,7 @@ def scheduled(plan, stretch, cuts=()):
     return join_observations([references.schedule(stretch.part(a, b)) for a, b in pairwise(edges)])
 
 
+@pytest.mark.slow
 @laws
 @given(plan=PLANS, stretch=RUNS, cuts=st.sets(st.integers(1, LENGTH - 1), max_size=6))
 @example(plan=Plan(reflects=False), stretch=SELDOM, cuts={90, 240})

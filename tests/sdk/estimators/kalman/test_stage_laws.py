@@ -59,6 +59,7 @@ def test_1_any_split_gives_the_same_bits(drive, through, name, seed, plan, cuts,
     assert_same(through(STAGES[name](plan), drawn, range(every, LENGTH, every)), whole)
 
 
+@pytest.mark.slow
 @every_stage
 @laws
 @given(seed=SEEDS, plan=PLANS, at=st.integers(1, 5))

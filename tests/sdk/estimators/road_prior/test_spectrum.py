@@ -33,6 +33,7 @@ def mean_squares(points, lag, start, share):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.4)")
 @pytest.mark.parametrize(("q", "g"), [(1e-6, 2e-7), (1e-5, 1e-8), (5e-5, 5e-6), (4e-6, 0.0)])
 def test_of_a_long_road_it_is_the_spectrum(q, g):

@@ -58,6 +58,7 @@ def test_blocks_between_two_nodes_give_the_same_bits(drive, through):
         np.testing.assert_array_equal(found[channel], samples, err_msg=str(channel))
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS)
 def test_segments_come_out_before_the_run_ends(drive, seed):

@@ -45,6 +45,7 @@ def test_what_is_no_rate_is_refused(save: Save, refusal: Refusal, given: str) ->
     assert "expected a rate in Hz" in refusal(save(f"{HEAD}[[clocks]]\nrate_hz = {given}\n{LASER}"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("lines", "message"),
     [

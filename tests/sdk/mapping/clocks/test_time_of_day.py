@@ -21,6 +21,7 @@ def own_zero(utc: int, epoch: Epoch) -> Fraction:
     return Fraction(counts[epoch])
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=200)
 @given(
     utc=moments,

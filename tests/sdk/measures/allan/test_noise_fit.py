@@ -132,6 +132,7 @@ def test_drawn_noise_is_recovered_within_its_uncertainty(
     assert 0.2 < np.sqrt(np.mean(np.square(scores))) < 1.3
 
 
+@pytest.mark.slow
 def test_a_ramp_is_recovered_within_its_uncertainty() -> None:
     scores = []
     for seed in range(20):
@@ -141,6 +142,7 @@ def test_a_ramp_is_recovered_within_its_uncertainty() -> None:
     assert 0.3 < np.sqrt(np.mean(np.square(scores))) < 1.5
 
 
+@pytest.mark.slow
 def test_white_noise_supports_no_other_term() -> None:
     alone = 0
     for seed in range(40):
@@ -152,6 +154,7 @@ def test_white_noise_supports_no_other_term() -> None:
     assert alone >= 38
 
 
+@pytest.mark.slow
 def test_a_walk_too_small_to_be_seen_stays_below_its_limit() -> None:
     below, seen = 0, 0
     for seed in range(40):
@@ -163,6 +166,7 @@ def test_a_walk_too_small_to_be_seen_stays_below_its_limit() -> None:
     assert below >= 34
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=st.integers(0, 2**32 - 1), exponent=st.integers(-15, 90), slower=st.floats(1e-3, 1e3))
 def test_units_of_signal_and_time_change_no_more_than_the_units(

@@ -1,6 +1,7 @@
 """The line between two clocks where a drift, or a clock itself, leaps: nothing sound is dropped."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -10,6 +11,7 @@ FEW = settings(deadline=None, max_examples=40)
 seeds = st.integers(0, 2**32 - 1)
 
 
+@pytest.mark.slow
 @FEW
 @given(
     seed=seeds,
@@ -29,6 +31,7 @@ def test_a_drift_that_leaps_is_followed_around_the_corner(seed, before, change, 
     assert np.abs(found.to_base(own) - true).max() < 1e-4
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, leap=st.floats(1e-3, 1e-2), at=st.integers(20, 180))
 def test_a_clock_that_leaps_by_less_than_a_match_keeps_its_pulses(seed, leap, at) -> None:

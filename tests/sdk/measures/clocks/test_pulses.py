@@ -70,6 +70,7 @@ def test_ringing_makes_no_further_edge(seed: int) -> None:
     assert np.abs(found - edges).max() < 3e-4
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, edges=st.integers(1, 40))
 def test_a_bouncing_switch_makes_no_further_edge(seed: int, edges: int) -> None:

@@ -88,6 +88,7 @@ def test_a_stop_says_how_well_it_knows(vehicle: str, seed: int) -> None:
             assert "ms only" in found.reason
 
 
+@pytest.mark.slow
 def test_several_stops_know_more_than_one() -> None:
     one = sensor_skew(*parts(driven("stop", "pickup", 38)))
     more = sensor_skew(*parts(driven("stop", "pickup", 38, stops=3)))

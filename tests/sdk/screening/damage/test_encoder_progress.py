@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -52,6 +53,7 @@ def ahead(x):
 samples = st.lists(st.sampled_from([0.0, 1.0, 2.0, 4.0, 5.0, np.nan]), min_size=1, max_size=80)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(values=samples, apart=st.sampled_from([1.0, 4.0]), data=st.data())
 def test_knots_are_those_of_the_signal_in_any_chunks(values, apart, data):

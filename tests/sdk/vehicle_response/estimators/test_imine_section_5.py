@@ -52,6 +52,7 @@ def test_the_left_wheel_is_followed_within_four_thousandths(cases, left_drive, s
     assert np.abs(case.error[told(case), 0]).max() <= 0.004 * np.abs(case.road[:, 0]).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_right_wheel_that_stands_varies_around_zero(cases, left_drive, seed):
     case = cases.observed(left_drive, cases.FIELD, seed)

@@ -44,6 +44,7 @@ def start(model, variance=0.0):
     return np.full(2 * len(model.freedoms), variance)
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=SEEDS, hold=st.sampled_from(Hold))
 @pytest.mark.parametrize("model", [CORNER.model(), ZHU_HALF_CAR.model()], ids=lambda m: m.name)
@@ -59,6 +60,7 @@ def test_without_noise_all_is_exact_from_any_start(model, seed, hold):
     np.testing.assert_allclose(told.road, told.force / [t.stiffness for t in model.tyres])
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=SEEDS, hold=st.sampled_from(Hold), cuts=st.lists(st.integers(0, 300), max_size=5))
 def test_any_split_gives_the_same_bits(seed, hold, cuts):
@@ -76,6 +78,7 @@ def test_any_split_gives_the_same_bits(seed, hold, cuts):
         np.testing.assert_array_equal(joined, getattr(whole, name))
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=SEEDS, gone=st.sampled_from([0, 2, 3]))
 def test_a_reading_that_is_never_there_is_no_reading(seed, gone):
@@ -142,6 +145,7 @@ def test_equipment_that_carries_no_sensor_is_told(hold):
     assert error[0] < 0.15
 
 
+@pytest.mark.slow
 @FEW
 @given(damping=st.floats(1.0, 2000.0), wave_hz=st.floats(0.5, 8.0))
 def test_a_tyre_with_damping_tells_the_road_and_not_its_force(damping, wave_hz):

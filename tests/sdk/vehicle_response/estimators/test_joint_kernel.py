@@ -1,6 +1,7 @@
 """Steps (a)-(c) in loops, against the same in products and inverses of matrices."""
 
 import numpy as np
+import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -83,6 +84,7 @@ def written_out(system, samples):
     return [np.array(part) for part in zip(*rows, strict=True)], worst
 
 
+@pytest.mark.slow
 @given(seed=SEEDS, sizes=SIZES, gone=st.floats(0.0, 0.6))
 @laws
 def test_it_is_steps_a_to_c_of_the_readings_that_are_there(seed, sizes, gone):

@@ -167,6 +167,7 @@ def test_nothing_is_told_before_the_first_whole_sample():
     np.testing.assert_array_equal(np.isnan(found.states[:, 0]), [True, True, True, False, False])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["quarter car", "trailer on undamped tyres"])
 @pytest.mark.parametrize("degree", [1, 3])
 def test_sigma_is_the_spread_under_noise_of_the_sensors(name, degree):

@@ -85,6 +85,7 @@ def test_a_share_takes_as_few_components_as_it_needs(seed, share):
     )
 
 
+@pytest.mark.slow
 def test_ten_minutes_at_540_hz_take_a_few_copies_of_memory():
     samples = drawn(3, 324_000)
     tracemalloc.start()

@@ -6,6 +6,8 @@ from hypothesis import strategies as st
 
 from floatref.estimators.kalman import Noise, Plan
 
+pytestmark = pytest.mark.slow
+
 # A drive that has been shrunk fails for the same reason, after minutes.
 laws = settings(deadline=None, max_examples=4, phases=[Phase.explicit, Phase.generate])
 SEEDS = st.integers(0, 2**32 - 1)
@@ -18,7 +20,6 @@ NOISES = st.builds(
 )
 
 
-@pytest.mark.slow
 @pytest.mark.cites("(6.58)", "(6.59)")
 @laws
 @given(seed=SEEDS, noise=NOISES, begin=st.floats(0.0, 2.0), lasts=st.floats(0.02, 1.5))
@@ -28,21 +29,18 @@ def test_at_a_stop_the_height_sensor_is_observed(drive, assert_same, seed, noise
     assert_same(drive(seed, 3.0, 400, (begin, begin + lasts)), noise, Plan())
 
 
-@pytest.mark.slow
 @laws
 @given(seed=SEEDS, noise=NOISES)
 def test_without_a_stop_lean_and_drift_alone(drive, assert_same, seed, noise):
     assert_same(drive(seed, 2.5, 400, (0.6, 0.9)), noise, Plan(reflects=False))
 
 
-@pytest.mark.slow
 @laws
 @given(seed=SEEDS, begin=st.sampled_from([1.2, 4.6, 7.5, 99.0]), plan=st.builds(Plan))
 def test_the_lean_is_another_after_a_constant_speed(drive, assert_same, seed, begin, plan):
     assert_same(drive(seed, 8.5, 200, (begin, begin + 0.3)), Noise(), plan)
 
 
-@pytest.mark.slow
 @pytest.mark.cites("(6.62)", "(6.63)")
 @laws
 @given(seed=SEEDS, noise=NOISES)
@@ -50,7 +48,6 @@ def test_a_constant_attitude_comes_with_every_reading(drive, assert_same, seed, 
     assert_same(drive(seed, 2.5, 400, STOP), noise, Plan(attitude=False))
 
 
-@pytest.mark.slow
 @laws
 @given(seed=SEEDS, every_s=st.sampled_from([0.01, 0.02, 0.1, 0.2]))
 def test_readings_that_crowd_count_for_less(drive, assert_same, seed, every_s):
