@@ -47,6 +47,11 @@ def same_limit(nominal: float, reference: float) -> Limits:
     }
 
 
+def write_limits(limits: Limits, unit: str = "") -> dict[DeviceClass, str]:
+    """Return ``limits`` in words, with their unit."""
+    return {c: f"{limit:.3g} {unit}".strip() for c, limit in limits.items()}
+
+
 def lowest(classes: list[DeviceClass | None]) -> DeviceClass | None:
     """Return the easiest of ``classes``; None if the list is empty or contains None."""
     reached = [c for c in classes if c is not None]

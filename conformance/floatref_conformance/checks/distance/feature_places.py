@@ -27,7 +27,7 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded_numbers, seeds
 from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
+from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
 from floatref_conformance.proving_ground.staging import drive_of
 
 if TYPE_CHECKING:
@@ -56,6 +56,38 @@ VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
 
+DERIVATION = (
+    f"Features are stretches of {FEATURE_M:g} m of a rough road, {END_M:g} m or more from both "
+    f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
+    "event moves them. The truth is converted to the encoder's axis: for every sample the drive "
+    "gives the true distance, and the recording the encoder's reading. The encoder is up to 1 % "
+    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and "
+    "does not count at stops; a device with a better sensor must use this axis too. A device "
+    "without a height sensor measures the road at a wheel, up to 5.07 m ahead of the place of a "
+    "laser; it adds this length to the encoder's reading, and its truth is converted in the same "
+    "way: 1 % of the length, 51 mm, is an error of the encoder that it cannot know. "
+    "Slopes in the waveband of 1.6 to 8 m are cross-correlated with those of the truth "
+    f"at lags of up to {FARTHEST_M:g} m. A line through the lags, with a step at the event, gives "
+    "the four displacements. Start, step and rest: delays turn into distance. At 90 km/h the "
+    "anti-alias filter of 1000 Hz (2/ω, 0.32 ms) is worth 8 mm, the mean age of a laser reading "
+    "held at 3.24 kHz (0.155 ms) 4 mm, a sample at 16 kHz 1.6 mm, an interval of the profile 5 mm, "
+    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm; less in "
+    "the slower half of a drive. Nominal and adequate allow twice that, 0.05 m, and "
+    "reference 0.025 m. Distances: with 0.15 % the ends of 160.9 m lie 0.12 m off when the middle "
+    "fits, a phase of 20 degrees at 2.1 m, where the car of the IRI has its axle hop at 80 km/h; "
+    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class "
+    "reference is allowed a third. A profile that does not cover the recorded distance is refused."
+)
+"""How features are found, and where the limits come from."""
+FLOOR = (
+    "Every feature has to be found: its correlation with the truth, by (2.16) and so by its "
+    "height as well, may fall short of 1 by 0.2 in class nominal, 0.1 in adequate, 0.05 in "
+    "reference. Lags, noise and slip cost sound software 0.01. A flat profile loses 1; a moving "
+    "average over 2 m takes all of the waves of 2 m and a tenth of those of 8 m."
+)
+"""What the profile must contain."""
+
+
 @dataclass(frozen=True)
 class DistanceCheck:
     """Searches for features of the road on the encoder's axis."""
@@ -66,25 +98,14 @@ class DistanceCheck:
         "Derived: the encoder's distance is the profile's axis (Karamihas 2021, sections 3.3.9, "
         "4.1.3 and 5.1); limits from the sensors' delays and the loss of correlation"
     )
+    derivation: str = DERIVATION
+    floor: str = FLOOR
     needs: frozenset[str] = frozenset()
-
-    @property
-    def derivation(self) -> str:
-        """How features are found, and the largest allowed displacements."""
-        return DERIVATION
-
-    @property
-    def floor(self) -> str:
-        """Every feature has to be in the profile."""
-        return FLOOR
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
         """The limits of the five quantities."""
-        return {
-            name: {c: f"{limit:.4g} {unit}".strip() for c, limit in limits.items()}
-            for name, unit, limits in QUANTITIES
-        }
+        return {name: write_limits(limits, unit) for name, unit, limits in QUANTITIES}
 
     @property
     def simplest(self) -> Case:
@@ -180,34 +201,4 @@ def _measure(track: str, features: tuple[Feature, ...], event_m: float | None) -
     ]
 
 
-DERIVATION = (
-    f"Features are stretches of {FEATURE_M:g} m of a rough road, {END_M:g} m or more from both "
-    f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
-    "event moves them. The truth is converted to the encoder's axis: for every sample the drive "
-    "gives the true distance, and the recording the encoder's reading. The encoder is up to 1 % "
-    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and "
-    "does not count at stops; a device with a better sensor must use this axis too. A device "
-    "without a height sensor measures the road at a wheel, up to 5.07 m ahead of the place of a "
-    "laser; it adds this length to the encoder's reading, and its truth is converted in the same "
-    "way: 1 % of the length, 51 mm, is an error of the encoder that it cannot know. "
-    "Slopes in the waveband of 1.6 to 8 m are cross-correlated with those of the truth "
-    f"at lags of up to {FARTHEST_M:g} m. A line through the lags, with a step at the event, gives "
-    "the four displacements. Start, step and rest: delays turn into distance. At 90 km/h the "
-    "anti-alias filter of 1000 Hz (2/ω, 0.32 ms) is worth 8 mm, the mean age of a laser reading "
-    "held at 3.24 kHz (0.155 ms) 4 mm, a sample at 16 kHz 1.6 mm, an interval of the profile 5 mm, "
-    "a count 0.3 mm, and the lags come in steps of an interval: together 24 mm; less in "
-    "the slower half of a drive. Nominal and adequate allow twice that, 0.05 m, and "
-    "reference 0.025 m. Distances: with 0.15 % the ends of 160.9 m lie 0.12 m off when the middle "
-    "fits, a phase of 20 degrees at 2.1 m, where the car of the IRI has its axle hop at 80 km/h; "
-    "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class "
-    "reference is allowed a third. A profile that does not cover the recorded distance is refused."
-)
-"""How features are found, and where the limits come from."""
-FLOOR = (
-    "Every feature has to be found: its correlation with the truth, by (2.16) and so by its "
-    "height as well, may fall short of 1 by 0.2 in class nominal, 0.1 in adequate, 0.05 in "
-    "reference. Lags, noise and slip cost sound software 0.01. A flat profile loses 1; a moving "
-    "average over 2 m takes all of the waves of 2 m and a tenth of those of 8 m."
-)
-"""What the profile must contain."""
 DISTANCE = DistanceCheck()

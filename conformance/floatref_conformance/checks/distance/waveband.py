@@ -17,7 +17,7 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
 from floatref_conformance.checks.stretches import Stretches, points, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
+from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
 from floatref_conformance.proving_ground.roads.sines import (
     BEYOND_M,
     CUT_OFF_M,
@@ -78,6 +78,34 @@ SMALLEST_GAIN = 1e-6
 """Lower limit of the gain, so that its logarithm is finite."""
 
 
+DERIVATION = (
+    f"The road is a sum of {WAVELENGTHS_M.size} sine waves of equal slope: {BEYOND_M} m, "
+    f"{CUT_OFF_M} m, and five to an octave from {LONGEST_FLAT_M} to {SHORTEST_FLAT_M} m; the seed "
+    f"draws their phases. It is driven at 72 km/h for {LENGTH_M:g} m. Over {PERIOD_M} m, "
+    f"{START_M:g} m from both ends, all waves, a level and a slope are fitted to the profile and "
+    "to the unfiltered truth; the ratio of the complex amplitudes is gain and phase. A point of "
+    "the profile lies where the vehicle was when the encoder had this distance. The sensors have "
+    "no errors and the road is smooth (IRI 0.5 m/km), so that tilt of the body, of second order, "
+    "stays below 0.2 % and what is judged is the software: the mean age of a laser reading held "
+    "at 3.24 kHz, 0.155 ms, alone would cost 1 % near 9 m, where the body moves more than the "
+    "road and has to cancel. Gain: 1 % is asked; HPF_B3x2 takes 0.44 % at 42.9 m, reference "
+    "may have 0.75 %. Cut-off: 0.5 dB is a cut-off wavelength wrong by 3.5 %, 0.25 dB by 1.7 %; "
+    "an error of 10 % makes 1.2 or 2.0 dB. Beyond it: HPF_B3x2 has a gain of 0.175 at 137.16 m, a "
+    "single pass of third order 0.284; 0.30 requires an order of three, 0.25 a higher one. "
+    "Displacement: the anti-alias filter of 1000 Hz (2/ω) is worth 6.4 mm, a sample at 4 kHz "
+    "5 mm, half an interval of the profile 2.5 mm, 14 mm together; twice that is allowed, and "
+    "to reference 15 mm. Phase: 0.03 m are 1.1 degrees at 10 m, the run-in of the filter from "
+    "both ends leaves 0.4 degrees at 91.44 m: 2 degrees, for reference 1. A high-pass without "
+    "its reverse pass turns 42.9 m by 48 degrees."
+)
+"""How gain and phase are found, and where the limits come from."""
+FLOOR = (
+    "Every wave of 0.6 to 42.9 m has to be there with its height: a missing wave has gain 0, "
+    "an error of 100 %. A moving average over 0.25 m takes 26 % of the shortest wave."
+)
+"""What the profile must contain."""
+
+
 @dataclass(frozen=True)
 class WavebandCheck:
     """Compares the waves in a profile with those of the road."""
@@ -88,25 +116,14 @@ class WavebandCheck:
         "AASHTO M 328-14, high-pass filter of 3 dB at 91.44 m; Karamihas 2021, section 2.1.4, "
         "waveband of the IRI, and section 5.3, gain 0.996 at 42.9 m"
     )
+    derivation: str = DERIVATION
+    floor: str = FLOOR
     needs: frozenset[str] = frozenset()
-
-    @property
-    def derivation(self) -> str:
-        """How gain and phase are found, and their limits."""
-        return DERIVATION
-
-    @property
-    def floor(self) -> str:
-        """A wave that is missing has gain 0."""
-        return FLOOR
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
         """The limits of the five quantities."""
-        return {
-            name: {c: f"{limit:.4g} {unit}".strip() for c, limit in limits.items()}
-            for name, unit, limits in QUANTITIES
-        }
+        return {name: write_limits(limits, unit) for name, unit, limits in QUANTITIES}
 
     @property
     def simplest(self) -> Case:
@@ -203,30 +220,4 @@ def _measure(track: str, passed: ComplexArray) -> list[Measurement]:
     ]
 
 
-DERIVATION = (
-    f"The road is a sum of {WAVELENGTHS_M.size} sine waves of equal slope: {BEYOND_M} m, "
-    f"{CUT_OFF_M} m, and five to an octave from {LONGEST_FLAT_M} to {SHORTEST_FLAT_M} m; the seed "
-    f"draws their phases. It is driven at 72 km/h for {LENGTH_M:g} m. Over {PERIOD_M} m, "
-    f"{START_M:g} m from both ends, all waves, a level and a slope are fitted to the profile and "
-    "to the unfiltered truth; the ratio of the complex amplitudes is gain and phase. A point of "
-    "the profile lies where the vehicle was when the encoder had this distance. The sensors have "
-    "no errors and the road is smooth (IRI 0.5 m/km), so that tilt of the body, of second order, "
-    "stays below 0.2 % and what is judged is the software: the mean age of a laser reading held "
-    "at 3.24 kHz, 0.155 ms, alone would cost 1 % near 9 m, where the body moves more than the "
-    "road and has to cancel. Gain: 1 % is asked; HPF_B3x2 takes 0.44 % at 42.9 m, reference "
-    "may have 0.75 %. Cut-off: 0.5 dB is a cut-off wavelength wrong by 3.5 %, 0.25 dB by 1.7 %; "
-    "an error of 10 % makes 1.2 or 2.0 dB. Beyond it: HPF_B3x2 has a gain of 0.175 at 137.16 m, a "
-    "single pass of third order 0.284; 0.30 requires an order of three, 0.25 a higher one. "
-    "Displacement: the anti-alias filter of 1000 Hz (2/ω) is worth 6.4 mm, a sample at 4 kHz "
-    "5 mm, half an interval of the profile 2.5 mm, 14 mm together; twice that is allowed, and "
-    "to reference 15 mm. Phase: 0.03 m are 1.1 degrees at 10 m, the run-in of the filter from "
-    "both ends leaves 0.4 degrees at 91.44 m: 2 degrees, for reference 1. A high-pass without "
-    "its reverse pass turns 42.9 m by 48 degrees."
-)
-"""How gain and phase are found, and where the limits come from."""
-FLOOR = (
-    "Every wave of 0.6 to 42.9 m has to be there with its height: a missing wave has gain 0, "
-    "an error of 100 %. A moving average over 0.25 m takes 26 % of the shortest wave."
-)
-"""What the profile must contain."""
 WAVEBAND = WavebandCheck()

@@ -14,7 +14,7 @@ from floatref_conformance.checks.driving.layout import BUMP_REACH_M, Layout
 from floatref_conformance.checks.flags import SLOW_MPS
 from floatref_conformance.checks.scoring import Compared
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Limits
+from floatref_conformance.classes import DeviceClass, Limits, write_limits
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -49,9 +49,9 @@ class Rule:
             row = table.setdefault(asked.quantity, dict.fromkeys(DeviceClass, UNLIMITED))
             row |= asked.words
         if not self.slow:
-            table["flagged at an end"] = _words(flags.END_LIMITS, "m")
-            table[ELSEWHERE] = _words(self.flagged_elsewhere, "m")
-        table["bump error"] = _words(bump.LIMITS, "%")
+            table["flagged at an end"] = write_limits(flags.END_LIMITS, "m")
+            table[ELSEWHERE] = write_limits(self.flagged_elsewhere, "m")
+        table["bump error"] = write_limits(bump.LIMITS, "%")
         return table
 
     def measure(
@@ -101,10 +101,6 @@ def _missing(quantity: str, compared: Compared) -> Measurement:
 
 def _above_nominal(limits: Limits) -> Limits:
     return {c: limit for c, limit in limits.items() if c is not DeviceClass.NOMINAL}
-
-
-def _words(limits: Limits, unit: str) -> dict[DeviceClass, str]:
-    return {c: f"{limit:g} {unit}" for c, limit in limits.items()}
 
 
 def _rule(table: Table) -> Rule:

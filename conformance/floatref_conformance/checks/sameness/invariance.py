@@ -28,7 +28,7 @@ from floatref_conformance.checks.sameness.differences import (
 from floatref_conformance.checks.scoring import Compared, compare, correlation
 from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.classes import DeviceClass, Effort, Limits, write_limits
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
@@ -45,6 +45,38 @@ RAN_IN_M = 110.0
 """Begin in m of the stretch before a stop that shows the road."""
 
 
+DERIVATION = (
+    "Every case is processed twice, changed in one respect and then as recorded: the first samples "
+    "cut off, so that every block of the software begins elsewhere; a time stamp for each sample "
+    "in place of a rate; a bias of up to 0.03 m/s² (3 mg) added to the vertical accelerometers; "
+    "time stamps up to 1e6 s and distances up to 100 km from where they were, where single "
+    "precision is coarse; another sampling rate; the road 0.4 to 2.7 times as high under ideal "
+    "sensors, the result scaled back; twice the time at a standstill. Of a device that declares "
+    "a receiver: its heights up to 3 km from where they were, a half to a quarter of its readings; "
+    "an inertial unit: gyros at 125 to 400 Hz in place of 100, biases of up to 0.03 m/s² and "
+    "0.03 °/s; both: a road that climbs and leans by up to 2 %, on which gravity is no longer "
+    "along the body's axes; on steeper ones the heights that a laser sees, tilted with the body, "
+    "are themselves not those along the vertical. Drives of constant speed "
+    f"or throttle are compared from {FROM_M:g} m behind the later beginning to {END_M:g} m before "
+    "the end: the initial values of the software differ, and have left the high-pass (105.91 m) "
+    "and the car of the IRI by then. No difference may be more than a tenth of the class's limit "
+    "at constant speed (0.92, 0.95, 0.98; 5, 3, 2 %), so that no change uses "
+    "up the class's allowance; new noise at another rate is included. Samples at 2 "
+    "kHz and 97 km/h are 13.5 mm apart, readings of the laser held at 3.24 kHz 8.3 mm: results "
+    "may lie 20 mm apart, in class reference 10 mm. At a stop, the error of the IRI over the "
+    "160.9 m around it may grow by 10 % of it: drift grows with the square of the time, or its "
+    "cube, and has to be suppressed, not merely filtered. The noise of the longer recording is "
+    "different, for which 5, 3 and 2 % of an IRI of 2 m/km are allowed."
+)
+"""How the pairs are made, and the reasons of the limits."""
+FLOOR = (
+    "The unchanged result has to agree with the truth, filtered alike, as at constant speed: a "
+    "correlation of 0.92, 0.95 and 0.98 by class over the same stretch, or before the stop. A "
+    "flat profile would be equally flat after every change."
+)
+"""What prevents a device from passing with the same profile for every recording."""
+
+
 @dataclass(frozen=True)
 class InvarianceCheck:
     """The device processes a recording and a changed one; both results are compared."""
@@ -52,30 +84,24 @@ class InvarianceCheck:
     id: str = changed_drives.CHECK
     title: str = "what must not matter does not matter"
     clause: str = "derived: a tenth of the class's limits at constant speed; 10 % more at a stop"
+    derivation: str = DERIVATION
+    floor: str = FLOOR
     needs: frozenset[str] = frozenset()
     meets: frozenset[str] = frozenset(NEEDS)
     """The needs that the device meets; changes of sensors that it does not have are no cases."""
 
     @property
-    def derivation(self) -> str:
-        """How the pairs are made, and the reasons of the limits."""
-        return DERIVATION
-
-    @property
-    def floor(self) -> str:
-        """The unchanged result has to show the road."""
-        return FLOOR
-
-    @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
         """The limits of the differences, of the rise at a stop, and of the floor."""
-        share = f"{RISE_PERCENT:g} % of it and "
+        rise = write_limits(RISE_LIMITS, "m/km")
         return {
-            "correlation loss between both": _words(LOSS_LIMITS, ""),
-            "IRI difference of both": _words(ROUGHNESS_LIMITS, " %"),
-            "displacement between both": _words(PLACE_LIMITS, " m"),
-            "rise of the IRI error": _words(RISE_LIMITS, " m/km", share),
-            "correlation loss": _words(TRUTH_LIMITS, ""),
+            "correlation loss between both": write_limits(LOSS_LIMITS),
+            "IRI difference of both": write_limits(ROUGHNESS_LIMITS, "%"),
+            "displacement between both": write_limits(PLACE_LIMITS, "m"),
+            "rise of the IRI error": {
+                c: f"{RISE_PERCENT:g} % of it and {limit}" for c, limit in rise.items()
+            },
+            "correlation loss": write_limits(TRUTH_LIMITS),
         }
 
     @property
@@ -172,40 +198,5 @@ def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[M
         _measure_floor(before, RAN_IN_M, FREE_M),
     )
 
-
-def _words(limits: Limits, unit: str, more: str = "") -> dict[DeviceClass, str]:
-    return {c: f"{more}{limit:g}{unit}" for c, limit in limits.items()}
-
-
-DERIVATION = (
-    "Every case is processed twice, changed in one respect and then as recorded: the first samples "
-    "cut off, so that every block of the software begins elsewhere; a time stamp for each sample "
-    "in place of a rate; a bias of up to 0.03 m/s² (3 mg) added to the vertical accelerometers; "
-    "time stamps up to 1e6 s and distances up to 100 km from where they were, where single "
-    "precision is coarse; another sampling rate; the road 0.4 to 2.7 times as high under ideal "
-    "sensors, the result scaled back; twice the time at a standstill. Of a device that declares "
-    "a receiver: its heights up to 3 km from where they were, a half to a quarter of its readings; "
-    "an inertial unit: gyros at 125 to 400 Hz in place of 100, biases of up to 0.03 m/s² and "
-    "0.03 °/s; both: a road that climbs and leans by up to 2 %, on which gravity is no longer "
-    "along the body's axes; on steeper ones the heights that a laser sees, tilted with the body, "
-    "are themselves not those along the vertical. Drives of constant speed "
-    f"or throttle are compared from {FROM_M:g} m behind the later beginning to {END_M:g} m before "
-    "the end: the initial values of the software differ, and have left the high-pass (105.91 m) "
-    "and the car of the IRI by then. No difference may be more than a tenth of the class's limit "
-    "at constant speed (0.92, 0.95, 0.98; 5, 3, 2 %), so that no change uses "
-    "up the class's allowance; new noise at another rate is included. Samples at 2 "
-    "kHz and 97 km/h are 13.5 mm apart, readings of the laser held at 3.24 kHz 8.3 mm: results "
-    "may lie 20 mm apart, in class reference 10 mm. At a stop, the error of the IRI over the "
-    "160.9 m around it may grow by 10 % of it: drift grows with the square of the time, or its "
-    "cube, and has to be suppressed, not merely filtered. The noise of the longer recording is "
-    "different, for which 5, 3 and 2 % of an IRI of 2 m/km are allowed."
-)
-"""How the pairs are made, and the reasons of the limits."""
-FLOOR = (
-    "The unchanged result has to agree with the truth, filtered alike, as at constant speed: a "
-    "correlation of 0.92, 0.95 and 0.98 by class over the same stretch, or before the stop. A "
-    "flat profile would be equally flat after every change."
-)
-"""What prevents a device from passing with the same profile for every recording."""
 
 INVARIANCE = InvarianceCheck()

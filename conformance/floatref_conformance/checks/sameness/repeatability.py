@@ -16,7 +16,7 @@ from floatref_conformance.checks.rounded import rounded_numbers, seeds
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
 from floatref_conformance.checks.stretches import Stretches, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, Limits
+from floatref_conformance.classes import DeviceClass, Effort, Limits, write_limits
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
@@ -87,6 +87,29 @@ SMOOTHEST, ROUGHEST = 1.0, 4.0
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
 
+DERIVATION = (
+    "Two passes over one road, with other errors of the sensors, at other speeds of 24 to 97 km/h "
+    "and in other vehicles; the axis is moved by the places of their lasers, so that both profiles "
+    f"lie on the road's own. {END_M - START_M:.1f} m, from {START_M:g} m on, are compared after "
+    "the IRI filter, by (2.16) at lags of up to 1 m. AASHTO R 56-14 asks for a cross correlation "
+    "of 0.92, and for repeatability of 0.98 of systems for reference measurements; in section "
+    "4.5.3 pairs of passes 3 cm apart or less had 0.98 at 24 km/h and above. The passes here take "
+    "the same path. Adequate is the 0.95 that is asked at constant speed. Two encoders whose "
+    "scales differ by 0.06 % lie 0.05 m off at the ends of the stretch when its middle fits, a "
+    "phase of 8 degrees at 2.1 m: 0.003 of correlation is lost at the car's axle hop, less "
+    "elsewhere, and the noise of sound sensors costs 0.002. IRI: the limits of one pass to the "
+    "truth at constant speed, 5, 3 and 2 %; equal errors of both passes cancel."
+)
+"""The differences of two passes, and their limits."""
+FLOOR = (
+    "Two flat profiles would agree: each pass has to correlate with the truth, filtered in the "
+    "same way (HPF_B3x2, -3 dB at 91.44 m), within twice the limit between the passes: two "
+    "different errors add up in their difference. The score contains the ratio of the "
+    "heights: a profile that is flat loses 1."
+)
+"""What both passes must contain."""
+
+
 @dataclass(frozen=True)
 class RepeatabilityCheck:
     """Compares two passes with each other, and each with the truth."""
@@ -97,25 +120,17 @@ class RepeatabilityCheck:
         "AASHTO R 56-14, repeatability: cross correlation of IRI-filtered profiles 0.92, for "
         "reference measurements 0.98; Karamihas 2021, sections 2.1.5.2 and 4.5.3"
     )
+    derivation: str = DERIVATION
+    floor: str = FLOOR
     needs: frozenset[str] = frozenset()
-
-    @property
-    def derivation(self) -> str:
-        """The differences of two passes, and their limits."""
-        return DERIVATION
-
-    @property
-    def floor(self) -> str:
-        """Both passes have to show the road."""
-        return FLOOR
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
         """The limits of both comparisons."""
         return {
-            BETWEEN: _in_words(LOSS_LIMITS),
-            DIFFERENCE: _in_words(DIFFERENCE_LIMITS, " %"),
-            TO_TRUTH: _in_words(TRUTH_LIMITS),
+            BETWEEN: write_limits(LOSS_LIMITS),
+            DIFFERENCE: write_limits(DIFFERENCE_LIMITS, "%"),
+            TO_TRUTH: write_limits(TRUTH_LIMITS),
         }
 
     @property
@@ -222,29 +237,4 @@ def _compare_passes(first: Profile, second: Profile, track: str) -> list[Measure
     return measured
 
 
-def _in_words(limits: Limits, unit: str = "") -> Mapping[DeviceClass, str]:
-    return {c: f"{limit:.4g}{unit}" for c, limit in limits.items()}
-
-
-DERIVATION = (
-    "Two passes over one road, with other errors of the sensors, at other speeds of 24 to 97 km/h "
-    "and in other vehicles; the axis is moved by the places of their lasers, so that both profiles "
-    f"lie on the road's own. {END_M - START_M:.1f} m, from {START_M:g} m on, are compared after "
-    "the IRI filter, by (2.16) at lags of up to 1 m. AASHTO R 56-14 asks for a cross correlation "
-    "of 0.92, and for repeatability of 0.98 of systems for reference measurements; in section "
-    "4.5.3 pairs of passes 3 cm apart or less had 0.98 at 24 km/h and above. The passes here take "
-    "the same path. Adequate is the 0.95 that is asked at constant speed. Two encoders whose "
-    "scales differ by 0.06 % lie 0.05 m off at the ends of the stretch when its middle fits, a "
-    "phase of 8 degrees at 2.1 m: 0.003 of correlation is lost at the car's axle hop, less "
-    "elsewhere, and the noise of sound sensors costs 0.002. IRI: the limits of one pass to the "
-    "truth at constant speed, 5, 3 and 2 %; equal errors of both passes cancel."
-)
-"""The differences of two passes, and their limits."""
-FLOOR = (
-    "Two flat profiles would agree: each pass has to correlate with the truth, filtered in the "
-    "same way (HPF_B3x2, -3 dB at 91.44 m), within twice the limit between the passes: two "
-    "different errors add up in their difference. The score contains the ratio of the "
-    "heights: a profile that is flat loses 1."
-)
-"""What both passes must contain."""
 REPEATABILITY = RepeatabilityCheck()

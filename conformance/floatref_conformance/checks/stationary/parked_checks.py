@@ -16,7 +16,7 @@ from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.stationary import plate
 from floatref_conformance.checks.stretches import END_M, Stretches, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit
+from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
 from floatref_conformance.devices.interface import HEIGHT
 from floatref_conformance.proving_ground.drives.artificial import artificial_drive
 from floatref_conformance.proving_ground.drives.runs import KMH
@@ -31,6 +31,30 @@ SEARCHED_RATES_HZ = (16000.0, 8000.0, 5000.0, 4000.0, 2000.0)
 COUNT: Mapping[Effort, int] = {Effort.QUICK: 4, Effort.CERTIFICATION: 16}
 
 
+FLOOR = (
+    f"A plate of {1000 * plate.PLATE_M:g} mm, 2 to 4 m long, lies under each laser, between 455 "
+    "and 530 m and so outside the stretch whose IRI is limited. Place and length follow from the "
+    "case's seed; in two wheel paths they are 10 m or more apart. Its rise is the mean of its top "
+    f"minus the mean of {plate.SHOULDER_M:g} m of ground on each side, {plate.GAP_M} m beside "
+    "each edge left out. It may differ from that of the truth, filtered alike (HPF_B3x2, -3 dB "
+    "at 91.44 m), by 10 % of the plate in class nominal, 5 % in adequate and 2 % (0.1 mm) in "
+    "reference: the share of a known bump that may be lost or added away from events. Sound "
+    "software stays within that: the laser's noise of 0.03 mm averages to 2 µm over the 230 "
+    "readings of the shortest top; scale errors of 0.05 % are 2.5 µm; an error b of the "
+    "acceleration bends ground, top and ground apart by at most 0.0103 s² times b, 0.076 mm for "
+    "the largest bias of 7.4 mm/s² if the high-pass took nothing of it. "
+    f"Its place, midway between its edges, may be {plate.NOMINAL_DISPLACEMENT_M:g} m from the "
+    "true one (reference: half), without half the profile's interval. The artificial encoder "
+    "has no scale error and counts 0.3 mm, so that only delays displace the plate: at 20 m/s the "
+    "spacing of samples at 4 kHz is 5 mm, the age of a laser reading held at 3.24 kHz up to "
+    "6.2 mm, the delay of the 1000-Hz anti-alias filter (2/ω) 6.4 mm, together 18 mm; the "
+    "limit is 2.5 ms. A trailing 250-mm average (0.125 m) exceeds it. "
+    f"Every point more than {END_M:g} m from both ends must have an elevation. A profile without "
+    "the plate has an error of 100 % of it."
+)
+"""The purpose of the plate, and the reasons of its limits."""
+
+
 @dataclass(frozen=True)
 class StationaryCheck:
     """Limits the IRI from ``start_m`` to ``end_m``; its floor is the plate outside."""
@@ -42,21 +66,17 @@ class StationaryCheck:
     iri_limits: Limits
     start_m: float
     end_m: float
+    floor: str = FLOOR
     needs: frozenset[str] = frozenset({HEIGHT})
     """The plate lies under the laser, and the wheels do not turn."""
-
-    @property
-    def floor(self) -> str:
-        """The plate, and the largest errors of its height and its place."""
-        return FLOOR
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
         """The limits of the IRI and of the plate's errors."""
         return {
-            "IRI": {c: f"{limit:.4g} m/km" for c, limit in self.iri_limits.items()},
-            "plate height error": {c: f"{limit:.4g} mm" for c, limit in plate.LIMITS.items()},
-            "plate displacement": {c: f"{limit:.4g} m" for c, limit in plate.PLACE_LIMITS.items()},
+            "IRI": write_limits(self.iri_limits, "m/km"),
+            "plate height error": write_limits(plate.LIMITS, "mm"),
+            "plate displacement": write_limits(plate.PLACE_LIMITS, "m"),
         }
 
     @property
@@ -116,30 +136,6 @@ class StationaryCheck:
         value = iri(elevation, profile.interval_m)
         evidence = Roughness(elevation, profile.interval_m)
         return Measurement("IRI", track, value, "m/km", self.iri_limits, evidence)
-
-
-FLOOR = (
-    f"A plate of {1000 * plate.PLATE_M:g} mm, 2 to 4 m long, lies under each laser, between 455 "
-    "and 530 m and so outside the stretch whose IRI is limited. Place and length follow from the "
-    "case's seed; in two wheel paths they are 10 m or more apart. Its rise is the mean of its top "
-    f"minus the mean of {plate.SHOULDER_M:g} m of ground on each side, {plate.GAP_M} m beside "
-    "each edge left out. It may differ from that of the truth, filtered alike (HPF_B3x2, -3 dB "
-    "at 91.44 m), by 10 % of the plate in class nominal, 5 % in adequate and 2 % (0.1 mm) in "
-    "reference: the share of a known bump that may be lost or added away from events. Sound "
-    "software stays within that: the laser's noise of 0.03 mm averages to 2 µm over the 230 "
-    "readings of the shortest top; scale errors of 0.05 % are 2.5 µm; an error b of the "
-    "acceleration bends ground, top and ground apart by at most 0.0103 s² times b, 0.076 mm for "
-    "the largest bias of 7.4 mm/s² if the high-pass took nothing of it. "
-    f"Its place, midway between its edges, may be {plate.NOMINAL_DISPLACEMENT_M:g} m from the "
-    "true one (reference: half), without half the profile's interval. The artificial encoder "
-    "has no scale error and counts 0.3 mm, so that only delays displace the plate: at 20 m/s the "
-    "spacing of samples at 4 kHz is 5 mm, the age of a laser reading held at 3.24 kHz up to "
-    "6.2 mm, the delay of the 1000-Hz anti-alias filter (2/ω) 6.4 mm, together 18 mm; the "
-    "limit is 2.5 ms. A trailing 250-mm average (0.125 m) exceeds it. "
-    f"Every point more than {END_M:g} m from both ends must have an elevation. A profile without "
-    "the plate has an error of 100 % of it."
-)
-"""The purpose of the plate, and the reasons of its limits."""
 
 
 QUIESCENT_NOMINAL = 0.047
