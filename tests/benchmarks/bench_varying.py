@@ -18,9 +18,10 @@ import scipy.signal
 
 from floatref.intake.blocks import BLOCK
 from floatref.kernels.schedule import frequencies, tangents
-from floatref.kernels.varying import MEMORY, high_pass_12, high_pass_21
+from floatref.kernels.varying import SECTION, high_pass_12, high_pass_21
 from floatref.stages.filters.schedule import ScheduleCutOff
 from floatref.stages.filters.varying import VaryingHighPassB3, VaryingHighPassB3R
+from floatref.values.arrays import new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -42,13 +43,13 @@ def drive(samples: int) -> np.ndarray:
 def on_arrays(x: np.ndarray, speed: np.ndarray) -> np.ndarray:
     """Return ``x`` after both passes: what the filter costs without blocks, flags and states."""
     y, c, cutoff = np.empty(x.size), np.empty(x.size), np.empty(PIECE)
-    first, second = np.zeros(MEMORY), np.zeros(MEMORY)
+    first, second = new_record(SECTION), new_record(SECTION)
     pieces = [slice(at, at + PIECE) for at in range(0, x.size, PIECE)]
     for part in pieces:
         frequencies(speed[part], cutoff, *CONSTANTS)
         tangents(cutoff[: c[part].size], 1.0 / RATE_HZ, c[part])
         high_pass_12(x[part], y[part], c[part], first, second, False)
-    first, second = np.zeros(MEMORY), np.zeros(MEMORY)
+    first, second = new_record(SECTION), new_record(SECTION)
     for part in reversed(pieces):
         high_pass_21(y[part], y[part], c[part], second, first, True)
     return y

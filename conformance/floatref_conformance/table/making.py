@@ -1,7 +1,6 @@
 """Making the table, road by road, noise by noise, run by run, and how far it is."""
 
 from collections.abc import Callable, Iterator, Mapping
-from types import TracebackType
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -111,12 +110,7 @@ class PassProgress:
         self._bar.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """Take the bar away, also after an error."""
         self._bar.stop()
 

@@ -3,24 +3,31 @@
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray, IndexArray, Records, new_record
 
 LONGEST = 4096
 """Runs of this length and above are counted together."""
 
 
-def new_open_run() -> FloatArray:
-    """Return the memory of `find_runs`: length, first index and value of the run that is open."""
-    return np.zeros(3)
+RUN = np.dtype([("first", np.int64), ("length", np.int64), ("value", np.float64)], align=True)
+"""A run: first index, length and value; length 0 if `find_runs` has no open one."""
+
+COUNT = np.dtype(
+    [
+        *((name, np.float64) for name in ("value", "quantum")),
+        *((name, np.int64) for name in ("length", "longest")),
+    ],
+    align=True,
+)
+"""The memory of `count_runs`: value and length of the run that is open, the smallest step between
+different samples, and the samples in runs of `LONGEST` and above."""
 
 
-def new_count() -> FloatArray:
-    """Return the memory of `count_runs`.
-
-    That is length and value of the run that is open, the smallest step between different samples,
-    and the samples in runs of `LONGEST` and above.
-    """
-    return np.array([0.0, np.nan, np.inf, 0.0])
+def new_count() -> np.record:
+    """Return the memory of `count_runs` before any sample."""
+    count = new_record(COUNT)
+    count.value, count.quantum = np.nan, np.inf
+    return count
 
 
 @compiled
@@ -47,25 +54,26 @@ def find_runs(
     first: int,
     least: int,
     outside: FloatArray,
-    memory: FloatArray,
-    runs: FloatArray,
+    memory: np.record,
+    runs: Records,
 ) -> tuple[int, int]:
     """Find the runs of ``least``, 2 or more, identical samples in ``x``.
 
-    ``first`` is the index of ``x[0]`` in the channel. A row of ``runs`` gets first index, length
-    and value of a run that is at most ``outside[0]`` or at least ``outside[1]``. Returns how many
+    ``first`` is the index of ``x[0]`` in the channel. One of ``runs`` becomes a run that
+    is at most ``outside[0]`` or at least ``outside[1]``. Returns how many
     there are and how many samples are done with: the rest of ``x`` is to be given again, with what
     follows. A run up to the end of ``x`` is left open in ``memory``. Samples that cannot be part of
     a run of ``least`` are skipped.
     """
     found, i = 0, 0
-    if memory[0] > 0.0:
-        i = _same_after(x, 0, memory[2])
-        memory[0] += i
+    if memory.length > 0:
+        i = _same_after(x, 0, memory.value)
+        length = memory.length + i
+        memory.length = length
         if i == x.size:
             return 0, i
-        runs[0, 0], runs[0, 1], runs[0, 2] = memory[1], memory[0], memory[2]
-        found, memory[0] = 1, 0.0
+        _write(runs[0], memory.first, length, memory.value)
+        found, memory.length = 1, 0
     while i + least <= x.size:
         same = _same_before(x, i, i + least - 1)
         if same > i:
@@ -75,30 +83,36 @@ def find_runs(
         end = _same_after(x, i + least, value)
         if value <= outside[0] or value >= outside[1]:
             if end == x.size:
-                memory[0], memory[1], memory[2] = float(end - i), float(first + i), value
+                _write(memory, first + i, end - i, value)
                 return found, end
-            runs[found, 0], runs[found, 1], runs[found, 2] = float(first + i), float(end - i), value
+            _write(runs[found], first + i, end - i, value)
             found += 1
         i = end
     return found, i
 
 
 @compiled
-def count_runs(x: FloatArray, over: float, memory: FloatArray, held: IndexArray) -> None:
+def _write(run: np.record, first: int, length: int, value: float) -> None:
+    """Make ``run`` this one."""
+    run.first, run.length, run.value = first, length, value
+
+
+@compiled
+def count_runs(x: FloatArray, over: float, memory: np.record, held: IndexArray) -> None:
     """Count the runs of identical samples that end in ``x``: ``held[n]`` those of n samples.
 
     Those that end by a step of up to ``over`` are left out. Runs of ``held.size - 1`` and above
     are counted together. A missing (NaN) sample is in no run.
     """
     for i in range(x.size):
-        value, length = x[i], memory[0]
-        if length > 0.0:
-            if value == memory[1]:
-                memory[0] = length + 1.0
+        value, length = x[i], memory.length
+        if length > 0:
+            if value == memory.value:
+                memory.length = length + 1
                 continue
-            step = abs(value - memory[1]) if value == value else np.inf
-            memory[2] = min(memory[2], step)
+            step = abs(value - memory.value) if value == value else np.inf
+            memory.quantum = min(memory.quantum, step)
             if step > over:
-                held[min(int(length), held.size - 1)] += 1
-                memory[3] += length if length >= held.size - 1 else 0.0
-        memory[0], memory[1] = (1.0, value) if value == value else (0.0, value)
+                held[min(length, held.size - 1)] += 1
+                memory.longest += length if length >= held.size - 1 else 0
+        memory.length, memory.value = (1 if value == value else 0), value

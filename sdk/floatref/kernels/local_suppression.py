@@ -1,10 +1,18 @@
 """The controller of local suppression (fig. 5.10)."""
 
+import numpy as np
+
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-MEMORY = 6
-"""Length of the memory: active, the last d, speed and v, the integral, the offset."""
+CONTROLLER = np.dtype(
+    [
+        ("active", np.bool_),
+        *((name, np.float64) for name in ("held", "moving", "last", "area", "offset")),
+    ],
+    align=True,
+)
+"""The memory: whether it acts, the last d, speed and v, the integral, the offset."""
 
 
 @compiled
@@ -12,7 +20,7 @@ def hold_at_zero(
     disturbance: FloatArray,
     speed: FloatArray,
     y: FloatArray,
-    memory: FloatArray,
+    memory: np.record,
     limit: float,
     proportional: float,
     integral: float,
@@ -22,8 +30,8 @@ def hold_at_zero(
     It acts where ``speed`` is below ``limit``; ``integral`` is K_I dt. A missing (NaN)
     disturbance or speed is bridged by the one before it, by 0 at the start.
     """
-    active, held, moving = memory[0], memory[1], memory[2]
-    last, area, offset = memory[3], memory[4], memory[5]
+    active, held, moving = memory.active, memory.held, memory.moving
+    last, area, offset = memory.last, memory.area, memory.offset
     at_once = 1.0 / (1.0 + proportional)
     later = 1.0 / (1.0 + proportional + 0.5 * integral)
     for i in range(disturbance.size):
@@ -31,18 +39,18 @@ def hold_at_zero(
         held = disturbance[i] if disturbance[i] == disturbance[i] else held
         moving = speed[i] if speed[i] == speed[i] else moving
         if moving < limit:
-            if active == 0.0:
-                active, area = 1.0, 0.0
+            if not active:
+                active, area = True, 0.0
                 value = (held + offset) * at_once
             else:
                 area += 0.5 * integral * last
                 value = (held + offset - area) * later
                 area += 0.5 * integral * value
         else:
-            if active != 0.0:
-                active, offset = 0.0, last - before
+            if active:
+                active, offset = False, last - before
             value = held + offset
         last = value
         y[i] = value
-    memory[0], memory[1], memory[2] = active, held, moving
-    memory[3], memory[4], memory[5] = last, area, offset
+    memory.active, memory.held, memory.moving = active, held, moving
+    memory.last, memory.area, memory.offset = last, area, offset

@@ -1,10 +1,19 @@
 """The high-pass filter as an observer of the road: one loop over acceleration and height."""
 
+import numpy as np
+
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-MEMORY = 10
-"""Length of the memory: started, the last a, h and c, then the states."""
+OBSERVER = np.dtype(
+    [
+        ("started", np.bool_),
+        *((name, np.float64) for name in ("pushed", "held", "c")),
+        *((name, np.float64) for name in ("e", "v", "b", "r")),
+    ],
+    align=True,
+)
+"""The memory: whether it has begun, the last a (in metres), h and c, then the states."""
 
 
 @compiled
@@ -13,7 +22,7 @@ def observe(
     height: FloatArray,
     c: FloatArray,
     reference: FloatArray,
-    memory: FloatArray,
+    memory: np.record,
     step: float,
 ) -> None:
     """Write the floating reference height r that follows ``height`` below the cut-off.
@@ -25,18 +34,18 @@ def observe(
     zero acceleration and c at the start; r is 0 before the first height.
     """
     scale = 0.25 * step * step
-    started, pushed, held, rate = memory[0], memory[1], memory[2], memory[3]
-    e, v, b, r = memory[4], memory[5], memory[6], memory[7]
+    started, pushed, held, rate = memory.started, memory.pushed, memory.held, memory.c
+    e, v, b, r = memory.e, memory.v, memory.b, memory.r
     for i in range(height.size):
         push = scale * acceleration[i]
         push = push if push == push else pushed
         rate_1 = rate
         rate = c[i] if c[i] == c[i] else rate
         held = height[i] if height[i] == height[i] else held
-        if started == 0.0:
+        if not started:
             pushed = push
             if height[i] == height[i]:
-                started, r = 1.0, held
+                started, r = True, held
             reference[i] = r
             continue
         square, square_1 = rate * rate, rate_1 * rate_1
@@ -49,5 +58,5 @@ def observe(
         r = held + e
         pushed = push
         reference[i] = r
-    memory[0], memory[1], memory[2], memory[3] = started, pushed, held, rate
-    memory[4], memory[5], memory[6], memory[7] = e, v, b, r
+    memory.started, memory.pushed, memory.held, memory.c = started, pushed, held, rate
+    memory.e, memory.v, memory.b, memory.r = e, v, b, r

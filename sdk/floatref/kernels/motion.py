@@ -1,10 +1,19 @@
 """Integration, compensated sums, and the search for profile points along the encoder."""
 
+import numpy as np
+
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FlagArray, FloatArray, IndexArray
 
-MEMORY = 3
-"""Length of the memory of an integrator: started, the last input, the integral."""
+INTEGRATOR = np.dtype(
+    [("started", np.bool_), *((name, np.float64) for name in ("last", "total", "height"))],
+    align=True,
+)
+"""The memory of an integrator: whether it has begun, the last input, the integral and, where it
+reflects the height, the last height."""
+
+SUM = np.dtype([("total", np.float64), ("rest", np.float64), ("count", np.int64)], align=True)
+"""A compensated sum, which is ``total`` and ``rest`` together, and of how many samples it is."""
 
 TIE = 1e-6
 """A distance within this fraction of the interval of a point counts as having reached it.
@@ -15,42 +24,42 @@ would decide which sample is taken.
 
 
 @compiled
-def integrate(x: FloatArray, y: FloatArray, memory: FloatArray, half_step: float) -> None:
+def integrate(x: FloatArray, y: FloatArray, memory: np.record, half_step: float) -> None:
     """Trapezoidal integral of ``x`` in ``y`` at a constant step; ``half_step`` is half of it.
 
     A missing (NaN) input is bridged by the one before it. The integral starts at
-    ``memory[2]``, which is its value at the first sample.
+    ``memory.total``, which is its value at the first sample.
     """
-    started, last, total = memory[0], memory[1], memory[2]
+    started, last, total = memory.started, memory.last, memory.total
     for i in range(x.size):
         value = x[i] if x[i] == x[i] else last
-        if started != 0.0:
+        if started:
             total = total + half_step * (value + last)
-        started, last = 1.0, value
+        started, last = True, value
         y[i] = total
-    memory[0], memory[1], memory[2] = started, last, total
+    memory.started, memory.last, memory.total = started, last, total
 
 
 @compiled
-def integrate_steps(x: FloatArray, y: FloatArray, memory: FloatArray, steps: FloatArray) -> None:
+def integrate_steps(x: FloatArray, y: FloatArray, memory: np.record, steps: FloatArray) -> None:
     """Trapezoidal integral of ``x`` in ``y``; ``steps[i]`` leads to sample i, see (5.5)."""
-    started, last, total = memory[0], memory[1], memory[2]
+    started, last, total = memory.started, memory.last, memory.total
     for i in range(x.size):
         value = x[i] if x[i] == x[i] else last
-        if started != 0.0:
+        if started:
             total = total + 0.5 * steps[i] * (value + last)
-        started, last = 1.0, value
+        started, last = True, value
         y[i] = total
-    memory[0], memory[1], memory[2] = started, last, total
+    memory.started, memory.last, memory.total = started, last, total
 
 
 @compiled
-def add_up(x: FloatArray, memory: FloatArray) -> None:
-    """Add ``x`` to the compensated (Neumaier) sum ``memory[0] + memory[1]``; count in [2].
+def add_up(x: FloatArray, memory: np.record) -> None:
+    """Add ``x`` to the compensated (Neumaier) sum of ``memory``, and count its samples.
 
     Missing (NaN) samples are skipped. The result does not depend on how x was split.
     """
-    total, rest, count = memory[0], memory[1], memory[2]
+    total, rest, count = memory.total, memory.rest, memory.count
     for i in range(x.size):
         value = x[i]
         if value == value:
@@ -60,8 +69,8 @@ def add_up(x: FloatArray, memory: FloatArray) -> None:
             else:
                 rest += (value - grown) + total
             total = grown
-            count += 1.0
-    memory[0], memory[1], memory[2] = total, rest, count
+            count += 1
+    memory.total, memory.rest, memory.count = total, rest, count
 
 
 @compiled
@@ -141,28 +150,27 @@ def integrate_reflecting(
     x: FloatArray,
     height: FloatArray,
     y: FloatArray,
-    memory: FloatArray,
+    memory: np.record,
     steps: FloatArray,
     true_steps: FloatArray,
 ) -> None:
     """Trapezoidal integral of ``x`` with reflected ``height`` in ``y``: (5.9).
 
-    ``steps[i]`` is the adjusted step to sample i, ``true_steps[i]`` the real one. The
-    memory has a fourth entry, the last height. Missing (NaN) values are bridged by those before
-    them.
+    ``steps[i]`` is the adjusted step to sample i, ``true_steps[i]`` the real one. Missing
+    (NaN) values are bridged by those before them.
     """
-    started, last, total, before = memory[0], memory[1], memory[2], memory[3]
+    started, last, total, before = memory.started, memory.last, memory.total, memory.height
     for i in range(x.size):
         value = x[i] if x[i] == x[i] else last
         reading = height[i] if height[i] == height[i] else before
-        if started != 0.0:
+        if started:
             total = total + 0.5 * steps[i] * (value + last)
             if true_steps[i] > 0.0:
                 ratio = steps[i] / true_steps[i]
                 total += (1.0 - ratio * ratio) * (reading - before)
-        started, last, before = 1.0, value, reading
+        started, last, before = True, value, reading
         y[i] = total
-    memory[0], memory[1], memory[2], memory[3] = started, last, total, before
+    memory.started, memory.last, memory.total, memory.height = started, last, total, before
 
 
 @compiled

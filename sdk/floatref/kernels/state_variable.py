@@ -10,16 +10,21 @@ c = tan(pi f_c dt) (A.11), a first-order stage has one state s and a second-orde
          s1 += 2 c hp,  s2 += 2 c bp
 
 Each kernel reads ``x`` and writes ``y`` (they may be one array), from the last sample down if
-``backward``. `memory` is float64: started (0 or 1), the last input, then the states. A missing
-(NaN) input is bridged by the one before it, and gives 0 before the first input. The states are
-advanced by small products of themselves, the newest last, because the loop waits for nothing else.
+``backward``. A missing (NaN) input is bridged by the one before it, and gives 0 before the first
+input. The states are advanced by small products of themselves, the newest last, because the loop
+waits for nothing else.
 """
+
+import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-MEMORY = 4
-"""Length of the memory of one stage."""
+SECTION = np.dtype(
+    [("started", np.bool_), *((name, np.float64) for name in ("held", "s1", "s2"))], align=True
+)
+"""The memory of one stage: whether it has begun, the last input, and the states, of which a
+first-order stage has one."""
 
 
 @compiled
@@ -32,27 +37,27 @@ def _missing_lead(x: FloatArray, backward: bool) -> int:
 
 
 @compiled
-def _begin(x: FloatArray, y: FloatArray, memory: FloatArray, backward: bool) -> int:
+def _begin(x: FloatArray, y: FloatArray, memory: np.record, backward: bool) -> int:
     """Write 0 up to the first sample that is not missing and store it; return its number."""
     lead = _missing_lead(x, backward)
     for j in range(lead):
         y[x.size - 1 - j if backward else j] = 0.0
     if lead < x.size:
-        memory[0], memory[1] = 1.0, x[x.size - 1 - lead if backward else lead]
+        memory.started, memory.held = True, x[x.size - 1 - lead if backward else lead]
     return lead
 
 
 @compiled
-def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+def high_pass_1(x: FloatArray, y: FloatArray, memory: np.record, c: float, backward: bool) -> None:
     """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18).
 
     Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
     """
     begin = 0
-    if memory[0] == 0.0:
+    if not memory.started:
         begin = _begin(x, y, memory, backward)
-        memory[2] = c * memory[1]
-    held, s = memory[1], memory[2]
+        memory.s1 = c * memory.held
+    held, s = memory.held, memory.s1
     gain = 1.0 / (1.0 + c)
     k = 2.0 * c * gain
     for j in range(begin, x.size):
@@ -63,20 +68,20 @@ def high_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
         held = value
         y[i] = (value - s) * gain
         s = (s - k * s) + k * value
-    memory[1], memory[2] = held, s
+    memory.held, memory.s1 = held, s
 
 
 @compiled
-def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+def low_pass_1(x: FloatArray, y: FloatArray, memory: np.record, c: float, backward: bool) -> None:
     """LPF_B3S1: (A.4), started by (A.12) or, backward, (A.16).
 
     Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
     """
     begin = 0
-    if memory[0] == 0.0:
+    if not memory.started:
         begin = _begin(x, y, memory, backward)
-        memory[2] = memory[1]
-    held, s = memory[1], memory[2]
+        memory.s1 = memory.held
+    held, s = memory.held, memory.s1
     gain = c / (1.0 + c)
     k = 2.0 * gain
     for j in range(begin, x.size):
@@ -87,27 +92,27 @@ def low_pass_1(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backw
         held = value
         y[i] = s + gain * (value - s)
         s = (s - k * s) + k * value
-    memory[1], memory[2] = held, s
+    memory.held, memory.s1 = held, s
 
 
 @compiled
-def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+def high_pass_2(x: FloatArray, y: FloatArray, memory: np.record, c: float, backward: bool) -> None:
     """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19).
 
     Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
     """
     d = 1.0 / (1.0 + c + c * c)
     begin = 0
-    if memory[0] == 0.0:
+    if not memory.started:
         begin = _begin(x, y, memory, backward)
-        started = (1.0 + c - 3.0 * c * c) * d * memory[1]
+        started = (1.0 + c - 3.0 * c * c) * d * memory.held
         # The second sample of (A.15) sees (x1, y1) twice; these two states are that past.
-        memory[2] = (2.0 * c - 1.0) * started
-        memory[3] = memory[1] + (c * c - 2.0 * c) * started
+        memory.s1 = (2.0 * c - 1.0) * started
+        memory.s2 = memory.held + (c * c - 2.0 * c) * started
         if begin < x.size:
             y[x.size - 1 - begin if backward else begin] = started
             begin += 1
-    held, s1, s2 = memory[1], memory[2], memory[3]
+    held, s1, s2 = memory.held, memory.s1, memory.s2
     p = 1.0 + c
     k1 = 2.0 * c * d
     k2, k3 = k1 * p, k1 * c
@@ -121,20 +126,20 @@ def high_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, back
         s1_next = (s1 - k2 * s1) + (k1 * value - k1 * s2)
         s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
         s1 = s1_next
-    memory[1], memory[2], memory[3] = held, s1, s2
+    memory.held, memory.s1, memory.s2 = held, s1, s2
 
 
 @compiled
-def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backward: bool) -> None:
+def low_pass_2(x: FloatArray, y: FloatArray, memory: np.record, c: float, backward: bool) -> None:
     """LPF_B3S2: (A.5), started by (A.13) or, backward, (A.17).
 
     Digitized by (A.6) to (A.8); runs as (A.9) or (A.10) with its row of Table A.1 would.
     """
     begin = 0
-    if memory[0] == 0.0:
+    if not memory.started:
         begin = _begin(x, y, memory, backward)
-        memory[2], memory[3] = 0.0, memory[1]
-    held, s1, s2 = memory[1], memory[2], memory[3]
+        memory.s1, memory.s2 = 0.0, memory.held
+    held, s1, s2 = memory.held, memory.s1, memory.s2
     d = 1.0 / (1.0 + c + c * c)
     p = 1.0 + c
     k1 = 2.0 * c * d
@@ -149,24 +154,24 @@ def low_pass_2(x: FloatArray, y: FloatArray, memory: FloatArray, c: float, backw
         s1_next = (s1 - k2 * s1) + (k1 * value - k1 * s2)
         s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value)
         s1 = s1_next
-    memory[1], memory[2], memory[3] = held, s1, s2
+    memory.held, memory.s1, memory.s2 = held, s1, s2
 
 
 @compiled
 def high_pass_21(
-    x: FloatArray, y: FloatArray, second: FloatArray, first: FloatArray, c: float, backward: bool
+    x: FloatArray, y: FloatArray, second: np.record, first: np.record, c: float, backward: bool
 ) -> None:
     """HPF_B3S2 then HPF_B3S1 in one loop, in which the two recursions overlap."""
     n = x.size
     if n == 0:
         return
     begin = 0
-    if second[0] == 0.0:
+    if not second.started:
         begin = min(_missing_lead(x, backward) + 1, n)
         start = n - begin if backward else 0
         high_pass_2(x[start : start + begin], y[start : start + begin], second, c, backward)
         high_pass_1(y[start : start + begin], y[start : start + begin], first, c, backward)
-    held, s1, s2, s = second[1], second[2], second[3], first[2]
+    held, s1, s2, s = second.held, second.s1, second.s2, first.s1
     d = 1.0 / (1.0 + c + c * c)
     p = 1.0 + c
     k1 = 2.0 * c * d
@@ -185,4 +190,4 @@ def high_pass_21(
         s1 = s1_next
         y[i] = (high - s) * gain
         s = (s - k * s) + k * high
-    second[1], second[2], second[3], first[2] = held, s1, s2, s
+    second.held, second.s1, second.s2, first.s1 = held, s1, s2, s

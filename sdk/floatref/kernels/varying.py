@@ -17,9 +17,8 @@ the step that t is about to take. With a_k = c_k + c_k^2:
          t += g + 2 b y_{k-1},  g += (b + c_k^2) y_{k-1},  y_k = (x_k - t) / (1 + a_k)
 
 Each kernel reads ``x`` and ``c`` and writes ``y`` (it may be ``x``), from the last sample down if
-``backward``. `memory` is float64: how far it is started (3 is fully), the last input, the last c,
-then the states. A missing (NaN) input or c is bridged by the one before it; the output is 0 before
-the first of both.
+``backward``. A missing (NaN) input or c is bridged by the one before it; the output is 0 before the
+first of both.
 """
 
 import numpy as np
@@ -27,73 +26,78 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-MEMORY = 8
-"""Length of the memory of one stage."""
+SECTION = np.dtype(
+    [
+        *((name, np.bool_) for name in ("has_x", "has_c")),
+        *((name, np.float64) for name in ("x", "c", "r", "t", "g", "y1", "y2", "a")),
+    ],
+    align=True,
+)
+"""The memory of one stage: whether an input and a c have occurred, the last of each, the states,
+and the last outputs."""
 
 
 @compiled
-def _lead(x: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
+def _lead(x: FloatArray, c: FloatArray, memory: np.record, backward: bool) -> int:
     """Return the number of the first sample up to which an input and a c have occurred."""
-    seen_x, seen_c = memory[0] == 1.0, memory[0] == 2.0
+    has_x, has_c = memory.has_x, memory.has_c
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
-        seen_x = seen_x or x[i] == x[i]
-        seen_c = seen_c or c[i] == c[i]
-        if seen_x and seen_c:
+        has_x = has_x or x[i] == x[i]
+        has_c = has_c or c[i] == c[i]
+        if has_x and has_c:
             return j
     return int(x.size)
 
 
 @compiled
-def _begin(x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool) -> int:
+def _begin(x: FloatArray, y: FloatArray, c: FloatArray, memory: np.record, backward: bool) -> int:
     """Write 0 up to that sample, keep the input and c there and return its number."""
     lead = _lead(x, c, memory, backward)
     for j in range(min(lead + 1, x.size)):
         i = x.size - 1 - j if backward else j
         if x[i] == x[i]:
-            memory[0] = 3.0 if memory[0] >= 2.0 else 1.0
-            memory[1] = x[i]
+            memory.has_x, memory.x = True, x[i]
         if c[i] == c[i]:
-            memory[0] = 3.0 if memory[0] == 1.0 or memory[0] == 3.0 else 2.0
-            memory[2] = c[i]
+            memory.has_c, memory.c = True, c[i]
         if j < lead:
             y[i] = 0.0
     return lead
 
 
 @compiled
-def _bridge(x: FloatArray, memory: FloatArray, at: int, backward: bool) -> FloatArray:
-    """Return ``x`` with missing samples bridged, from ``memory[at]`` on; store its last there."""
+def _bridge(x: FloatArray, last: float, backward: bool) -> tuple[FloatArray, float]:
+    """Return ``x`` with missing samples bridged, from the ``last`` before it on, and its last."""
     missing = 0
     for i in range(x.size):
         missing += 0 if x[i] == x[i] else 1
     if missing == 0:
         if x.size > 0:
-            memory[at] = x[0 if backward else x.size - 1]
-        return x
+            last = x[0 if backward else x.size - 1]
+        return x, last
     whole = np.empty(x.size)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         if x[i] == x[i]:
-            memory[at] = x[i]
-        whole[i] = memory[at]
-    return whole
+            last = x[i]
+        whole[i] = last
+    return whole, last
 
 
 @compiled
 def high_pass_1(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
+    x: FloatArray, y: FloatArray, c: FloatArray, memory: np.record, backward: bool
 ) -> None:
     """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
     begin = 0
-    if memory[0] != 3.0:
+    if not (memory.has_x and memory.has_c):
         begin = _begin(x, y, c, memory, backward)
-        memory[3], memory[4] = memory[2] * memory[1], 0.0
-    r, y1 = memory[3], memory[4]
+        memory.r, memory.y1 = memory.c * memory.x, 0.0
+    r, y1 = memory.r, memory.y1
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    rate = memory[2]
-    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
-    c = _bridge(c[rest], memory, 2, backward)
+    rate, y = memory.c, y[rest]
+    x, memory.x = _bridge(x[rest], memory.x, backward)
+    c, memory.c = _bridge(c[rest], memory.c, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -101,39 +105,40 @@ def high_pass_1(
         r = r + (before + rate) * y1
         y1 = (x[i] - r) * (1.0 / (1.0 + rate))
         y[i] = y1
-    memory[3], memory[4] = r, y1
+    memory.r, memory.y1 = r, y1
 
 
 @compiled
-def _start_2(memory: FloatArray) -> float:
+def _start_2(memory: np.record) -> float:
     """Set the states of HPF_B3S2 to those of (A.15) and return its first output.
 
     The second sample of (A.15) sees (x1, y1) twice; these states are that past.
     """
-    x1, c = memory[1], memory[2]
+    x1, c = memory.x, memory.c
     a = c + c * c
     y1: float = x1 * (1.0 + c - 3.0 * c * c) * (1.0 / (1.0 + a))
-    memory[3], memory[4] = x1 * (3.0 * c * c - c), -a * y1
-    memory[5], memory[6], memory[7] = y1, y1, a
+    memory.t, memory.g = x1 * (3.0 * c * c - c), -a * y1
+    memory.y1, memory.y2, memory.a = y1, y1, a
     return y1
 
 
 @compiled
 def high_pass_2(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
+    x: FloatArray, y: FloatArray, c: FloatArray, memory: np.record, backward: bool
 ) -> None:
     """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
     begin = 0
-    if memory[0] != 3.0:
+    if not (memory.has_x and memory.has_c):
         begin = _begin(x, y, c, memory, backward)
         if begin == x.size:
             return
         y[x.size - 1 - begin if backward else begin] = _start_2(memory)
         begin += 1
-    t, g, y1, y2, a = memory[3], memory[4], memory[5], memory[6], memory[7]
+    t, g, y1, y2, a = memory.t, memory.g, memory.y1, memory.y2, memory.a
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    x, y = _bridge(x[rest], memory, 1, backward), y[rest]
-    c = _bridge(c[rest], memory, 2, backward)
+    y = y[rest]
+    x, memory.x = _bridge(x[rest], memory.x, backward)
+    c, memory.c = _bridge(c[rest], memory.c, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         rate = c[i]
@@ -146,7 +151,7 @@ def high_pass_2(
         y2 = y1
         y1 = (x[i] - t) * (1.0 / (1.0 + a))
         y[i] = y1
-    memory[3], memory[4], memory[5], memory[6], memory[7] = t, g, y1, y2, a
+    memory.t, memory.g, memory.y1, memory.y2, memory.a = t, g, y1, y2, a
 
 
 @compiled
@@ -154,23 +159,23 @@ def high_pass_12(
     x: FloatArray,
     y: FloatArray,
     c: FloatArray,
-    first: FloatArray,
-    second: FloatArray,
+    first: np.record,
+    second: np.record,
     backward: bool,
 ) -> None:
     """HPF_B3S1 then HPF_B3S2 in one loop, in which the two recursions overlap."""
     begin = 0
-    if first[0] != 3.0 or second[0] != 3.0:
+    if not (first.has_x and first.has_c and second.has_x and second.has_c):
         begin = min(_lead(x, c, first, backward) + 1, x.size)
         part = slice(x.size - begin, x.size) if backward else slice(0, begin)
         high_pass_1(x[part], y[part], c[part], first, backward)
         high_pass_2(y[part], y[part], c[part], second, backward)
-    r, z1 = first[3], first[4]
-    t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
+    r, z1 = first.r, first.y1
+    t, g, y1, y2, a = second.t, second.g, second.y1, second.y2, second.a
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    rate = first[2]
-    x, y = _bridge(x[rest], first, 1, backward), y[rest]
-    c = _bridge(c[rest], first, 2, backward)
+    rate, y = first.c, y[rest]
+    x, first.x = _bridge(x[rest], first.x, backward)
+    c, first.c = _bridge(c[rest], first.c, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -189,9 +194,9 @@ def high_pass_12(
         y2 = y1
         y1 = (z1 - t) * (one * both)
         y[i] = y1
-    first[3], first[4] = r, z1
-    second[1], second[2] = z1, first[2]
-    second[3], second[4], second[5], second[6], second[7] = t, g, y1, y2, a
+    first.r, first.y1 = r, z1
+    second.x, second.c = z1, first.c
+    second.t, second.g, second.y1, second.y2, second.a = t, g, y1, y2, a
 
 
 @compiled
@@ -199,23 +204,23 @@ def high_pass_21(
     x: FloatArray,
     y: FloatArray,
     c: FloatArray,
-    second: FloatArray,
-    first: FloatArray,
+    second: np.record,
+    first: np.record,
     backward: bool,
 ) -> None:
     """HPF_B3S2 then HPF_B3S1 in one loop, in which the two recursions overlap."""
     begin = 0
-    if first[0] != 3.0 or second[0] != 3.0:
+    if not (first.has_x and first.has_c and second.has_x and second.has_c):
         begin = min(_lead(x, c, second, backward) + 1, x.size)
         part = slice(x.size - begin, x.size) if backward else slice(0, begin)
         high_pass_2(x[part], y[part], c[part], second, backward)
         high_pass_1(y[part], y[part], c[part], first, backward)
-    r, z1 = first[3], first[4]
-    t, g, y1, y2, a = second[3], second[4], second[5], second[6], second[7]
+    r, z1 = first.r, first.y1
+    t, g, y1, y2, a = second.t, second.g, second.y1, second.y2, second.a
     rest = slice(0, x.size - begin) if backward else slice(begin, x.size)
-    rate = second[2]
-    x, y = _bridge(x[rest], second, 1, backward), y[rest]
-    c = _bridge(c[rest], second, 2, backward)
+    rate, y = second.c, y[rest]
+    x, second.x = _bridge(x[rest], second.x, backward)
+    c, second.c = _bridge(c[rest], second.c, backward)
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         before = rate
@@ -234,5 +239,5 @@ def high_pass_21(
         r = r + (before + rate) * z1
         z1 = (y1 - r) * (two * both)
         y[i] = z1
-    second[3], second[4], second[5], second[6], second[7] = t, g, y1, y2, a
-    first[1], first[2], first[3], first[4] = y1, second[2], r, z1
+    second.t, second.g, second.y1, second.y2, second.a = t, g, y1, y2, a
+    first.x, first.c, first.r, first.y1 = y1, second.c, r, z1

@@ -7,24 +7,28 @@ stop, where the cut-off falls from one sample to the next, amplifies a step by t
 constant cut-off both are the same filter, see `state_variable`.
 
 Each kernel reads ``x`` and ``c`` (A.11) and writes ``y``, from the last sample down if
-``backward``. `memory` is float64: started (0 or 1), the last input, the last c, then the states.
-A missing (NaN) input or c is bridged by the one before it, and gives 0 before the first of both.
+``backward``. A missing (NaN) input or c is bridged by the one before it, and gives 0 before the
+first of both.
 """
+
+import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-MEMORY = 5
-"""Length of the memory of one stage."""
+SECTION = np.dtype(
+    [("started", np.bool_), *((name, np.float64) for name in ("held", "c", "s1", "s2"))],
+    align=True,
+)
+"""The memory of one stage: whether it has begun, the last input, the last c, and the states."""
 
 
 @compiled
 def high_pass_1(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
+    x: FloatArray, y: FloatArray, c: FloatArray, memory: np.record, backward: bool
 ) -> None:
     """HPF_B3S1: (A.2), started by (A.14) or, backward, (A.18)."""
-    held, ck, s = memory[1], memory[2], memory[3]
-    started = memory[0] != 0.0
+    started, held, ck, s = memory.started, memory.held, memory.c, memory.s1
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         there = x[i] == x[i] and c[i] == c[i]
@@ -38,16 +42,16 @@ def high_pass_1(
         high = (held - s) / (1.0 + ck)
         s += 2.0 * ck * high
         y[i] = high
-    memory[0], memory[1], memory[2], memory[3] = (1.0 if started else 0.0), held, ck, s
+    memory.started, memory.held, memory.c, memory.s1 = started, held, ck, s
 
 
 @compiled
 def high_pass_2(
-    x: FloatArray, y: FloatArray, c: FloatArray, memory: FloatArray, backward: bool
+    x: FloatArray, y: FloatArray, c: FloatArray, memory: np.record, backward: bool
 ) -> None:
     """HPF_B3S2: (A.3), started by (A.15) or, backward, by its mirror image (A.19)."""
-    held, ck, s1, s2 = memory[1], memory[2], memory[3], memory[4]
-    started = memory[0] != 0.0
+    started, held, ck = memory.started, memory.held, memory.c
+    s1, s2 = memory.s1, memory.s2
     for j in range(x.size):
         i = x.size - 1 - j if backward else j
         there = x[i] == x[i] and c[i] == c[i]
@@ -69,10 +73,5 @@ def high_pass_2(
             s1 += 2.0 * ck * high
             s2 += 2.0 * ck * band
         y[i] = high
-    memory[0], memory[1], memory[2], memory[3], memory[4] = (
-        (1.0 if started else 0.0),
-        held,
-        ck,
-        s1,
-        s2,
-    )
+    memory.started, memory.held, memory.c = started, held, ck
+    memory.s1, memory.s2 = s1, s2

@@ -5,7 +5,7 @@ import numpy as np
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ELEVATION, HEIGHT, REFERENCE_HEIGHT, TIME_STEP
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -33,13 +33,15 @@ class Integrate(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the source, and for the time step on the distance axis."""
+        from floatref.kernels import motion
+
         self._over_distance = header.axis is Axis.DISTANCE
         self._half_step = header.step / 2.0
         if self._over_distance:
             header.require(self.name, ChannelId(TIME_STEP))
         for name in filter(None, (self.source, self.starts_at)):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
-        self.memory = {track: np.zeros(3) for track in header.tracks}
+        self.memory = {track: new_record(motion.INTEGRATOR) for track in header.tracks}
         if self.keeps_source:
             return header.adding(*(ChannelId(self.target, track) for track in header.tracks))
         return header.replacing(self.source, self.target)
@@ -57,13 +59,13 @@ class Integrate(Stage):
         made = block.setting(values, flags)
         return made if self.keeps_source else made.without(self.source)
 
-    def _begin(self, block: Block, track: str, memory: FloatArray) -> None:
-        if self.starts_at is None or memory[0] != 0.0 or len(block) == 0:
+    def _begin(self, block: Block, track: str, memory: np.record) -> None:
+        if self.starts_at is None or memory.started or len(block) == 0:
             return
         first = block[ChannelId(self.starts_at, track)][0]
-        memory[2] = 0.0 if np.isnan(first) else first
+        memory.total = 0.0 if np.isnan(first) else first
 
-    def _integral(self, block: Block, x: FloatArray, memory: FloatArray) -> FloatArray:
+    def _integral(self, block: Block, x: FloatArray, memory: np.record) -> FloatArray:
         from floatref.kernels import motion
 
         y = np.empty(x.size)
@@ -114,8 +116,10 @@ class RemoveMean(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the channel of every track."""
+        from floatref.kernels import motion
+
         header.require(self.name, *(ChannelId(self.channel, t) for t in header.tracks))
-        self.memory = {track: np.zeros(3) for track in header.tracks}
+        self.memory = {track: new_record(motion.SUM) for track in header.tracks}
         return header
 
     def survey(self, block: Block) -> None:
@@ -128,7 +132,8 @@ class RemoveMean(Stage):
     def advance(self, block: Block) -> Block:
         """Subtract the mean."""
         values = {}
-        for track, (total, rest, count) in self.memory.items():
+        for track, found in self.memory.items():
             channel = ChannelId(self.channel, track)
-            values[channel] = block[channel] - (total + rest) / max(count, 1.0)
+            mean = (found.total + found.rest) / max(found.count, 1)
+            values[channel] = block[channel] - mean
         return block.setting(values)

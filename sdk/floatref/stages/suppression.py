@@ -6,7 +6,7 @@ from floatref.errors import InputError
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import TRAVEL_SPEED, VELOCITY
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -39,12 +39,14 @@ class SuppressLocally(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the channel and the speed, in time."""
+        from floatref.kernels import local_suppression
+
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         channels = [ChannelId(self.channel, track) for track in header.tracks]
         header.require(self.name, *channels, ChannelId(TRAVEL_SPEED))
         self._step = header.step
-        self.memory = {track: np.zeros(6) for track in header.tracks}
+        self.memory = {track: new_record(local_suppression.CONTROLLER) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -59,7 +61,7 @@ class SuppressLocally(Stage):
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _control(self, x: FloatArray, speed: FloatArray, memory: FloatArray) -> FloatArray:
+    def _control(self, x: FloatArray, speed: FloatArray, memory: np.record) -> FloatArray:
         from floatref.kernels import local_suppression
 
         y = np.empty(x.size)

@@ -12,7 +12,7 @@ from floatref.stages.signals import (
     TRUE_TIME_STEP,
     VELOCITY,
 )
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -97,12 +97,14 @@ class IntegrateReflecting(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for both signals of every track and both time steps."""
+        from floatref.kernels import motion
+
         if header.axis is not Axis.DISTANCE:
             raise InputError(f"stage {self.name}: the stream is not on the distance axis")
         header.require(self.name, ChannelId(TIME_STEP), ChannelId(TRUE_TIME_STEP))
         for name in (self.source, self.height):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
-        self.memory = {track: np.zeros(4) for track in header.tracks}
+        self.memory = {track: new_record(motion.INTEGRATOR) for track in header.tracks}
         return header.replacing(self.source, self.target)
 
     def advance(self, block: Block) -> Block:

@@ -8,22 +8,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import holds
+from floatref.values.arrays import new_record, new_records
 
 laws = settings(deadline=None, max_examples=150)
 
 
 def found_in(x, least, outside, piece):
     """The runs that the kernel finds in pieces, of which the undone rest is given again."""
-    memory, found, low = holds.new_open_run(), [], 0
+    memory, found, low = new_record(holds.RUN), [], 0
     while True:
         part = x[low : low + piece]
-        runs = np.empty((part.size // least + 2, 3))
+        runs = new_records(part.size // least + 2, holds.RUN)
         count, done = holds.find_runs(part, low, least, outside, memory, runs)
-        found += runs[:count].tolist()
+        found += [list(run) for run in runs[:count].tolist()]
         if low + part.size == x.size:
             break
         low += done
-    return found + ([memory[[1, 0, 2]].tolist()] if memory[0] > 0 else [])
+    return found + ([list(memory.tolist())] if memory.length > 0 else [])
 
 
 def by_groups(x):
@@ -67,7 +68,7 @@ def test_every_run_is_counted_in_any_pieces(x, over, data):
     lengths = [n for first, n, v in by_groups(x) if not abs(after[first + n] - v) <= over]
     expected = [sum(min(length, 7) == n for length in lengths) for n in range(8)]
     assert held.tolist() == expected
-    assert memory[3] == sum(length for length in lengths if length >= 7)
+    assert memory.longest == sum(length for length in lengths if length >= 7)
     steps = np.abs(np.diff(x))
     steps = steps[steps > 0]
-    assert memory[2] == (steps.min() if steps.size else np.inf)
+    assert memory.quantum == (steps.min() if steps.size else np.inf)

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import matched_high_pass, state_variable
+from floatref.values.arrays import new_record
 
 STEP = 1e-3
 SEEDS = st.integers(0, 2**32 - 1)
@@ -19,7 +20,7 @@ def integral(x):
 
 def observed(a, h, c):
     r = np.empty(a.size)
-    matched_high_pass.observe(a, h, c, r, np.zeros(matched_high_pass.MEMORY), STEP)
+    matched_high_pass.observe(a, h, c, r, new_record(matched_high_pass.OBSERVER), STEP)
     return r
 
 
@@ -45,8 +46,8 @@ def test_a_constant_cut_off_is_the_filter_of_the_profile(seed, hertz):
     c = np.tan(np.pi * STEP * hertz)
     expected = np.empty(2000)
     # The profile begins at zero, so either start leaves the stages at rest.
-    state_variable.high_pass_1(profile, expected, np.zeros(4), c, False)
-    state_variable.high_pass_2(expected, expected, np.zeros(4), c, False)
+    state_variable.high_pass_1(profile, expected, new_record(state_variable.SECTION), c, False)
+    state_variable.high_pass_2(expected, expected, new_record(state_variable.SECTION), c, False)
     assert np.abs(observed(a, h, np.full(2000, c)) - h - expected).max() <= 1e-11
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from floatref.kernels import motion
+from floatref.values.arrays import new_record
 from floatref_reference.chapter_5 import section_5_3, section_5_8
 
 SIGNALS = hnp.arrays(np.float64, st.integers(1, 60), elements=st.floats(-1e3, 1e3, width=32))
@@ -17,7 +18,8 @@ SIGNALS = hnp.arrays(np.float64, st.integers(1, 60), elements=st.floats(-1e3, 1e
 @settings(deadline=None, max_examples=40)
 @given(x=SIGNALS, rate=st.floats(10.0, 2e4), start=st.floats(-10, 10))
 def test_integration_in_time_is_the_trapezoidal_rule(x, rate, start):
-    y, memory = np.empty(x.size), np.array([0.0, 0.0, start])
+    y, memory = np.empty(x.size), new_record(motion.INTEGRATOR)
+    memory.total = start
     motion.integrate(x, y, memory, 0.5 / rate)
     expected = section_5_3.trapezoidal_rule(x, 1.0 / rate, start)
     assert np.abs(y - expected).max() <= 1e-12 * (1.0 + np.abs(expected).max())
@@ -29,7 +31,7 @@ def test_integration_in_time_is_the_trapezoidal_rule(x, rate, start):
 def test_integration_over_triggers_is_5_5(x, data):
     steps = data.draw(hnp.arrays(np.float64, x.size, elements=st.floats(0.0, 20.0)))
     y = np.empty(x.size)
-    motion.integrate_steps(x, y, np.zeros(3), steps)
+    motion.integrate_steps(x, y, new_record(motion.INTEGRATOR), steps)
     expected = section_5_8.velocity(x, steps)
     assert np.abs(y - expected).max() <= 1e-12 * (1.0 + np.abs(expected).max())
 
@@ -40,8 +42,10 @@ def test_the_example_of_section_5_8():
     acceleration = np.array([-0.01865 * g, 0.00910 * g])
     steps = np.array([0.0, 10.7643])
     velocity, height = np.empty(2), np.empty(2)
-    motion.integrate_steps(acceleration, velocity, np.array([0.0, 0.0, -0.00319]), steps)
-    motion.integrate_steps(velocity, height, np.zeros(3), steps)
+    start = new_record(motion.INTEGRATOR)
+    start.total = -0.00319
+    motion.integrate_steps(acceleration, velocity, start, steps)
+    motion.integrate_steps(velocity, height, new_record(motion.INTEGRATOR), steps)
     assert velocity[1] == pytest.approx(-0.50744, abs=2e-4)
     assert height[1] == pytest.approx(-2.748, abs=1e-3)
 
@@ -50,13 +54,13 @@ def test_the_example_of_section_5_8():
 @given(x=hnp.arrays(np.float64, st.integers(0, 40), elements=st.floats(-1e12, 1e12)))
 @example(x=np.array([2**39 + 0.125, 2**39 + 0.125, 2**-13, 1e-245]))
 def test_a_sum_and_its_rest_are_exact_to_thirty_digits(x):
-    memory = np.zeros(3)
+    memory = new_record(motion.SUM)
     motion.add_up(x, memory)
     exact = sum((Fraction(float(value)) for value in x), Fraction(0))
     size = sum((abs(Fraction(float(value))) for value in x), Fraction(0))
-    found = Fraction(float(memory[0])) + Fraction(float(memory[1]))
+    found = Fraction(float(memory.total)) + Fraction(float(memory.rest))
     assert abs(found - exact) <= Fraction(1, 10**28) * size
-    assert memory[2] == x.size
+    assert memory.count == x.size
 
 
 @settings(deadline=None, max_examples=80)

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import state_variable
+from floatref.values.arrays import new_record
 from floatref_reference.appendix_a import filters
 
 CUTOFFS = st.floats(1e-4, 0.45)
@@ -26,7 +27,7 @@ PAIRS = {
 
 def filtered(name, x, cutoff, backward):
     y = np.empty(x.size)
-    memory = np.zeros(state_variable.MEMORY)
+    memory = new_record(state_variable.SECTION)
     getattr(state_variable, name)(x, y, memory, math.tan(math.pi * cutoff), backward)
     return y
 
@@ -58,7 +59,7 @@ def test_the_fused_kernel_is_its_two_parts(cutoff, seed, backward, lost):
     x[list(lost)] = np.nan
     c = math.tan(math.pi * cutoff)
     y = np.empty(x.size)
-    second, first = np.zeros(4), np.zeros(4)
+    second, first = new_record(state_variable.SECTION), new_record(state_variable.SECTION)
     state_variable.high_pass_21(x, y, second, first, c, backward)
     apart = filtered("high_pass_1", filtered("high_pass_2", x, cutoff, backward), cutoff, backward)
     assert np.abs(y - apart).max() <= 1e-12

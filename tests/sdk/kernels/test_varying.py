@@ -14,6 +14,7 @@ from floatref.kernels import state_variable, varying
 from floatref.stages import signals
 from floatref.stages.filters import schedule
 from floatref.stages.filters import varying as stages_varying
+from floatref.values.arrays import new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref_reference.appendix_a import varying as literal
@@ -38,14 +39,14 @@ def drawn(seed, size, highest=0.2):
 
 def filtered(name, x, c, backward, memory=None):
     y = np.empty(x.size)
-    memory = np.zeros(varying.MEMORY) if memory is None else memory
+    memory = new_record(varying.SECTION) if memory is None else memory
     getattr(varying, name)(x, y, c, memory, backward)
     return y
 
 
 def fused(name, x, c, backward):
     y = np.empty(x.size)
-    memories = np.zeros(varying.MEMORY), np.zeros(varying.MEMORY)
+    memories = new_record(varying.SECTION), new_record(varying.SECTION)
     getattr(varying, name)(x, y, c, *memories, backward)
     return y
 
@@ -87,7 +88,7 @@ def test_a_constant_cut_off_is_the_fixed_stage(name, backward, cutoff, seed):
     x = np.random.default_rng(seed).standard_normal(200)
     c = math.tan(math.pi * cutoff)
     expected = np.empty(x.size)
-    fixed = np.zeros(state_variable.MEMORY)
+    fixed = new_record(state_variable.SECTION)
     getattr(state_variable, name)(x, expected, fixed, c, backward)
     assert np.abs(filtered(name, x, np.full(200, c), backward) - expected).max() <= 1e-11
 
@@ -138,7 +139,7 @@ def test_any_split_of_a_short_block_gives_the_same_bits(name, backward, size):
     x, c = drawn(size, size)
     whole = filtered(name, x, c, backward)
     for cut in range(1, size):
-        memory, apart = np.zeros(varying.MEMORY), np.empty(size)
+        memory, apart = new_record(varying.SECTION), np.empty(size)
         for part in pieces(size, [cut, cut + 2], backward):
             apart[part] = filtered(name, x[part], c[part], backward, memory)
         np.testing.assert_array_equal(apart, whole)
@@ -148,7 +149,7 @@ def test_any_split_of_a_short_block_gives_the_same_bits(name, backward, size):
 def test_output_may_take_the_place_of_the_input(name, backward):
     x, c = drawn(3, 50)
     expected = filtered(name, x, c, backward)
-    getattr(varying, name)(x, x, c, np.zeros(varying.MEMORY), backward)
+    getattr(varying, name)(x, x, c, new_record(varying.SECTION), backward)
     np.testing.assert_array_equal(x, expected)
 
 

@@ -8,8 +8,9 @@ import pytest
 from scipy.linalg import expm
 
 from floatref.engine.run import run
-from floatref.kernels.state_variable import MEMORY, high_pass_1, high_pass_2
+from floatref.kernels.state_variable import SECTION, high_pass_1, high_pass_2
 from floatref.stages.filters.schedule import AdaptiveCutOff
+from floatref.values.arrays import new_record
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup, TrackSetup, VehicleSetup
 from floatref.vehicle_response import IMINE_TRAILER, ZHU_HALF_CAR, QuarterCar
@@ -126,7 +127,7 @@ def high_passed(z: np.ndarray, mps: float, interval_m: float) -> np.ndarray:
     tangent = np.tan(np.pi * wave_number * interval_m)
     for kernel, backward in SECTIONS:
         out = np.empty_like(z)
-        kernel(z, out, np.zeros(MEMORY), tangent, backward)
+        kernel(z, out, new_record(SECTION), tangent, backward)
         z = out
     return z
 

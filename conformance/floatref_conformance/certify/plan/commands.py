@@ -5,7 +5,6 @@ import subprocess
 import sys
 import threading
 from dataclasses import dataclass
-from types import TracebackType
 
 COMMAND = (sys.executable, "-P", "-m", "floatref")
 """-P: a folder called floatref in the current folder is not taken for the package."""
@@ -36,12 +35,7 @@ class Commands:
         """Return itself."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         """End what runs, and let nothing start any more."""
         with self._lock:
             self._stopped = True

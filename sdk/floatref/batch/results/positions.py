@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.damage.encoder_path import KNOT, EncoderPath, times_at
+from floatref.screening.damage.encoder_path import EncoderPath, times_at
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.recording import Channel, Recording
@@ -61,7 +61,7 @@ class _Way:
     @classmethod
     def of(cls, encoder: Channel) -> "_Way":
         path = EncoderPath.of(encoder)
-        return cls(times_at(encoder, path.knots[:, KNOT]), path.distance)
+        return cls(times_at(encoder, path.knots["at"]), path.distance)
 
     def covers(self, times_s: FloatArray) -> BoolArray:
         if not self.times_s.size:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from floatref.estimators.levelling.lines import Held, LocalLines, Means
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, new_record
 from floatref.values.channels import STANDARD_GRAVITY
 
 BIN_S = 0.05
@@ -16,6 +16,14 @@ of the angles, (6.27) and (6.28)."""
 PATIENCE_S = 0.1
 """Without rates for so long nothing is known of how the angles before and behind differ."""
 NEVER = 1 << 62
+ANGLES = np.dtype([(n, np.float64) for n in ("pitch", "roll", "pitching", "rolling")], align=True)
+"""Pitch and roll by the rates, and the rates of both at the latest sample, NaN before any."""
+
+
+def _no_angles() -> np.record:
+    angles = new_record(ANGLES)
+    angles.pitching = angles.rolling = np.nan
+    return angles
 
 
 @dataclass(eq=False)
@@ -52,7 +60,7 @@ class Attitude:
     tilts: Held = field(default_factory=lambda: Held.of(6))
     swung: Held = field(default_factory=lambda: Held.of(3))
     more: Held = field(default_factory=lambda: Held.of(3))
-    memory: FloatArray = field(default_factory=lambda: np.array([0.0, 0.0, np.nan, np.nan]))
+    memory: np.record = field(default_factory=_no_angles)
     ended: bool = False
 
     @classmethod

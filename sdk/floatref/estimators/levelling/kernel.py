@@ -2,8 +2,10 @@
 
 from math import asin, cos, nan, sin, tan
 
+import numpy as np
+
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, Records
 
 LEAST = 1e-9
 """Spread in squared places below which it counts as zero."""
@@ -14,17 +16,15 @@ SIDE = 4.0
 
 
 @compiled
-def average(
-    rows: FloatArray, every: int, memory: FloatArray, filled: int, found: FloatArray
-) -> int:
+def average(rows: FloatArray, every: int, memory: Records, filled: int, found: FloatArray) -> int:
     """Average the c ``rows``, NaN if missing, over bins of ``every`` samples.
 
-    ``memory``, shape (c, 2), holds sums and counts of a bin of which ``filled`` samples have been
-    seen. Means of complete bins are written to ``found``, NaN where less than half is there.
-    Returns how many samples of the next bin have been seen.
+    ``memory``, shape (c,), is that of a bin of which ``filled`` samples have been seen. Means of
+    complete bins are written to ``found``, NaN where less than half is there. Returns how many
+    samples of the next bin have been seen.
     """
     for c in range(rows.shape[0]):
-        total, count, seen, k = memory[c, 0], memory[c, 1], filled, 0
+        total, count, seen, k = memory[c].total, memory[c].count, filled, 0
         for i in range(rows.shape[1]):
             value = rows[c, i]
             if value == value:
@@ -35,7 +35,7 @@ def average(
                 found[c, k] = total / count if 2.0 * count >= every else nan
                 total, count, seen = 0.0, 0.0, 0
                 k += 1
-        memory[c, 0], memory[c, 1] = total, count
+        memory[c].total, memory[c].count = total, count
     return (filled + int(rows.shape[1])) % every
 
 
@@ -107,16 +107,15 @@ def turn(
     first: int,
     every: int,
     half_step: float,
-    memory: FloatArray,
+    memory: np.record,
     found: FloatArray,
 ) -> None:
     """Integrate (6.27) and (6.28) by trapezoids from ``memory``, with slow ``angles``.
 
     ``rates``, shape (3, n), begin ``first`` samples behind the start of the bin of the first of
-    ``angles``; a NaN is that of the sample before. ``memory`` holds both integrals, and their
-    rates at the latest sample, NaN before any.
+    ``angles``; a NaN is that of the sample before.
     """
-    pitch, roll, pitching, rolling = memory[0], memory[1], memory[2], memory[3]
+    pitch, roll, pitching, rolling = memory.pitch, memory.roll, memory.pitching, memory.rolling
     bound, s_phi, c_phi, tangent = -1, 0.0, 1.0, 0.0
     for k in range(rates.shape[1]):
         b = (first + k) // every
@@ -134,7 +133,7 @@ def turn(
             roll += half_step * (rolling + new_r)
         pitching, rolling = new_p, new_r
         found[0, k], found[1, k] = pitch, roll
-    memory[0], memory[1], memory[2], memory[3] = pitch, roll, pitching, rolling
+    memory.pitch, memory.roll, memory.pitching, memory.rolling = pitch, roll, pitching, rolling
 
 
 @compiled

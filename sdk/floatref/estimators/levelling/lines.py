@@ -4,8 +4,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, Records, new_records
 
+BIN = np.dtype([("total", np.float64), ("count", np.float64)], align=True)
+"""The sum and the number of the samples so far of a bin."""
 REACH = 4.0
 """Standard deviations to either side beyond which the Gaussian is nothing."""
 
@@ -19,12 +21,12 @@ class Means:
 
     every: int
     rows: int
-    memory: FloatArray = field(init=False)
+    memory: Records = field(init=False)
     filled: int = 0
 
     def __post_init__(self) -> None:
         """Begin the first bin."""
-        self.memory = np.zeros((self.rows, 2))
+        self.memory = new_records(self.rows, BIN)
 
     def take(self, rows: FloatArray) -> FloatArray:
         """Return the means that the samples ``rows`` complete, shape (rows, n)."""
@@ -38,8 +40,8 @@ class Means:
         """Return the mean of what there is of a last bin that is cut short, if it is."""
         if not self.filled:
             return np.empty((self.rows, 0))
-        total, count = self.memory[:, :1], self.memory[:, 1:]
-        return np.where(count > 0.0, total / np.maximum(count, 1.0), np.nan)
+        total, count = self.memory["total"], self.memory["count"]
+        return np.where(count > 0.0, total / np.maximum(count, 1.0), np.nan)[:, np.newaxis]
 
 
 @dataclass(eq=False)

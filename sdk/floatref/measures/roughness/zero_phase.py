@@ -3,25 +3,20 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from floatref.kernels.state_variable import (
-    MEMORY,
+    SECTION,
     high_pass_1,
     high_pass_2,
     high_pass_21,
     low_pass_1,
     low_pass_2,
 )
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, new_record
 
 
 def _c(interval: float, cutoff_wavelength: float) -> float:
     return math.tan(math.pi * interval / cutoff_wavelength)
-
-
-def _new_memory() -> NDArray[np.float64]:
-    return np.zeros(MEMORY)
 
 
 def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
@@ -32,9 +27,9 @@ def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> 
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size)
-    high_pass_1(x, y, _new_memory(), c, False)
-    high_pass_21(y, y, _new_memory(), _new_memory(), c, True)
-    high_pass_2(y, y, _new_memory(), c, False)
+    high_pass_1(x, y, new_record(SECTION), c, False)
+    high_pass_21(y, y, new_record(SECTION), new_record(SECTION), c, True)
+    high_pass_2(y, y, new_record(SECTION), c, False)
     return y
 
 
@@ -46,8 +41,8 @@ def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> F
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size)
-    low_pass_1(x, y, _new_memory(), c, False)
-    low_pass_2(y, y, _new_memory(), c, True)
-    low_pass_1(y, y, _new_memory(), c, True)
-    low_pass_2(y, y, _new_memory(), c, False)
+    low_pass_1(x, y, new_record(SECTION), c, False)
+    low_pass_2(y, y, new_record(SECTION), c, True)
+    low_pass_1(y, y, new_record(SECTION), c, True)
+    low_pass_2(y, y, new_record(SECTION), c, False)
     return y

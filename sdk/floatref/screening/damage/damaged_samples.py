@@ -8,7 +8,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
+from floatref.values.arrays import (
+    BoolArray,
+    FloatArray,
+    IndexArray,
+    new_record,
+    new_records,
+    release,
+)
 from floatref.values.recording import Channel
 from floatref.values.scanning import CHUNK, chunks
 
@@ -49,8 +56,8 @@ class Runs:
         """
         from floatref.kernels import holds
 
-        memory, ends, found, low = holds.new_open_run(), np.array(outside), [], 0
-        runs = np.empty((max(CHUNK, 2 * shortest) // shortest + 2, 3))
+        memory, ends, found, low = new_record(holds.RUN), np.array(outside), [], 0
+        runs = new_records(max(CHUNK, 2 * shortest) // shortest + 2, holds.RUN)
         while True:
             chunk = values[low : low + max(CHUNK, 2 * shortest)]
             count, done = holds.find_runs(chunk, low, shortest, ends, memory, runs)
@@ -59,10 +66,10 @@ class Runs:
             if low + chunk.size == values.size:
                 break
             low += done
-        if memory[0] > 0.0:
-            found.append(memory[[1, 0, 2]][np.newaxis])
-        first, length, value = np.concatenate(found).T
-        return cls(first.astype(np.int64), length.astype(np.int64), value)
+        if memory.length > 0:
+            found.append(np.array([memory], holds.RUN))
+        joined = np.concatenate(found)
+        return cls(*(joined[name].copy() for name in holds.RUN.names or ()))
 
     @property
     def spans(self) -> IndexArray:
@@ -93,7 +100,7 @@ class Usual:
         for _, chunk in chunks(values):
             holds.count_runs(chunk, over, memory, held)
         holds.count_runs(np.array([np.nan]), over, memory, held)
-        return cls(held, int(memory[3]), float(memory[2]))
+        return cls(held, int(memory.longest), float(memory.quantum))
 
     @property
     def samples(self) -> int:

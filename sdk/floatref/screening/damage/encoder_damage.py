@@ -4,15 +4,8 @@ import numpy as np
 
 from floatref.kernels.compiling import compiled
 from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
-from floatref.screening.damage.encoder_path import (
-    AFTER_GAP,
-    BEFORE_STEP,
-    FRONT,
-    GAP,
-    STEP,
-    EncoderPath,
-)
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.screening.damage.encoder_path import EncoderPath
+from floatref.values.arrays import FloatArray, IndexArray, Records
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.encoder import FASTEST_MPS
 from floatref.values.recording import Channel
@@ -48,38 +41,35 @@ def shortest_travel(speed: float, time_s: float) -> float:
 
 @compiled
 def judge(
-    table: FloatArray, before: FloatArray, off_m: float, usual_m: float, kinds: IndexArray
+    ways: Records, before: FloatArray, off_m: float, usual_m: float, kinds: IndexArray
 ) -> None:
-    """Write to ``kinds`` the kind of distance to every row of ``table`` except the first.
+    """Write to ``kinds`` the kind of distance of every one of ``ways`` except the first.
 
-    Columns are the time in s, the distance in m and the number of steps since the row before; of
-    the largest step its height, its time, the time since the first sample as far, and the time that
-    the encoder was held; of the longest interval its beginning, its time and its height; and how
-    much farther the vehicle may be than the counts. ``before`` is the distance, the time and the
-    number of steps of two ways like the first; ``off_m`` the largest error of a knot, ``usual_m``
-    the usual step. A distance is judged by the two undamaged ones before it.
+    ``before`` is the distance, the time and the number of steps of two ways like the first;
+    ``off_m`` the largest error of a knot, ``usual_m`` the usual step. A distance is judged by the
+    two undamaged ones before it.
     """
     old_m, old_s, old_n = before
     new_m, new_s, new_n = before
-    sound_t = table[0, 0]
+    sound_t = ways[0].t
     for k in range(1, kinds.size):
-        start, way, took = table[k - 1, 0], table[k, 1] - table[k - 1, 1], table[k, 0]
-        took -= start
-        step, since_s, hidden = table[k, 3], table[k, 5], table[k, 10]
+        last, this = ways[k - 1], ways[k]
+        start, way, took = last.t, this.far - last.far, this.t - last.t
+        step, since_s, hidden = this.step, this.since_s, this.hidden
         speed = (old_m + new_m) / (old_s + new_s)
         local = max(usual_m, (old_m + new_m) / max(old_n + new_n, 1.0))
         unsure = off_m / (old_s + new_s) + HARDEST * (0.5 * (old_s + new_s) + start - sound_t)
         slowest = (1.0 - UNEVEN) * speed - unsure
         most = ((1.0 + UNEVEN) * speed + unsure + 0.5 * HARDEST * took) * took
-        steep = step > max(FASTEST_MPS * table[k, 4] + LEAP * local, MADE_UP * speed * since_s)
-        moving, at_gap = speed >= MOVING_MPS, slowest - HARDEST * (table[k, 7] - start)
-        stops = table[k, 9] + hidden + off_m < shortest_travel(at_gap, table[k, 8])
-        held = table[k, 6] > 0.0 and since_s >= SHORTEST_S
+        steep = step > max(FASTEST_MPS * this.step_s + LEAP * local, MADE_UP * speed * since_s)
+        moving, at_gap = speed >= MOVING_MPS, slowest - HARDEST * (this.gap_t - start)
+        stops = this.gap + hidden + off_m < shortest_travel(at_gap, this.gap_s)
+        held = this.held_s > 0.0 and since_s >= SHORTEST_S
         kind = SOUND
-        if moving and stops and speed * table[k, 8] > LATE * local:
+        if moving and stops and speed * this.gap_s > LATE * local:
             kind = STALLED
         elif steep or way > min(most, FASTEST_MPS * took) + ROUGH * local:
-            own = step - speed * table[k, 4]
+            own = step - speed * this.step_s
             kind = LEAPT if own >= 0.5 * (way - speed * took) else FAST
         elif moving and way + hidden + ROUGH * local < shortest_travel(slowest, took):
             kind = SLOW
@@ -88,7 +78,7 @@ def judge(
         kinds[k] = kind
         if kind in (SOUND, SILENT):
             old_m, old_s, old_n = new_m, new_s, new_n
-            new_m, new_s, new_n, sound_t = way, took, table[k, 2], table[k, 0]
+            new_m, new_s, new_n, sound_t = way, took, this.steps, this.t
 
 
 OFF = 3.0
@@ -108,12 +98,12 @@ def encoder_damage(channel: Channel) -> Damage:
     """
     path = EncoderPath.of(channel)
     kinds = _kinds(path)
-    silent = path.between(kinds == SILENT, FRONT, STEP)
-    leapt = path.between(kinds == LEAPT, BEFORE_STEP, STEP)
-    leapt[:, 1] = path.knots[kinds == LEAPT, STEP] + 1
-    fast = path.ways(kinds == FAST)
-    stalled = path.between(kinds == STALLED, GAP, AFTER_GAP)
-    lost = merge_stretches(stalled, path.ways(kinds == SLOW))
+    silent = path.between(kinds == SILENT, "front", "step")
+    leapt = path.between(kinds == LEAPT, "before_step", "step")
+    leapt[:, 1] = path.knots["step"][kinds == LEAPT] + 1
+    fast = path.up_to(kinds == FAST)
+    stalled = path.between(kinds == STALLED, "gap", "after_gap")
+    lost = merge_stretches(stalled, path.up_to(kinds == SLOW))
     deep = merge_stretches(path.behind[path.depths > ONE_COUNT * path.usual_m])
     void = merge_stretches(leapt, fast, lost)
     said = (
@@ -132,14 +122,15 @@ def _kinds(path: EncoderPath) -> IndexArray:
     kinds = np.zeros(len(path.knots), np.int64)
     if kinds.size < 3:
         return kinds
-    table = path.table()
-    took, ways = np.diff(table[:, :2], axis=0).T
-    uneven = np.abs(ways[1:] - ways[:-1] * took[1:] / took[:-1])
+    ways = path.ways()
+    took, far = np.diff(ways["t"]), np.diff(ways["far"])
+    uneven = np.abs(far[1:] - far[:-1] * took[1:] / took[:-1])
     off_m = min(OFF * float(np.median(uneven)), path.usual_m)
     first_s = float(np.sum(took[:FIRST]))
-    speed = float(np.median(ways[:FIRST] / took[:FIRST]))
-    before = np.array([speed * first_s, first_s, float(np.sum(table[1 : FIRST + 1, 2]))]) / 2
-    judge(table, before, off_m, path.usual_m, kinds)
+    speed = float(np.median(far[:FIRST] / took[:FIRST]))
+    steps = float(np.sum(ways["steps"][1 : FIRST + 1]))
+    before = np.array([speed * first_s, first_s, steps]) / 2
+    judge(ways, before, off_m, path.usual_m, kinds)
     return kinds
 
 

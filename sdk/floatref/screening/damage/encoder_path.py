@@ -5,17 +5,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, Records, new_records
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel
 from floatref.values.scanning import CHUNK, chunks
 
 KNOT_S = 0.025
 """Shortest time in s between knots, if the counts are that frequent."""
-KNOT, STEPS, STEP, BEFORE_STEP, FRONT, GAP, AFTER_GAP, FROM, LAST = range(9)
-"""Columns of the knots: their sample and the number of steps to it; of the largest of these the
-sample, the last known one before it and the first as far as that; the samples that the longest
-interval lies between; the sample before the knot's own step; the last known one."""
+WAY = np.dtype(
+    [
+        *((name, np.float64) for name in ("t", "far", "steps")),
+        *((name, np.float64) for name in ("step", "step_s", "since_s", "held_s")),
+        *((name, np.float64) for name in ("gap_t", "gap_s", "gap")),
+        ("hidden", np.float64),
+    ]
+)
+"""The way to a knot: the time in s, the distance in m and the number of steps since the last one;
+of the largest step its height, its time, the time since the first sample as far, and the time that
+the encoder was held; of the longest interval its beginning, its time and its height; and how much
+farther the vehicle may be than the counts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +32,7 @@ class EncoderPath:
 
     Attributes:
         channel: The distance.
-        knots: Samples of every knot, shape (k, 8), columns as above; the last is the end.
+        knots: Samples of every knot, of type `encoder_progress.KNOT`; the last is the end.
         distance: Farthest distance of the encoder up to each, in m.
         behind: Stretches of samples that lie behind, or are spikes, shape (b, 2).
         depths: How far these lie behind, in m.
@@ -32,7 +40,7 @@ class EncoderPath:
     """
 
     channel: Channel
-    knots: IndexArray
+    knots: Records
     distance: FloatArray
     behind: IndexArray
     depths: FloatArray
@@ -42,48 +50,42 @@ class EncoderPath:
     def of(cls, channel: Channel) -> "EncoderPath":
         """Follow ``channel``; a channel of missing samples has no knots."""
         knots, far, behind, depths = _follow(channel)
-        distance = channel.values[knots[:, KNOT]]
-        steps = distance[1:-1] - channel.values[knots[1:-1, FROM]]
+        distance = channel.values[knots["at"]]
+        steps = distance[1:-1] - channel.values[knots["since"][1:-1]]
         distance[-1:] = far
         usual_m = float(np.median(steps)) if steps.size else 0.0
         return cls(channel, knots, distance, behind, depths, usual_m)
 
-    def table(self) -> FloatArray:
-        """Return the table for `judge`, shape (k, 11)."""
+    def ways(self) -> Records:
+        """Return the way to every knot, shape (k,), of type `WAY`."""
         values, knots = self.channel.values, self.knots
-        t = times_at(self.channel, knots[:, : AFTER_GAP + 1])
-        step = values[knots[:, STEP]] - values[knots[:, FRONT]]
-        gap = np.maximum(values[knots[:, AFTER_GAP]] - values[knots[:, GAP]], 0.0)
-        hidden = np.zeros(len(knots))
-        hidden[-1:] = self.usual_m
-        columns = (
-            t[:, KNOT],
-            self.distance,
-            knots[:, STEPS],
-            step,
-            t[:, STEP] - t[:, BEFORE_STEP],
-            t[:, STEP] - t[:, FRONT],
-            t[:, BEFORE_STEP] - t[:, FRONT],
-            t[:, GAP],
-            t[:, AFTER_GAP] - t[:, GAP],
-            gap,
-            hidden,
-        )
-        return np.stack([np.asarray(c, np.float64) for c in columns], axis=1)
+        timed = "at", "step", "before_step", "front", "gap", "after_gap"
+        t = {name: times_at(self.channel, knots[name]) for name in timed}
+        ways = new_records(len(knots), WAY)
+        ways["t"], ways["far"], ways["steps"] = t["at"], self.distance, knots["steps"]
+        ways["step"] = values[knots["step"]] - values[knots["front"]]
+        ways["step_s"] = t["step"] - t["before_step"]
+        ways["since_s"] = t["step"] - t["front"]
+        ways["held_s"] = t["before_step"] - t["front"]
+        ways["gap_t"], ways["gap_s"] = t["gap"], t["after_gap"] - t["gap"]
+        gap = values[knots["after_gap"]] - values[knots["gap"]]
+        ways["gap"] = np.maximum(gap, 0.0)
+        ways["hidden"][-1:] = self.usual_m
+        return ways
 
-    def between(self, chosen: BoolArray, before: int, behind: int) -> IndexArray:
-        """Return the samples between two columns of the ``chosen`` knots, shape (k, 2).
+    def between(self, chosen: BoolArray, before: str, behind: str) -> IndexArray:
+        """Return the samples between two fields of the ``chosen`` knots, shape (k, 2).
 
-        If no sample lies between them, the later column is returned, since the line between two
+        If no sample lies between them, the later field is returned, since the line between two
         counts depends on it.
         """
-        first, end = self.knots[chosen][:, [before, behind]].T
+        first, end = self.knots[before][chosen], self.knots[behind][chosen]
         return np.stack([first + 1, np.maximum(end, first + 2)], axis=1)
 
-    def ways(self, chosen: BoolArray) -> IndexArray:
+    def up_to(self, chosen: BoolArray) -> IndexArray:
         """Return the samples from the knots before the ``chosen`` ones up to them."""
-        first, end = np.roll(self.knots[:, KNOT], 1)[chosen], self.knots[chosen, KNOT]
-        return np.stack([first + 1, end + 1], axis=1)
+        at = self.knots["at"]
+        return np.stack([np.roll(at, 1)[chosen] + 1, at[chosen] + 1], axis=1)
 
 
 def times_at(channel: Channel, index: IndexArray) -> FloatArray:
@@ -94,60 +96,41 @@ def times_at(channel: Channel, index: IndexArray) -> FloatArray:
     return np.asarray(clock.start_s + index / float(clock.rate))
 
 
-def _follow(channel: Channel) -> tuple[IndexArray, float, IndexArray, FloatArray]:
+def _follow(channel: Channel) -> tuple[Records, float, IndexArray, FloatArray]:
     """Return the knots, the distance at each, the stretches behind, and how far behind they are."""
     from floatref.screening.damage import encoder_progress
 
     clock, values = channel.clock, channel.values
     stamps = clock.times_s if isinstance(clock, StampedClock) else np.empty(0)
     apart = KNOT_S if stamps.size else KNOT_S * channel.mean_rate_hz
-    levels, knot = (
-        np.zeros(encoder_progress.USUAL + 1),
-        np.zeros(encoder_progress.KNOWN + 1, np.int64),
-    )
-    levels[
-        [
-            encoder_progress.FAR,
-            encoder_progress.BEFORE,
-            encoder_progress.KNOT_T,
-            encoder_progress.KNOT_X,
-        ]
-    ] = -np.inf
-    levels[encoder_progress.USUAL] = np.inf
-    knots, spans, depths = [np.empty((0, encoder_progress.KNOT), np.int64)], [NONE], [np.empty(0)]
+    progress = encoder_progress.new_progress()
+    knots, spans, depths = [new_records(0, encoder_progress.KNOT)], [NONE], [np.empty(0)]
     for first, chunk in chunks(values, overlap=1):
         count = min(chunk.size, CHUNK)
         times = stamps[first : first + count]
-        rows = np.empty((count, encoder_progress.KNOT), np.int64)
+        rows = new_records(count, encoder_progress.KNOT)
         back, deep = np.empty((count, 2), np.int64), np.empty(count)
         found, behind = encoder_progress.follow(
-            chunk, count, first, times, apart, levels, knot, rows, back, deep
+            chunk, count, first, times, apart, progress, rows, back, deep
         )
         knots.append(rows[:found].copy())
         spans.append(back[:behind].copy())
         depths.append(deep[:behind].copy())
-    joined = np.concatenate(knots)
-    if joined.size and joined[-1, KNOT] < knot[LAST]:
-        joined = np.append(joined, _end(channel, knot, levels), axis=0)
-    return (
-        joined,
-        float(levels[encoder_progress.FAR]),
-        np.concatenate(spans),
-        np.concatenate(depths),
-    )
+    every = np.concatenate(knots)
+    if every.size and every["at"][-1] < progress.known:
+        every = np.append(every, _end(channel, progress))
+    return every, float(progress.far), np.concatenate(spans), np.concatenate(depths)
 
 
-def _end(channel: Channel, knot: IndexArray, levels: FloatArray) -> IndexArray:
+def _end(channel: Channel, progress: np.record) -> Records:
     """Return the last known sample as a knot; the encoder may have been constant before it."""
-    from floatref.screening.damage import encoder_progress
-
-    front, last = knot[FROM], knot[LAST]
-    end = knot[None, : FROM + 1].copy()
-    end[0, KNOT] = last
-    if knot[STEPS] == 0:
-        end[0, [STEP, BEFORE_STEP, FRONT]] = front
+    front, last = progress.coming.since, progress.known
+    end = np.array([progress.coming])
+    end["at"] = last
+    if progress.coming.steps == 0:
+        end["step"] = end["before_step"] = end["front"] = front
     now, since = times_at(channel, np.array([last, front]))
     rate = 1.0 if isinstance(channel.clock, StampedClock) else channel.mean_rate_hz
-    if knot[STEPS] == 0 or (now - since) * rate > levels[encoder_progress.LONGEST]:
-        end[0, [GAP, AFTER_GAP]] = front, last
+    if progress.coming.steps == 0 or (now - since) * rate > progress.longest:
+        end["gap"], end["after_gap"] = front, last
     return end

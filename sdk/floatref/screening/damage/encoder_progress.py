@@ -1,20 +1,43 @@
 """The farthest distance of an encoder at knots, and the samples that lie behind it."""
 
-from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+import numpy as np
 
-KNOT = 8
-"""Columns of a knot: its sample and the number of steps since the last one; of the largest of these
-the sample, the last known one before it, and the first as far as that; the two samples between
-which it took longest; and the sample before it."""
-FAR, BEFORE, KNOT_T, FAR_T, LONGEST, LARGEST, KNOT_X, USUAL = range(8)
-"""Levels: the farthest distance, the last known sample, the times of the last knot and of the first
-sample as far, the longest interval and the largest step since the knot, its distance, and the usual
-step."""
-FRONT, KNOWN = 7, 8
-"""After the columns of the next knot: the first sample at the farthest distance, the last known."""
+from floatref.kernels.compiling import compiled
+from floatref.values.arrays import FloatArray, IndexArray, Records, new_record
+
+KNOT = np.dtype(
+    [
+        (name, np.int64)
+        for name in ("at", "steps", "step", "before_step", "front", "gap", "after_gap", "since")
+    ],
+    align=True,
+)
+"""A knot: its sample and the number of steps since the last one; of the largest of these the
+sample, the last known one before it, and the first as far as that; the two samples between which
+it took longest; and the first sample as far as the one before the knot."""
+PROGRESS = np.dtype(
+    [
+        ("coming", KNOT),
+        ("known", np.int64),
+        *((name, np.float64) for name in ("far", "last", "knot_t", "far_t")),
+        *((name, np.float64) for name in ("longest", "largest", "knot_x", "usual")),
+    ],
+    align=True,
+)
+"""What is known of the next knot, whose ``since`` is the first sample at the farthest distance; the
+last known sample; the farthest distance, and that of the last known sample; the times of the last
+knot and of the first sample as far; the longest interval and the largest step since the knot; its
+distance; and the usual step."""
 SPIKE = 5.0
 """A spike is higher than this number of recent steps, and returns by at least half."""
+
+
+def new_progress() -> np.record:
+    """Return the memory of `follow` before any sample."""
+    progress = new_record(PROGRESS)
+    progress.far = progress.last = progress.knot_t = progress.knot_x = -np.inf
+    progress.usual = np.inf
+    return progress
 
 
 @compiled
@@ -24,9 +47,8 @@ def follow(
     first: int,
     times: FloatArray,
     apart: float,
-    levels: FloatArray,
-    coming: IndexArray,
-    knots: IndexArray,
+    progress: np.record,
+    knots: Records,
     behind: IndexArray,
     depths: FloatArray,
 ) -> tuple[int, int]:
@@ -37,19 +59,17 @@ def follow(
     sample farther than all before it, ``apart`` or more after the last knot. A row of ``behind`` is
     a stretch of samples behind the farthest, by up to its entry of ``depths``, or a spike, whose
     depth is its height. Missing (NaN) samples are skipped.
-
-    Of ``levels`` the distances, and the time of the knot, start as minus infinity, the usual step
-    as infinite, all others as 0.
     """
-    rows, back = 0, 0
-    far, last, far_t, longest, largest = levels[0], levels[1], levels[3], levels[4], levels[5]
-    known, front, steps = coming[KNOWN], coming[FRONT], coming[1]
+    rows, back, coming = 0, 0, progress.coming
+    far, last, far_t = progress.far, progress.last, progress.far_t
+    longest, largest = progress.longest, progress.largest
+    known, front, steps = progress.known, coming.since, coming.steps
     for i in range(count):
         value, now = x[i], first + i
         if value != value:
             continue
         after = x[i + 1] if i + 1 < x.size else value
-        if value < far or (after < value and _is_spike(value, after, far, last, levels[USUAL])):
+        if value < far or (after < value and _is_spike(value, after, far, last, progress.usual)):
             back = _extend(behind, depths, back, now, abs(far - value))
             last, known = (value, now) if value < far else (last, known)
             continue
@@ -58,18 +78,19 @@ def follow(
             steps += 1
             if value - far > largest:
                 largest = value - far
-                coming[2], coming[3], coming[4] = now, known, front
+                coming.step, coming.before_step, coming.front = now, known, front
             if t - far_t > longest:
                 longest = t - far_t
-                coming[5], coming[6] = front, now
-            if t - levels[KNOT_T] >= apart:
-                coming[0], coming[1], coming[FRONT] = now, steps, front
-                rows = _tie(value, t, levels, coming, knots, rows)
+                coming.gap, coming.after_gap = front, now
+            if t - progress.knot_t >= apart:
+                coming.at, coming.steps, coming.since = now, steps, front
+                rows = _tie(value, t, progress, knots, rows)
                 longest, largest, steps = 0.0, 0.0, 0
             far, far_t, front = value, t, now
         last, known = value, now
-    levels[0], levels[1], levels[3], levels[4], levels[5] = far, last, far_t, longest, largest
-    coming[KNOWN], coming[FRONT], coming[1] = known, front, steps
+    progress.far, progress.last, progress.far_t = far, last, far_t
+    progress.longest, progress.largest = longest, largest
+    progress.known, coming.since, coming.steps = known, front, steps
     return rows, back
 
 
@@ -90,12 +111,9 @@ def _extend(behind: IndexArray, depths: FloatArray, back: int, now: int, depth: 
 
 
 @compiled
-def _tie(
-    value: float, t: float, levels: FloatArray, coming: IndexArray, knots: IndexArray, rows: int
-) -> int:
+def _tie(value: float, t: float, progress: np.record, knots: Records, rows: int) -> int:
     """Write the new knot; return the number of knots."""
-    for k in range(KNOT):
-        knots[rows, k] = coming[k]
-    levels[USUAL] = (value - levels[KNOT_X]) / coming[1]
-    levels[KNOT_T], levels[KNOT_X] = t, value
+    knots[rows] = progress.coming
+    progress.usual = (value - progress.knot_x) / progress.coming.steps
+    progress.knot_t, progress.knot_x = t, value
     return rows + 1

@@ -7,6 +7,7 @@ from floatref.stages.filters.varying import tangents
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ACCELERATION, CUTOFF, HEIGHT, REFERENCE_HEIGHT
+from floatref.values.arrays import new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -32,13 +33,15 @@ class MatchedHighPass(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for both sensors of every track and the cut-off, in time."""
+        from floatref.kernels import matched_high_pass
+
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         header.require(self.name, ChannelId(CUTOFF))
         for name in (ACCELERATION, HEIGHT):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
         self._step = header.step
-        self.memory = {track: np.zeros(10) for track in header.tracks}
+        self.memory = {track: new_record(matched_high_pass.OBSERVER) for track in header.tracks}
         return header.replacing(ACCELERATION, REFERENCE_HEIGHT)
 
     def advance(self, block: Block) -> Block:

@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Direction, Stage
 from floatref.stages.signals import CUTOFF
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, Records, new_records
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
 
@@ -38,7 +38,8 @@ class VaryingHighPass(Stage):
         channels = [ChannelId(self.channel, track) for track in header.tracks]
         header.require(self.name, *channels, ChannelId(CUTOFF))
         self._step = header.step
-        self.memory = {track: np.zeros((len(self.orders), 8)) for track in header.tracks}
+        section, count = self._kernels().SECTION, len(self.orders)
+        self.memory = {track: new_records(count, section) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -53,7 +54,7 @@ class VaryingHighPass(Stage):
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _filter(self, x: FloatArray, c: FloatArray, memory: FloatArray) -> FloatArray:
+    def _filter(self, x: FloatArray, c: FloatArray, memory: Records) -> FloatArray:
         y = np.empty(x.size)
         kernel = getattr(self._kernels(), f"high_pass_{self.orders}")
         kernel(x, y, c, *memory, self.direction is Direction.BACKWARD)

@@ -8,34 +8,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.screening.damage import encoder_progress
+from floatref.values.arrays import new_records
 
 
 def in_chunks(x, apart, cuts, times):
     """Knots, stretches behind and depths that the kernel finds in pieces of ``x``."""
-    levels, coming = (
-        np.zeros(encoder_progress.USUAL + 1),
-        np.zeros(encoder_progress.KNOWN + 1, np.int64),
-    )
-    levels[
-        [
-            encoder_progress.FAR,
-            encoder_progress.BEFORE,
-            encoder_progress.KNOT_T,
-            encoder_progress.KNOT_X,
-        ]
-    ] = -np.inf
-    levels[encoder_progress.USUAL] = np.inf
+    progress = encoder_progress.new_progress()
     knots, behind, depths = [], [], []
     for a, b in pairwise([0, *sorted(cuts), x.size]):
-        rows = np.empty((b - a, encoder_progress.KNOT), np.int64)
+        rows = new_records(b - a, encoder_progress.KNOT)
         spans, deep = np.empty((b - a, 2), np.int64), np.empty(b - a)
         found, back = encoder_progress.follow(
-            x[a : b + 1], b - a, a, times[a:b], apart, levels, coming, rows, spans, deep
+            x[a : b + 1], b - a, a, times[a:b], apart, progress, rows, spans, deep
         )
-        knots += rows[:found].tolist()
+        knots += list(rows[:found])
         behind += [n for first, end in spans[:back].tolist() for n in range(first, end)]
         depths += deep[:back].tolist()
-    return knots, behind, depths, float(levels[encoder_progress.FAR])
+    return knots, behind, depths, float(progress.far)
 
 
 def ahead(x):
@@ -68,17 +57,17 @@ def test_knots_are_those_of_the_signal_in_any_chunks(values, apart, data):
         assert knots == []
         return
     assert far == x[lead[-1]]
-    assert [row[0] for row in knots] == at_least_apart(lead, apart)
+    assert [row["at"] for row in knots] == at_least_apart(lead, apart)
     for before, row in pairwise(knots):
-        way = [n for n in lead if before[0] <= n <= row[0]]
+        way = [n for n in lead if before["at"] <= n <= row["at"]]
         steps = [(x[b] - x[a], a, b) for a, b in pairwise(way)]
-        assert row[1] == len(steps)
+        assert row["steps"] == len(steps)
         _, front, to = max(steps, key=lambda step: step[0])
-        assert (row[2], row[4]) == (to, front)
-        assert row[3] == max(n for n in range(to) if x[n] == x[n])
-        assert row[6] - row[5] == max(b - a for _, a, b in steps)
-        assert (row[5], row[6]) in [(a, b) for _, a, b in steps]
-        assert row[7] == way[-2]
+        assert (row["step"], row["front"]) == (to, front)
+        assert row["before_step"] == max(n for n in range(to) if x[n] == x[n])
+        assert row["after_gap"] - row["gap"] == max(b - a for _, a, b in steps)
+        assert (row["gap"], row["after_gap"]) in [(a, b) for _, a, b in steps]
+        assert row["since"] == way[-2]
 
 
 def at_least_apart(lead, apart):
