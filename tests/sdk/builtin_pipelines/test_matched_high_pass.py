@@ -92,13 +92,6 @@ def bump(distance):
     return np.where(np.abs(u) < 0.5, BUMP_M * np.cos(np.pi * u) ** 2, 0.0)
 
 
-def test_the_motion_is_the_acceleration_integrated_twice():
-    drive = Drive(1000.0, 0.05, 2.0, 0.025, 4.0, 4.0)
-    step = 1.0 / drive.rate_hz
-    found = np.diff(drive.motion, 2) / step**2
-    assert largest(found - drive.acceleration[1:-1]) < 1e-4 * largest(found)
-
-
 @pytest.mark.slow
 @few
 @drives

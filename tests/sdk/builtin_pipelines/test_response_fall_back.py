@@ -141,12 +141,6 @@ def asked(drive: Simulation) -> DropOut:
     return drop_out_of(without_response(drive.recording), drive, gaps)
 
 
-def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
-    loaded = Plugins()
-    loaded.add(Other(drive.truth), "other")
-    assert loaded.fall_back(asked(drive)) is drive.truth
-
-
 def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
     recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
     drop_out = drop_out_of(recording, drive, {"left": np.array([[BEGIN_M, END_M]])})

@@ -1,14 +1,13 @@
 """The road-prior pipeline: its settings act, it takes nominal sensors, and it forgets nothing."""
 
-import warnings
 from dataclasses import fields, replace
 from functools import cache
 
 import numpy as np
 import pytest
 
-import floatref
 from floatref.builtin_pipelines.road_prior import CONSTANTS, ROAD_PRIOR
+from floatref.engine.run import run
 from floatref.errors import InputError
 from floatref.estimators.road_prior import RoadPrior
 from floatref.values.profile import Profile
@@ -52,10 +51,8 @@ def driven() -> Recording:
 
 
 def profile(**settings: float) -> Profile:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", floatref.FloatrefWarning)
-        # So short a run is unsure all the way; what else makes it invalid shall be seen.
-        return floatref.process(driven(), PIPELINE.name, {"most_sigma_share": 1.0, **settings})
+    # So short a run is unsure all the way; what else makes it invalid shall be seen.
+    return run(driven(), PIPELINE.name, {"most_sigma_share": 1.0, **settings}).profile
 
 
 @cache

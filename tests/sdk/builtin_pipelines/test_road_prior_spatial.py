@@ -1,6 +1,5 @@
 """The road prior from triggered samples: as from all samples, where triggers tell as much."""
 
-import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -9,11 +8,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-import floatref
 from floatref.builtin_pipelines.road_prior import ROAD_PRIOR_SPATIAL
 from floatref.builtin_pipelines.signal_flows import SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.plugins import plugins
+from floatref.engine.run import run
 from floatref.intake.blocks import Source
 from floatref.interfaces.pipeline import Context
 from floatref.measures import agreement, high_pass, iri
@@ -76,11 +75,9 @@ def damaged() -> Recording:
 
 
 def profile(recording: Recording, pipeline: str = PIPELINE.name, **settings: float) -> Profile:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", floatref.FloatrefWarning)
-        # So short a run is unsure all the way; what else makes it invalid shall be seen.
-        vouched = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
-        return floatref.process(recording, pipeline, {**vouched, **settings})
+    # So short a run is unsure all the way; what else makes it invalid shall be seen.
+    vouched = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
+    return run(recording, pipeline, {**vouched, **settings}).profile
 
 
 @cache

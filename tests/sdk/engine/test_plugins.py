@@ -67,14 +67,6 @@ def test_one_third_party_replaces_the_default(context):
     assert list(loaded.ask(context)) == [mine]
 
 
-def test_two_answers_stop_with_both_names(context):
-    loaded = Plugins()
-    loaded.add(Answering(Combine()), "one")
-    loaded.add(Answering(Combine()), "two")
-    with pytest.raises(PluginError, match="one and two both answer temporal_combine"):
-        loaded.ask(context)
-
-
 def test_a_raising_plugin_is_reported_and_the_default_answers(context):
     loaded = Plugins()
     loaded.add(Broken(), "cracked")

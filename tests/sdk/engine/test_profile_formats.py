@@ -88,17 +88,6 @@ def test_a_suffix_of_two_formats_is_not_guessed(known):
         format_of(Path("a.mine"))
 
 
-@pytest.mark.parametrize("form", ["profile", "csv"])
-def test_our_own_formats_read_what_they_write(tmp_path, form):
-    out = tmp_path / "made"
-    write_as(format_of(out, form), PROFILE, out)
-    back = profile_of(out)
-    assert (back.interval_m, back.start_m) == (0.25, 2.0)
-    np.testing.assert_array_equal(back.track("left").elevation, PROFILE.track("left").elevation)
-    with pytest.raises(InputError, match="exists"):
-        write_as(format_of(out, form), PROFILE, out)
-
-
 def test_a_profile_is_read_by_the_format_that_recognises_it(known, tmp_path):
     known(Mine())
     write_as(format_of(tmp_path / "a.mine"), PROFILE, tmp_path / "a.mine")

@@ -48,10 +48,6 @@ def test_the_profile_records_how_it_was_made(steady):
     np.testing.assert_array_equal(again.tracks[0].elevation, profile.tracks[0].elevation)
 
 
-def test_the_interval_can_be_set(steady):
-    assert floatref.process(steady(), settings={"interval_m": 0.1}).interval_m == 0.1
-
-
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
@@ -80,11 +76,6 @@ def test_numpy_numbers_are_numbers_and_none_keeps_the_default(steady):
     profile = floatref.process(steady(), settings=given)
     assert profile.interval_m == 0.5
     assert profile.settings["cutoff_wavelength_m"] == 105.91
-
-
-def test_an_unknown_pipeline_is_named(steady):
-    with pytest.raises(InputError, match="pipeline spatial-basics: unknown; there are temporal"):
-        floatref.process(steady(), "spatial-basics")
 
 
 @pytest.mark.parametrize(

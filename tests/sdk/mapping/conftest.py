@@ -15,8 +15,6 @@ from floatref.mapping.clocks.columns import Taken, Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 
-Content = Callable[[Mapping[str, str]], NativeFile]
-
 
 class Logger:
     """The adapter of files `*.log`, whose content a test has given by name."""

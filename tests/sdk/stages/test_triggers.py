@@ -58,15 +58,6 @@ def test_the_triggers_come_back_as_they_were(intervals_s, seed):
 
 
 @laws
-@given(intervals_s=INTERVALS_S)
-def test_every_trigger_is_reached_wherever_it_lies_between_samples(intervals_s):
-    block = triggers(intervals_s)
-    in_time, samples = through(ToTime(), header(), block)
-    _, again = through(ToDistance(INTERVAL, ORIGIN), in_time, samples)
-    assert len(again) == len(block)
-
-
-@laws
 @given(interval_s=st.floats(0.01, 8.0), unknown_s=st.floats(0.2, 4.0))
 def test_the_missing_share_is_that_of_the_interval(interval_s, unknown_s):
     """Density grows with the square of the interval, and what is left of a line by the rest."""

@@ -120,15 +120,6 @@ def test_what_is_expected_is_the_same_as_that_much_less_acceleration(drive, thro
     np.testing.assert_allclose(ours, other, rtol=0, atol=1e-6)
 
 
-def test_a_brake_that_has_told_little_is_not_kept():
-    x, p = np.zeros(STATES), np.eye(STATES)
-    variances = np.diag(PRIOR)
-    p[LEAN, LEAN], p[TILT, TILT] = 0.9 * variances
-    assert not Brake.of(x, p).tells(variances)
-    p[TILT, TILT] = 0.1 * variances[1]
-    assert Brake.of(x, p).tells(variances)
-
-
 def test_what_is_known_already_is_not_learned():
     constants = replace(C, tilt_sigma=1e-9)
     covariance = np.diag(np.square([1e-3, 1e-9]))

@@ -55,13 +55,6 @@ def test_trace_is_additive(seed: int, other: int, interval: float) -> None:
     np.testing.assert_allclose(iri_trace(p + q, interval), both, atol=1e-9)
 
 
-@given(interval=intervals, slope=st.floats(-0.2, 0.2))
-@FEW
-def test_a_plane_has_none(interval: float, slope: float) -> None:
-    z = slope * interval * np.arange(int(20 / interval) + 1)
-    assert iri(z, interval) == pytest.approx(0.0, abs=1e-7)
-
-
 @pytest.mark.cites("(2.7)", "(2.9)")
 @pytest.mark.parametrize("wavelength", [0.7, 1.5, 2.2, 5.0, 12.0, 16.0, 30.0, 60.0])
 def test_sinusoid_is_amplified_as_the_two_responses_say(wavelength: float) -> None:
@@ -98,14 +91,6 @@ def test_segment_boundaries_do_not_drift_from_whole_multiples() -> None:
     cut = iri_segments(z, interval, IriSettings(segment_m=segment))
     for index, found in enumerate(cut):
         assert abs(found.start_m - index * segment) <= interval / 2 * 1.001
-
-
-@given(seed=seeds, interval=intervals)
-@FEW
-def test_whole_is_the_mean_of_the_rectified_trace(seed: int, interval: float) -> None:
-    z = rough_road(seed, interval)
-    expected = np.mean(np.abs(iri_trace(z, interval)))
-    assert iri(z, interval) == pytest.approx(expected, rel=1e-10)
 
 
 @pytest.mark.parametrize(("interval", "window"), [(0.05, 5), (0.00508, 49), (0.2, 1), (0.25, 1)])

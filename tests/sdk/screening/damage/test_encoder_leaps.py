@@ -7,13 +7,11 @@ from hypothesis import strategies as st
 
 import floatref
 from floatref.screening.damage.encoder_damage import encoder_damage
-from floatref.values.channels import ChannelId
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
 RATE, COUNT = 1000.0, 20_000
 CLOCK = UniformClock.of(RATE)
-DISTANCE = ChannelId("distance")
 laws = settings(
     deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )

@@ -159,14 +159,6 @@ def test_while_displacements_are_absent_the_accelerations_carry_the_states_on():
     assert (error.max(axis=0) <= 0.02 * np.abs(states).max(axis=0)).all()
 
 
-def test_nothing_is_told_before_the_first_whole_sample():
-    model = MODELS["quarter car"]
-    y = np.full((5, 2), np.nan)
-    y[3:] = 0.0
-    found = observer(model).estimate(y, np.zeros((5, 1)))
-    np.testing.assert_array_equal(np.isnan(found.states[:, 0]), [True, True, True, False, False])
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["quarter car", "trailer on undamped tyres"])
 @pytest.mark.parametrize("degree", [1, 3])

@@ -10,7 +10,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.values.arrays import Flag, FloatArray
-from floatref.values.block import Axis, Block
+from floatref.values.block import Axis
 from floatref.values.channels import ChannelId
 from floatref.vehicle_response import Kind, QuarterCar, Reading
 from floatref.vehicle_response.estimators.estimate import Estimate
@@ -27,7 +27,7 @@ from floatref.vehicle_response.stages import (
 )
 from floatref.vehicle_response.stages.estimation import drift_sigma
 from floatref_conformance.testing import StageLaws
-from floatref_conformance.testing.streams import Stream, join
+from floatref_conformance.testing.streams import Stream
 
 TRACKS = "left", "right"
 UNDER, SIGMA = "elevation_under_tyre_0", "sigma_under_tyre_0"
@@ -179,14 +179,6 @@ def test_stages_name_the_axis_they_need() -> None:
             stage.start(distance)
     with pytest.raises(InputError, match="is not on the distance axis"):
         ShiftAlong(SHIFTS).start(time)
-
-
-def test_an_empty_block_gives_an_empty_one() -> None:
-    stream = TestToRate().stream()
-    stage = stream.begin([])
-    nothing = {channel: np.empty(0) for channel in stream.samples}
-    assert len(stage.push(Block(0, nothing))) == 0
-    assert len(join([stage.push(b) for b in stream.blocks()] + list(stage.finish()))) == 101
 
 
 def test_the_last_distance_is_that_which_the_encoder_told_last() -> None:
