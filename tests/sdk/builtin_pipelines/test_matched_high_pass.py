@@ -66,7 +66,6 @@ class Drive:
         )
 
     def elevations(self, *pipelines, road=0.0):
-        """The profile's distances, and the elevation that every pipeline finds."""
         clock = floatref.UniformClock.of(self.rate_hz)
         channels = (
             floatref.Channel.of("vertical_specific_force", G + self.acceleration, clock),
@@ -83,7 +82,6 @@ def largest(elevation):
 
 
 def integral(x, rate_hz):
-    """By the trapezoidal rule, from zero."""
     return np.concatenate(([0.0], np.cumsum(x[1:] + x[:-1]))) / (2.0 * rate_hz)
 
 

@@ -24,7 +24,6 @@ BEGIN_M, END_M = 150.0, 160.0
 
 @pytest.fixture(scope="module")
 def drive() -> Simulation:
-    """A van at 72 km/h with its response."""
     return simulate(
         Scenario(
             seed=4,
@@ -39,7 +38,6 @@ def drive() -> Simulation:
 
 
 def dropped(recording: Recording) -> Recording:
-    """Return the recording without the laser's samples between `BEGIN_M` and `END_M`."""
     distance = recording.channel("distance").values
     gone = (distance > BEGIN_M) & (distance < END_M)
     channels = [
@@ -50,13 +48,11 @@ def dropped(recording: Recording) -> Recording:
 
 
 def without_response(recording: Recording) -> Recording:
-    """Return the recording of the laser's profiler alone."""
     nominal = ("vertical_specific_force", "height", "distance")
     return replace(recording, channels=tuple(c for c in recording.channels if c.id.name in nominal))
 
 
 def errors(made: Simulation, profile: Profile) -> FloatArray:
-    """Return how far the profile is from the road, in m."""
     true = high_pass(made.truth.tracks[0].elevation, made.truth.interval_m)
     found = profile.tracks[0].elevation
     size = min(true.size, found.size)
@@ -64,7 +60,6 @@ def errors(made: Simulation, profile: Profile) -> FloatArray:
 
 
 def rms(made: Simulation, result: Result, begin_m: float, end_m: float) -> float:
-    """Return the RMS error in m between two places."""
     inside = slice(round(begin_m / 0.025), round(end_m / 0.025))
     return float(np.sqrt(np.mean(errors(made, result.profile)[inside] ** 2)))
 
@@ -107,28 +102,21 @@ def test_an_unknown_vehicle_is_told_and_the_line_stays(drive: Simulation) -> Non
 
 
 class Other:
-    """A plug-in with an estimate of its own."""
-
     def __init__(self, answer: object) -> None:
-        """Answer with ``answer``."""
         self.answer = answer
 
     @answers("temporal-basic")
     def temporal_fall_back(self, context: DropOut) -> object:
-        """Return the answer, or raise it."""
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
 
 
 def profile_of(drive: Simulation) -> Profile:
-    """Return a profile by the pipeline that the plug-in names."""
     return replace(drive.truth, pipeline="temporal-basic")
 
 
 def drop_out_of(recording: Recording, drive: Simulation, gaps: Mapping[str, FloatArray]) -> DropOut:
-    """Return the drop-out of ``recording``, which runs other pipelines on it."""
-
     def process(pipeline: str, settings: Mapping[str, object] | None = None) -> Profile:
         return run(recording, pipeline, settings).profile
 
@@ -136,7 +124,6 @@ def drop_out_of(recording: Recording, drive: Simulation, gaps: Mapping[str, Floa
 
 
 def asked(drive: Simulation) -> DropOut:
-    """Return a drop-out."""
     gaps: Mapping[str, FloatArray] = {"left": np.array([[BEGIN_M, END_M]])}
     return drop_out_of(without_response(drive.recording), drive, gaps)
 
@@ -183,12 +170,10 @@ class Same:
     """A plug-in that runs a temporal pipeline again, which has the same gaps."""
 
     def __init__(self) -> None:
-        """Begin without questions."""
         self.asked: list[DropOut] = []
 
     @answers("temporal-basic")
     def temporal_fall_back(self, context: DropOut) -> Profile:
-        """Return what another temporal pipeline makes of the recording."""
         self.asked.append(context)
         return context.process("temporal-hpf")
 

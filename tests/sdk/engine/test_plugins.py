@@ -112,7 +112,6 @@ def test_a_name_that_is_taken_removes_nobody(name):
 
 
 def format_with(suffix, name="mine"):
-    """Return an object with the methods of a profile format."""
     methods = {method: lambda *args: None for method in ("recognises", "read", "write")}
     return type("Mine", (), {**methods, "suffix": suffix, "name": name, "summary": "ours"})()
 

@@ -35,7 +35,6 @@ class Mine:
 
 @pytest.fixture
 def known(monkeypatch):
-    """Return what makes formats known, beside the built-in ones."""
     loaded = plugins.Plugins()
     for module in (formats, formats):
         monkeypatch.setattr(module, "plugins", lambda: loaded)

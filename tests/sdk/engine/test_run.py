@@ -101,8 +101,6 @@ def test_progress_ends_at_one(steady):
 
 
 class Doubling(RemoveGravity):
-    """Reads twice the acceleration."""
-
     def advance(self, block):
         out = super().advance(block)
         return out.setting({c: 2.0 * x for c, x in out.values.items() if c.name.endswith("ion")})

@@ -20,7 +20,6 @@ REACH = {
 
 
 def invalid_within(profile, run_in_m=53.0):
-    """Distances of the invalid points away from the ends of the run."""
     x = profile.distance_m
     inner = (x > x[0] + run_in_m) & (x < x[-1] - run_in_m)
     return x[inner & ~profile.tracks[0].valid]

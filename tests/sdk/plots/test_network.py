@@ -97,7 +97,6 @@ def test_a_network_across_the_date_line_stays_together(tmp_path: Path) -> None:
 
 
 def _drawn(given: Columns, folder: Path) -> Figure:
-    """Return the figure that was drawn."""
     kept: list[Figure] = []
     real = Figure.savefig
 
@@ -112,7 +111,6 @@ def _drawn(given: Columns, folder: Path) -> Figure:
 
 
 def _dots(figure: Figure) -> Iterator[np.ndarray]:
-    """Yield where the dots of the map are, in pixels."""
     for ax in figure.axes:
         for dots in ax.collections:
             if isinstance(dots, PathCollection) and len(dots.get_offsets()):

@@ -26,7 +26,6 @@ SIGNALS = ("acceleration", "velocity", "height")
 
 
 def said(error):
-    """Return the message, which is one line."""
     assert "\n" not in str(error.value)
     return str(error.value)
 
@@ -186,7 +185,6 @@ def test_a_chunk_refused_by_the_observer_for_its_speed_counts_for_nothing():
 
 
 def passed(make):
-    """Return a stage that all forward samples have passed."""
     stage = make(100.0)
     if isinstance(stage, MatchedHighPass):
         stage.reference_height(X, X, SPEED)

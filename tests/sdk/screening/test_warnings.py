@@ -21,8 +21,6 @@ def driven() -> Recording:
 
 
 def changed(name: str, change: Callable[[np.ndarray], np.ndarray]) -> Recording:
-    """Return the drive with other values of the GNSS channel ``name``."""
-
     def of(channel: Channel) -> Channel:
         if channel.id.name != name:
             return channel

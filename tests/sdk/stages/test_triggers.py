@@ -31,7 +31,6 @@ def header():
 
 
 def triggers(intervals_s, seed=0):
-    """Return a block of samples that are so far apart in time."""
     times = np.cumsum([0.25, *intervals_s])
     rng = np.random.default_rng(seed)
     return Block(0, {TIME: times, **{c: rng.standard_normal(times.size) for c in (UP, RANGE)}})

@@ -54,7 +54,6 @@ def motion(road: np.ndarray, car: Mapping[str, float] = CAR, rate: float = RATE)
 
 
 def rough(distance: np.ndarray, seed: int = 0, amplitude: float = 1.0) -> np.ndarray:
-    """Return a road of many sines, of some 2 m/km, level and flat at 0 m."""
     rng = np.random.default_rng(seed)
     waves = np.geomspace(0.012, 2.5, 120)
     heights = 7e-5 * amplitude * waves**-1.05 * rng.uniform(0.5, 1.5, waves.size)
@@ -133,13 +132,11 @@ def high_passed(z: np.ndarray, mps: float, interval_m: float) -> np.ndarray:
 
 @pytest.fixture
 def drive():
-    """Return the class of drives."""
     return Drive
 
 
 @pytest.fixture
 def quarter_car():
-    """Return the parameters of the car that is driven."""
     return dict(CAR)
 
 

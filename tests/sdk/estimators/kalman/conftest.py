@@ -87,25 +87,21 @@ class Drive:
 
 
 def run(stage, drive, cuts=()):
-    """Return all that comes out of ``stage``, joined."""
     stage.start(drive.header)
     out = [stage.push(block) for block in drive.blocks(cuts)]
     return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
 
 
 def heights(stage, drive, cuts=()):
-    """Return the floating reference height that comes out of ``stage``."""
     return run(stage, drive, cuts)[ChannelId("floating_reference_height", "left")]
 
 
 def filtered(stage, drive):
-    """Return the floating reference height of the forward pass of ``stage``."""
     stage.start(drive.header)
     return np.concatenate([stage.forward(block)["left"][0] for block in drive.blocks()])
 
 
 def waves(rng, times, amplitude, low_hz, high_hz, count=4):
-    """Return a sum of sines and its first and second derivative."""
     omega = 2 * np.pi * np.exp(rng.uniform(np.log(low_hz), np.log(high_hz), count))[:, None]
     phase = omega * times + rng.uniform(0, 2 * np.pi, (count, 1))
     size = amplitude / count
@@ -161,23 +157,19 @@ def make(seed, seconds, rate, stop=(1e9, 1e9), every_s=0.05, lever=(0.8, -0.5, 1
 
 @pytest.fixture(scope="session")
 def drive():
-    """Return the maker of drives."""
     return make
 
 
 @pytest.fixture(scope="session")
 def through():
-    """Return what runs a drive through a stage: all that comes out."""
     return run
 
 
 @pytest.fixture(scope="session")
 def height_of():
-    """Return what runs a drive through a stage: the floating reference height."""
     return heights
 
 
 @pytest.fixture(scope="session")
 def forward_of():
-    """Return what runs a drive through the forward pass of a stage."""
     return filtered

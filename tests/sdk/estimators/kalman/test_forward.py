@@ -29,8 +29,6 @@ NOISES = st.sampled_from([Noise(), STILL, Noise(acceleration=0.1, pitch_rate=1e-
 
 
 class Out(NamedTuple):
-    """What a run leaves behind."""
-
     x: np.ndarray
     p: np.ndarray
     memory: np.record
@@ -60,7 +58,6 @@ def model_of(noise, sub_block, step=STEP):
 
 
 def drawn(seed, count=6, turning=1.0):
-    """Return inputs of a vehicle, a state and a covariance."""
     rng = np.random.default_rng(seed)
     size = np.array([5.0, 3.0, 4.0, *[turning] * 3])
     u = size * rng.uniform(-1, 1, (1, 6)) + 0.1 * size * rng.uniform(-1, 1, (count, 6))

@@ -31,7 +31,6 @@ STOPS = st.tuples(st.floats(0.3, 2.0), st.floats(0.2, 1.5))
 
 
 def literal(drive, observe):
-    """Return the literal filter's and smoother's heights, shape (n,) each."""
     mean = np.vstack([(drive.u[:-1] + drive.u[1:]) / 2, drive.u[-1:]])
     x_0 = np.array([drive.height[0], 0, 0, 0, 0, 0, 0])
     sigma = per_step(DENSITIES, drive.dt)

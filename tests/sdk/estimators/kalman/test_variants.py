@@ -23,7 +23,6 @@ DENSITIES = (
 
 @pytest.fixture(params=[3, 4])
 def moving(drive, request):
-    """Return a drive that does not stop while it is looked at."""
     return drive(request.param, 1.5, RATE, (50.0, 51.0))
 
 

@@ -54,7 +54,6 @@ def make(seed, seconds, rate, stop=(1e9, 1e9), speed=9.0, share=1.0):
 
 
 def run(stage, drive, cuts=()):
-    """Return all that comes out of ``stage``, joined."""
     stage.start(drive.header)
     out = [stage.push(block) for block in drive.blocks(cuts)]
     return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
@@ -62,11 +61,9 @@ def run(stage, drive, cuts=()):
 
 @pytest.fixture(scope="session")
 def drive():
-    """Return the maker of drives."""
     return make
 
 
 @pytest.fixture(scope="session")
 def through():
-    """Return what runs a drive through a stage."""
     return run

@@ -12,7 +12,6 @@ laws = settings(deadline=None, max_examples=25)
 
 
 def excited(distances, interval_s, hz=1.6, damping=0.3, cuts=()):
-    """Return acceleration and response of all ``distances``, which come in pieces."""
     excitation, found = Excitation.of(interval_s, hz, damping), []
     for piece in np.split(np.asarray(distances, float), sorted(cuts)):
         excitation.add(piece)

@@ -17,7 +17,6 @@ RATE, STOP = 200, (6.0, 10.0)
 
 
 def standing(drive, seed, leap_m, at_s):
-    """Return a drive on a flat road whose height sensor leaps."""
     drawn = drive(seed, 16.0, RATE, STOP)
     noise = np.random.default_rng(seed).normal(size=(2, drawn.a.size))
     height = 0.3 + 4e-5 * noise[0]

@@ -40,7 +40,6 @@ STOPS = st.tuples(st.floats(0.4, 1.2), st.floats(0.1, 1.0))
 
 
 def excited(drive):
-    """Return acceleration and response at all samples."""
     excitation = Excitation.of(1 / drive.rate, C.pitch_hz, C.pitch_damping)
     excitation.add(drive.distance)
     excitation.end()

@@ -39,7 +39,6 @@ def cut_samples(draw: st.DrawFn) -> tuple[list[float], list[int]]:
 
 
 def travelled(speeds: Sequence[float], times: Sequence[float]) -> list[float]:
-    """Return the distance by the trapezoidal rule, one sample after the other."""
     distance, found, before = 0.0, [], None
     for v, t in zip(speeds, times, strict=True):
         if math.isnan(v):

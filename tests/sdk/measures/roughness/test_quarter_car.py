@@ -12,7 +12,6 @@ CARS = [GOLDEN_CAR, RIDE_NUMBER_CAR]
 
 
 def unpacked(modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Complex poles and gains of both modes."""
     poles, gains = modes.reshape(2, 2, 2).transpose(1, 0, 2) @ np.array([1.0, 1j])
     return poles, gains
 

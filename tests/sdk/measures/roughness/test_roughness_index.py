@@ -24,7 +24,6 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def rough_road(seed: int, interval: float, length: float = 60.0) -> np.ndarray:
-    """White-noise slope of about 2 m/km."""
     count = int(length / interval) + 2
     slope = np.random.default_rng(seed).normal(0.0, 2e-3, count)
     return np.cumsum(slope) * np.sqrt(interval)

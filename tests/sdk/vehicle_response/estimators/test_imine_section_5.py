@@ -15,7 +15,6 @@ SEEDS = [1, 2, 3]
 
 @pytest.fixture(scope="module")
 def cases():
-    """Return the module of the cases."""
     with pytest.MonkeyPatch.context() as patched:
         patched.syspath_prepend(str(BENCHMARKS))
         yield importlib.import_module("imine_cases")

@@ -20,7 +20,6 @@ MOTIONS = Kind.ACCELERATION, Kind.DISPLACEMENT
 
 
 def all_read(model, sigma=1.0, without=()):
-    """Acceleration and displacement of every freedom but those named."""
     names = [f.name for f in model.freedoms if f.name not in without]
     return [Reading(kind, name, sigma) for kind in MOTIONS for name in names]
 

@@ -15,7 +15,6 @@ RATIOS = st.floats(1.01, 30.0)
 
 
 def inside(rule):
-    """The outputs whose window lies within the input."""
     return slice(
         math.ceil(rule.reach_s * rule.to_hz) + 1, -math.ceil(rule.reach_s * rule.to_hz) - 1
     )

@@ -198,7 +198,6 @@ class Steady:
         """Keep nothing."""
 
     def advance(self, memory: None, samples: FloatArray) -> Estimate:
-        """Return the same for all samples."""
         size, rest = len(samples), np.zeros((len(samples), 4))
         road = np.full((size, 1), 3e-3)
         return Estimate(road, np.full((size, 1), 1e-3), rest, rest)
