@@ -53,9 +53,9 @@ def test_every_stop_is_adequate(stop_m: float) -> None:
     made, profile, _ = driven()
     (track,) = profile.tracks
     encoder, motion = made.recording.channel("distance"), made.motion
-    told = np.interp(motion.times_s, encoder.times_s, encoder.values)
+    counted = np.interp(motion.times_s, encoder.times_s, encoder.values)
     points = encoder.values[0] + INTERVAL_M * np.arange(track.elevation.size)
-    road = high_pass(np.interp(points, told, motion.tracks["left"].road_m), INTERVAL_M)
+    road = high_pass(np.interp(points, counted, motion.tracks["left"].road_m), INTERVAL_M)
     inside = slice(round((stop_m - 80.0) / INTERVAL_M), round((stop_m + 80.0) / INTERVAL_M))
     traces = (iri_trace(z, INTERVAL_M)[inside] for z in (road, track.elevation))
     found = cross_correlation(*traces, INTERVAL_M, 1.0)

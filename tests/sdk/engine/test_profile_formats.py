@@ -20,8 +20,8 @@ class Mine:
 
     name, suffix, summary = "mine", ".mine", "of a vendor"
 
-    def __init__(self, **told):
-        vars(self).update(told)
+    def __init__(self, **attributes):
+        vars(self).update(attributes)
 
     def recognises(self, path):
         return path.suffix == self.suffix

@@ -128,9 +128,9 @@ def test_no_place_is_told_where_the_encoder_lost_travel(interval_s, lasts_s):
     at = np.arange(len(samples))
     inside = (at > places[2] + 1.0 + 1e-6) & (at < places[3] - 1e-6)
     np.testing.assert_array_equal(np.isnan(samples[DISTANCE][inside]), True)
-    told = (at < places[2] + 1.0 - 1e-6) | (at > places[3] + 1e-6)
+    known = (at < places[2] + 1.0 - 1e-6) | (at > places[3] + 1e-6)
     line = np.interp(at, places, ORIGIN + INTERVAL * np.arange(6))
-    inner = told & (at <= places[-1])
+    inner = known & (at <= places[-1])
     np.testing.assert_allclose(samples[DISTANCE][inner], line[inner], rtol=1e-9)
 
 

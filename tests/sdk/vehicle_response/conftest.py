@@ -68,7 +68,7 @@ def rough(distance: np.ndarray, seed: int = 0, amplitude: float = 1.0) -> np.nda
 class Drive:
     """One wheel path at a constant speed; places in m ahead of the vehicle point.
 
-    ``noise`` is of one sample by channel, ``warnings`` the parameters that the recording states.
+    ``noise`` is of one sample by channel, ``stated`` the parameters that it says the vehicle has.
     """
 
     mps: float = 20.0
@@ -76,7 +76,7 @@ class Drive:
     wheel_m: float = 0.0
     laser_m: float = 0.0
     noise: Mapping[str, float] | None = None
-    warnings: Mapping[str, float] | None = None
+    stated: Mapping[str, float] | None = None
     car: Mapping[str, float] | None = None
     seed: int = 0
     interval_m: float = 0.05
@@ -107,7 +107,7 @@ class Drive:
             channels[name] = Channel.of(name, x + spread, clock, "left")
         channels |= replaced
         tracks = {"left": TrackSetup((0.1, 0.0, 0.0), (self.laser_m - 0.1, 0.0, 0.0))}
-        vehicle = VehicleSetup("quarter-car", dict(self.warnings or car), self.wheel_m)
+        vehicle = VehicleSetup("quarter-car", dict(self.stated or car), self.wheel_m)
         setup = Setup(profile_interval_m=self.interval_m, tracks=tracks, vehicle=vehicle)
         return Recording(tuple(c for c in channels.values() if c is not None), setup)
 

@@ -68,8 +68,8 @@ def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_error_is_within_two_sigma(drive, quarter_car, pipeline, seed):
     rng = np.random.default_rng(seed)
-    told = {name: x * (1.0 + 0.03 * rng.standard_normal()) for name, x in quarter_car.items()}
-    noisy = drive(mps=20.0, noise=NOISE, warnings=told, seed=seed)
+    stated = {name: x * (1.0 + 0.03 * rng.standard_normal()) for name, x in quarter_car.items()}
+    noisy = drive(mps=20.0, noise=NOISE, stated=stated, seed=seed)
     track, road = noisy.compared(pipeline)
     error = np.abs(track.elevation - road)[track.valid]
     sigma = track.sigma[track.valid]

@@ -51,7 +51,7 @@ def test_units_that_cannot_be_are_refused(
 
 
 @pytest.mark.parametrize(
-    ("unit", "file", "scale", "told"),
+    ("unit", "file", "scale", "warned"),
     [
         ("mm", "m", 1.0, True),
         ("m", "counts", 1.0, True),
@@ -63,10 +63,10 @@ def test_units_that_cannot_be_are_refused(
     ],
 )
 def test_a_map_that_overrules_the_file_is_told(
-    unit: str, file: str, scale: float, told: bool
+    unit: str, file: str, scale: float, warned: bool
 ) -> None:
     made = Conversion(ChannelEntry("c", "height", unit=unit, scale=scale), Column("c", file))
     assert made.warnings == (
-        [f"the file says unit {file}, the map {unit}; the map counts"] if told else []
+        [f"the file says unit {file}, the map {unit}; the map counts"] if warned else []
     )
     assert converted(made, 2.0) == pytest.approx(unit_of(unit).factor * scale * 2.0)

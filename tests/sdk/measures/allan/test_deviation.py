@@ -144,10 +144,10 @@ def test_cluster_sizes_rise_from_one_to_a_third_and_stay_dense(count: int) -> No
 
 
 def test_progress_goes_up_to_one() -> None:
-    warnings: list[float] = []
-    allan_deviation(drawn(0, 1000), 1.0, warnings.append)
-    assert warnings == sorted(warnings)
-    assert warnings[-1] == 1.0
+    shares: list[float] = []
+    allan_deviation(drawn(0, 1000), 1.0, shares.append)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
 
 
 @given(seed=seeds, held=st.integers(2, 60))

@@ -51,12 +51,12 @@ def test_without_noise_all_is_exact_from_any_start(model, seed, hold):
     readings = all_read(model)
     force, states, samples = driven(model, readings, seed, hold)
     found = JointInputState.of(model, readings, STEP, start(model), start(model, 1e4), hold)
-    told = found.estimate(samples)
+    estimate = found.estimate(samples)
     late = slice(200, None)
-    np.testing.assert_allclose(told.force[late], force[late], atol=1e-4 * np.abs(force).max())
+    np.testing.assert_allclose(estimate.force[late], force[late], atol=1e-4 * np.abs(force).max())
     scale = np.abs(states).max(axis=0)
-    np.testing.assert_allclose(told.states[late] / scale, states[late] / scale, atol=1e-4)
-    np.testing.assert_allclose(told.road, told.force / [t.stiffness for t in model.tyres])
+    np.testing.assert_allclose(estimate.states[late] / scale, states[late] / scale, atol=1e-4)
+    np.testing.assert_allclose(estimate.road, estimate.force / [t.stiffness for t in model.tyres])
 
 
 @pytest.mark.slow
@@ -116,8 +116,10 @@ def test_equipment_that_carries_no_sensor_is_told(hold):
     noisy = samples + sigmas * np.random.default_rng(6).normal(size=samples.shape)
     known = [Reading(r.kind, r.freedom, s) for r, s in zip(readings, sigmas, strict=True)]
     noise = hold_error_of(model, STEP, 10.0, "C", hold)
-    told = JointInputState.of(model, known, STEP, noise, start(model, 5e-5), hold).estimate(noisy)
-    found = told.states @ output.T + told.force @ direct.T
+    estimate = JointInputState.of(model, known, STEP, noise, start(model, 5e-5), hold).estimate(
+        noisy
+    )
+    found = estimate.states @ output.T + estimate.force @ direct.T
     right = states @ output.T + force @ direct.T
     error = np.linalg.norm(found - right, axis=0) / np.linalg.norm(right, axis=0)
     assert error[1] < 0.08

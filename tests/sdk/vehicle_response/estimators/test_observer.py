@@ -68,11 +68,11 @@ def test_a_smooth_road_and_all_states_are_followed(name):
     model = MODELS[name]
     road, states, accelerations = driven(model, 6.0)
     found = observer(model).estimate(states[:, : len(model.freedoms)], accelerations)
-    told = ~np.isnan(found.road[:, 0])
+    settled = ~np.isnan(found.road[:, 0])
     assert found.force is None
-    assert told.sum() > 300
-    assert np.abs(found.road - road)[told].max() <= 0.005 * np.abs(road).max()
-    error = np.abs(found.states - states)[told].max(axis=0)
+    assert settled.sum() > 300
+    assert np.abs(found.road - road)[settled].max() <= 0.005 * np.abs(road).max()
+    error = np.abs(found.states - states)[settled].max(axis=0)
     assert (error <= 0.005 * np.abs(states).max(axis=0)).all()
 
 
@@ -85,13 +85,13 @@ def test_states_that_no_sensor_measures_are_estimated(name, without):
     road, states, accelerations = driven(model, 25.0)
     chosen = [model.index(reading.freedom) for reading in readings(model, *without)]
     found = observer(model, *without).estimate(states[:, chosen], accelerations)
-    told = ~np.isnan(found.road[:, 0])
-    assert told.sum() > 300
+    settled = ~np.isnan(found.road[:, 0])
+    assert settled.sum() > 300
     for freedom in map(model.index, without):
         for place in (freedom, freedom + len(model.freedoms)):
-            error = np.abs(found.states - states)[told, place].max()
+            error = np.abs(found.states - states)[settled, place].max()
             assert error <= 0.01 * np.abs(states[:, place]).max()
-    assert np.abs(found.road - road)[told].max() <= 0.005 * np.abs(road).max()
+    assert np.abs(found.road - road)[settled].max() <= 0.005 * np.abs(road).max()
 
 
 @FEW

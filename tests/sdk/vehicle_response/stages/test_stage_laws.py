@@ -162,8 +162,8 @@ def test_the_better_tyre_counts_more_and_a_lost_one_not_at_all() -> None:
     out = stream.run()
     np.testing.assert_allclose(out[ChannelId("elevation", "left")], [1.6, 4.0, np.nan])
     np.testing.assert_allclose(out[ChannelId("elevation_sigma", "left")], [1e-3, 2e-3, np.nan])
-    told = out.flags[ChannelId("elevation", "left")]
-    assert [bool(flag) for flag in told] == [False, True, True]
+    flags = out.flags[ChannelId("elevation", "left")]
+    assert [bool(flag) for flag in flags] == [False, True, True]
 
 
 def test_components_beyond_the_window_are_refused() -> None:
