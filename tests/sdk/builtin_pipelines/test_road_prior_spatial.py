@@ -1,25 +1,14 @@
 """The road prior from triggered samples: as from all samples, where triggers tell as much."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from floatref.builtin_pipelines.road_prior import ROAD_PRIOR_SPATIAL
-from floatref.builtin_pipelines.signal_flows import SIGNAL_FLOWS
-from floatref.engine import flow
-from floatref.engine.plugins import plugins
 from floatref.engine.run import run
-from floatref.intake.blocks import Source
-from floatref.interfaces.pipeline import Context
 from floatref.measures import agreement, high_pass, iri
-from floatref.screening.findings import Screening
-from floatref.stages.signals import ELEVATION, SIGMA
-from floatref.values.block import join_blocks
-from floatref.values.channels import ChannelId
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, Simulation, simulate
@@ -107,33 +96,6 @@ def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
     (beside,) = profile(damaged(), IN_TIME).tracks
     # Flags of the accelerometer come some milliseconds earlier, as its filter's delay is taken off.
     assert np.count_nonzero(track.valid != beside.valid) <= 5
-
-
-def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
-    """Return elevation, 1-σ and flags of the points if the run comes in such blocks."""
-    settings = PIPELINE.resolve({"interval_m": 0.02})
-    whole = join_blocks(list(source.blocks()))
-    cuts = [0]
-    while cuts[-1] < len(whole):
-        cuts.append(min(cuts[-1] + sizes(), len(whole)))
-    blocks = [whole.part(i, j) for i, j in pairwise(cuts)]
-    loaded = plugins()
-    stages = SIGNAL_FLOWS["spatial"](
-        lambda point: loaded.ask(Context(point, PIPELINE, settings, source.header, source.origin_m))
-    )
-    _, out = flow.run(stages, source.header, blocks)
-    found, marked = join_blocks(list(out)), ChannelId(ELEVATION, "left")
-    flags = found.flags.get(marked, np.zeros(len(found), np.uint8))
-    return found[marked], found[ChannelId(SIGMA, "left")], flags
-
-
-@pytest.mark.slow
-def test_blocks_of_any_size_give_the_same_bits() -> None:
-    source, rng = Source(Screening.of(damaged())), np.random.default_rng(0)
-    whole = taken(source, lambda: 1 << 40)
-    for sizes in (lambda: 997, lambda: int(rng.integers(1, 60_000))):
-        for one, other in zip(taken(source, sizes), whole, strict=True):
-            np.testing.assert_array_equal(one, other)
 
 
 @pytest.mark.slow

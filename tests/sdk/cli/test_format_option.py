@@ -1,13 +1,12 @@
 """Profile formats as a user calls them: written by `process`, read wherever a PROFILE is."""
 
-import json
 import sys
 
 import numpy as np
 import pytest
 
 from floatref.cli import process as process_module
-from floatref.files import read_profile, write_recording
+from floatref.files import write_recording
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
@@ -54,27 +53,6 @@ def test_iri_is_that_of_the_profile_directory(folder, suffix, reported):
     assert found["tracks"][0]["iri_m_per_km"] == pytest.approx(
         expected["tracks"][0]["iri_m_per_km"], rel=1e-4
     )
-
-
-@pytest.mark.parametrize("suffix", SUFFIXES)
-def test_each_agrees_with_the_profile_directory(folder, suffix, invoke):
-    result = invoke("compare", folder / f"made{suffix}", folder / "made", "--json")
-    (track,) = json.loads(result.stdout)["tracks"]
-    assert track["cross_correlation"] == pytest.approx(1.0, abs=1e-6)
-    assert track["offset_m"] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_parquet_keeps_what_a_vehicle_is_learned_from(folder, refused):
-    for suffix in ("", ".parquet"):
-        assert "holds no estimate of a vehicle" in refused(
-            "vehicle", folder / f"made{suffix}", "--out", folder / "kept.json"
-        )
-    from floatref.engine.formats import profile_of
-
-    kept = profile_of(folder / "made.parquet")
-    expected = read_profile(folder / "made")
-    assert kept.settings == expected.settings
-    assert kept.provenance == {**expected.provenance}
 
 
 def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder, ran, refused):

@@ -167,9 +167,4 @@ def test_listings(folder, invoke, reported):
     ]
     assert "recording" in invoke("adapters").output
     assert re.search(r"temporal-mean-removal +temporal ", invoke("pipelines").output)
-    listed = reported("adapters")
-    assert listed["adapters"][0]["name"] == "recording"
-    assert [(f["name"], f["suffix"]) for f in listed["formats"]][:2] == [
-        ("profile", ""),
-        ("csv", ".csv"),
-    ]
+    assert reported("adapters")["adapters"][0]["name"] == "recording"

@@ -54,11 +54,6 @@ def context():
     return Context("temporal_combine", pipeline, pipeline.settings, None, 0.0)
 
 
-def test_without_others_the_default_answers(context):
-    (stage,) = Plugins().ask(context)
-    assert isinstance(stage, Combine)
-
-
 def test_one_third_party_replaces_the_default(context):
     loaded = Plugins()
     mine = RemoveMean("elevation")

@@ -30,15 +30,6 @@ def test_nothing_happens_at_the_limit_and_above(seed, limit):
 
 
 @FEW
-@given(seed=SEEDS)
-def test_above_the_limit_only_an_offset_is_left(seed):
-    d, speed = wandering(seed)
-    steps = np.diff(held(d, speed)) - np.diff(d)
-    free = speed[1:] >= LIMIT
-    assert np.abs(steps[free]).max(initial=0.0) <= 1e-15
-
-
-@FEW
 @given(seed=SEEDS, at=st.integers(1, 598), of_speed=st.booleans())
 def test_a_missing_value_is_the_one_before_it(seed, at, of_speed):
     d, speed = wandering(seed)

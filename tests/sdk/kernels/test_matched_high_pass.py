@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.kernels import matched_high_pass, state_variable
+from floatref.kernels import matched_high_pass
 
 STEP = 1e-3
 SEEDS = st.integers(0, 2**32 - 1)
@@ -32,22 +32,6 @@ def test_a_flat_road_stays_flat_under_any_cut_off(seed):
     h = 0.3 + integral(integral(a))
     c = np.tan(np.pi * STEP * rng.uniform(0.01, 20.0, 2000))
     assert np.abs(observed(a, h, c) - h).max() <= 1e-12
-
-
-@pytest.mark.cites("(A.1)")
-@FEW
-@given(seed=SEEDS, hertz=st.floats(0.05, 20.0))
-def test_a_constant_cut_off_is_the_filter_of_the_profile(seed, hertz):
-    rng = np.random.default_rng(seed)
-    a, h = rng.standard_normal(2000), 0.3 + 0.01 * rng.standard_normal(2000)
-    h[0] = 0.3
-    profile = integral(integral(a)) - (h - 0.3)
-    c = np.tan(np.pi * STEP * hertz)
-    expected = np.empty(2000)
-    # The profile begins at zero, so either start leaves the stages at rest.
-    state_variable.high_pass_1(profile, expected, np.zeros(4), c, False)
-    state_variable.high_pass_2(expected, expected, np.zeros(4), c, False)
-    assert np.abs(observed(a, h, np.full(2000, c)) - h - expected).max() <= 1e-11
 
 
 @FEW

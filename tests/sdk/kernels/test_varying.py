@@ -1,13 +1,11 @@
 """The varying kernels are the printed recursion at every sample's own cut-off."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.kernels import state_variable, varying
+from floatref.kernels import varying
 from floatref_reference.appendix_a import varying as literal
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -61,19 +59,6 @@ def test_accuracy_holds_at_low_cut_offs_and_16_khz(name, backward):
     expected = PAIRS[name, backward](x, cutoff, 1.0)
     error = np.abs(filtered(name, x, np.tan(np.pi * cutoff), backward) - expected).max()
     assert error <= 1e-12 * np.abs(x).max()
-
-
-@pytest.mark.cites("(A.2)", "(A.3)")
-@every_kernel
-@FEW
-@given(cutoff=st.floats(1e-4, 0.45), seed=SEEDS)
-def test_a_constant_cut_off_is_the_fixed_stage(name, backward, cutoff, seed):
-    x = np.random.default_rng(seed).standard_normal(200)
-    c = math.tan(math.pi * cutoff)
-    expected = np.empty(x.size)
-    fixed = np.zeros(state_variable.MEMORY)
-    getattr(state_variable, name)(x, expected, fixed, c, backward)
-    assert np.abs(filtered(name, x, np.full(200, c), backward) - expected).max() <= 1e-11
 
 
 @pytest.mark.parametrize("backward", [False, True])

@@ -43,17 +43,13 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     [
         (["runs"], "Missing option '--out'"),
         (["--out", "out"], "Missing argument 'IN...'"),
-        (["nowhere", "--out", "out"], "nowhere: not found"),
-        (["others", "--out", "out"], "no recording in it"),
         (["runs", "--out", "out", "--jobs", "0"], "0 is not in the range"),
         (
             ["runs", "--out", "out", "--jobs", "2", "--cluster", "tcp://a:1"],
             "omit it or --cluster",
         ),
-        (["runs", "--out", "out", "--pipeline", "temporal"], "pipeline temporal: unknown"),
         (["runs", "--out", "out", "--settings", "given.json"], "setting cutoff"),
         (["runs", "--out", "out", "--segment", "-5"], "segment -5.0 m"),
-        (["runs", "--out", "out", "--segment", "nan"], "segment nan m"),
         (["runs", "--out", "out", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
         (["runs", "--out", "none/out"], "its folder does not exist"),
         (["runs", "--out", "given.json"], "given.json: is not a folder"),

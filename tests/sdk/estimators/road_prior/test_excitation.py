@@ -62,22 +62,6 @@ def test_the_response_is_the_literal_one(seed, hz, damping, interval_s):
 
 
 @laws
-@given(
-    seed=st.integers(0, 2**32 - 1),
-    count=st.integers(1, 200),
-    cuts=st.lists(st.integers(0, 200), max_size=5),
-    lost=st.integers(0, 400),
-)
-def test_pieces_make_no_difference_and_all_is_told(seed, count, cuts, lost):
-    distances = np.cumsum(np.random.default_rng(seed).uniform(0.0, 0.1, count))
-    distances[lost : lost + 3] = np.nan
-    found = excited(distances, 0.004, cuts=[cut for cut in cuts if cut <= count])
-    assert found.shape == (2, count)
-    assert np.isfinite(found).all()
-    np.testing.assert_array_equal(found, excited(distances, 0.004))
-
-
-@laws
 @given(a=st.floats(0.5, 9.0), interval_s=st.sampled_from([0.002, 0.01, 0.02]))
 def test_a_brake_fades_within_seconds_where_the_encoder_is_silent(a, interval_s):
     """It goes on at first, and e times less of it is left after every second; so of pitch."""
