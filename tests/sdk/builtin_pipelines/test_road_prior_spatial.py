@@ -76,23 +76,15 @@ def usual() -> Profile:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("setting", PIPELINE.settings)
-def test_every_setting_changes_the_profile(setting: str) -> None:
+def test_every_setting_changes_the_profile(setting: str, assert_other) -> None:
     # What is vouched for is set above; there is less of it with less.
     factor = 0.1 if setting == "most_sigma_share" else 2.0
     other = profile(damaged(), **{setting: factor * (PIPELINE.settings[setting] or 0.02)})
-    (a,), (b,) = other.tracks, usual().tracks
-    assert a.sigma is not None
-    assert b.sigma is not None
-    pairs = ((a.elevation, b.elevation), (a.sigma, b.sigma), (a.valid, b.valid))
-    assert not all(np.array_equal(x, y) for x, y in pairs)
+    assert_other(other, usual())
 
 
-def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
-    (track,) = usual().tracks
-    assert track.sigma is not None
-    assert np.isfinite(track.elevation).all()
-    assert (track.sigma > 0.0).all()
-    assert not track.valid.all()
+def test_all_points_have_elevation_and_sigma_whatever_is_missing(assert_all_known) -> None:
+    (track,) = assert_all_known(usual())
     (beside,) = profile(damaged(), IN_TIME).tracks
     # Flags of the accelerometer come some milliseconds earlier, as its filter's delay is taken off.
     assert np.count_nonzero(track.valid != beside.valid) <= 5

@@ -9,21 +9,13 @@ from floatref.engine import plugins, run
 from floatref.errors import InputError
 from floatref.measures import iri
 from floatref.stages.conditioning import RemoveGravity
-from floatref.values.clock import UniformClock
-from floatref.values.recording import Channel
-
-RATE = UniformClock.of(1000.0)
 
 
 def test_a_smooth_bouncing_drive_over_a_flat_road_is_flat(steady):
     times = np.arange(30_000) / 1000.0
     bounce = 0.02 * (1.0 - np.cos(2.0 * np.pi * 1.5 * times))
     force = 9.80665 + 0.02 * (2.0 * np.pi * 1.5) ** 2 * np.cos(2.0 * np.pi * 1.5 * times)
-    recording = steady(
-        seconds=30.0,
-        vertical_specific_force=Channel.of("vertical_specific_force", force, RATE),
-        height=Channel.of("height", 0.3 + bounce, RATE),
-    )
+    recording = steady(seconds=30.0, vertical_specific_force=force, height=0.3 + bounce)
     for pipeline in ("temporal-basic", "temporal-mean-removal", "spatial-basic"):
         profile = floatref.process(recording, pipeline)
         assert iri(profile.tracks[0].elevation, profile.interval_m) < 0.01
@@ -113,7 +105,7 @@ class Vendor:
 
 
 def test_a_plugged_in_stage_takes_the_place_of_ours(steady, monkeypatch):
-    recording = steady(height=Channel.of("height", 0.3 + 1e-13 * np.cos(np.arange(4000.0)), RATE))
+    recording = steady(height=0.3 + 1e-13 * np.cos(np.arange(4000.0)))
     plain = floatref.process(recording)
     loaded = plugins.Plugins()
     loaded.add(Vendor(), "vendor")

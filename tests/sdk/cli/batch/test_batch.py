@@ -52,8 +52,6 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (["runs", "--out", "out", "--segment", "-5"], "segment -5.0 m"),
         (["runs", "--out", "out", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
         (["runs", "--out", "none/out"], "its folder does not exist"),
-        (["runs", "--out", "given.json"], "given.json: is not a folder"),
-        (["runs", "--out", "others"], "others: is not empty"),
         (["runs", "--out", "others", "--resume"], "others: holds other files and no batch"),
         (["runs", "--out", "out", "--cluster", "far away"], "no scheduler answers there"),
     ],
