@@ -79,20 +79,22 @@ def drawn():
 
 @pytest.fixture
 def steady():
-    """Return a maker of one-track recordings at 20 m/s, with any channel replaced."""
+    """Return a maker of one-track recordings at 20 m/s, any channel or its values replaced."""
 
     def make(seconds=4.0, rate_hz=1000.0, **replaced):
         count = int(seconds * rate_hz)
         clock = UniformClock.of(rate_hz)
         times = np.arange(count) / rate_hz
         channels = {
-            "vertical_specific_force": Channel.of(
-                "vertical_specific_force", G + 0.3 * np.sin(9.0 * times), clock
-            ),
-            "height": Channel.of("height", 0.3 + 0.005 * np.cos(7.0 * times), clock),
-            "distance": Channel.of("distance", 20.0 * times, clock),
+            "vertical_specific_force": G + 0.3 * np.sin(9.0 * times),
+            "height": 0.3 + 0.005 * np.cos(7.0 * times),
+            "distance": 20.0 * times,
+            **replaced,
         }
-        channels.update(replaced)
-        return Recording(tuple(channels.values()), Setup(profile_interval_m=0.05))
+        made = (
+            x if isinstance(x, Channel) else Channel.of(name, x, clock)
+            for name, x in channels.items()
+        )
+        return Recording(tuple(made), Setup(profile_interval_m=0.05))
 
     return make

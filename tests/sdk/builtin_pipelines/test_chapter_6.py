@@ -1,7 +1,6 @@
 """The Kalman pipelines: their settings act, and what they need is asked for by name."""
 
 import inspect
-import warnings
 from collections.abc import Callable
 from dataclasses import fields, replace
 from functools import cache
@@ -11,6 +10,7 @@ import pytest
 
 import floatref
 from floatref.builtin_pipelines.chapter_6 import KALMAN, NOISE, SETTINGS, noise_of
+from floatref.engine.run import run
 from floatref.errors import InputError
 from floatref.estimators.kalman import Noise
 from floatref.intake.blocks import Source
@@ -84,9 +84,7 @@ def without(name: str) -> Recording:
 
 
 def profile(recording: Recording, name: str, **settings: float) -> Profile:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", floatref.FloatrefWarning)
-        return floatref.process(recording, name, settings)
+    return run(recording, name, settings).profile
 
 
 @cache
@@ -106,10 +104,7 @@ def same(one: Profile, other: Profile) -> bool:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=() if n == "kalman-smoother" else pytest.mark.slow) for n in PIPELINES],
-)
+@every_pipeline
 @pytest.mark.parametrize("setting", SETTINGS)
 def test_every_setting_changes_the_profile_where_it_is_of_any_use(name: str, setting: str) -> None:
     value = PIPELINES[name].settings[setting] or 0.05

@@ -66,7 +66,6 @@ class Drive:
         )
 
     def elevations(self, *pipelines, road=0.0):
-        """The profile's distances, and the elevation that every pipeline finds."""
         clock = floatref.UniformClock.of(self.rate_hz)
         channels = (
             floatref.Channel.of("vertical_specific_force", G + self.acceleration, clock),
@@ -83,20 +82,12 @@ def largest(elevation):
 
 
 def integral(x, rate_hz):
-    """By the trapezoidal rule, from zero."""
     return np.concatenate(([0.0], np.cumsum(x[1:] + x[:-1]))) / (2.0 * rate_hz)
 
 
 def bump(distance):
     u = (distance - BUMP_AT_M) / BUMP_LENGTH_M
     return np.where(np.abs(u) < 0.5, BUMP_M * np.cos(np.pi * u) ** 2, 0.0)
-
-
-def test_the_motion_is_the_acceleration_integrated_twice():
-    drive = Drive(1000.0, 0.05, 2.0, 0.025, 4.0, 4.0)
-    step = 1.0 / drive.rate_hz
-    found = np.diff(drive.motion, 2) / step**2
-    assert largest(found - drive.acceleration[1:-1]) < 1e-4 * largest(found)
 
 
 @pytest.mark.slow
@@ -144,36 +135,3 @@ def test_a_bump_away_from_the_stop_survives_in_all(**drawn):
     near = np.abs(distance - BUMP_AT_M) < BUMP_LENGTH_M
     for elevation, tolerance in zip(found, (1e-4, 0.01, 0.01), strict=True):
         assert elevation[near].max() == pytest.approx(expected, rel=tolerance)
-
-
-@pytest.mark.slow
-@few
-@given(speed=st.floats(4.0, 33.0), seed=st.integers(0, 2**32 - 1))
-def test_at_one_speed_the_cascade_is_the_observer(speed, seed):
-    drive = Drive(4000.0, 0.05, 2.0, 0.025, 4.0, 4.0)
-    count = drive.distance.size
-    drive.distance = speed * np.arange(count) / drive.rate_hz
-    noise = np.random.default_rng(seed).standard_normal(count)
-    road = 0.005 * np.cumsum(noise) / np.sqrt(drive.rate_hz)
-    road *= swelling(np.arange(count), 0.0, count)[0]
-    distance, matched, cascade = drive.elevations(MATCHED, CASCADES[1], road=road)
-    # The speed of the first 0.05 s is that of a vehicle that stood before.
-    later = distance > 0.05 * speed
-    assert largest(matched[later]) > 1e-3
-    assert largest((matched - cascade)[later]) <= 1e-8
-    v = np.full(count, speed)
-    forward, reverse = passes(drive, 0.3 + drive.motion - road, v)
-    assert largest(forward) <= 1e-12
-    assert largest(reverse) <= 1e-12
-
-
-def passes(drive, height, speed):
-    """How far cascade and observer differ going forward, and after the backward pass in time."""
-    rate_hz, a = drive.rate_hz, drive.acceleration
-    high_passed, observer = floatref.AdaptiveHighPass(rate_hz), floatref.MatchedHighPass(rate_hz)
-    velocity = integral(high_passed.acceleration(a, speed), rate_hz)
-    reference = integral(high_passed.velocity(velocity, speed), rate_hz)
-    cascade = reference - high_passed.height(height, speed)
-    observed = observer.reference_height(a, height, speed) - height
-    backward = high_passed.reverse(cascade, speed) - observer.reverse(observed, speed)
-    return cascade - observed, backward

@@ -7,8 +7,6 @@ from hypothesis import strategies as st
 
 from floatref.engine.plugins import plugins
 from floatref.engine.run import run
-from floatref.values.clock import UniformClock
-from floatref.values.recording import Channel
 from floatref_reference.beyond import matched_high_pass
 from floatref_reference.chapter_5 import (
     section_5_3,
@@ -122,8 +120,7 @@ def test_every_setting_of_an_algorithm_reaches_it(steady, pipeline):
     times = np.arange(6000) / 1000.0
     speed = np.where(times < 3.0, np.clip(12.0 - 6.0 * times, 0.0, None), 4.0 * (times - 3.0))
     distance = 0.0003 * np.floor(np.cumsum(speed) / 1000.0 / 0.0003)
-    clock = UniformClock.of(1000.0)
-    recording = steady(seconds=6.0, distance=Channel.of("distance", distance, clock))
+    recording = steady(seconds=6.0, distance=distance)
     force, height = (
         recording.channel(name).values for name in ("vertical_specific_force", "height")
     )

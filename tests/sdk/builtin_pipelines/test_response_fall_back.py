@@ -24,7 +24,6 @@ BEGIN_M, END_M = 150.0, 160.0
 
 @pytest.fixture(scope="module")
 def drive() -> Simulation:
-    """A van at 72 km/h with its response."""
     return simulate(
         Scenario(
             seed=4,
@@ -39,7 +38,6 @@ def drive() -> Simulation:
 
 
 def dropped(recording: Recording) -> Recording:
-    """Return the recording without the laser's samples between `BEGIN_M` and `END_M`."""
     distance = recording.channel("distance").values
     gone = (distance > BEGIN_M) & (distance < END_M)
     channels = [
@@ -50,13 +48,11 @@ def dropped(recording: Recording) -> Recording:
 
 
 def without_response(recording: Recording) -> Recording:
-    """Return the recording of the laser's profiler alone."""
     nominal = ("vertical_specific_force", "height", "distance")
     return replace(recording, channels=tuple(c for c in recording.channels if c.id.name in nominal))
 
 
 def errors(made: Simulation, profile: Profile) -> FloatArray:
-    """Return how far the profile is from the road, in m."""
     true = high_pass(made.truth.tracks[0].elevation, made.truth.interval_m)
     found = profile.tracks[0].elevation
     size = min(true.size, found.size)
@@ -64,7 +60,6 @@ def errors(made: Simulation, profile: Profile) -> FloatArray:
 
 
 def rms(made: Simulation, result: Result, begin_m: float, end_m: float) -> float:
-    """Return the RMS error in m between two places."""
     inside = slice(round(begin_m / 0.025), round(end_m / 0.025))
     return float(np.sqrt(np.mean(errors(made, result.profile)[inside] ** 2)))
 
@@ -76,10 +71,9 @@ def test_the_response_takes_the_place_of_a_line(drive: Simulation, pipeline: str
     alone = run(without_response(recording), pipeline)
     assert rms(drive, bridged, BEGIN_M, END_M) < 0.5 * rms(drive, alone, BEGIN_M, END_M)
     assert rms(drive, bridged, BEGIN_M, END_M) < 2 * rms(drive, bridged, 100.0, 140.0)
-    told = [line for line in bridged.warnings if "elevation" in line]
-    assert len(told) == 1
-    assert "over 10 m" in told[0]
-    assert "response-joint-input-state" in told[0]
+    (line,) = [line for line in bridged.warnings if "elevation" in line]
+    assert "over 10 m" in line
+    assert "response-joint-input-state" in line
     points = round(np.array(BEGIN_M) / 0.025) + 1, round(np.array(END_M) / 0.025) - 1
     assert not bridged.profile.tracks[0].valid[slice(*points)].any()
 
@@ -95,61 +89,40 @@ def test_a_run_without_gaps_is_left_bit_by_bit(drive: Simulation) -> None:
 
 def test_an_unknown_vehicle_is_told_and_the_line_stays(drive: Simulation) -> None:
     recording = dropped(drive.recording)
-    unknown = replace(recording, setup=replace(recording.setup, vehicle=None))
-    result = run(unknown, "temporal-basic")
+    result = run(unknown_vehicle(recording), "temporal-basic")
     alone = run(without_response(recording), "temporal-basic")
     np.testing.assert_array_equal(
         result.profile.tracks[0].elevation, alone.profile.tracks[0].elevation
     )
-    told = [line for line in result.warnings if "bridged by straight lines only" in line]
-    assert len(told) == 1
-    assert "setup.vehicle" in told[0]
+    (line,) = [line for line in result.warnings if "bridged by straight lines only" in line]
+    assert "setup.vehicle" in line
 
 
 class Other:
-    """A plug-in with an estimate of its own."""
-
     def __init__(self, answer: object) -> None:
-        """Answer with ``answer``."""
         self.answer = answer
 
     @answers("temporal-basic")
     def temporal_fall_back(self, context: DropOut) -> object:
-        """Return the answer, or raise it."""
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
 
 
-def profile_of(drive: Simulation) -> Profile:
-    """Return a profile by the pipeline that the plug-in names."""
-    return replace(drive.truth, pipeline="temporal-basic")
-
-
-def drop_out_of(recording: Recording, drive: Simulation, gaps: Mapping[str, FloatArray]) -> DropOut:
-    """Return the drop-out of ``recording``, which runs other pipelines on it."""
-
+def drop_out_of(recording: Recording, drive: Simulation) -> DropOut:
     def process(pipeline: str, settings: Mapping[str, object] | None = None) -> Profile:
         return run(recording, pipeline, settings).profile
 
-    return DropOut(recording, profile_of(drive), gaps, process)
+    profile = replace(drive.truth, pipeline="temporal-basic")
+    return DropOut(recording, profile, {"left": np.array([[BEGIN_M, END_M]])}, process)
 
 
-def asked(drive: Simulation) -> DropOut:
-    """Return a drop-out."""
-    gaps: Mapping[str, FloatArray] = {"left": np.array([[BEGIN_M, END_M]])}
-    return drop_out_of(without_response(drive.recording), drive, gaps)
-
-
-def test_a_plug_in_takes_the_place_of_ours(drive: Simulation) -> None:
-    loaded = Plugins()
-    loaded.add(Other(drive.truth), "other")
-    assert loaded.fall_back(asked(drive)) is drive.truth
+def unknown_vehicle(recording: Recording) -> Recording:
+    return replace(recording, setup=replace(recording.setup, vehicle=None))
 
 
 def test_ours_is_not_asked_where_another_answers(drive: Simulation) -> None:
-    recording = replace(drive.recording, setup=replace(drive.recording.setup, vehicle=None))
-    drop_out = drop_out_of(recording, drive, {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = drop_out_of(unknown_vehicle(drive.recording), drive)
     loaded = Plugins()
     loaded.add(Other(drive.truth), "other")
     assert loaded.fall_back(drop_out) is drive.truth
@@ -160,27 +133,25 @@ def test_two_plug_ins_that_answer_are_named(drive: Simulation) -> None:
     loaded.add(Other(drive.truth), "one")
     loaded.add(Other(drive.truth), "two")
     with pytest.raises(PluginError, match=r"plug-ins one and two both answer"):
-        loaded.fall_back(asked(drive))
+        loaded.fall_back(drop_out_of(without_response(drive.recording), drive))
 
 
 def test_what_is_no_profile_is_refused_with_the_name(drive: Simulation) -> None:
     loaded = Plugins()
     loaded.add(Other("elevation"), "other")
     with pytest.raises(PluginError, match="other: answered temporal_fall_back with str"):
-        loaded.fall_back(asked(drive))
+        loaded.fall_back(drop_out_of(without_response(drive.recording), drive))
 
 
 def test_a_broken_plug_in_is_reported_and_ours_answers(drive: Simulation) -> None:
     loaded = Plugins()
     loaded.add(Other(ValueError("broken")), "other")
-    assert loaded.fall_back(asked(drive)) is None
+    assert loaded.fall_back(drop_out_of(without_response(drive.recording), drive)) is None
     assert any("other skipped" in line for line in loaded.reports)
 
 
 def test_what_makes_the_estimate_impossible_is_raised(drive: Simulation) -> None:
-    recording = dropped(drive.recording)
-    unknown = replace(recording, setup=replace(recording.setup, vehicle=None))
-    drop_out = drop_out_of(unknown, drive, {"left": np.array([[BEGIN_M, END_M]])})
+    drop_out = drop_out_of(unknown_vehicle(dropped(drive.recording)), drive)
     with pytest.raises(InputError, match=r"setup\.vehicle"):
         plugins().fall_back(drop_out)
 
@@ -189,12 +160,10 @@ class Same:
     """A plug-in that runs a temporal pipeline again, which has the same gaps."""
 
     def __init__(self) -> None:
-        """Begin without questions."""
         self.asked: list[DropOut] = []
 
     @answers("temporal-basic")
     def temporal_fall_back(self, context: DropOut) -> Profile:
-        """Return what another temporal pipeline makes of the recording."""
         self.asked.append(context)
         return context.process("temporal-hpf")
 

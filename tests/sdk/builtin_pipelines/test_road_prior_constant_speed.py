@@ -1,11 +1,9 @@
 """At a constant speed the road prior is the profiler that it began as."""
 
-import warnings
-
 import numpy as np
 import pytest
 
-import floatref
+from floatref.engine.run import run
 from floatref.measures import iri
 from floatref_conformance.proving_ground import Scenario, simulate
 
@@ -33,9 +31,7 @@ def test_its_iri_is_that_of_the_basic_profiler_and_it_vouches_for_it(
     )
     recording, found = simulate(scenario).recording, []
     for pipeline in ("temporal-basic", "road-prior-smoother"):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", floatref.FloatrefWarning)
-            (track,) = floatref.process(recording, pipeline).tracks
+        (track,) = run(recording, pipeline).profile.tracks
         inside = slice(2400, 7200)
         assert np.mean(track.valid[inside]) == 1.0
         found.append(iri(track.elevation[inside], 0.05))

@@ -1,12 +1,11 @@
 """Behind some kilometres the road prior is as good as at first, and keeps no more of the run."""
 
-import warnings
 from functools import cache
 
 import numpy as np
 import pytest
 
-import floatref
+from floatref.engine.run import run
 from floatref.estimators.smoothing.backlog import Backlog
 from floatref.measures import cross_correlation, high_pass, iri_trace
 from floatref.values.profile import Profile
@@ -44,10 +43,9 @@ def driven() -> tuple[Simulation, Profile, int]:
         ended(backlog, sample)
         kept.append(len(backlog.lines["left"].segments))
 
-    with warnings.catch_warnings(), pytest.MonkeyPatch.context() as patched:
-        warnings.simplefilter("ignore", floatref.FloatrefWarning)
+    with pytest.MonkeyPatch.context() as patched:
         patched.setattr(Backlog, "_end_segment", watched)
-        return made, floatref.process(made.recording, "road-prior-smoother"), max(kept)
+        return made, run(made.recording, "road-prior-smoother").profile, max(kept)
 
 
 @pytest.mark.parametrize("stop_m", STOPS_M)
@@ -55,9 +53,9 @@ def test_every_stop_is_adequate(stop_m: float) -> None:
     made, profile, _ = driven()
     (track,) = profile.tracks
     encoder, motion = made.recording.channel("distance"), made.motion
-    told = np.interp(motion.times_s, encoder.times_s, encoder.values)
+    counted = np.interp(motion.times_s, encoder.times_s, encoder.values)
     points = encoder.values[0] + INTERVAL_M * np.arange(track.elevation.size)
-    road = high_pass(np.interp(points, told, motion.tracks["left"].road_m), INTERVAL_M)
+    road = high_pass(np.interp(points, counted, motion.tracks["left"].road_m), INTERVAL_M)
     inside = slice(round((stop_m - 80.0) / INTERVAL_M), round((stop_m + 80.0) / INTERVAL_M))
     traces = (iri_trace(z, INTERVAL_M)[inside] for z in (road, track.elevation))
     found = cross_correlation(*traces, INTERVAL_M, 1.0)

@@ -1,26 +1,14 @@
 """The road prior from triggered samples: as from all samples, where triggers tell as much."""
 
-import warnings
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
 
-import floatref
 from floatref.builtin_pipelines.road_prior import ROAD_PRIOR_SPATIAL
-from floatref.builtin_pipelines.signal_flows import SIGNAL_FLOWS
-from floatref.engine import flow
-from floatref.engine.plugins import plugins
-from floatref.intake.blocks import Source
-from floatref.interfaces.pipeline import Context
+from floatref.engine.run import run
 from floatref.measures import agreement, high_pass, iri
-from floatref.screening.findings import Screening
-from floatref.stages.signals import ELEVATION, SIGMA
-from floatref.values.block import join_blocks
-from floatref.values.channels import ChannelId
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, Simulation, simulate
@@ -76,11 +64,9 @@ def damaged() -> Recording:
 
 
 def profile(recording: Recording, pipeline: str = PIPELINE.name, **settings: float) -> Profile:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", floatref.FloatrefWarning)
-        # So short a run is unsure all the way; what else makes it invalid shall be seen.
-        vouched = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
-        return floatref.process(recording, pipeline, {**vouched, **settings})
+    # So short a run is unsure all the way; what else makes it invalid shall be seen.
+    vouched = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
+    return run(recording, pipeline, {**vouched, **settings}).profile
 
 
 @cache
@@ -90,53 +76,18 @@ def usual() -> Profile:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("setting", PIPELINE.settings)
-def test_every_setting_changes_the_profile(setting: str) -> None:
+def test_every_setting_changes_the_profile(setting: str, assert_other) -> None:
     # What is vouched for is set above; there is less of it with less.
     factor = 0.1 if setting == "most_sigma_share" else 2.0
     other = profile(damaged(), **{setting: factor * (PIPELINE.settings[setting] or 0.02)})
-    (a,), (b,) = other.tracks, usual().tracks
-    assert a.sigma is not None
-    assert b.sigma is not None
-    pairs = ((a.elevation, b.elevation), (a.sigma, b.sigma), (a.valid, b.valid))
-    assert not all(np.array_equal(x, y) for x, y in pairs)
+    assert_other(other, usual())
 
 
-def test_all_points_have_elevation_and_sigma_whatever_is_missing() -> None:
-    (track,) = usual().tracks
-    assert track.sigma is not None
-    assert np.isfinite(track.elevation).all()
-    assert (track.sigma > 0.0).all()
-    assert not track.valid.all()
+def test_all_points_have_elevation_and_sigma_whatever_is_missing(assert_all_known) -> None:
+    (track,) = assert_all_known(usual())
     (beside,) = profile(damaged(), IN_TIME).tracks
     # Flags of the accelerometer come some milliseconds earlier, as its filter's delay is taken off.
     assert np.count_nonzero(track.valid != beside.valid) <= 5
-
-
-def taken(source: Source, sizes: Callable[[], int]) -> tuple[np.ndarray, ...]:
-    """Return elevation, 1-σ and flags of the points if the run comes in such blocks."""
-    settings = PIPELINE.resolve({"interval_m": 0.02})
-    whole = join_blocks(list(source.blocks()))
-    cuts = [0]
-    while cuts[-1] < len(whole):
-        cuts.append(min(cuts[-1] + sizes(), len(whole)))
-    blocks = [whole.part(i, j) for i, j in pairwise(cuts)]
-    loaded = plugins()
-    stages = SIGNAL_FLOWS["spatial"](
-        lambda point: loaded.ask(Context(point, PIPELINE, settings, source.header, source.origin_m))
-    )
-    _, out = flow.run(stages, source.header, blocks)
-    found, marked = join_blocks(list(out)), ChannelId(ELEVATION, "left")
-    flags = found.flags.get(marked, np.zeros(len(found), np.uint8))
-    return found[marked], found[ChannelId(SIGMA, "left")], flags
-
-
-@pytest.mark.slow
-def test_blocks_of_any_size_give_the_same_bits() -> None:
-    source, rng = Source(Screening.of(damaged())), np.random.default_rng(0)
-    whole = taken(source, lambda: 1 << 40)
-    for sizes in (lambda: 997, lambda: int(rng.integers(1, 60_000))):
-        for one, other in zip(taken(source, sizes), whole, strict=True):
-            np.testing.assert_array_equal(one, other)
 
 
 @pytest.mark.slow

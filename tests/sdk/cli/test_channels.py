@@ -1,15 +1,12 @@
 """`floatref channels` as a user calls it."""
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
-from floatref.cli.main import main
 from floatref.files import write_recording
 from floatref.values.clock import UniformClock
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
@@ -62,7 +59,6 @@ class Logger:
 
 @pytest.fixture
 def logger(know: Callable[[object], None]) -> Logger:
-    """The adapter, known to all commands."""
     adapter = Logger()
     know(adapter)
     return adapter
@@ -70,27 +66,12 @@ def logger(know: Callable[[object], None]) -> Logger:
 
 @pytest.fixture
 def run(logger: Logger, tmp_path: Path) -> Path:
-    """A file of the logger."""
     (tmp_path / "run.log").write_bytes(b"native")
     return tmp_path / "run.log"
 
 
-def invoke(*args: object) -> Result:
-    return CliRunner().invoke(main, ["channels", *map(str, args)])
-
-
-def refused(*args: object) -> str:
-    result = invoke(*args)
-    assert result.exit_code == 2
-    assert result.stdout == ""
-    assert result.stderr.strip().count("\n") == 0
-    assert "Traceback" not in result.stderr
-    return result.stderr
-
-
-def test_every_column_is_listed_with_unit_rows_and_clock(run: Path) -> None:
-    result = invoke(run)
-    assert result.exit_code == 0, result.output
+def test_every_column_is_listed_with_unit_rows_and_clock(run: Path, ran) -> None:
+    result = ran("channels", run)
     lines = result.stdout.splitlines()
     assert lines[0] == f"{run} (logger)"
     for name, unit in UNITS.items():
@@ -103,8 +84,8 @@ def test_every_column_is_listed_with_unit_rows_and_clock(run: Path) -> None:
     assert result.stderr == "Warning: 3 frames with a wrong checksum: dropped\n"
 
 
-def test_json_holds_the_same(run: Path) -> None:
-    report = json.loads(invoke(run, "--json").stdout)
+def test_json_holds_the_same(run: Path, reported) -> None:
+    report = reported("channels", run)
     assert report["adapter"] == "logger"
     assert report["device"] == {"vendor": "Acme", "model": "P1"}
     stream = report["streams"][0]
@@ -114,13 +95,13 @@ def test_json_holds_the_same(run: Path) -> None:
     assert report["warnings"] == ["3 frames with a wrong checksum: dropped"]
 
 
-def test_a_drafted_map_can_be_given_back(run: Path, tmp_path: Path) -> None:
-    drafted = invoke(run, "--draft-map")
+def test_a_drafted_map_can_be_given_back(run: Path, tmp_path: Path, invoke, reported) -> None:
+    drafted = invoke("channels", run, "--draft-map")
     assert drafted.exit_code == 0, drafted.output
     assert drafted.stderr == "Warning: 3 frames with a wrong checksum: dropped\n"
     chart = tmp_path / "map.toml"
     chart.write_text(drafted.stdout, "utf-8")
-    tried = json.loads(invoke(run, "--map", chart, "--json").stdout)
+    tried = reported("channels", run, "--map", chart)
     found = {c["channel"]: c for c in tried["channels"]}
     assert list(found) == ["left.vertical_specific_force", "left.height", "distance"]
     native = samples()
@@ -130,41 +111,41 @@ def test_a_drafted_map_can_be_given_back(run: Path, tmp_path: Path) -> None:
     assert found["distance"]["greatest"] == pytest.approx(native["DMI"].max())
     assert all(c["count"] == COUNT and c["rate_hz"] == 1000 for c in tried["channels"])
     assert tried["warnings"] == ["run.log: 3 frames with a wrong checksum: dropped"]
-    table = invoke(run, "--map", chart)
+    table = invoke("channels", run, "--map", chart)
     assert table.exit_code == 0
     assert "adc/Laser LWP" in table.stdout
 
 
-def test_a_map_that_gives_nothing_to_process_is_a_warning_alone(run: Path, tmp_path: Path) -> None:
+def test_a_map_that_gives_nothing_to_process_is_a_warning_alone(
+    run: Path, tmp_path: Path, ran
+) -> None:
     chart = tmp_path / "map.toml"
     text = 'format = "floatref-map/1"\n[[channels]]\nnative = "DMI"\nchannel = "distance"\n'
     chart.write_text(text)
-    result = invoke(run, "--map", chart)
-    assert result.exit_code == 0
+    result = ran("channels", run, "--map", chart)
     assert "Warning: cannot be processed yet: channel height: missing" in result.stderr
 
 
-def test_a_database_is_passed_on_and_drafted(run: Path, logger: Logger) -> None:
+def test_a_database_is_passed_on_and_drafted(run: Path, logger: Logger, invoke) -> None:
     database = run.with_name("bus.dbc")
     database.write_bytes(b"")
-    assert 'dbc = "bus.dbc"' in invoke(run, "--draft-map", "--dbc", database).stdout
+    assert 'dbc = "bus.dbc"' in invoke("channels", run, "--draft-map", "--dbc", database).stdout
     assert logger.options == [{"dbc": str(database.resolve())}]
 
 
-def test_a_recording_directory_is_listed_as_well(tmp_path: Path) -> None:
+def test_a_recording_directory_is_listed_as_well(tmp_path: Path, ran, reported, refused) -> None:
     clock = UniformClock.of(1000.0)
     channels = (
         Channel.of("height", np.ones(5), clock, "left"),
         Channel.of("distance", np.arange(5.0), clock),
     )
     write_recording(Recording(channels), tmp_path / "run")
-    result = invoke(tmp_path / "run")
-    assert result.exit_code == 0, result.output
+    result = ran("channels", tmp_path / "run")
     assert "left.height" in result.stdout
     assert "2 streams, 10 rows in all" in result.stdout
-    report = json.loads(invoke(tmp_path / "run", "--json").stdout)
+    report = reported("channels", tmp_path / "run")
     assert [s["columns"][0]["name"] for s in report["streams"]] == ["left.height", "distance"]
-    assert "it needs no map" in refused(tmp_path / "run", "--draft-map")
+    assert "it needs no map" in refused("channels", tmp_path / "run", "--draft-map")
 
 
 @pytest.mark.parametrize(
@@ -183,24 +164,23 @@ def test_a_recording_directory_is_listed_as_well(tmp_path: Path) -> None:
     ],
 )
 def test_what_cannot_be_done_is_one_line(
-    run: Path, monkeypatch: pytest.MonkeyPatch, args: list[str], message: str
+    run: Path, monkeypatch: pytest.MonkeyPatch, args: list[str], message: str, refused
 ) -> None:
     monkeypatch.chdir(run.parent)
     Path("run.xyz").write_bytes(b"")
     Path("bad.toml").write_text("x = [")
     text = 'format = "floatref-map/1"\n[[channels]]\nnative = "Lasr"\nchannel = "height"\n'
     Path("lost.toml").write_text(text)
-    assert message in refused(*args)
+    assert message in refused("channels", *args)
 
 
-def test_names_that_would_break_a_terminal_are_shown_as_text(run: Path, logger: Logger) -> None:
+def test_names_that_would_break_a_terminal_are_shown_as_text(
+    run: Path, logger: Logger, ran, reported
+) -> None:
     logger.evil = "\n\x1b[2J\udc80\u202e"
     logger.warnings = ("a\nb\x1b[2J",)
     for args in ([], ["--draft-map"]):
-        result = invoke(run, *args)
-        assert result.exit_code == 0, result.output
+        result = ran("channels", run, *args)
         assert not {"\x1b", "\u202e", "\udc80"} & set(result.output)
         assert result.stderr == "Warning: a\\nb\\x1b[2J\n"
-    assert json.loads(invoke(run, "--json").stdout)["streams"][0]["columns"][-1]["name"] == (
-        f"id{logger.evil}"
-    )
+    assert reported("channels", run)["streams"][0]["columns"][-1]["name"] == (f"id{logger.evil}")

@@ -5,9 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
-from floatref.cli.main import main
 from floatref.engine.formats import profile_of
 from floatref.files import read_profile, write_profile
 from floatref.values.profile import Profile, ProfileTrack
@@ -28,28 +26,22 @@ def road(interval_m: float = 0.05, start_m: float = 120.0) -> Profile:
     return Profile(interval_m, tracks, start_m, "temporal-basic", {"a": 1.0}, {"b": "c"})
 
 
-def convert(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["convert", *map(str, arguments)])
-
-
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, ran) -> Path:
     """The same profile in every format, each made from the profile directory."""
     place = tmp_path_factory.mktemp("convert")
     write_profile(road(), place / "made")
     for suffix in list(SUFFIXES.values())[1:]:
-        done = convert(place / "made", "--out", place / f"made{suffix}")
-        assert done.exit_code == 0, done.output
+        ran("convert", place / "made", "--out", place / f"made{suffix}")
     return place
 
 
 @pytest.mark.parametrize(("one", "other"), [*itertools.product(SUFFIXES, repeat=2)])
 def test_points_heights_and_validity_survive_any_way_round(
-    folder: Path, tmp_path: Path, one: str, other: str
+    folder: Path, tmp_path: Path, one: str, other: str, ran
 ) -> None:
     out = tmp_path / f"out{SUFFIXES[other]}"
-    done = convert(folder / f"made{SUFFIXES[one]}", "--out", out)
-    assert done.exit_code == 0, done.output
+    ran("convert", folder / f"made{SUFFIXES[one]}", "--out", out)
     found, expected = profile_of(out), road()
     assert found.interval_m == pytest.approx(expected.interval_m, rel=1e-9)
     assert found.start_m == pytest.approx(expected.start_m, abs=1e-9)
@@ -64,10 +56,12 @@ def test_points_heights_and_validity_survive_any_way_round(
 
 
 @pytest.mark.parametrize("other", ["profile", "parquet"])
-def test_a_format_that_holds_all_gives_all_back(folder: Path, tmp_path: Path, other: str) -> None:
+def test_a_format_that_holds_all_gives_all_back(
+    folder: Path, tmp_path: Path, other: str, invoke, ran
+) -> None:
     between, back = tmp_path / f"between{SUFFIXES[other]}", tmp_path / "back"
-    assert convert(folder / "made", "--out", between).exit_code == 0
-    assert convert(between, "--out", back).exit_code == 0
+    ran("convert", folder / "made", "--out", between)
+    ran("convert", between, "--out", back)
     found, expected = read_profile(back), road()
     assert (found.pipeline, dict(found.settings), dict(found.provenance)) == (
         expected.pipeline,
@@ -80,25 +74,26 @@ def test_a_format_that_holds_all_gives_all_back(folder: Path, tmp_path: Path, ot
     ).read_bytes()
 
 
-def test_feet_and_millimetres_become_metres(tmp_path: Path) -> None:
+def test_feet_and_millimetres_become_metres(tmp_path: Path, ran) -> None:
     rows = "\n".join(f"{value}" for value in (0.0, 25.4, 50.8))
     header = "ERDFILEV2.00\n 1, 3, 3, 1, 5, 0.5, -1,\nXUNITS  ft\nSHORTNAMLElev\nUNITSNAMmm\nEND\n"
     (tmp_path / "feet.erd").write_text(header + rows + "\n")
-    done = convert(tmp_path / "feet.erd", "--out", tmp_path / "metres")
-    assert done.exit_code == 0, done.output
+    ran("convert", tmp_path / "feet.erd", "--out", tmp_path / "metres")
     found = read_profile(tmp_path / "metres")
     assert found.interval_m == pytest.approx(0.1524)
     assert found.track("left").elevation == pytest.approx([0.0, 0.0254, 0.0508])
 
 
-def test_the_name_of_a_format_counts_more_than_the_suffix(folder: Path, tmp_path: Path) -> None:
+def test_the_name_of_a_format_counts_more_than_the_suffix(
+    folder: Path, tmp_path: Path, invoke, ran
+) -> None:
     out = tmp_path / "run.txt"
-    assert convert(folder / "made", "--out", out, "--format", "csv").exit_code == 0
+    ran("convert", folder / "made", "--out", out, "--format", "csv")
     assert out.read_text("ascii").startswith("distance_m,left_elevation_m,left_valid,right_")
 
 
-def test_what_was_written_is_told(folder: Path, tmp_path: Path) -> None:
-    said = convert(folder / "made.erd", "--out", tmp_path / "out.csv").stdout
+def test_what_was_written_is_told(folder: Path, tmp_path: Path, invoke) -> None:
+    said = invoke("convert", folder / "made.erd", "--out", tmp_path / "out.csv").stdout
     assert "out.csv" in said
     assert [line.split()[:4] for line in said.splitlines()[2:4]] == [
         ["left", "120", "20.00", "0.05"],
@@ -106,12 +101,14 @@ def test_what_was_written_is_told(folder: Path, tmp_path: Path) -> None:
     ]
 
 
-def test_an_existing_target_needs_overwrite(folder: Path, tmp_path: Path) -> None:
+def test_an_existing_target_needs_overwrite(
+    folder: Path, tmp_path: Path, invoke, ran, refused
+) -> None:
     out = tmp_path / "out.csv"
     out.write_text("mine")
-    assert convert(folder / "made", "--out", out).exit_code == 2
+    refused("convert", folder / "made", "--out", out)
     assert out.read_text() == "mine"
-    assert convert(folder / "made", "--out", out, "--overwrite").exit_code == 0
+    ran("convert", folder / "made", "--out", out, "--overwrite")
     assert profile_of(out).tracks[0].name == "left"
 
 
@@ -132,15 +129,11 @@ def test_an_existing_target_needs_overwrite(folder: Path, tmp_path: Path) -> Non
     ],
 )
 def test_what_cannot_be_done_is_one_line_and_leaves_nothing(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], message: str
+    folder: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], message: str, refused
 ) -> None:
     monkeypatch.chdir(folder)
     (folder / "text.csv").write_text("a,b\n1,2\n")
     (folder / "damaged.erd").write_text("ERDFILEV2.00\n 1, 3,\n")
     before = {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
-    result = convert(*arguments)
-    assert result.exit_code == 2
-    assert message in result.stderr
-    assert result.stderr.strip().count("\n") == 0
-    assert result.stdout == ""
+    assert message in refused("convert", *arguments)
     assert {path: path.stat().st_mtime_ns for path in folder.rglob("*")} == before

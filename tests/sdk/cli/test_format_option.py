@@ -1,15 +1,12 @@
 """Profile formats as a user calls them: written by `process`, read wherever a PROFILE is."""
 
-import json
 import sys
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 from floatref.cli import process as process_module
-from floatref.cli.main import main
-from floatref.files import read_profile, write_recording
+from floatref.files import write_recording
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
@@ -17,7 +14,7 @@ SUFFIXES = ("", ".csv", ".erd", ".parquet")
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def folder(tmp_path_factory, ran):
     """Profiles of one recording in every format: 60 m at 10 m/s, with a short laser drop-out."""
     place = tmp_path_factory.mktemp("formats")
     clock = UniformClock.of(1000.0)
@@ -32,18 +29,13 @@ def folder(tmp_path_factory):
     ]
     write_recording(Recording(tuple(channels), Setup(profile_interval_m=0.05)), place / "run")
     for suffix in SUFFIXES:
-        result = invoke("process", place / "run", "--out", place / f"made{suffix}")
-        assert result.exit_code == 0, result.output
+        ran("process", place / "run", "--out", place / f"made{suffix}")
     return place
 
 
-def invoke(*args):
-    return CliRunner().invoke(main, [str(a) for a in args])
-
-
-def test_every_format_is_offered(folder):
+def test_every_format_is_offered(folder, invoke, reported):
     assert "[profile|csv|erd|parquet]" in invoke("process", "--help").output
-    listed = json.loads(invoke("adapters", "--json").stdout)["formats"]
+    listed = reported("adapters")["formats"]
     assert [(f["name"], f["suffix"]) for f in listed] == [
         ("profile", ""),
         ("csv", ".csv"),
@@ -54,63 +46,37 @@ def test_every_format_is_offered(folder):
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES[1:])
-def test_iri_is_that_of_the_profile_directory(folder, suffix):
-    expected = json.loads(invoke("iri", folder / "made", "--json").stdout)
-    found = json.loads(invoke("iri", folder / f"made{suffix}", "--json").stdout)
+def test_iri_is_that_of_the_profile_directory(folder, suffix, reported):
+    expected = reported("iri", folder / "made")
+    found = reported("iri", folder / f"made{suffix}")
     assert found["tracks"][0]["invalid_m"] == expected["tracks"][0]["invalid_m"] > 0
     assert found["tracks"][0]["iri_m_per_km"] == pytest.approx(
         expected["tracks"][0]["iri_m_per_km"], rel=1e-4
     )
 
 
-@pytest.mark.parametrize("suffix", SUFFIXES)
-def test_each_agrees_with_the_profile_directory(folder, suffix):
-    result = invoke("compare", folder / f"made{suffix}", folder / "made", "--json")
-    (track,) = json.loads(result.stdout)["tracks"]
-    assert track["cross_correlation"] == pytest.approx(1.0, abs=1e-6)
-    assert track["offset_m"] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_parquet_keeps_what_a_vehicle_is_learned_from(folder):
-    for suffix in ("", ".parquet"):
-        result = invoke("vehicle", folder / f"made{suffix}", "--out", folder / "kept.json")
-        assert result.exit_code == 2
-        assert "holds no estimate of a vehicle" in result.stderr
-    from floatref.engine.formats import profile_of
-
-    kept = profile_of(folder / "made.parquet")
-    expected = read_profile(folder / "made")
-    assert kept.settings == expected.settings
-    assert kept.provenance == {**expected.provenance}
-
-
-def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder):
+def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder, ran, refused):
     out = folder / "by_name.txt"
-    assert invoke("process", folder / "run", "--out", out, "--format", "erd").exit_code == 0
+    ran("process", folder / "run", "--out", out, "--format", "erd")
     assert out.read_bytes() == (folder / "made.erd").read_bytes()
-    result = invoke("process", folder / "run", "--out", out, "--format", "erd")
-    assert (result.exit_code, result.stdout) == (2, "")
-    assert "exists" in result.stderr
-    result = invoke("process", folder / "run", "--out", folder / "p.ppf")
-    assert result.exit_code == 2
-    assert "suffix .ppf is no format; use .csv, .erd, .parquet, no suffix" in result.stderr
+    assert "exists" in refused("process", folder / "run", "--out", out, "--format", "erd")
+    assert "suffix .ppf is no format; use .csv, .erd, .parquet, no suffix" in refused(
+        "process", folder / "run", "--out", folder / "p.ppf"
+    )
     assert not list(folder.glob(".floatref-*"))
 
 
-def test_a_missing_library_is_told_before_the_work(folder, monkeypatch):
+def test_a_missing_library_is_told_before_the_work(folder, monkeypatch, refused):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     monkeypatch.setattr(process_module, "make_profile", None)
-    result = invoke("process", folder / "run", "--out", folder / "b.parquet")
-    assert result.exit_code == 2
-    assert "b.parquet: writing Parquet needs pyarrow; install floatref[adapters]" in result.stderr
+    assert "b.parquet: writing Parquet needs pyarrow; install floatref[adapters]" in refused(
+        "process", folder / "run", "--out", folder / "b.parquet"
+    )
 
 
-def test_a_broken_file_is_one_line_and_exit_code_2(folder):
+def test_a_broken_file_is_one_line_and_exit_code_2(folder, refused):
     for suffix in (".erd", ".parquet"):
         broken = folder / f"broken{suffix}"
         broken.write_bytes((folder / f"made{suffix}").read_bytes()[:900])
         for command in (["iri", broken], ["compare", folder / "made", broken]):
-            result = invoke(*command)
-            assert result.exit_code == 2
-            assert result.stderr.startswith(f"Error: {broken}: ")
-            assert len(result.stderr.splitlines()) == 1
+            assert refused(*command).startswith(f"Error: {broken}: ")

@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.cli.main import main
 from floatref.cli.vehicle import combine_estimates
 from floatref.files import read_profile, write_profile, write_recording
 from floatref_conformance.proving_ground import Scenario, simulate
@@ -34,51 +32,42 @@ STOP: dict[str, Any] = {
 OURS = ("--pipeline", "road-prior-smoother")
 
 
-def invoke(*arguments: object) -> Result:
-    return CliRunner().invoke(main, [str(argument) for argument in arguments])
-
-
 @pytest.fixture(scope="module")
-def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def runs(tmp_path_factory: pytest.TempPathFactory, ran) -> Path:
     """Return a folder of two runs of one vehicle, and their profiles `first` and `second`."""
     folder = tmp_path_factory.mktemp("vehicle")
     (folder / "runs").mkdir()
     for seed, name in enumerate(("first", "second")):
         scenario = Scenario.from_dict({**STOP, "seed": seed, "road_seed": seed})
         write_recording(simulate(scenario).recording, folder / "runs" / name)
-        done = invoke("process", folder / "runs" / name, "--out", folder / name, *OURS)
-        assert done.exit_code == 0, done.output
+        ran("process", folder / "runs" / name, "--out", folder / name, *OURS)
     return folder
 
 
 @pytest.mark.slow
 def test_runs_of_one_vehicle_tell_the_same_tilt(runs: Path) -> None:
-    told = [read_profile(runs / name).provenance["learned"] for name in ("first", "second")]
-    apart = abs(told[0]["tilt_expected"] - told[1]["tilt_expected"])
-    assert apart < 3.0 * (told[0]["tilt_sigma"] + told[1]["tilt_sigma"])
+    learned = [read_profile(runs / name).provenance["learned"] for name in ("first", "second")]
+    apart = abs(learned[0]["tilt_expected"] - learned[1]["tilt_expected"])
+    assert apart < 3.0 * (learned[0]["tilt_sigma"] + learned[1]["tilt_sigma"])
     # The soft van pitches by some 5 degrees at 1 g, nose down in a brake.
-    assert all(-0.013 < one["tilt_expected"] < -0.006 for one in told)
+    assert all(-0.013 < one["tilt_expected"] < -0.006 for one in learned)
 
 
 @pytest.mark.slow
-def test_what_is_kept_goes_into_the_next_run(runs: Path, tmp_path: Path) -> None:
+def test_what_is_kept_goes_into_the_next_run(runs: Path, tmp_path: Path, ran) -> None:
     out = tmp_path / "van.json"
-    done = invoke("vehicle", runs / "first", runs / "second", "--out", out, "--json")
-    assert done.exit_code == 0, done.output
-    report, written = json.loads(done.stdout), json.loads(out.read_text(encoding="utf-8"))
+    result = ran("vehicle", runs / "first", runs / "second", "--out", out, "--json")
+    report, written = json.loads(result.stdout), json.loads(out.read_text(encoding="utf-8"))
     assert report["settings"] == written
     assert (report["pipeline"], report["runs"]) == (OURS[1], 2)
-    again = invoke(
-        "process", runs / "runs" / "first", "--out", tmp_path / "p", *OURS, "--settings", out
-    )
-    assert again.exit_code == 0, again.output
+    ran("process", runs / "runs" / "first", "--out", tmp_path / "p", *OURS, "--settings", out)
     profile = read_profile(tmp_path / "p")
     assert {name: profile.settings[name] for name in written} == written
 
 
-def test_the_table_has_a_line_for_every_run(runs: Path, tmp_path: Path) -> None:
-    done = invoke("vehicle", runs / "first", runs / "second", "--out", tmp_path / "v.json")
-    lines = [line for line in done.stdout.splitlines() if line]
+def test_the_table_has_a_line_for_every_run(runs: Path, tmp_path: Path, invoke) -> None:
+    result = invoke("vehicle", runs / "first", runs / "second", "--out", tmp_path / "v.json")
+    lines = [line for line in result.stdout.splitlines() if line]
     assert [line.split()[0] for line in lines[2:]] == [
         str(runs / "first"),
         str(runs / "second"),
@@ -150,7 +139,7 @@ def short(profile: Path, at: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("make", "told"),
+    ("make", "message"),
     [
         (bare, "holds no estimate of a vehicle"),
         (of_another_pipeline, "pipeline is road-prior-smoother-imu"),
@@ -159,17 +148,14 @@ def short(profile: Path, at: Path) -> Path:
     ],
 )
 def test_a_profile_that_cannot_be_taken_is_refused_in_a_line(
-    runs: Path, tmp_path: Path, make: Callable[[Path, Path], Path], told: str
+    runs: Path, tmp_path: Path, make: Callable[[Path, Path], Path], message: str, refused
 ) -> None:
     other, out = make(runs / "second", tmp_path / "other"), tmp_path / "v.json"
-    done = invoke("vehicle", runs / "first", other, "--out", out)
-    assert done.exit_code == 2
-    (line,) = done.stderr.splitlines()
-    assert told in line
+    line = refused("vehicle", runs / "first", other, "--out", out)
+    assert message in line
     assert str(other) in line
     assert not out.exists()
 
 
-def test_a_run_counts_once(runs: Path, tmp_path: Path) -> None:
-    done = invoke("vehicle", runs / "first", runs / "first", "--out", tmp_path / "v.json")
-    assert (done.exit_code, "twice" in done.stderr) == (2, True)
+def test_a_run_counts_once(runs: Path, tmp_path: Path, refused) -> None:
+    assert "twice" in refused("vehicle", *[runs / "first"] * 2, "--out", tmp_path / "v.json")

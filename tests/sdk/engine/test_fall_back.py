@@ -33,14 +33,12 @@ def profile_of(gaps: FloatArray, off_m: float = 0.01, sigma: float | None = None
 
 
 def estimate_of(elevation: FloatArray, sigma: float | None = None) -> Profile:
-    """Return another pipeline's profile of the same points."""
     spread = None if sigma is None else np.full(POINTS, sigma)
     track = ProfileTrack.of("main", elevation, sigma=spread)
     return Profile(INTERVAL_M, (track,), pipeline="other")
 
 
 def asked(gaps: FloatArray, profile: Profile) -> DropOut:
-    """Return the drop-out of one wheel path."""
     return DropOut(RECORDING, profile, {"main": gaps}, lambda pipeline, settings=None: profile)
 
 

@@ -12,8 +12,6 @@ OWN = StageCall("RemoveMean", "elevation")
 
 
 class Point:
-    """An entry point whose module is ``load``."""
-
     def __init__(self, name, load):
         self.name, self.load = name, load
 

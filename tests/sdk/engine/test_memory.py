@@ -43,7 +43,6 @@ print(peak() - before, points)
 
 
 def write_drive(folder, seconds):
-    """Write a drive at constant speed; return how many bytes of samples it has."""
     folder.mkdir()
     times = np.arange(seconds * RATE) / RATE
     channels = []

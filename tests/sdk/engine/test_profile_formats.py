@@ -20,8 +20,8 @@ class Mine:
 
     name, suffix, summary = "mine", ".mine", "of a vendor"
 
-    def __init__(self, **told):
-        vars(self).update(told)
+    def __init__(self, **attributes):
+        vars(self).update(attributes)
 
     def recognises(self, path):
         return path.suffix == self.suffix
@@ -35,7 +35,6 @@ class Mine:
 
 @pytest.fixture
 def known(monkeypatch):
-    """Return what makes formats known, beside the built-in ones."""
     loaded = plugins.Plugins()
     for module in (formats, formats):
         monkeypatch.setattr(module, "plugins", lambda: loaded)
@@ -86,17 +85,6 @@ def test_a_suffix_of_two_formats_is_not_guessed(known):
     known(Mine(), Mine(name="other"))
     with pytest.raises(InputError, match=r"suffix \.mine is that of mine and other; choose with"):
         format_of(Path("a.mine"))
-
-
-@pytest.mark.parametrize("form", ["profile", "csv"])
-def test_our_own_formats_read_what_they_write(tmp_path, form):
-    out = tmp_path / "made"
-    write_as(format_of(out, form), PROFILE, out)
-    back = profile_of(out)
-    assert (back.interval_m, back.start_m) == (0.25, 2.0)
-    np.testing.assert_array_equal(back.track("left").elevation, PROFILE.track("left").elevation)
-    with pytest.raises(InputError, match="exists"):
-        write_as(format_of(out, form), PROFILE, out)
 
 
 def test_a_profile_is_read_by_the_format_that_recognises_it(known, tmp_path):

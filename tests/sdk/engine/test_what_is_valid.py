@@ -7,7 +7,6 @@ import floatref
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 
-RATE = UniformClock.of(1000.0)
 NOMINAL = [name for name in floatref.pipelines() if not floatref.pipeline_capabilities(name)]
 SUPPRESSING = [name for name in NOMINAL if not name.startswith("road-prior-")]
 """Pipelines that do not measure in hard brakes and at stops."""
@@ -20,7 +19,6 @@ REACH = {
 
 
 def invalid_within(profile, run_in_m=53.0):
-    """Distances of the invalid points away from the ends of the run."""
     x = profile.distance_m
     inner = (x > x[0] + run_in_m) & (x < x[-1] - run_in_m)
     return x[inner & ~profile.tracks[0].valid]
@@ -29,7 +27,7 @@ def invalid_within(profile, run_in_m=53.0):
 def with_gap(steady, name, begin, end):
     values = steady(seconds=30.0).channel(name).values.copy()
     values[begin:end] = np.nan
-    return steady(seconds=30.0, **{name: Channel.of(name, values, RATE)})
+    return steady(seconds=30.0, **{name: values})
 
 
 def test_a_huge_cut_off_is_no_more_than_the_whole_run(steady):
@@ -80,7 +78,7 @@ def test_a_stop_is_flagged_with_what_its_pipeline_spreads(steady, pipeline):
     slowing = np.clip(20.0 - 1.5 * np.clip(times - 20.0, 0.0, None), 0.0, None)
     speed = slowing + np.clip(times - 36.0, 0.0, 10.0)
     distance = np.cumsum(speed) / 1000.0
-    recording = steady(seconds=60.0, distance=Channel.of("distance", distance, RATE))
+    recording = steady(seconds=60.0, distance=distance)
     profile = floatref.process(recording, pipeline)
     lost = invalid_within(profile, 100.0)
     before, after = REACH.get(pipeline, (15.0, 30.0))
@@ -96,7 +94,7 @@ def test_a_brake_is_flagged_from_five_seconds_before_a_standstill_to_behind_its_
     times = np.arange(40_000) / 1000.0
     speed = np.clip(30.0 - 3.0 * np.clip(times - 10.0, 0.0, None), 9.0, None)
     distance = np.cumsum(speed) / 1000.0
-    recording = steady(seconds=40.0, distance=Channel.of("distance", distance, RATE))
+    recording = steady(seconds=40.0, distance=distance)
     lost = invalid_within(floatref.process(recording, pipeline))
     late_m = 0.5 * 9.0
     behind = 47.0 if pipeline in REACH else 30.0
@@ -111,7 +109,7 @@ def test_how_near_to_a_standstill_a_brake_is_flagged_is_a_setting(steady, stoppi
     times = np.arange(40_000) / 1000.0
     speed = np.clip(30.0 - 3.0 * np.clip(times - 10.0, 0.0, None), 6.0, None)
     distance = np.cumsum(speed) / 1000.0
-    recording = steady(seconds=40.0, distance=Channel.of("distance", distance, RATE))
+    recording = steady(seconds=40.0, distance=distance)
     profile = floatref.process(recording, settings={"stopping_time_s": stopping_time_s})
     begins = distance[speed < stopping_time_s * 3.0][0]
     first = invalid_within(profile).min()
@@ -127,11 +125,7 @@ def test_an_accelerometer_drop_out_in_a_stop_is_flagged(steady, pipeline, lost):
     distance += np.where(setting_off < 4.0, 2.5 * setting_off**2, 20.0 * setting_off - 40.0)
     forces = steady(seconds=30.0).channel("vertical_specific_force").values.copy()
     forces[lost] = np.nan
-    recording = steady(
-        seconds=30.0,
-        vertical_specific_force=Channel.of("vertical_specific_force", forces, RATE),
-        distance=Channel.of("distance", distance, RATE),
-    )
+    recording = steady(seconds=30.0, vertical_specific_force=forces, distance=distance)
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
         profile = floatref.process(recording, pipeline)
     invalid = invalid_within(profile)
@@ -146,11 +140,7 @@ def test_what_happens_behind_the_last_point_reaches_back_from_there(steady, pipe
     distance = 20.0 * np.clip(times, None, 23.0) + 20.0 * braking - 2.5 * braking**2
     forces = steady(seconds=40.0).channel("vertical_specific_force").values.copy()
     forces[30_000:35_000] = np.nan
-    recording = steady(
-        seconds=40.0,
-        vertical_specific_force=Channel.of("vertical_specific_force", forces, RATE),
-        distance=Channel.of("distance", distance, RATE),
-    )
+    recording = steady(seconds=40.0, vertical_specific_force=forces, distance=distance)
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
         profile = floatref.process(recording, pipeline)
     assert invalid_within(profile).min() == pytest.approx(500.0 - 105.91, abs=0.2)
@@ -183,6 +173,6 @@ def test_a_lost_encoder_can_hide_a_stop(steady, pipeline, clock):
 )
 def test_travel_below_the_limit_of_a_stage_is_not_valid(steady, pipeline, settings):
     times = np.arange(40_000) / 1000.0
-    recording = steady(seconds=40.0, distance=Channel.of("distance", 12.0 * times, RATE))
+    recording = steady(seconds=40.0, distance=12.0 * times)
     assert floatref.process(recording, pipeline).tracks[0].valid.any()
     assert not floatref.process(recording, pipeline, settings).tracks[0].valid.any()

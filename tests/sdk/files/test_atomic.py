@@ -26,7 +26,6 @@ def profile(value: float = 0.0) -> Profile:
 
 
 def listing(folder: Path) -> dict[str, bytes]:
-    """Return every file below ``folder`` with its content, hidden ones included."""
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 

@@ -75,7 +75,6 @@ def test_maps_and_recordings_have_the_same_setup() -> None:
 
 
 def objects(schema: object) -> list[dict]:
-    """Return every schema of an object inside ``schema``."""
     if isinstance(schema, list):
         return [found for item in schema for found in objects(item)]
     if not isinstance(schema, dict):

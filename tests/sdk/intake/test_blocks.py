@@ -32,6 +32,15 @@ def whole(source, size=300):
     }, blocks
 
 
+def still(stamps):
+    force = np.full(stamps.size, 9.8)
+    return Channel.of("vertical_specific_force", force, StampedClock.of(stamps))
+
+
+def flags_of(blocks, channel):
+    return np.concatenate([b.flags.get(channel, np.zeros(len(b), np.uint8)) for b in blocks])
+
+
 def test_channels_on_one_clock_pass_through(steady):
     recording = steady()
     values, blocks = whole(source_of(recording))
@@ -53,9 +62,8 @@ def test_another_clock_is_linear_in_between(steady, rate, start):
     at = source.header.origin + np.arange(source.length) / 1000.0
     np.testing.assert_allclose(values[DISTANCE], 3.0 + 20.0 * at, atol=1e-9)
     fresh = np.concatenate([block.fresh[DISTANCE] for block in blocks])
-    assert (
-        abs(fresh.sum() - min(source.length, source.length * rate / 1000.0)) <= 1.0 + 0.01 * count
-    )
+    expected = min(source.length, source.length * rate / 1000.0)
+    assert abs(fresh.sum() - expected) <= 1.0 + 0.01 * count
     assert source.origin_m == values[DISTANCE][0]
 
 
@@ -77,13 +85,11 @@ def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
     recording = steady()
     heights = recording.channel("height").values.copy()
     heights[1000:1400] = np.nan
-    lost = steady(height=Channel.of("height", heights, UniformClock.of(1000.0)))
+    lost = steady(height=heights)
     values, blocks = whole(source_of(lost))
     line = np.interp(np.arange(1000, 1400), [999, 1400], heights[[999, 1400]])
     np.testing.assert_allclose(values[HEIGHT][1000:1400], line, atol=1e-15)
-    flags = np.concatenate(
-        [block.flags.get(HEIGHT, np.zeros(len(block), np.uint8)) for block in blocks]
-    )
+    flags = flags_of(blocks, HEIGHT)
     np.testing.assert_array_equal(flags != 0, np.isnan(heights))
     assert set(flags.tolist()) == {0, int(Flag.MISSING)}
 
@@ -94,9 +100,8 @@ def test_a_gap_is_bridged_by_a_line_and_flagged(steady):
 def test_a_long_gap_of_the_accelerometer_is_flagged_as_drift(steady, size, count, kind):
     forces = steady().channel("vertical_specific_force").values.copy()
     forces[5 : 5 + count] = np.nan
-    lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
-    blocks = source_of(steady(vertical_specific_force=lost)).blocks(size)
-    flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    blocks = source_of(steady(vertical_specific_force=forces)).blocks(size)
+    flags = flags_of(blocks, FORCE)
     assert set(flags[5 : 5 + count].tolist()) == {int(kind)}
     assert not flags[:5].any()
     assert not flags[5 + count :].any()
@@ -106,9 +111,8 @@ def test_a_long_gap_of_the_accelerometer_is_flagged_as_drift(steady, size, count
 def test_a_gap_at_the_end_of_a_run_is_long_since_nobody_knows_its_end(steady, part):
     forces = steady().channel("vertical_specific_force").values.copy()
     forces[part] = np.nan
-    lost = Channel.of("vertical_specific_force", forces, UniformClock.of(1000.0))
-    blocks = source_of(steady(vertical_specific_force=lost)).blocks(100)
-    flags = np.concatenate([b.flags.get(FORCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    blocks = source_of(steady(vertical_specific_force=forces)).blocks(100)
+    flags = flags_of(blocks, FORCE)
     assert (flags[part] == Flag.MISSING | Flag.DRIFT).all()
 
 
@@ -130,8 +134,7 @@ def test_pulses_of_an_encoder_far_apart_are_no_gap(steady):
 
 def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
     stamps = 7.0 + np.arange(4000) / 1000.0
-    forces = np.full(4000, 9.8)
-    own = Channel.of("vertical_specific_force", forces, StampedClock.of(stamps))
+    own = still(stamps)
     shifted = {
         name: Channel.of(name, steady().channel(name).values, UniformClock.of(1000.0, 7.0))
         for name in ("height", "distance")
@@ -161,14 +164,14 @@ def test_a_hole_between_time_stamps_of_an_accelerometer_is_a_gap(steady, rate, h
 
 def test_an_accelerometer_of_changing_rate_is_refused(steady):
     stamps = np.concatenate((np.arange(3000) / 1000.0, 3.0 + np.arange(1000) / 1100.0))
-    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    own = still(stamps)
     with pytest.raises(InputError, match=r"s off a constant rate of .* record it at a constant"):
         source_of(steady(vertical_specific_force=own))
 
 
 def test_an_accelerometer_with_more_holes_than_samples_is_refused(steady):
     stamps = np.concatenate((np.arange(2000) / 1000.0, 2.0 + np.arange(2000) * 0.0025))
-    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    own = still(stamps)
     message = r"0.0025 s without a sample after time stamp \d+; fill gaps with NaN at"
     with pytest.raises(InputError, match=message):
         source_of(steady(vertical_specific_force=own))
@@ -177,7 +180,7 @@ def test_an_accelerometer_with_more_holes_than_samples_is_refused(steady):
 def test_an_accelerometer_that_jitters_is_refused(steady):
     stamps = np.arange(4000) / 1000.0
     stamps[1::2] += 0.0001
-    own = Channel.of("vertical_specific_force", np.full(4000, 9.8), StampedClock.of(stamps))
+    own = still(stamps)
     with pytest.raises(InputError, match=r"999\.975 Hz; record it at a constant rate"):
         source_of(steady(vertical_specific_force=own))
 
@@ -185,7 +188,7 @@ def test_an_accelerometer_that_jitters_is_refused(steady):
 @pytest.mark.parametrize("rate", [1000.0, 3240.0, 4000.0, 16_000.0, 44_100.0, 48_000.0])
 def test_unix_stamps_in_microseconds_are_the_rate_they_were_made_at(rate):
     stamps = np.round(1.7e9 + np.arange(5000) / rate, 6)
-    own = Channel.of("vertical_specific_force", np.full(5000, 9.8), StampedClock.of(stamps))
+    own = still(stamps)
     assert float(steady_clock(own).rate) == rate
 
 
@@ -234,7 +237,7 @@ def test_a_leap_between_two_samples_of_a_slower_accelerometer_is_flagged(steady,
     travel[sample:] += 1.0
     source = source_of(steady(distance=Channel.of("distance", travel, UniformClock.of(4000))))
     blocks = list(source.blocks(cut))
-    flags = np.concatenate([b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks])
+    flags = flags_of(blocks, DISTANCE)
     values = np.concatenate([block[DISTANCE] for block in blocks])
     behind = int(np.argmax(np.diff(values))) + 1
     found = np.flatnonzero(flags & Flag.SLOW)

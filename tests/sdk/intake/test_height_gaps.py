@@ -14,7 +14,6 @@ NONE = np.empty((0, 2), dtype=np.int64)
 
 
 def recording_of(height: FloatArray, times: FloatArray | None = None) -> Recording:
-    """Return a drive at 20 m/s with ``height``."""
     clock = UniformClock.of(RATE) if times is None else StampedClock(times)
     travel = SPEED / RATE * np.arange(COUNT)
     return Recording(
@@ -26,7 +25,6 @@ def recording_of(height: FloatArray, times: FloatArray | None = None) -> Recordi
 
 
 def heights() -> FloatArray:
-    """Return the heights of a sensor that works."""
     return 0.3 + 1e-3 * np.random.default_rng(0).standard_normal(COUNT)
 
 

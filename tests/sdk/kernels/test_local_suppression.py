@@ -1,7 +1,6 @@
 """The controller of local suppression acts below its limit alone, and leaves no step."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,31 +28,6 @@ def wandering(seed, size=600):
 def test_nothing_happens_at_the_limit_and_above(seed, limit):
     d, _ = wandering(seed)
     np.testing.assert_array_equal(held(d, np.full(600, limit)), d)
-
-
-@FEW
-@given(seed=SEEDS)
-def test_above_the_limit_only_an_offset_is_left(seed):
-    d, speed = wandering(seed)
-    steps = np.diff(held(d, speed)) - np.diff(d)
-    free = speed[1:] >= LIMIT
-    assert np.abs(steps[free]).max(initial=0.0) <= 1e-15
-
-
-@pytest.mark.cites("(5.1)")
-@FEW
-@given(seed=SEEDS)
-def test_below_it_the_law_of_control_holds(seed):
-    d, speed = wandering(seed)
-    v = held(d, speed)
-    area = offset = 0.0
-    for k in range(d.size):
-        if speed[k] >= LIMIT:
-            offset = v[k] - d[k]
-            continue
-        began = k == 0 or speed[k - 1] >= LIMIT
-        area = 0.0 if began else area + 0.5 * K_I_DT * (v[k] + v[k - 1])
-        assert v[k] == pytest.approx(d[k] + offset - K_P * v[k] - area, abs=1e-15)
 
 
 @FEW

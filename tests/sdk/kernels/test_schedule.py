@@ -73,21 +73,3 @@ def test_a_cut_off_out_of_range_is_counted(cutoff):
     cutoffs, c = np.array([0.1, cutoff, math.nan]), np.empty(3)
     assert schedule.tangents(cutoffs, 1.0, c) == 1
     assert np.isnan(c[2])
-
-
-@pytest.mark.parametrize("size", range(1, 18))
-def test_each_sample_is_computed_alone(size):
-    rng = np.random.default_rng(size)
-    speed = rng.uniform(0.0, 6.0, size)
-    cutoff = rng.uniform(0.0, 0.05, size)
-    whole, c, alone = frequency(speed, *PRINTED), np.empty(size), np.empty(1)
-    schedule.tangents(cutoff, 1.0, c)
-    waves = whole.copy()
-    schedule.wave_numbers(speed, waves, 0.3)
-    for i in range(size):
-        one = frequency(speed[i], *PRINTED)
-        assert one[0] == whole[i]
-        schedule.wave_numbers(speed[i : i + 1], one, 0.3)
-        assert one[0] == waves[i]
-        schedule.tangents(cutoff[i : i + 1], 1.0, alone)
-        assert alone[0] == c[i]

@@ -1,24 +1,13 @@
 """The varying kernels are the printed recursion at every sample's own cut-off."""
 
-import itertools
-import math
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.engine import flow
-from floatref.kernels import state_variable, varying
-from floatref.stages import signals
-from floatref.stages.filters import schedule
-from floatref.stages.filters import varying as stages_varying
+from floatref.kernels import varying
 from floatref.values.arrays import new_record
-from floatref.values.block import Axis, Block, Header
-from floatref.values.channels import ChannelId
 from floatref_reference.appendix_a import varying as literal
-from floatref_reference.chapter_5 import section_5_7
 
 SEEDS = st.integers(0, 2**32 - 1)
 FEW = settings(deadline=None, max_examples=12)
@@ -37,10 +26,9 @@ def drawn(seed, size, highest=0.2):
     return rng.standard_normal(size) + 3.0, np.tan(np.pi * rng.uniform(1e-4, highest, size))
 
 
-def filtered(name, x, c, backward, memory=None):
+def filtered(name, x, c, backward):
     y = np.empty(x.size)
-    memory = new_record(varying.SECTION) if memory is None else memory
-    getattr(varying, name)(x, y, c, memory, backward)
+    getattr(varying, name)(x, y, c, new_record(varying.SECTION), backward)
     return y
 
 
@@ -49,12 +37,6 @@ def fused(name, x, c, backward):
     memories = new_record(varying.SECTION), new_record(varying.SECTION)
     getattr(varying, name)(x, y, c, *memories, backward)
     return y
-
-
-def pieces(size, cuts, backward):
-    edges = [0, *sorted(cut for cut in cuts if cut < size), size]
-    found = [slice(a, b) for a, b in itertools.pairwise(edges)]
-    return found[::-1] if backward else found
 
 
 @pytest.mark.cites("(A.9)", "(A.10)", "Table A.1")
@@ -78,19 +60,6 @@ def test_accuracy_holds_at_low_cut_offs_and_16_khz(name, backward):
     expected = PAIRS[name, backward](x, cutoff, 1.0)
     error = np.abs(filtered(name, x, np.tan(np.pi * cutoff), backward) - expected).max()
     assert error <= 1e-12 * np.abs(x).max()
-
-
-@pytest.mark.cites("(A.2)", "(A.3)")
-@every_kernel
-@FEW
-@given(cutoff=st.floats(1e-4, 0.45), seed=SEEDS)
-def test_a_constant_cut_off_is_the_fixed_stage(name, backward, cutoff, seed):
-    x = np.random.default_rng(seed).standard_normal(200)
-    c = math.tan(math.pi * cutoff)
-    expected = np.empty(x.size)
-    fixed = new_record(state_variable.SECTION)
-    getattr(state_variable, name)(x, expected, fixed, c, backward)
-    assert np.abs(filtered(name, x, np.full(200, c), backward) - expected).max() <= 1e-11
 
 
 @pytest.mark.parametrize("backward", [False, True])
@@ -134,18 +103,6 @@ def test_nothing_comes_out_until_input_and_cut_off_are_there(name, backward, lea
 
 
 @every_kernel
-@pytest.mark.parametrize("size", range(1, 18))
-def test_any_split_of_a_short_block_gives_the_same_bits(name, backward, size):
-    x, c = drawn(size, size)
-    whole = filtered(name, x, c, backward)
-    for cut in range(1, size):
-        memory, apart = new_record(varying.SECTION), np.empty(size)
-        for part in pieces(size, [cut, cut + 2], backward):
-            apart[part] = filtered(name, x[part], c[part], backward, memory)
-        np.testing.assert_array_equal(apart, whole)
-
-
-@every_kernel
 def test_output_may_take_the_place_of_the_input(name, backward):
     x, c = drawn(3, 50)
     expected = filtered(name, x, c, backward)
@@ -157,31 +114,3 @@ def test_nothing_but_missing_samples_gives_zero():
     missing, c = np.full(5, np.nan), np.full(5, 0.1)
     assert not filtered("high_pass_2", missing, c, False).any()
     assert not fused("high_pass_21", missing, c, True).any()
-
-
-@pytest.mark.cites("(5.3)", "(A.9)", "(A.10)")
-def test_the_whole_pass_is_schedule_and_printed_stages():
-    rng = np.random.default_rng(5)
-    speed = np.clip(4.0 + 0.3 * rng.standard_normal(600).cumsum(), 0.0, 15.0)
-    y = x = rng.standard_normal(600)
-    cutoff = section_5_7.cut_off_frequency(speed)
-    for stage in ("s1", "s2", "s2r", "s1r"):
-        y = getattr(literal, f"hpf_b3{stage}_varying")(y, cutoff, 0.01)
-    assert np.abs(both_passes(x, speed, [130, 260, 390, 520]) - y).max() <= 1e-10
-
-
-def both_passes(x, speed, cuts):
-    """Return ``x`` after the stages of section 5.7, pushed in blocks that begin at ``cuts``."""
-    elevation, travel = ChannelId("elevation", "main"), ChannelId(signals.TRAVEL_SPEED)
-    header = Header(Axis.TIME, 0.01, 0.0, Fraction(100), frozenset({elevation, travel}), ("main",))
-    stages = (
-        schedule.ScheduleCutOff(),
-        stages_varying.VaryingHighPassB3("elevation"),
-        stages_varying.VaryingHighPassB3R("elevation"),
-    )
-    blocks = [
-        Block(part.start, {elevation: x[part], travel: speed[part]})
-        for part in pieces(x.size, set(cuts), False)
-    ]
-    _, out = flow.run(stages, header, blocks)
-    return np.concatenate([block[elevation] for block in out])

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from floatref.errors import InputError
+from floatref.errors import FloatrefError, InputError
 from floatref.mapping import Reading, read_map, read_native
-from floatref.mapping.channel_map.entries import ClockEntry
+from floatref.mapping import spool as spools
+from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap, ClockEntry
 from floatref.mapping.clocks.columns import Taken, Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
-
-Content = Callable[[Mapping[str, str]], NativeFile]
 
 
 class Logger:
@@ -47,7 +46,6 @@ def stream(
     count: int | None = None,
     **clock: object,
 ) -> Stream:
-    """Return a stream of ``columns``, read in pieces of ``piece`` rows."""
     values = {key: np.asarray(column, np.float64) for key, column in columns.items()}
     stamps = None if ticks is None else np.asarray(ticks)
     size = len(next(iter(values.values())))
@@ -111,7 +109,6 @@ def times() -> Callable[[Taken], np.ndarray]:
 
 @pytest.fixture
 def logger(know: Callable[[object], None]) -> Logger:
-    """The adapter, known to all commands."""
     adapter = Logger()
     know(adapter)
     return adapter
@@ -205,11 +202,48 @@ def save(tmp_path: Path) -> Callable[[str | bytes], Path]:
     return write
 
 
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder in which temporary files are kept."""
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    monkeypatch.setattr(spools.tempfile, "tempdir", str(folder))
+    return folder
+
+
+@pytest.fixture
+def nothing_left(temporary: Path) -> Iterator[None]:
+    """See that no folder of samples stays behind, whatever happens."""
+    yield
+    assert list(temporary.iterdir()) == []
+
+
+@pytest.fixture(scope="session")
+def chart() -> Callable[..., ChannelMap]:
+    """Make a map, of a laser in mm unless channels are given."""
+    height = ChannelEntry("laser", "height", unit="mm")
+    return lambda *channels, **more: ChannelMap(channels or (height,), **more)
+
+
+@pytest.fixture(scope="session")
+def refused() -> Callable[..., str]:
+    """Tell in which one line of which kind `read_native` refuses what it is given."""
+
+    def of(kind: type[FloatrefError], *args: object) -> str:
+        with pytest.raises(FloatrefError) as caught:
+            read_native(*args)  # type: ignore[arg-type]
+        assert isinstance(caught.value, kind)
+        assert str(caught.value).isprintable()
+        return str(caught.value)
+
+    return of
+
+
 @pytest.fixture(scope="session")
 def refusal() -> Callable[[Path], str]:
     """Tell why a map is refused, in one line, without its name in front."""
 
-    def told(path: Path) -> str:
+    def of(path: Path) -> str:
         with pytest.raises(InputError) as caught:
             read_map(path)
         line = str(caught.value)
@@ -217,4 +251,4 @@ def refusal() -> Callable[[Path], str]:
         assert line.isprintable()
         return line.removeprefix(f"{path}: ")
 
-    return told
+    return of

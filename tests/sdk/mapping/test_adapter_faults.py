@@ -7,41 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.errors import InputError, PluginError
 from floatref.mapping import read_native
-from floatref.mapping import spool as spools
-from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
+from floatref.mapping.channel_map.entries import ChannelEntry
 from floatref.values.native import Column, NativeClock, Rows, Stream
 
 Put = Callable[..., Path]
-HEIGHT = ChannelEntry("laser", "height", unit="mm")
-
-
-def chart(*channels: ChannelEntry, **more) -> ChannelMap:
-    return ChannelMap(channels or (HEIGHT,), **more)
-
-
-@pytest.fixture(autouse=True)
-def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """See that no folder of samples stays behind, whatever happens."""
-    folder = tmp_path / "temporary"
-    folder.mkdir()
-    monkeypatch.setattr(spools.tempfile, "tempdir", str(folder))
-    yield
-    assert list(folder.iterdir()) == []
-
-
-def refused(kind: type[FloatrefError], *args) -> str:
-    with pytest.raises(FloatrefError) as caught:
-        read_native(*args)
-    assert isinstance(caught.value, kind)
-    assert str(caught.value).isprintable()
-    return str(caught.value)
+pytestmark = pytest.mark.usefixtures("nothing_left")
 
 
 class Odd:
-    """A stream that yields three rows and fails."""
-
     def __init__(self, error: BaseException) -> None:
         self._error = error
 
@@ -65,7 +40,7 @@ ODD = [
 
 @pytest.mark.parametrize("error", ODD, ids=lambda e: type(e).__name__)
 def test_what_an_adapter_raises_while_streaming_is_its_own_fault(
-    put: Put, error: BaseException
+    put: Put, error: BaseException, chart, refused
 ) -> None:
     source = put(Stream("s", (Column("laser"),), 3, NativeClock(), Odd(error)))
     line = refused(PluginError, source, chart())
@@ -74,7 +49,7 @@ def test_what_an_adapter_raises_while_streaming_is_its_own_fault(
 
 @pytest.mark.parametrize("error", ODD, ids=lambda e: type(e).__name__)
 def test_what_an_adapter_raises_when_opening_or_closing_is_its_own_fault(
-    put: Put, make_stream, logger, error: BaseException
+    put: Put, make_stream, logger, error: BaseException, chart, refused
 ) -> None:
     def close() -> None:
         raise error
@@ -95,30 +70,36 @@ def test_what_an_adapter_raises_when_opening_or_closing_is_its_own_fault(
         (FileNotFoundError(2, "gone", "/x/part2"), "/x/part2: gone; copy the file again"),
     ],
 )
-def test_what_a_user_can_act_on_stays_what_it_is(put: Put, error: Exception, message: str) -> None:
+def test_what_a_user_can_act_on_stays_what_it_is(
+    put: Put, error: Exception, message: str, chart, refused
+) -> None:
     source = put(Stream("s", (Column("laser"),), 3, NativeClock(), Odd(error)))
     assert message.format(source) in refused(InputError, source, chart())
 
 
-def test_memory_that_is_not_there_is_no_fault_of_the_adapter(put: Put) -> None:
+def test_memory_that_is_not_there_is_no_fault_of_the_adapter(put: Put, chart) -> None:
     source = put(Stream("s", (Column("laser"),), 3, NativeClock(), Odd(MemoryError())))
     with pytest.raises(MemoryError):
         read_native(source, chart())
 
 
 @pytest.mark.parametrize("content", [None, 5, "text", object()])
-def test_an_adapter_that_gives_no_file_is_named(put: Put, logger, content: object) -> None:
+def test_an_adapter_that_gives_no_file_is_named(
+    put: Put, logger, content: object, chart, refused
+) -> None:
     source = put()
     logger.streams = lambda path, options: content
     assert "gave no native file" in refused(PluginError, source, chart())
 
 
-def test_two_streams_of_one_name_are_the_fault_of_the_adapter(put: Put, make_stream) -> None:
+def test_two_streams_of_one_name_are_the_fault_of_the_adapter(
+    put: Put, make_stream, chart, refused
+) -> None:
     twice = [make_stream("s", {n: [1.0, 2.0]}, rate=Fraction(1)) for n in ("laser", "x")]
     assert "gave two streams called 's'" in refused(PluginError, put(*twice), chart())
 
 
-def test_every_file_is_closed_whatever_happens(put: Put, make_stream) -> None:
+def test_every_file_is_closed_whatever_happens(put: Put, make_stream, chart, refused) -> None:
     closed: list[int] = []
     stream = make_stream("s", {"laser": [1.0, 2.0]}, rate=Fraction(100))
     source = put(stream, close=lambda: closed.append(1))

@@ -2,7 +2,6 @@
 
 import re
 
-import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -13,16 +12,10 @@ from floatref.values.recording import Channel, Recording, Setup
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, a_drive):
     """A folder with the recording directory ``run``: 8 s at 20 m/s, one wheel path."""
     clock = UniformClock.of(1000.0)
-    times = np.arange(8000) / 1000.0
-    samples = {
-        "distance": 20.0 * times,
-        "height": 0.3 + 0.005 * np.sin(15.0 * times),
-        "vertical_specific_force": 9.80665 + 1e-3 * np.sin(15.0 * times),
-    }
-    channels = tuple(Channel.of(name, x, clock) for name, x in samples.items())
+    channels = tuple(Channel.of(name, x, clock) for name, x in a_drive().items())
     write_recording(Recording(channels, Setup(profile_interval_m=0.05)), tmp_path / "run")
     return tmp_path
 
@@ -32,8 +25,6 @@ def invoke(*args):
 
 
 class Vendor:
-    """An adapter that fails, or reads, as it is told."""
-
     name, summary = "vendor", "of a plug-in"
 
     def __init__(self, recognises=True, recording=None):

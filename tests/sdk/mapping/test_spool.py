@@ -16,15 +16,6 @@ from floatref.mapping import spool as spools
 from floatref.mapping.spool import SPARE, Spool
 
 
-@pytest.fixture
-def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder in which temporary files are kept."""
-    folder = tmp_path / "temporary"
-    folder.mkdir()
-    monkeypatch.setattr(spools.tempfile, "tempdir", str(folder))
-    return folder
-
-
 @pytest.mark.slow
 @settings(deadline=None, max_examples=30)
 @given(pieces=st.lists(arrays(np.float64, st.integers(0, 20)), max_size=6))

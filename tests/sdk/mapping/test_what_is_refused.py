@@ -1,6 +1,6 @@
 """What cannot be read through a map is one line that names file, channel and value."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
@@ -8,36 +8,14 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.errors import FloatrefError, InputError
+from floatref.errors import InputError
 from floatref.mapping import read_native
-from floatref.mapping import spool as spools
-from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap, ClockEntry
+from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
 from floatref.values.native import Epoch, NativeFile
 
 Put = Callable[..., Path]
 HEIGHT = ChannelEntry("laser", "height", unit="mm")
-
-
-def chart(*channels: ChannelEntry, **more) -> ChannelMap:
-    return ChannelMap(channels or (HEIGHT,), **more)
-
-
-@pytest.fixture(autouse=True)
-def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """See that no folder of samples stays behind, whatever happens."""
-    folder = tmp_path / "temporary"
-    folder.mkdir()
-    monkeypatch.setattr(spools.tempfile, "tempdir", str(folder))
-    yield
-    assert list(folder.iterdir()) == []
-
-
-def refused(kind: type[FloatrefError], *args) -> str:
-    with pytest.raises(FloatrefError) as caught:
-        read_native(*args)
-    assert isinstance(caught.value, kind)
-    assert str(caught.value).isprintable()
-    return str(caught.value)
+pytestmark = pytest.mark.usefixtures("nothing_left")
 
 
 @pytest.mark.parametrize(
@@ -60,7 +38,7 @@ def refused(kind: type[FloatrefError], *args) -> str:
     ],
 )
 def test_a_refusal_names_file_and_channel_once(
-    put: Put, make_stream, entry: ChannelEntry, message: str
+    put: Put, make_stream, entry: ChannelEntry, message: str, chart, refused
 ) -> None:
     source = put(make_stream("s", {"laser": [250.0, 300.0]}, rate=Fraction(100)))
     line = refused(InputError, source, chart(entry))
@@ -68,7 +46,7 @@ def test_a_refusal_names_file_and_channel_once(
     assert line.count(str(source)) == 1
 
 
-def test_names_that_would_break_a_line_do_not(put: Put, make_stream) -> None:
+def test_names_that_would_break_a_line_do_not(put: Put, make_stream, chart, refused) -> None:
     evil = "a\nb\x1b[31m\u2028"
     source = put(
         make_stream(evil, {evil: [1.0, 2.0]}, rate=Fraction(100), count=9),
@@ -80,7 +58,9 @@ def test_names_that_would_break_a_line_do_not(put: Put, make_stream) -> None:
     assert all(line.isprintable() for line in reading.warnings)
 
 
-def test_time_that_goes_back_is_refused_with_its_stream(put: Put, make_stream) -> None:
+def test_time_that_goes_back_is_refused_with_its_stream(
+    put: Put, make_stream, chart, refused
+) -> None:
     ticks = [*range(10), *range(10)]
     source = put(make_stream("s", {"laser": np.ones(20)}, ticks=ticks))
     line = refused(InputError, source, chart())
@@ -88,21 +68,25 @@ def test_time_that_goes_back_is_refused_with_its_stream(put: Put, make_stream) -
     assert "time goes back in 9 of 20 rows" in line
 
 
-def test_another_epoch_in_the_middle_is_told(put: Put, make_stream) -> None:
+def test_another_epoch_in_the_middle_is_told(put: Put, make_stream, chart) -> None:
     ticks = [*range(0, 1000, 10), *range(1_700_000_000, 1_700_001_000, 10)]
     source = put(make_stream("gps", {"laser": np.full(200, 300.0)}, ticks=ticks))
     (line,) = read_native(source, chart()).warnings
     assert line.startswith("run.log: stream 'gps': no rows for 1.7e+09 s after row 99; if")
 
 
-def test_a_clock_of_a_stream_that_is_not_there_is_refused(put: Put, make_stream) -> None:
+def test_a_clock_of_a_stream_that_is_not_there_is_refused(
+    put: Put, make_stream, chart, refused
+) -> None:
     source = put(make_stream("laser", {"laser": [1.0, 2.0]}, rate=Fraction(100)))
     lost = chart(clocks=(ClockEntry(stream="lasre", rate=Fraction(5)),))
     line = refused(InputError, source, lost)
     assert "no stream is called 'lasre'; did you mean laser?" in line
 
 
-def test_a_stated_rate_and_start_are_those_of_the_recording(put: Put, make_stream) -> None:
+def test_a_stated_rate_and_start_are_those_of_the_recording(
+    put: Put, make_stream, chart, refused
+) -> None:
     source = put(
         make_stream("a", {"laser": np.ones(5)}, name="unknown"),
         make_stream("b", {"x": np.ones(5)}, ticks=[7, 7, 7, 7, 7]),
@@ -121,7 +105,9 @@ def test_a_stated_rate_and_start_are_those_of_the_recording(put: Put, make_strea
     assert (other.clock.rate, other.clock.start_s) == (50, 7.0)
 
 
-def test_a_source_that_is_not_there_or_of_no_adapter_is_named(tmp_path: Path, logger) -> None:
+def test_a_source_that_is_not_there_or_of_no_adapter_is_named(
+    tmp_path: Path, logger, chart, refused
+) -> None:
     for name in ("no.log", "x" * 300):
         assert refused(InputError, tmp_path / name, chart()).endswith(": not found")
     (tmp_path / "run.xyz").write_bytes(b"")
@@ -142,7 +128,9 @@ def test_paths_may_be_text_and_the_public_name_is_the_same(
     assert dict(reading.files) == {"": source}
 
 
-def test_streams_of_one_absolute_clock_keep_their_distance_in_time(put: Put, make_stream) -> None:
+def test_streams_of_one_absolute_clock_keep_their_distance_in_time(
+    put: Put, make_stream, chart
+) -> None:
     clock = {"epoch": Epoch.UTC, "origin_ns": 1_700_000_000 * 10**9 + 250}
     source = put(
         make_stream("a", {"laser": np.ones(5)}, rate=Fraction(10), **clock),
@@ -153,7 +141,7 @@ def test_streams_of_one_absolute_clock_keep_their_distance_in_time(put: Put, mak
     np.testing.assert_allclose(other.times_s - height.times_s[0], [0.1, 1.5, 5.1], atol=1e-9)
 
 
-def test_a_file_without_streams_is_refused(put: Put) -> None:
+def test_a_file_without_streams_is_refused(put: Put, chart, refused) -> None:
     assert "it has no columns" in refused(InputError, put(), chart())
     assert "no channel of it has a name of floatref's" in refused(InputError, put())
     assert NativeFile(()).streams == ()

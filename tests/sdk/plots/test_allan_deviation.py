@@ -4,8 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
-from matplotlib.image import imread
 
 from floatref.errors import InputError
 from floatref.measures import ChannelNoise, channel_noise
@@ -23,13 +21,6 @@ def noise(
     return channel_noise(Channel.of(name, size * x, UniformClock.of(10.0), track))
 
 
-def colour_share(path: Path, colour: str) -> float:
-    """Share of the picture's columns with a pixel of ``colour``."""
-    pixels = imread(path)[:, :, :3]
-    same = np.abs(pixels - np.array(to_rgb(colour))).max(axis=2) < 0.02
-    return float(same.any(axis=0).mean())
-
-
 @pytest.mark.slow
 def test_every_unit_has_a_panel_and_every_channel_its_name(tmp_path: Path) -> None:
     found = [noise("roll_rate"), noise("height", "left"), noise("height", "right")]
@@ -42,7 +33,7 @@ def test_every_unit_has_a_panel_and_every_channel_its_name(tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-def test_each_channel_has_its_colour_over_all_cluster_times(tmp_path: Path) -> None:
+def test_each_channel_has_its_colour_over_all_cluster_times(tmp_path: Path, colour_share) -> None:
     draw_allan([noise("roll_rate"), noise("pitch_rate", walk=1.0)], tmp_path / "a.png")
     for colour in COLOURS[:2]:
         assert colour_share(tmp_path / "a.png", colour) > 0.3
@@ -61,7 +52,7 @@ def test_letters_stand_for_the_terms_that_are_there(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_more_channels_than_colours_are_drawn(tmp_path: Path) -> None:
+def test_more_channels_than_colours_are_drawn(tmp_path: Path, colour_share) -> None:
     names = ("roll_rate", "pitch_rate", "yaw_rate")
     each = [(name, track) for name in names for track in ("left", "middle", "right")]
     found = [noise(name, track, size=1.5**k) for k, (name, track) in enumerate(each)]

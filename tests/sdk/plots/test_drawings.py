@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 
 from floatref.errors import InputError
@@ -31,15 +30,8 @@ def profile(*names: str, invalid: slice = slice(0, 0), start: float = 100.0) -> 
     return Profile(INTERVAL, tuple(tracks), start_m=start, pipeline="temporal-basic")
 
 
-def colour_share(path: Path, colour: str) -> float:
-    """Share of the picture's columns with a pixel of ``colour``."""
-    pixels = imread(path)[:, :, :3]
-    same = np.abs(pixels - np.array(to_rgb(colour))).max(axis=2) < 0.02
-    return float(same.any(axis=0).mean())
-
-
 @pytest.mark.slow
-def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path) -> None:
+def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path, colour_share) -> None:
     draw_profile(profile("left", "right"), tmp_path / "p.png")
     for colour in COLOURS[:2]:
         assert colour_share(tmp_path / "p.png", colour) > 0.8
@@ -49,7 +41,7 @@ def test_every_wheel_path_is_drawn_in_its_colour(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path) -> None:
+def test_shaded_width_is_that_of_the_invalid_stretch(tmp_path: Path, colour_share) -> None:
     shares = []
     for end in (1000, 3000):
         target = tmp_path / f"{end}.png"
@@ -103,7 +95,7 @@ def test_speed_adds_a_panel(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_comparison_has_a_column_for_each_wheel_path(tmp_path: Path) -> None:
+def test_comparison_has_a_column_for_each_wheel_path(tmp_path: Path, colour_share) -> None:
     run = profile("left", "right")
     draw_comparison(profile("left"), run, tmp_path / "one.png")
     draw_comparison(run, run, tmp_path / "two.svg")

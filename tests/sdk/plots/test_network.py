@@ -96,7 +96,6 @@ def test_a_network_across_the_date_line_stays_together(tmp_path: Path) -> None:
 
 
 def _drawn(given: Columns, folder: Path) -> Figure:
-    """Return the figure that was drawn."""
     kept: list[Figure] = []
     real = Figure.savefig
 
@@ -111,7 +110,6 @@ def _drawn(given: Columns, folder: Path) -> Figure:
 
 
 def _dots(figure: Figure) -> Iterator[np.ndarray]:
-    """Yield where the dots of the map are, in pixels."""
     for ax in figure.axes:
         for dots in ax.collections:
             if isinstance(dots, PathCollection) and len(dots.get_offsets()):
@@ -199,9 +197,9 @@ def test_nothing_but_failures_or_unknown_is_drawn_all_the_same(
 
 @pytest.mark.slow
 def test_names_are_told_while_there_is_room(tmp_path: Path) -> None:
-    for files, told in ((24, True), (25, False)):
+    for files, named in ((24, True), (25, False)):
         draw_summary(network(False, files=files), tmp_path / "n.svg")
-        assert bool(re.search("<!-- 7.mf4 -->", text_of(tmp_path / "n.svg"))) == told
+        assert bool(re.search("<!-- 7.mf4 -->", text_of(tmp_path / "n.svg"))) == named
 
 
 def test_columns_that_do_not_fit_are_one_line(tmp_path: Path) -> None:

@@ -26,9 +26,27 @@ SIGNALS = ("acceleration", "velocity", "height")
 
 
 def said(error):
-    """Return the message, which is one line."""
     assert "\n" not in str(error.value)
     return str(error.value)
+
+
+def filled(stage, *speed):
+    for signal in SIGNALS:
+        getattr(stage, signal)(X, *speed)
+    return stage
+
+
+def passed(name):
+    make, speed = HIGH_PASSES[name]
+    return filled(make(), *speed), speed
+
+
+def at_speed(make):
+    stage = make(100.0)
+    if isinstance(stage, MatchedHighPass):
+        stage.reference_height(X, X, SPEED)
+        return stage
+    return filled(stage, SPEED)
 
 
 @every_high_pass
@@ -50,10 +68,7 @@ def test_an_incomplete_set_of_calls_is_refused(name, ending, left_out):
 
 @every_high_pass
 def test_a_height_that_lags_is_refused(name):
-    make, speed = HIGH_PASSES[name]
-    stage = make()
-    for signal in SIGNALS:
-        getattr(stage, signal)(X, *speed)
+    stage, speed = passed(name)
     for signal in SIGNALS[:2]:
         getattr(stage, signal)(X, *speed)
     with pytest.raises(StageError, match="20 of acceleration, 20 of velocity, 10 of height"):
@@ -74,10 +89,7 @@ def test_a_velocity_before_its_acceleration_is_refused(name):
 
 @every_high_pass
 def test_a_part_of_the_run_is_no_profile(name):
-    make, speed = HIGH_PASSES[name]
-    stage = make()
-    for signal in SIGNALS:
-        getattr(stage, signal)(X, *speed)
+    stage, speed = passed(name)
     with pytest.raises(StageError) as error:
         stage.reverse(X[:4], *(s[:4] for s in speed))
     assert "a profile of 4 samples after 10; give the whole run" in said(error)
@@ -87,10 +99,8 @@ def test_a_part_of_the_run_is_no_profile(name):
 @every_high_pass
 @pytest.mark.parametrize("again", [*SIGNALS, "reverse", "finish"])
 def test_after_the_end_nothing_is_taken(name, again):
-    make, speed = HIGH_PASSES[name]
-    stage = make()
-    for signal in (*SIGNALS, "reverse"):
-        getattr(stage, signal)(X, *speed)
+    stage, speed = passed(name)
+    stage.reverse(X, *speed)
     with pytest.raises(StageError, match=f"{name}.{again}: the run has ended; make a new one"):
         getattr(stage, again)(*(() if again == "finish" else (X, *speed)))
 
@@ -114,12 +124,7 @@ def test_signals_at_different_speeds_are_refused(ending, signal):
 
 @pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
 def test_the_backward_pass_at_another_speed_is_refused(make):
-    stage = make(100.0)
-    if make is MatchedHighPass:
-        stage.reference_height(X, X, SPEED)
-    else:
-        for signal in SIGNALS:
-            getattr(stage, signal)(X, SPEED)
+    stage = at_speed(make)
     with pytest.raises(StageError, match="reverse: another speed than before"):
         stage.reverse(X, SPEED[::-1] + X)
     stage.reverse_over_distance(X[:3], SPEED[:3] + 1.0, 0.05)
@@ -185,20 +190,9 @@ def test_a_chunk_refused_by_the_observer_for_its_speed_counts_for_nothing():
     np.testing.assert_array_equal(stage.reverse(X, SPEED), other.reverse(X, SPEED))
 
 
-def passed(make):
-    """Return a stage that all forward samples have passed."""
-    stage = make(100.0)
-    if isinstance(stage, MatchedHighPass):
-        stage.reference_height(X, X, SPEED)
-    else:
-        for signal in SIGNALS:
-            getattr(stage, signal)(X, SPEED)
-    return stage
-
-
 @pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
 def test_a_backward_pass_refused_for_its_arrays_does_not_end_the_run(make):
-    stage, nothing = passed(make), np.full(10, np.nan)
+    stage, nothing = at_speed(make), np.full(10, np.nan)
     with pytest.raises(InputError, match=NAMED % f"{make.__name__}.reverse"):
         stage.reverse(X, FAST)
     for call in (
@@ -213,7 +207,7 @@ def test_a_backward_pass_refused_for_its_arrays_does_not_end_the_run(make):
 @pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
 def test_a_speed_without_a_cut_off_over_distance_does_not_end_the_run(make):
     # A schedule so flat that (5.3) is below zero for a vehicle that moves backward.
-    stage = passed(lambda rate: make(rate, cutoff_wavelength_m=0.06, transition_steepness=1e-3))
+    stage = at_speed(lambda rate: make(rate, cutoff_wavelength_m=0.06, transition_steepness=1e-3))
     backward = np.where(np.arange(10) == 5, -3.0, SPEED)
     call = f"{make.__name__}.reverse_over_distance"
     with pytest.raises(InputError, match=f"{call}: speed sample 5 is -3 m/s"):
@@ -223,9 +217,7 @@ def test_a_speed_without_a_cut_off_over_distance_does_not_end_the_run(make):
 
 @pytest.mark.parametrize("name", ["HighPass", "SpatialHighPass"])
 def test_a_profile_of_nothing_does_not_end_the_run(name):
-    stage = HIGH_PASSES[name][0]()
-    for signal in SIGNALS:
-        getattr(stage, signal)(X)
+    stage, _ = passed(name)
     with pytest.raises(InputError, match=f"{name}.reverse: all 10 samples of profile are missing"):
         stage.reverse(np.full(10, np.nan))
     stage.reverse(X)

@@ -22,7 +22,6 @@ X = np.linspace(0.0, 1.0, 10)
 
 
 def said(error):
-    """Return the message, which is one line."""
     assert "\n" not in str(error.value)
     return str(error.value)
 

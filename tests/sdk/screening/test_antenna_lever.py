@@ -24,7 +24,7 @@ def driven(vehicle: str) -> tuple[Recording, Motion]:
     return recording, motion
 
 
-def told(recording: Recording, motion: Motion) -> tuple[str, ...]:
+def warnings_of(recording: Recording, motion: Motion) -> tuple[str, ...]:
     return tuple(check_antenna(recording, "left", motion, gnss_faults(recording)))
 
 
@@ -42,7 +42,7 @@ def test_the_arm_is_found_within_its_uncertainty(vehicle: str) -> None:
     off = np.abs(np.subtract(found.place_m, true)) / np.array(found.sigma_m)
     assert (off < 4.0).all()
     assert max(found.sigma_m) < 0.3
-    assert told(recording, motion) == ()
+    assert warnings_of(recording, motion) == ()
 
 
 @pytest.mark.slow
@@ -52,15 +52,15 @@ def test_an_arm_that_contradicts_the_swing_is_told(axis: int, by_m: float) -> No
     recording, motion = driven("soft-van")
     arm = list(recording.setup.gnss_antenna_offset_m)
     arm[axis] += by_m
-    (line,) = told(with_arm(recording, *arm), motion)
+    (line,) = warnings_of(with_arm(recording, *arm), motion)
     assert line.startswith(f"setup.gnss_antenna_offset_m: {'XY'[axis]} is {arm[axis]:.4g} m")
-    told_m = float(line.split(f"{'XY'[axis]} = ")[1].split(" m")[0])
-    assert told_m == pytest.approx(recording.setup.gnss_antenna_offset_m[axis], abs=1.0)
+    found_m = float(line.split(f"{'XY'[axis]} = ")[1].split(" m")[0])
+    assert found_m == pytest.approx(recording.setup.gnss_antenna_offset_m[axis], abs=1.0)
 
 
 def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
     recording, motion = driven("soft-van")
-    (line,) = told(with_arm(recording, 0.0, 0.0, 0.0), motion)
+    (line,) = warnings_of(with_arm(recording, 0.0, 0.0, 0.0), motion)
     assert line.startswith("setup.gnss_antenna_offset_m: 0, 0, 0, so the antenna is taken to sit")
     assert "(its swing shows X = -" in line
 
@@ -68,7 +68,7 @@ def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
 def test_rates_in_degrees_are_not_blamed_on_the_antenna() -> None:
     recording, motion = driven("soft-van")
     in_degrees = replace(motion, rates=180.0 / np.pi * motion.rates)
-    (line,) = told(recording, in_degrees)
+    (line,) = warnings_of(recording, in_degrees)
     assert line.startswith("channels roll_rate, pitch_rate: the antenna swings a fraction")
     assert "multiply by 0.0174533" in line
 
@@ -80,6 +80,6 @@ def test_a_parked_vehicle_tells_nothing_of_the_arm() -> None:
     assert motion is not None
     faults = gnss_faults(recording)
     assert locate_antenna(recording, "left", motion, faults) is None
-    assert told(with_arm(recording, 5.0, -3.0, 1.0), motion) == ()
-    (line,) = told(replace(recording, setup=Setup()), motion)
+    assert warnings_of(with_arm(recording, 5.0, -3.0, 1.0), motion) == ()
+    (line,) = warnings_of(replace(recording, setup=Setup()), motion)
     assert line.endswith("measure where it is and give it")

@@ -25,13 +25,11 @@ PER_TRACK = ("check_alive", "check_travel_force", "check_curves", "check_rates",
 
 @cache
 def driven(**more: Any) -> Recording:
-    """Return a drive of two wheel paths with IMU, GNSS and the vehicle's response."""
     scenario = {"length_m": 120.0, "speed_kmh": 60.0, "rate_hz": 1000.0, "seed": 3, **more}
     return simulate(Scenario.from_dict(scenario)).recording
 
 
 def dropped(recording: Recording) -> Recording:
-    """Return the recording without heights for 0.2 s."""
     channels = list(recording.channels)
     for at, channel in enumerate(channels):
         if channel.id.name == "height":
@@ -43,7 +41,6 @@ def dropped(recording: Recording) -> Recording:
 
 @pytest.fixture
 def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
-    """Count the calls of what is expensive, by name."""
     counts: Counter[str] = Counter()
 
     def counted(owner: object, name: str, label: str) -> None:

@@ -136,8 +136,8 @@ def test_a_jump_is_told_with_size_and_time(seed: int, at: int, by_m: float, back
     (line,) = report_jumps(with_values(recording, HEIGHT, values), gnss_faults(recording))
     returns = at + back < COUNT
     assert line.startswith(f"channel gnss_height: jumps in {2 if returns else 1} place")
-    told = float(line.split("most by ")[1].split(" m at ")[0])
-    assert abs(told) == pytest.approx(abs(by_m), abs=0.05 + 0.01 * abs(by_m))
+    jump_m = float(line.split("most by ")[1].split(" m at ")[0])
+    assert abs(jump_m) == pytest.approx(abs(by_m), abs=0.05 + 0.01 * abs(by_m))
     assert any(f"at {STAMPS[k]:.6g} s" in line for k in (at, min(at + back, COUNT - 1)))
 
 

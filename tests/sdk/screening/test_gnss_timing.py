@@ -46,8 +46,8 @@ def test_a_delay_is_told_with_its_size_and_nothing_else_is_blamed(seed: int, by_
     side = "late" if by_s > 0 else "early"
     assert line.startswith("channel gnss_height: GNSS sees the body swing ")
     assert f"s too {side} for the IMU; add " in line
-    told = float(line.split("add ")[1].split(" s")[0])
-    assert told == pytest.approx(-by_s, abs=0.03)
+    delay_s = float(line.split("add ")[1].split(" s")[0])
+    assert delay_s == pytest.approx(-by_s, abs=0.03)
     assert others == []
 
 

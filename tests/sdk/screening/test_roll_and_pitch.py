@@ -36,12 +36,12 @@ def swinging(roll: float, turn: float, pitches: float, seed: int, sign: float = 
         **dict.fromkeys(FORCES, 0.0 * times),
     }
     receiver = StampedClock.of(stamps)
-    told = {"gnss_pitch": sign * pitch(stamps), "gnss_roll": roll + 0.0 * stamps}
-    readings = (v + 1e-3 * rng.standard_normal(v.size) for v in told.values())
+    attitude = {"gnss_pitch": sign * pitch(stamps), "gnss_roll": roll + 0.0 * stamps}
+    readings = (v + 1e-3 * rng.standard_normal(v.size) for v in attitude.values())
     return Recording(
         (
             *(Channel.of(name, row, fast) for name, row in rows.items()),
-            *(Channel.of(n, v, receiver) for n, v in zip(told, readings, strict=True)),
+            *(Channel.of(n, v, receiver) for n, v in zip(attitude, readings, strict=True)),
         )
     )
 

@@ -75,9 +75,9 @@ def test_a_brake_of_many_counts_is_marked_with_a_held_encoder(braking, count_m):
     flags = marked(speed, count_m)
     short_m = braking * G * 0.25**2
     left = 12.0 / (braking * G) + 2.0 - (times - 0.25)
-    told = (times > 2.6) & (speed > 16 / 3.6 + 0.5 * braking * G)
-    told &= (left < 3.0) & (short_m > 6 * count_m)
-    assert (flags[told] & Flag.BRAKING).all()
+    hard = (times > 2.6) & (speed > 16 / 3.6 + 0.5 * braking * G)
+    hard &= (left < 3.0) & (short_m > 6 * count_m)
+    assert (flags[hard] & Flag.BRAKING).all()
 
 
 @settings(deadline=None, max_examples=20)

@@ -36,10 +36,10 @@ def through(values, cuts=()):
     return join_blocks(out)[REFERENCE]
 
 
-def lost(values, begin, length, told_m):
-    """Return ``values`` with no distance for a while, of which ``told_m`` is told afterwards."""
+def lost(values, begin, length, counted_m):
+    """Return ``values`` with no distance for a while, of which ``counted_m`` counts."""
     distance = values[DISTANCE].copy()
-    distance[begin + length :] += told_m - (distance[begin + length] - distance[begin - 1])
+    distance[begin + length :] += counted_m - (distance[begin + length] - distance[begin - 1])
     distance[begin : begin + length] = np.nan
     return {**values, DISTANCE: distance}
 
@@ -47,7 +47,7 @@ def lost(values, begin, length, told_m):
 @laws
 @given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS)
 def test_behind_lost_travel_the_elevation_is_that_before_it(seed, begin, length, cuts):
-    values = lost(drawn(seed), begin, length, told_m=0.0)
+    values = lost(drawn(seed), begin, length, counted_m=0.0)
     found, end = through(values, cuts), begin + length
     elevation = found - values[HEIGHT]
     assert abs(elevation[end] - elevation[begin - 1]) < 1e-12
@@ -74,8 +74,8 @@ def test_what_is_told_again_and_standstills_and_leaps_shift_nothing(
 @given(seed=SEEDS, cuts=CUTS, every=st.integers(2, 7))
 def test_where_most_samples_are_silent_the_pace_is_still_that_of_the_road(seed, cuts, every):
     values = drawn(seed)
-    told = np.where(np.arange(COUNT) % every == 0, values[DISTANCE], np.nan)
-    np.testing.assert_array_equal(through({**values, DISTANCE: told}, cuts), values[REFERENCE])
+    counted = np.where(np.arange(COUNT) % every == 0, values[DISTANCE], np.nan)
+    np.testing.assert_array_equal(through({**values, DISTANCE: counted}, cuts), values[REFERENCE])
 
 
 @laws

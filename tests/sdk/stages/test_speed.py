@@ -19,21 +19,19 @@ RATE = 1000
 HEADER = Header(Axis.TIME, 1 / RATE, 0.0, Fraction(RATE), frozenset({DISTANCE}), ("main",))
 
 
-def run(distance, cut=0, window_s=0.05):
+def run(distance, window_s=0.05):
     stage = TravelSpeed(window_s)
     stage.start(HEADER)
-    parts = [Block(0, {DISTANCE: distance[:cut]}), Block(cut, {DISTANCE: distance[cut:]})]
-    out = [stage.push(part) for part in parts if len(part)]
-    flags = [b.flags.get(SPEED, np.zeros(len(b), np.uint8)) for b in out]
-    return np.concatenate([b[SPEED] for b in out]), np.concatenate(flags)
+    out = stage.push(Block(0, {DISTANCE: distance}))
+    return out[SPEED], out.flags.get(SPEED, np.zeros(len(out), np.uint8))
 
 
 @settings(deadline=None, max_examples=20)
-@given(seed=st.integers(0, 2**32 - 1), cut=st.integers(0, 199))
-def test_speed_is_that_of_the_equation(seed, cut):
+@given(seed=st.integers(0, 2**32 - 1))
+def test_speed_is_that_of_the_equation(seed):
     distance = 0.0003 * np.random.default_rng(seed).integers(0, 90, 200).cumsum()
     expected = section_5_6.travel_speed(distance, RATE)
-    assert run(distance, cut)[0] == pytest.approx(expected.astype(float), abs=1e-12)
+    assert run(distance)[0] == pytest.approx(expected.astype(float), abs=1e-12)
 
 
 def test_a_steady_drive_has_its_speed_after_one_window():
@@ -63,20 +61,14 @@ def kept(distance, samples):
 
 
 @settings(deadline=None, max_examples=30)
-@given(
-    lost=st.sets(st.integers(0, 199), max_size=60),
-    cut=st.integers(0, 199),
-    samples=st.integers(1, 60),
-)
-def test_the_last_speed_is_kept_while_a_distance_is_missing_in_the_window(lost, cut, samples):
+@given(lost=st.sets(st.integers(0, 199), max_size=60), samples=st.integers(1, 60))
+def test_the_last_speed_is_kept_while_a_distance_is_missing_in_the_window(lost, samples):
     distance = np.random.default_rng(len(lost)).uniform(0.0, 0.02, 200).cumsum()
     distance[list(lost)] = np.nan
     distance[199] = 3.0
-    speed, flags = run(distance, 0, samples / RATE)
+    speed, flags = run(distance, samples / RATE)
     assert speed == pytest.approx(kept(distance, samples), abs=1e-9)
     assert set(np.flatnonzero(flags == Flag.MISSING)) == lost - {199}
-    if cut > 0 and not np.isnan(distance[:cut]).all():
-        np.testing.assert_array_equal(run(distance, cut, samples / RATE)[0], speed)
 
 
 def test_only_a_stream_in_time_has_it():

@@ -43,7 +43,6 @@ STAGES = {
 
 
 def through(stage, axis, **channels):
-    """Return the channels that come out of ``stage``; those of the track are given as lists."""
     shared = {signals.TRAVEL_SPEED, signals.CUTOFF, signals.TIME, signals.TIME_STEP}
     shared.add(signals.TRUE_TIME_STEP)
     values = {
@@ -58,7 +57,6 @@ def through(stage, axis, **channels):
 
 
 def moving(seed, length=400):
-    """Return a speed in m/s that wanders between standstill and 15 m/s."""
     steps = np.random.default_rng(seed).normal(size=length)
     return np.clip(4.0 + np.cumsum(steps), 0.0, 15.0)
 

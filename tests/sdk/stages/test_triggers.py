@@ -31,7 +31,6 @@ def header():
 
 
 def triggers(intervals_s, seed=0):
-    """Return a block of samples that are so far apart in time."""
     times = np.cumsum([0.25, *intervals_s])
     rng = np.random.default_rng(seed)
     return Block(0, {TIME: times, **{c: rng.standard_normal(times.size) for c in (UP, RANGE)}})
@@ -55,15 +54,6 @@ def test_the_triggers_come_back_as_they_were(intervals_s, seed):
     for channel in (UP, RANGE):
         np.testing.assert_array_equal(again[channel], block[channel])
         assert not np.any(again.flags.get(channel, 0))
-
-
-@laws
-@given(intervals_s=INTERVALS_S)
-def test_every_trigger_is_reached_wherever_it_lies_between_samples(intervals_s):
-    block = triggers(intervals_s)
-    in_time, samples = through(ToTime(), header(), block)
-    _, again = through(ToDistance(INTERVAL, ORIGIN), in_time, samples)
-    assert len(again) == len(block)
 
 
 @laws
@@ -138,9 +128,9 @@ def test_no_place_is_told_where_the_encoder_lost_travel(interval_s, lasts_s):
     at = np.arange(len(samples))
     inside = (at > places[2] + 1.0 + 1e-6) & (at < places[3] - 1e-6)
     np.testing.assert_array_equal(np.isnan(samples[DISTANCE][inside]), True)
-    told = (at < places[2] + 1.0 - 1e-6) | (at > places[3] + 1e-6)
+    known = (at < places[2] + 1.0 - 1e-6) | (at > places[3] + 1e-6)
     line = np.interp(at, places, ORIGIN + INTERVAL * np.arange(6))
-    inner = told & (at <= places[-1])
+    inner = known & (at <= places[-1])
     np.testing.assert_allclose(samples[DISTANCE][inner], line[inner], rtol=1e-9)
 
 

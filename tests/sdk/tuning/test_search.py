@@ -20,8 +20,6 @@ steps = st.integers(-12, 12)
 
 
 class Counted:
-    """A loss that remembers what it was asked for."""
-
     def __init__(self, loss: Callable[[int], float]) -> None:
         self.loss, self.asked = loss, set[int]()
 

@@ -25,13 +25,13 @@ def trials(driven: Callable[..., Simulation], given: dict[str, float]) -> Callab
 
 @pytest.mark.slow
 def test_every_profile_is_made_once_and_told(trials: Callable[[], Trials]) -> None:
-    warnings: list[int] = []
+    counts: list[int] = []
     made = trials()
-    made.done = warnings.append
+    made.done = counts.append
     first = made.losses(START, ["fast"])
     assert made.losses(START, ["fast", "stop"])["fast"] == first["fast"]
     made.losses((0, -2, 0, 0), ["stop"])
-    assert warnings == [1, 2, 3]
+    assert counts == [1, 2, 3]
     assert (made.profiles, made.combinations) == (3, 2)
 
 

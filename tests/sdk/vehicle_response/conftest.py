@@ -55,7 +55,6 @@ def motion(road: np.ndarray, car: Mapping[str, float] = CAR, rate: float = RATE)
 
 
 def rough(distance: np.ndarray, seed: int = 0, amplitude: float = 1.0) -> np.ndarray:
-    """Return a road of many sines, of some 2 m/km, level and flat at 0 m."""
     rng = np.random.default_rng(seed)
     waves = np.geomspace(0.012, 2.5, 120)
     heights = 7e-5 * amplitude * waves**-1.05 * rng.uniform(0.5, 1.5, waves.size)
@@ -70,7 +69,7 @@ def rough(distance: np.ndarray, seed: int = 0, amplitude: float = 1.0) -> np.nda
 class Drive:
     """One wheel path at a constant speed; places in m ahead of the vehicle point.
 
-    ``noise`` is of one sample by channel, ``warnings`` the parameters that the recording states.
+    ``noise`` is of one sample by channel, ``stated`` the parameters that it says the vehicle has.
     """
 
     mps: float = 20.0
@@ -78,7 +77,7 @@ class Drive:
     wheel_m: float = 0.0
     laser_m: float = 0.0
     noise: Mapping[str, float] | None = None
-    warnings: Mapping[str, float] | None = None
+    stated: Mapping[str, float] | None = None
     car: Mapping[str, float] | None = None
     seed: int = 0
     interval_m: float = 0.05
@@ -109,7 +108,7 @@ class Drive:
             channels[name] = Channel.of(name, x + spread, clock, "left")
         channels |= replaced
         tracks = {"left": TrackSetup((0.1, 0.0, 0.0), (self.laser_m - 0.1, 0.0, 0.0))}
-        vehicle = VehicleSetup("quarter-car", dict(self.warnings or car), self.wheel_m)
+        vehicle = VehicleSetup("quarter-car", dict(self.stated or car), self.wheel_m)
         setup = Setup(profile_interval_m=self.interval_m, tracks=tracks, vehicle=vehicle)
         return Recording(tuple(c for c in channels.values() if c is not None), setup)
 
@@ -134,13 +133,11 @@ def high_passed(z: np.ndarray, mps: float, interval_m: float) -> np.ndarray:
 
 @pytest.fixture
 def drive():
-    """Return the class of drives."""
     return Drive
 
 
 @pytest.fixture
 def quarter_car():
-    """Return the parameters of the car that is driven."""
     return dict(CAR)
 
 

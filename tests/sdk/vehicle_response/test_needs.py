@@ -20,9 +20,9 @@ laws = settings(deadline=None, suppress_health_check=[HealthCheck.function_scope
 @pytest.mark.parametrize("pipeline", [JOINT, OBSERVER])
 @pytest.mark.parametrize(("names", "unit"), TON_AND_NEWTON)
 def test_another_unit_is_refused(drive, quarter_car, pipeline, names, unit):
-    told = quarter_car | {name: unit * quarter_car[name] for name in names}
+    stated = quarter_car | {name: unit * quarter_car[name] for name in names}
     with pytest.raises(InputError, match="masses in kg and stiffnesses in N/m") as caught:
-        run(drive(length_m=60.0, warnings=told).recording(), pipeline)
+        run(drive(length_m=60.0, stated=stated).recording(), pipeline)
     assert "\n" not in str(caught.value)
 
 
@@ -34,8 +34,8 @@ def test_the_vehicles_of_the_papers_are_vehicles(name):
 @laws
 @given(off=st.floats(0.2, 5.0), name=st.sampled_from(["sprung_kg", "unsprung_kg", "tyre_n_per_m"]))
 def test_a_poor_guess_is_still_a_vehicle(quarter_car, off, name):
-    told = quarter_car | {name: off * quarter_car[name]}
-    check_sink(model_of(VehicleSetup("quarter-car", told)))
+    stated = quarter_car | {name: off * quarter_car[name]}
+    check_sink(model_of(VehicleSetup("quarter-car", stated)))
 
 
 def test_the_fastest_mode_is_the_wheel_between_its_springs(quarter_car):

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from floatref.engine.run import run
 from floatref.errors import InputError
-from floatref.intake.blocks import Source
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup, TrackSetup
 
@@ -68,25 +67,13 @@ def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
 @pytest.mark.parametrize("seed", range(3))
 def test_the_error_is_within_two_sigma(drive, quarter_car, pipeline, seed):
     rng = np.random.default_rng(seed)
-    told = {name: x * (1.0 + 0.03 * rng.standard_normal()) for name, x in quarter_car.items()}
-    noisy = drive(mps=20.0, noise=NOISE, warnings=told, seed=seed)
+    stated = {name: x * (1.0 + 0.03 * rng.standard_normal()) for name, x in quarter_car.items()}
+    noisy = drive(mps=20.0, noise=NOISE, stated=stated, seed=seed)
     track, road = noisy.compared(pipeline)
     error = np.abs(track.elevation - road)[track.valid]
     sigma = track.sigma[track.valid]
     assert np.mean(error < 2.0 * sigma) > 0.9
     assert np.median(sigma) < 4.0 * np.sqrt(np.mean(error**2))
-
-
-@PIPELINES
-def test_any_split_gives_the_same_profile(drive, pipeline, monkeypatch):
-    recording = drive(noise=NOISE, length_m=150.0).recording()
-    whole = run(recording, pipeline).profile.tracks[0]
-    blocks = Source.blocks
-    monkeypatch.setattr(Source, "blocks", lambda self: blocks(self, 777))
-    split = run(recording, pipeline).profile.tracks[0]
-    np.testing.assert_array_equal(whole.elevation, split.elevation)
-    np.testing.assert_array_equal(whole.sigma, split.sigma)
-    np.testing.assert_array_equal(whole.valid, split.valid)
 
 
 @pytest.mark.slow

@@ -19,7 +19,6 @@ SHARE_OF_OBSTACLE = 0.15
 
 @pytest.fixture(scope="module")
 def bench():
-    """Return the module of the three simulations."""
     with pytest.MonkeyPatch.context() as patched:
         patched.syspath_prepend(str(BENCHMARKS))
         yield importlib.import_module("bench_zhu")

@@ -40,7 +40,6 @@ records = st.builds(
 
 
 def without_nan(record: Record) -> Record:
-    """Return ``record`` with None for NaN, which equals nothing."""
     bare = [
         replace(row, **{k: None for k, v in vars(row).items() if isinstance(v, float) and isnan(v)})
         for row in record.rows

@@ -43,7 +43,6 @@ failures = st.builds(Record, name=words, source=words, error=words.filter(bool))
 
 
 def read(folder: Path) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return the rows of both files, None where nothing is known."""
     with (folder / CSV).open(encoding="utf-8", newline="") as stream:
         lines = [
             {k: COLUMNS[k](v) if v or COLUMNS[k] is str else None for k, v in line.items()}

@@ -57,21 +57,18 @@ def test_time_left_follows_the_bytes_that_were_worked_at() -> None:
     assert tally.km_per_hour(130.0) == pytest.approx(60.0)
 
 
-def test_files_of_unknown_size_count_alike() -> None:
-    jobs = [job(name, 0) for name in "abcd"]
+@pytest.mark.parametrize(
+    ("sizes", "within"), [((0, 0, 0, 0), 1e-6), ((30_000, 10_000, 800, 1), 0.01)]
+)
+def test_files_of_unknown_size_count_alike_and_small_ones_nearly(
+    sizes: tuple[int, ...], within: float
+) -> None:
+    jobs = [job(name, size) for name, size in zip("abcd", sizes, strict=True)]
     tally = Tally()
     tally.begin(jobs, 0.0)
     tally.add(jobs[0], record("a"))
-    assert tally.part == 0.25
-    assert tally.left_s(8.0) == pytest.approx(24.0)
-
-
-def test_files_that_are_small_count_nearly_alike() -> None:
-    jobs = [job(name, size) for name, size in zip("abcd", (30_000, 10_000, 800, 1), strict=True)]
-    tally = Tally()
-    tally.begin(jobs, 0.0)
-    tally.add(jobs[0], record("a"))
-    assert tally.left_s(8.0) == pytest.approx(24.0, rel=0.01)
+    assert tally.part == pytest.approx(0.25, rel=within)
+    assert tally.left_s(8.0) == pytest.approx(24.0, rel=within)
 
 
 def test_effort_is_summed_and_the_peak_of_memory_is_the_largest() -> None:

@@ -1,13 +1,11 @@
 """A small network in every format, some of it corrupt: rows, reasons, and the bytes of profiles."""
 
-import csv
 import importlib
 import json
 import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -79,14 +77,6 @@ def test_no_format_is_left_out(network: Network, checks: ModuleType) -> None:
     assert adapters == {"recording", "mdf4", "tdms", "parquet", "arrow", "hdf5", "csv", "can"}
 
 
-def test_segments_follow_each_other(network: Network, checks: ModuleType) -> None:
-    for found in checks.summary(network.out).values():
-        for before, after in pairwise(found):
-            if before["track"] == after["track"]:
-                end = float(before["start_m"]) + float(before["length_m"])
-                assert float(after["start_m"]) == pytest.approx(end, abs=0.11)
-
-
 def test_profiles_are_those_of_the_files_one_by_one(
     network: Network, checks: ModuleType, tmp_path: Path
 ) -> None:
@@ -94,14 +84,3 @@ def test_profiles_are_those_of_the_files_one_by_one(
     found = checks.compared(list(chosen.values()), network.corpus, network.out, tmp_path / "alone")
     assert found.count == len(chosen) > 11
     assert found.differing == ()
-
-
-def test_the_parquet_summary_has_the_same_rows(network: Network) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    table = parquet.read_table(network.out / "summary.parquet").to_pylist()
-    with (network.out / "summary.csv").open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    keys = ("name", "status", "error", "track")
-    assert [[row[k] or "" for k in keys] for row in table] == [
-        [row[k] for k in keys] for row in rows
-    ]

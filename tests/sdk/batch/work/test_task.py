@@ -21,7 +21,6 @@ KINDS = ("directory", "native", "mapped")
 
 
 def content(folder: Path) -> dict[str, bytes]:
-    """Return every file below ``folder`` by its path."""
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 

@@ -14,8 +14,6 @@ from floatref.batch.work.task import run_job
 
 
 class Counted:
-    """Counts the files that are processed."""
-
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.count = 0
         original = task.make_profile

@@ -1,15 +1,14 @@
 """A recording of a vehicle at rest whose noise is known, and `floatref allan` on it."""
 
-import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 
-from floatref.cli.main import main
 from floatref.files import write_recording
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.clock import UniformClock
@@ -52,66 +51,40 @@ def record(folder: Path, *changed: Channel) -> Path:
 
 @pytest.fixture(scope="session")
 def noise() -> Callable[..., np.ndarray]:
-    """Return the maker of white noise of a density, at a rate in Hz."""
     return white
 
 
 @pytest.fixture(scope="session")
 def channels() -> dict[ChannelId, Channel]:
-    """Return what the vehicle at rest records."""
     return still_vehicle()
 
 
 @pytest.fixture(scope="session")
 def densities() -> dict[str, float]:
-    """Return the settings that are true of the recording."""
     drawn = {f"{name}_density": density for name, density in GYRO.items()}
     return {**drawn, "acceleration_density": max(FORCE.values()), "roll_rate_walk": WALK}
 
 
 @pytest.fixture(scope="session")
 def written() -> Callable[..., Path]:
-    """Return what writes the recording, but for changed channels, below a folder."""
     return record
 
 
 @pytest.fixture
 def still(tmp_path: Path) -> Path:
-    """Return where the recording is."""
     return record(tmp_path)
 
 
-def call(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["allan", *map(str, arguments)])
+@pytest.fixture(scope="session")
+def run(invoke: Callable[..., Result]) -> Callable[..., Result]:
+    return partial(invoke, "allan")
 
 
 @pytest.fixture(scope="session")
-def run() -> Callable[..., Result]:
-    """Return what runs the command with arguments."""
-    return call
+def report(reported: Callable[..., dict[str, Any]]) -> Callable[..., dict[str, Any]]:
+    return partial(reported, "allan")
 
 
 @pytest.fixture(scope="session")
-def report() -> Callable[..., dict[str, Any]]:
-    """Return what runs the command for its JSON."""
-
-    def told(*arguments: object) -> dict[str, Any]:
-        result = call(*arguments, "--json")
-        assert result.exit_code == 0, result.output
-        return dict(json.loads(result.stdout))
-
-    return told
-
-
-@pytest.fixture(scope="session")
-def refused() -> Callable[..., str]:
-    """Return what runs the command for the one line of its refusal."""
-
-    def told(*arguments: object) -> str:
-        result = call(*arguments)
-        assert result.exit_code == 2
-        assert result.stdout == ""
-        assert result.stderr.count("\n") == 1
-        return result.stderr
-
-    return told
+def refused(refused: Callable[..., str]) -> Callable[..., str]:
+    return partial(refused, "allan")

@@ -16,7 +16,6 @@ from floatref.engine.plugins import plugins
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Channel
 
-Written = Callable[..., Path]
 Runs = Callable[..., Result]
 Reports = Callable[..., dict[str, Any]]
 Refusals = Callable[..., str]

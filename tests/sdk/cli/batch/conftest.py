@@ -72,7 +72,6 @@ class Bench:
 
     @property
     def temporary(self) -> Path:
-        """The folder for temporary files of the commands."""
         return self.folder / "temporary"
 
     def put(self, **files: tuple[str, int]) -> None:
@@ -98,7 +97,6 @@ class Bench:
         return process
 
     def batch(self, *arguments: str) -> Started:
-        """Start a batch over all files, with JSON at its end."""
         return self.start("batch", "in", "--out", "out", "--json", *arguments)
 
     def begun(self) -> dict[str, list[int]]:

@@ -6,16 +6,14 @@ from pathlib import Path
 from shutil import copytree
 from typing import Any
 
-import numpy as np
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 from matplotlib.image import imread
 
-from floatref.cli.main import main
 from floatref.files import read_profile, write_profile, write_recording
 from floatref.measures import agreement
 from floatref.tuning.levels import TUNED
-from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.profile import Profile
 from floatref_conformance.proving_ground import Scenario, simulate
 
 ROAD: dict[str, Any] = {
@@ -38,7 +36,7 @@ GIVEN = {"cutoff_wavelength_m": 30.0, "acceleration_walk": 0.5}
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def made(tmp_path_factory: pytest.TempPathFactory, ran) -> Path:
     """Return a folder of three runs, their road, settings, and what was tuned to two of them."""
     folder = tmp_path_factory.mktemp("tuned")
     for seed, (name, drive) in enumerate({"fast": {}, "stop": STOP, "again": STOP}.items()):
@@ -48,46 +46,35 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
             write_profile(simulation.truth, folder / "road")
     (folder / "given.json").write_text(json.dumps(GIVEN), encoding="utf-8")
     result = tuned(
-        folder, "fast", "stop", "--out", folder / "tuned.json", "--plot", folder / "p.png"
+        ran, folder, "fast", "stop", "--out", folder / "tuned.json", "--plot", folder / "p.png"
     )
     (folder / "out.txt").write_text(result.stdout, encoding="utf-8")
     (folder / "err.txt").write_text(result.stderr, encoding="utf-8")
     return folder
 
 
-def tuned(folder: Path, *arguments: object) -> Result:
+def tuned(ran, folder: Path, *arguments: object) -> Result:
     """Return what tuning to runs in ``folder`` prints; those without a slash are their names."""
     given = ["--reference", folder / "road", "--settings", folder / "given.json"]
     runs = [folder / a if a in ("fast", "stop") else a for a in arguments]
-    result = CliRunner().invoke(main, ["tune", *map(str, [*runs, *given])])
-    assert result.exit_code == 0, result.output
-    return result
+    return ran("tune", *runs, *given)
 
 
 @pytest.fixture
 def inputs(made: Path, tmp_path: Path) -> Path:
-    """Return a folder with the runs and their road alone."""
     for name in ("fast", "stop", "road"):
         copytree(made / name, tmp_path / name)
     return tmp_path
 
 
-def refused(*arguments: object) -> str:
-    result: Result = CliRunner().invoke(main, ["tune", *map(str, arguments)])
-    assert result.exit_code == 2
-    assert result.stdout == ""
-    assert result.stderr.count("\n") == 1
-    return result.stderr
+@pytest.fixture
+def processed(made: Path, ran) -> Callable[[Path, str, str], Profile]:
+    def process(target: Path, run: str, settings: str) -> Profile:
+        arguments = ("--out", target, "--settings", made / settings)
+        ran("process", made / run, *arguments, "--pipeline", "kalman-smoother-reflection")
+        return read_profile(target)
 
-
-def processed(made: Path, target: Path, run: str, settings: str) -> Profile:
-    arguments = [
-        *("process", made / run, "--out", target, "--settings", made / settings),
-        *("--pipeline", "kalman-smoother-reflection"),
-    ]
-    result = CliRunner().invoke(main, [str(argument) for argument in arguments])
-    assert result.exit_code == 0, result.output
-    return read_profile(target)
+    return process
 
 
 @pytest.mark.slow
@@ -99,12 +86,14 @@ def test_settings_are_those_given_and_the_four_that_are_tuned(made: Path) -> Non
 
 
 @pytest.mark.slow
-def test_a_profile_made_with_them_agrees_better_with_the_road(made: Path, tmp_path: Path) -> None:
+def test_a_profile_made_with_them_agrees_better_with_the_road(
+    made: Path, tmp_path: Path, processed
+) -> None:
     road = read_profile(made / "road").track("left").elevation
     inside = slice(300, 2900)
     for run in ("stop", "again"):
-        before = processed(made, tmp_path / f"{run}-before", run, "given.json")
-        after = processed(made, tmp_path / f"{run}-after", run, "tuned.json")
+        before = processed(tmp_path / f"{run}-before", run, "given.json")
+        after = processed(tmp_path / f"{run}-after", run, "tuned.json")
         scores = [
             agreement(road[inside], p.track("left").elevation[inside], 0.05).cross_correlation
             for p in (before, after)
@@ -142,10 +131,10 @@ def test_the_plot_is_a_picture(made: Path) -> None:
 
 
 @pytest.mark.slow
-def test_json_holds_runs_values_and_sensitivity(made: Path, tmp_path: Path) -> None:
+def test_json_holds_runs_values_and_sensitivity(made: Path, tmp_path: Path, ran) -> None:
     target = tmp_path / "a.json"
     pipeline = "kalman-smoother-constant-height-attitude"
-    result = tuned(made, "fast", "--json", "--out", target, "--pipeline", pipeline)
+    result = tuned(ran, made, "fast", "--json", "--out", target, "--pipeline", pipeline)
     report = json.loads(result.stdout)
     assert report["settings"] == json.loads(target.read_text(encoding="utf-8"))
     assert (report["file"], report["pipeline"]) == (str(target), pipeline)
@@ -168,87 +157,50 @@ def test_json_holds_runs_values_and_sensitivity(made: Path, tmp_path: Path) -> N
     assert len(report["missing_runs"]) == 5
 
 
-def test_what_is_there_is_kept(made: Path) -> None:
+def test_what_is_there_is_kept(made: Path, refused) -> None:
     before = (made / "tuned.json").read_bytes()
     arguments = (made / "fast", "--reference", made / "road", "--out", made / "tuned.json")
-    assert "tuned.json: exists; choose another name" in refused(*arguments)
+    assert "tuned.json: exists; choose another name" in refused("tune", *arguments)
     assert (made / "tuned.json").read_bytes() == before
 
 
-def other_track(folder: Path) -> None:
-    road = read_profile(folder / "road")
-    track = ProfileTrack.of("right", np.array(road.tracks[0].elevation))
-    write_profile(Profile(road.interval_m, (track,)), folder / "road", overwrite=True)
-
-
-def other_road(folder: Path) -> None:
-    other = simulate(Scenario.from_dict({**ROAD, "road_seed": 4}))
-    write_profile(other.truth, folder / "road", overwrite=True)
-
-
-def elsewhere(folder: Path) -> None:
-    road = read_profile(folder / "road")
-    tracks = (ProfileTrack.of("left", np.array(road.tracks[0].elevation)),)
-    write_profile(Profile(road.interval_m, tracks, 400.0), folder / "road", overwrite=True)
-
-
-def no_imu(folder: Path) -> None:
-    document = json.loads((folder / "fast" / "recording.json").read_text(encoding="utf-8"))
-    kept = [c for c in document["channels"] if c["name"] != "pitch_rate"]
-    text = json.dumps({**document, "channels": kept})
-    (folder / "fast" / "recording.json").write_text(text, encoding="utf-8")
-
-
-def nothing(_: Path) -> None:
-    pass
-
-
 @pytest.mark.parametrize(
-    ("change", "arguments", "text"),
+    ("arguments", "text"),
     [
-        (other_track, ["fast"], "fast: track right of the reference is missing"),
-        (other_road, ["fast"], "fast: track left correlates by"),
-        (elsewhere, ["fast"], "fast: the reference is valid from 400.0 to 5"),
-        (no_imu, ["fast"], "fast: channel pitch_rate: missing"),
-        (nothing, ["stop"], "no run at a constant speed of 60 km/h or more"),
-        (nothing, ["fast", "./fast"], "fast: given twice"),
-        (nothing, ["nowhere"], "nowhere: not found"),
-        (nothing, [], "Missing argument 'RECORDING...'"),
-        (nothing, ["fast", "--pipeline", "temporal-basic"], "has no acceleration_density to tune"),
-        (nothing, ["fast", "--pipeline", "kalman"], "pipeline kalman: unknown"),
-        (nothing, ["fast", "--settings", "road/profile.json"], "setting format: "),
-        (nothing, ["fast", "--max-offset", "-1"], "-1.0 is not in the range"),
-        (nothing, ["fast", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
-        (nothing, ["fast", "--plot", "out.json"], "is the settings' own name"),
-        (nothing, ["fast", "--out", "road", "--overwrite"], "road: is a folder"),
-        (nothing, ["fast", "--out", "none/a.json"], "its folder does not exist"),
+        (["stop"], "no run at a constant speed of 60 km/h or more"),
+        (["fast", "./fast"], "fast: given twice"),
+        (["nowhere"], "nowhere: not found"),
+        ([], "Missing argument 'RECORDING...'"),
+        (["fast", "--pipeline", "temporal-basic"], "has no acceleration_density to tune"),
+        (["fast", "--pipeline", "kalman"], "pipeline kalman: unknown"),
+        (["fast", "--settings", "road/profile.json"], "setting format: "),
+        (["fast", "--max-offset", "-1"], "-1.0 is not in the range"),
+        (["fast", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
+        (["fast", "--plot", "out.json"], "is the settings' own name"),
+        (["fast", "--out", "road", "--overwrite"], "road: is a folder"),
+        (["fast", "--out", "none/a.json"], "its folder does not exist"),
     ],
 )
 def test_what_cannot_be_used_is_one_line_and_leaves_nothing(
-    inputs: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    change: Callable[[Path], None],
-    arguments: list[str],
-    text: str,
+    inputs: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], text: str, refused
 ) -> None:
     monkeypatch.chdir(inputs)
-    change(inputs)
     (inputs / "g.json").write_text('{"cutoff_wavelength_m": 30.0}', encoding="utf-8")
     before = sorted(inputs.rglob("*"))
     usual = ["--reference", "road", "--out", "out.json", "--settings", "g.json"]
-    assert text in refused(*usual, *arguments)
+    assert text in refused("tune", *usual, *arguments)
     assert sorted(inputs.rglob("*")) == before
 
 
 def test_progress_is_shown_on_a_terminal_only(
-    inputs: Path, monkeypatch: pytest.MonkeyPatch
+    inputs: Path, monkeypatch: pytest.MonkeyPatch, invoke
 ) -> None:
     # The run with a stop is refused after it was looked at, which is progress enough.
     arguments = ("tune", inputs / "stop", "--reference", inputs / "road", "--out", inputs / "a")
-    plain = CliRunner().invoke(main, [str(a) for a in arguments])
+    plain = invoke(*arguments)
     assert "Preparation" not in plain.output
     # rich takes this for a terminal.
     monkeypatch.setenv("FORCE_COLOR", "1")
-    shown = CliRunner().invoke(main, [str(a) for a in arguments])
+    shown = invoke(*arguments)
     assert "Preparation of stop" in shown.stderr
     assert "Preparation" not in shown.stdout

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from floatref.estimators.kalman.inputs import GNSS, IMU, QUALITY
-from floatref.values.block import Axis, Block, Event, Header, join_blocks
+from floatref.values.block import Axis, Block, Event, Header
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup, TrackSetup
 from floatref_reference.chapter_6.section_6_3_6_system import h as measured
+from floatref_reference.chapter_6.section_6_4_4_tuning import per_step
+from floatref_reference.chapter_6.section_6_5_implementation import kalman_filter
 
 G = 9.80665
 ORIGIN_S = 17.25
@@ -80,32 +82,29 @@ class Drive:
         pairs = zip(GNSS, self.y[k].tolist(), strict=True)
         return {QUALITY: self.quality[k], **{c: value for c, value in pairs if value == value}}
 
+    def literal(self, noise, observe):
+        """Return the run of the literal filter of section 6.5, which has seven states alone."""
+        mean = np.vstack([(self.u[:-1] + self.u[1:]) / 2, self.u[-1:]])
+        densities = (
+            *(noise.acceleration, noise.roll_rate, noise.pitch_rate, noise.yaw_rate),
+            *(noise.acceleration_walk, noise.roll_rate_walk, noise.pitch_rate_walk),
+        )
+        x_0, sigma = np.array([self.height[0], 0, 0, 0, 0, 0, 0]), per_step(densities, self.dt)
+        P_0 = np.diag(np.square([1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01]))
+        return kalman_filter(mean, self.dt, x_0, P_0, sigma, observe, self.lever, u_at=self.u)
+
     def without(self, lost):
         """Return the drive without the GNSS readings ``lost``."""
         kept = np.delete(np.arange(self.at.size), lost)
         return replace(self, at=self.at[kept], y=self.y[kept], quality=self.quality[kept])
 
 
-def run(stage, drive, cuts=()):
-    """Return all that comes out of ``stage``, joined."""
-    stage.start(drive.header)
-    out = [stage.push(block) for block in drive.blocks(cuts)]
-    return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
-
-
-def heights(stage, drive, cuts=()):
-    """Return the floating reference height that comes out of ``stage``."""
-    return run(stage, drive, cuts)[ChannelId("floating_reference_height", "left")]
-
-
 def filtered(stage, drive):
-    """Return the floating reference height of the forward pass of ``stage``."""
     stage.start(drive.header)
     return np.concatenate([stage.forward(block)["left"][0] for block in drive.blocks()])
 
 
 def waves(rng, times, amplitude, low_hz, high_hz, count=4):
-    """Return a sum of sines and its first and second derivative."""
     omega = 2 * np.pi * np.exp(rng.uniform(np.log(low_hz), np.log(high_hz), count))[:, None]
     phase = omega * times + rng.uniform(0, 2 * np.pi, (count, 1))
     size = amplitude / count
@@ -161,23 +160,15 @@ def make(seed, seconds, rate, stop=(1e9, 1e9), every_s=0.05, lever=(0.8, -0.5, 1
 
 @pytest.fixture(scope="session")
 def drive():
-    """Return the maker of drives."""
     return make
 
 
 @pytest.fixture(scope="session")
-def through():
-    """Return what runs a drive through a stage: all that comes out."""
-    return run
-
-
-@pytest.fixture(scope="session")
-def height_of():
-    """Return what runs a drive through a stage: the floating reference height."""
-    return heights
+def height_of(through):
+    height = ChannelId("floating_reference_height", "left")
+    return lambda stage, drive, cuts=(): through(stage, drive, cuts)[height]
 
 
 @pytest.fixture(scope="session")
 def forward_of():
-    """Return what runs a drive through the forward pass of a stage."""
     return filtered

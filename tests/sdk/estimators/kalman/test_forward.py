@@ -29,8 +29,6 @@ NOISES = st.sampled_from([Noise(), STILL, Noise(acceleration=0.1, pitch_rate=1e-
 
 
 class Out(NamedTuple):
-    """What a run leaves behind."""
-
     x: np.ndarray
     p: np.ndarray
     memory: np.record
@@ -60,7 +58,6 @@ def model_of(noise, sub_block, step=STEP):
 
 
 def drawn(seed, count=6, turning=1.0):
-    """Return inputs of a vehicle, a state and a covariance."""
     rng = np.random.default_rng(seed)
     size = np.array([5.0, 3.0, 4.0, *[turning] * 3])
     u = size * rng.uniform(-1, 1, (1, 6)) + 0.1 * size * rng.uniform(-1, 1, (count, 6))
@@ -133,25 +130,6 @@ def observed(x, p, y, variance, mark=0, noise=STILL, moved=0.0):
     u = np.array([[0.3, 0.2, G, 0.4, -0.3, 0.2]])
     row = np.concatenate((y, variance, [moved]))
     return run(u, x, p, [0], [mark], [row], noise), u[0]
-
-
-@pytest.mark.cites("(6.13)", "(6.14)", "(6.48)", "(C.8)", "(C.9)")
-@laws
-@given(seed=SEEDS)
-def test_rows_and_predictions_are_those_of_the_measurement_model(seed):
-    """By central differences of the model, with a lever arm forward, to the side and up."""
-    _, x, p = drawn(seed)
-    out, u = observed(x, 1e-12 * p, np.full(KINDS, 0.1), np.ones(KINDS), TRUSTED)
-    reach = 1e-6 * SCALES[:7]
-    ends = [[h(x[:7] + sign * dx, u, ARM) for dx in np.diag(reach)] for sign in (1, -1)]
-    H = np.subtract(*ends).T / (2 * reach)
-    rows = out.updates["row"]
-    np.testing.assert_allclose(rows[:, :7], H, atol=1e-7)
-    assert rows[:, DRIFT].tolist() == [1.0, 0.0, 0.0, 0.0]
-    assert not rows[:, [values.LEAN, OFFSET]].any()
-    innovation = out.updates["innovation"] / out.updates["information"]
-    expected = h(x[:7], u, ARM) + np.eye(KINDS)[0] * x[DRIFT]
-    np.testing.assert_allclose(0.1 - innovation, expected, atol=1e-9)
 
 
 @pytest.mark.cites("(6.13)", "(6.16)")

@@ -10,19 +10,12 @@ from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
-from floatref_reference.chapter_6.section_6_4_4_tuning import per_step
-from floatref_reference.chapter_6.section_6_5_implementation import kalman_filter, rts_smoother
+from floatref_reference.chapter_6.section_6_5_implementation import rts_smoother
 from floatref_reference.chapter_6.section_6_6_2_gps import gps_observations
 
 NOISE = Noise(lean_rad=0.0, gnss_height_walk=0.0)
 GNSS = Plan(reflects=False)
 CONSTANT = Plan(gnss=False, attitude=False, reflects=False)
-START = (1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01)
-DENSITIES = (
-    NOISE.acceleration,
-    *(NOISE.roll_rate, NOISE.pitch_rate, NOISE.yaw_rate),
-    *(NOISE.acceleration_walk, NOISE.roll_rate_walk, NOISE.pitch_rate_walk),
-)
 # A drive that has been shrunk fails for the same reason, after minutes.
 laws = settings(deadline=None, max_examples=4, phases=[Phase.explicit, Phase.generate])
 SEEDS = st.integers(0, 2**32 - 1)
@@ -31,12 +24,7 @@ STOPS = st.tuples(st.floats(0.3, 2.0), st.floats(0.2, 1.5))
 
 
 def literal(drive, observe):
-    """Return the literal filter's and smoother's heights, shape (n,) each."""
-    mean = np.vstack([(drive.u[:-1] + drive.u[1:]) / 2, drive.u[-1:]])
-    x_0 = np.array([drive.height[0], 0, 0, 0, 0, 0, 0])
-    sigma = per_step(DENSITIES, drive.dt)
-    P_0 = np.diag(np.square(START))
-    run = kalman_filter(mean, drive.dt, x_0, P_0, sigma, observe, drive.lever, u_at=drive.u)
+    run = drive.literal(NOISE, observe)
     return run.x[:, 0], rts_smoother(run)[0][:, 0]
 
 

@@ -19,7 +19,6 @@ SEEDS = st.integers(0, 2**32 - 1)
 
 
 def flagged(block, begin, end):
-    """Return ``block`` with the samples of a long gap marked."""
     at = block.first + np.arange(len(block))
     marks = np.where((at >= begin) & (at < end), Flag.MISSING | Flag.DRIFT, 0).astype(np.uint8)
     return Block(block.first, block.values, flags={UP: marks}, events=block.events)

@@ -44,11 +44,11 @@ def test_variances_grow_as_those_of_continuous_noise(rate, white, walk):
     The sums of n steps differ from integrals by 5 / 2n at most.
     """
     names = ("acceleration", "roll_rate", "pitch_rate")
-    told = dict(zip(names, white, strict=True)) | {
+    densities = dict(zip(names, white, strict=True)) | {
         f"{name}_walk": size for name, size in zip(names, walk, strict=True)
     }
     t, near = 0.4, 3.0 / (0.4 * rate)
-    p = spread(replace(STILL, **told), rate, t)
+    p = spread(replace(STILL, **densities), rate, t)
     (a, roll, pitch), (a_walk, roll_walk, pitch_walk) = np.square(white), np.square(walk)
     expected = [
         a * t + a_walk * t**3 / 3,

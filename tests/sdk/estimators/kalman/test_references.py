@@ -116,8 +116,8 @@ def test_every_reading_is_observed_and_its_height_unless_the_vehicle_stands(stre
     found = observed_at(scheduled(Plan(), stretch), stretch.taken)
     np.testing.assert_array_equal(found.values[:, VELOCITY:], stretch.readings[:, VELOCITY:KINDS])
     moving = ~stretch.standing[stretch.taken]
-    told = stretch.readings[:, 0] - stretch.readings[:1, 0] + 1.6 + 0.3
-    np.testing.assert_allclose(found.values[moving, HEIGHT], told[moving], atol=1e-12)
+    expected = stretch.readings[:, 0] - stretch.readings[:1, 0] + 1.6 + 0.3
+    np.testing.assert_allclose(found.values[moving, HEIGHT], expected[moving], atol=1e-12)
     assert not (found.marks & (RELATIVE | CAPTURE)).any()
     assert not (found.marks[moving] & (TRUSTED | REFLECTED | RENEW)).any()
 
@@ -203,8 +203,8 @@ def test_at_a_stop_the_height_sensor_tells_the_way_since_it_began(stretch):
     np.testing.assert_allclose(variances[reflected, HEIGHT], variance)
     for begin, end in stops(stretch.standing):
         inside = np.flatnonzero(reflected & (at >= begin) & (at < end))
-        told = stretch.height[at[inside]] - stretch.height[at[inside[:1]]]
-        np.testing.assert_allclose(values[inside, HEIGHT], told)
+        expected = stretch.height[at[inside]] - stretch.height[at[inside[:1]]]
+        np.testing.assert_allclose(values[inside, HEIGHT], expected)
         assert ((marks[inside] & RENEW) > 0).tolist() == [k == 0 for k in range(inside.size)]
     assert ((marks & RENEW) > 0).sum() <= len(stops(stretch.standing))
 

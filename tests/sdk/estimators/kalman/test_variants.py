@@ -8,30 +8,16 @@ import numpy as np
 import pytest
 
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
-from floatref_reference.chapter_6.section_6_4_4_tuning import per_step
-from floatref_reference.chapter_6.section_6_5_implementation import kalman_filter, rts_smoother
+from floatref_reference.chapter_6.section_6_5_implementation import rts_smoother
 from floatref_reference.chapter_6.section_6_6_2_gps import gps_observations
 
 NOISE = Noise(lean_rad=0.0, gnss_height_walk=0.0)
 RATE, SUB_BLOCK = 500, 5
-START = (1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01)
-DENSITIES = (
-    *(NOISE.acceleration, NOISE.roll_rate, NOISE.pitch_rate, NOISE.yaw_rate),
-    *(NOISE.acceleration_walk, NOISE.roll_rate_walk, NOISE.pitch_rate_walk),
-)
 
 
 @pytest.fixture(params=[3, 4])
 def moving(drive, request):
-    """Return a drive that does not stop while it is looked at."""
     return drive(request.param, 1.5, RATE, (50.0, 51.0))
-
-
-def literal(drive, observe):
-    mean = np.vstack([(drive.u[:-1] + drive.u[1:]) / 2, drive.u[-1:]])
-    x_0 = [drive.height[0], 0, 0, 0, 0, 0, 0]
-    sigma, P_0 = per_step(DENSITIES, drive.dt), np.diag(np.square(START))
-    return kalman_filter(mean, drive.dt, x_0, P_0, sigma, observe, drive.lever, u_at=drive.u)
 
 
 def readings(drive, attitude):
@@ -56,14 +42,14 @@ def constants(drive):
 
 
 def assert_smoothed(drive, height_of, plan, observe):
-    expected = rts_smoother(literal(drive, observe))[0][:, 0]
+    expected = rts_smoother(drive.literal(NOISE, observe))[0][:, 0]
     found = height_of(KalmanSmoother(plan, NOISE, tolerance_m=0.0), drive)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
 
 
 @pytest.mark.cites("Table 6.2", "(6.10)", "(C.6)")
 def test_the_filter(moving, height_of):
-    expected = literal(moving, readings(moving, attitude=True)).x[:, 0]
+    expected = moving.literal(NOISE, readings(moving, attitude=True)).x[:, 0]
     found = height_of(KalmanFilter(Plan(reflects=False), NOISE), moving)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8)
 

@@ -117,10 +117,10 @@ def test_what_a_long_gap_hides_is_flagged_as_drift(seed):
     marks = np.zeros(n, np.uint8)
     marks[1400:1500] = Flag.MISSING
     out = run(values, rate, flags={PITCH: marks})
-    told = out.flags[UP]
-    assert (told[1420:1480] & Flag.DRIFT).all()
-    assert ((told != 0) == (marks != 0)).all() or (told[:1400] == 0).all()
-    known = told & Flag.DRIFT == 0
+    flags = out.flags[UP]
+    assert (flags[1420:1480] & Flag.DRIFT).all()
+    assert ((flags != 0) == (marks != 0)).all() or (flags[:1400] == 0).all()
+    known = flags & Flag.DRIFT == 0
     known[1390:1510] = False
     assert np.abs(out[UP][known]).max() < 1e-6
 

@@ -7,8 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from floatref.values.block import Axis, Block, Header, join_blocks
+from floatref.estimators.road_prior.excitation import Excitation
+from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
+from floatref_reference.road_prior.symbols import Constants, recorded
 
 UP, RANGE = ChannelId("vertical_acceleration", "left"), ChannelId("height", "left")
 DISTANCE = ChannelId("distance")
@@ -34,6 +36,38 @@ class Drive:
         cut = pairwise([0, *sorted(cuts), self.a.size])
         return [Block(i, {c: v[i:j].copy() for c, v in values.items()}) for i, j in cut]
 
+    def excitation(self, constants, every=1):
+        """Return acceleration along and response at every so manyth sample."""
+        found = Excitation.of(every / self.rate, constants.pitch_hz, constants.pitch_damping)
+        found.add(self.distance[::every])
+        found.end()
+        return found.take()
+
+    def literally(self, c, inputs, a_x, priors):
+        """Return drive and constants as the reference takes them; heights are told from the first.
+
+        ``inputs`` are those that the coefficients with ``priors`` multiply.
+        """
+        constants = Constants(
+            c.acceleration,
+            c.acceleration_walk,
+            c.walk_along,
+            c.reading_m,
+            c.road,
+            c.long_waves,
+            c.road_reach_m,
+            sigma_b=c.acceleration_bias,
+            sigma_kappa=priors,
+        )
+        times = np.arange(self.a.size) / self.rate
+        signals = self.a, self.h - self.h[0], np.stack(inputs, axis=-1), a_x
+        return recorded(times, self.distance, *signals), constants
+
+    def followed_by(self, other):
+        place = 2 * self.distance[-1] - self.distance[-2] + other.distance
+        a, h = np.append(self.a, other.a), np.append(self.h, other.h)
+        return Drive(self.rate, a, h, np.append(self.distance, place))
+
 
 def make(seed, seconds, rate, stop=(1e9, 1e9), speed=9.0, share=1.0):
     """Return a drive at ``speed`` in m/s with a stop; a ``share`` of the heights is there."""
@@ -53,20 +87,6 @@ def make(seed, seconds, rate, stop=(1e9, 1e9), speed=9.0, share=1.0):
     return Drive(rate, a, h, distance)
 
 
-def run(stage, drive, cuts=()):
-    """Return all that comes out of ``stage``, joined."""
-    stage.start(drive.header)
-    out = [stage.push(block) for block in drive.blocks(cuts)]
-    return join_blocks([block for block in (*out, *stage.finish()) if len(block)])
-
-
 @pytest.fixture(scope="session")
 def drive():
-    """Return the maker of drives."""
     return make
-
-
-@pytest.fixture(scope="session")
-def through():
-    """Return what runs a drive through a stage."""
-    return run

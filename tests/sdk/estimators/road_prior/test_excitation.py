@@ -12,7 +12,6 @@ laws = settings(deadline=None, max_examples=25)
 
 
 def excited(distances, interval_s, hz=1.6, damping=0.3, cuts=()):
-    """Return acceleration and response of all ``distances``, which come in pieces."""
     excitation, found = Excitation.of(interval_s, hz, damping), []
     for piece in np.split(np.asarray(distances, float), sorted(cuts)):
         excitation.add(piece)
@@ -60,22 +59,6 @@ def test_the_response_is_the_literal_one(seed, hz, damping, interval_s):
     # The stage begins at rest before its first acceleration, the reference under it.
     assert a[0] == pytest.approx(0.0, abs=1e-6 * np.abs(a).max())
     np.testing.assert_allclose(response, expected, atol=1e-7 * np.abs(expected).max())
-
-
-@laws
-@given(
-    seed=st.integers(0, 2**32 - 1),
-    count=st.integers(1, 200),
-    cuts=st.lists(st.integers(0, 200), max_size=5),
-    lost=st.integers(0, 400),
-)
-def test_pieces_make_no_difference_and_all_is_told(seed, count, cuts, lost):
-    distances = np.cumsum(np.random.default_rng(seed).uniform(0.0, 0.1, count))
-    distances[lost : lost + 3] = np.nan
-    found = excited(distances, 0.004, cuts=[cut for cut in cuts if cut <= count])
-    assert found.shape == (2, count)
-    assert np.isfinite(found).all()
-    np.testing.assert_array_equal(found, excited(distances, 0.004))
 
 
 @laws

@@ -17,7 +17,6 @@ RATE, STOP = 200, (6.0, 10.0)
 
 
 def standing(drive, seed, leap_m, at_s):
-    """Return a drive on a flat road whose height sensor leaps."""
     drawn = drive(seed, 16.0, RATE, STOP)
     noise = np.random.default_rng(seed).normal(size=(2, drawn.a.size))
     height = 0.3 + 4e-5 * noise[0]
@@ -43,8 +42,8 @@ def test_a_leap_is_flagged_and_told(drive, through, seed, leap_m, down, at_s, cu
     assert abs(slow[0] - at_s * RATE) <= 1.0
     (line,) = stage.warnings()
     assert "height, left" in line
-    (told_mm,) = re.findall(r"leaps by (\d+) mm", line)
-    assert abs(float(told_mm) - 1e3 * leap_m) <= 1.0
+    (found_mm,) = re.findall(r"leaps by (\d+) mm", line)
+    assert abs(float(found_mm) - 1e3 * leap_m) <= 1.0
 
 
 @pytest.mark.parametrize("leap_m", [0.0, 0.005])

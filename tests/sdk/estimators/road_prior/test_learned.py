@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from floatref.estimators.models.road_prior_values import LEAN, STATES, TILT
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
-from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.values.channels import ChannelId
 
@@ -73,10 +72,7 @@ def test_without_brakes_nothing_is_told(drive, through):
 def leaning(drive, seed, lean, tilt, rate=200):
     """Return a drive with stops on a flat road, by a body that leans and tilts in them."""
     drawn = drive(seed, 24.0, rate, (6.0, 8.0))
-    excitation = Excitation.of(1 / rate, C.pitch_hz, C.pitch_damping)
-    excitation.add(drawn.distance)
-    excitation.end()
-    along, response = excitation.take()
+    along, response = drawn.excitation(C)
     noise = 1e-3 * np.random.default_rng(seed).normal(size=along.size)
     a = lean * along + tilt * along * response + noise
     return replace(drawn, a=a, h=np.full(a.size, 0.3))
@@ -109,24 +105,12 @@ def test_what_is_learned_does_not_depend_on_the_blocks(drive, through, seed, cut
 def test_what_is_expected_is_the_same_as_that_much_less_acceleration(drive, through, seed, begin):
     """(1.5): r'' = a - κ u; expecting κ is expecting nothing where κ u is taken off first."""
     drawn = drive(seed, 18.0, 200, (begin, begin + 0.5))
-    excitation = Excitation.of(1 / 200, C.pitch_hz, C.pitch_damping)
-    excitation.add(drawn.distance)
-    excitation.end()
-    along, response = excitation.take()
+    along, response = drawn.excitation(C)
     less = drawn.a - START[0] * along - START[1] * along * response
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
     plain = replace(C, lean_expected_rad=0.0, tilt_expected=0.0)
     other = through(RoadPriorSmoother(plain, tolerance_m=0.0), replace(drawn, a=less))[HEIGHT]
     np.testing.assert_allclose(ours, other, rtol=0, atol=1e-6)
-
-
-def test_a_brake_that_has_told_little_is_not_kept():
-    x, p = np.zeros(STATES), np.eye(STATES)
-    variances = np.diag(PRIOR)
-    p[LEAN, LEAN], p[TILT, TILT] = 0.9 * variances
-    assert not Brake.of(x, p).tells(variances)
-    p[TILT, TILT] = 0.1 * variances[1]
-    assert Brake.of(x, p).tells(variances)
 
 
 def test_what_is_known_already_is_not_learned():
@@ -142,15 +126,8 @@ def test_what_is_known_already_is_not_learned():
 def test_brakes_of_a_run_are_kept_one_after_the_other(drive, through):
     """Over 4 s of constant speed they begin anew, so that each tells its own."""
     one, other = leaning(drive, 1, 0.015, -0.006), leaning(drive, 2, 0.005, -0.006)
-    place = one.distance[-1] + (one.distance[-1] - one.distance[-2]) + other.distance
-    joined = replace(
-        one,
-        a=np.append(one.a, other.a),
-        h=np.append(one.h, other.h),
-        distance=np.append(one.distance, place),
-    )
     stage = RoadPriorSmoother()
-    through(stage, joined)
+    through(stage, one.followed_by(other))
     brakes = stage.memory["filters"]["left"].all_brakes()
     assert [round(brake.estimate[0], 3) for brake in brakes] == [0.015, 0.005]
     found = stage.learned()
@@ -165,8 +142,8 @@ def test_no_spread_makes_less_sure_than_at_the_start():
     assert pool(brakes, C)["lean_sigma_rad"] == C.lean_sigma_rad
 
 
-@pytest.mark.parametrize(("left", "told"), [(0.49, True), (0.51, False)])
-def test_half_of_a_variance_is_what_a_brake_has_to_tell(left, told):
+@pytest.mark.parametrize(("left", "tells"), [(0.49, True), (0.51, False)])
+def test_half_of_a_variance_is_what_a_brake_has_to_tell(left, tells):
     x, p, variances = np.zeros(STATES), np.eye(STATES), np.diag(PRIOR)
     p[LEAN, LEAN], p[TILT, TILT] = variances[0], left * variances[1]
-    assert Brake.of(x, p).tells(variances) is told
+    assert Brake.of(x, p).tells(variances) is tells

@@ -8,12 +8,10 @@ from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
-from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.smoothing.sigma import Settled, covariances
 from floatref.values.channels import ChannelId
 from floatref_reference.road_prior.least_squares import least_squares
-from floatref_reference.road_prior.smoother import smooth as smoother
-from floatref_reference.road_prior.symbols import Constants, recorded
+from floatref_reference.road_prior.smoother import smooth
 
 HEIGHT = ChannelId("floating_reference_height", "left")
 C = RoadPrior(
@@ -35,34 +33,9 @@ whose condition numbers go up to 2e8: 2e-16 of rounding each, at random in up to
 LEAST_SQUARES = 1e-7
 """Of the largest height: it inverts no covariance, so that it is held to far closer."""
 laws = settings(deadline=None, max_examples=5, phases=[Phase.explicit, Phase.generate])
+PRIORS = (C.lean_sigma_rad, C.tilt_sigma)
 SEEDS = st.integers(0, 2**32 - 1)
 STOPS = st.tuples(st.floats(0.4, 1.2), st.floats(0.1, 1.0))
-
-
-def excited(drive):
-    """Return acceleration and response at all samples."""
-    excitation = Excitation.of(1 / drive.rate, C.pitch_hz, C.pitch_damping)
-    excitation.add(drive.distance)
-    excitation.end()
-    return excitation.take()
-
-
-def literal(drive, inputs, a_x, priors, walk_along=C.walk_along, by=smoother):
-    """Return the literal smoother's result, or another's; heights are told from the first."""
-    constants = Constants(
-        C.acceleration,
-        C.acceleration_walk,
-        walk_along,
-        C.reading_m,
-        C.road,
-        C.long_waves,
-        C.road_reach_m,
-        sigma_b=C.acceleration_bias,
-        sigma_kappa=priors,
-    )
-    times = np.arange(drive.a.size) / drive.rate
-    signals = drive.a, drive.h - drive.h[0], np.stack(inputs, axis=-1), a_x
-    return by(recorded(times, drive.distance, *signals), constants)
 
 
 def assert_literal(ours, expected):
@@ -77,8 +50,8 @@ def assert_literal(ours, expected):
 @example(seed=322, rate=500, stop=(1.1999999999999997, 1.0), share=0.5398218456511824)
 def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
     drawn = drive(seed, 2.4, rate, (stop[0], sum(stop)), share=share)
-    a_x, response = excited(drawn)
-    expected = literal(drawn, (a_x, a_x * response), a_x, (C.lean_sigma_rad, C.tilt_sigma))
+    a_x, response = drawn.excitation(C)
+    expected = smooth(*drawn.literally(C, (a_x, a_x * response), a_x, PRIORS))
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
     assert_literal(ours - drawn.h[0], expected)
     stage = RoadPriorSmoother(C, tolerance_m=0.0)
@@ -108,9 +81,9 @@ def test_short_drives_agree_with_least_squares_to_the_rounding_of_both(
     """120 samples; the stop is at a share of them."""
     lasts = 120 / rate
     drawn = drive(seed, lasts, rate, (lasts * stop[0], lasts * sum(stop)), share=share)
-    a_x, response = excited(drawn)
-    given_ = (a_x, a_x * response), a_x, (C.lean_sigma_rad, C.tilt_sigma)
-    expected = literal(drawn, *given_, by=least_squares).x[:, 0]
+    a_x, response = drawn.excitation(C)
+    literally = drawn.literally(C, (a_x, a_x * response), a_x, PRIORS)
+    expected = least_squares(*literally).x[:, 0]
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT] - drawn.h[0]
     atol = LEAST_SQUARES * np.abs(expected).max()
     np.testing.assert_allclose(ours, expected, rtol=0, atol=atol)
@@ -124,17 +97,12 @@ def test_between_nodes_they_agree_as_well(drive, through, seed, rate, stop):
     constants, every = replace(C, walk_along=0.0), rate // 500
     drawn = drive(seed, 1.2, rate, (0.5 * stop[0], 0.5 * sum(stop)))
     nodes = np.arange(0, drawn.a.size, every)
-    excitation = Excitation.of(every / rate, C.pitch_hz, C.pitch_damping)
-    excitation.add(drawn.distance[nodes])
-    excitation.end()
-    a_x, response = excitation.take()
+    a_x, response = drawn.excitation(C, every)
     inputs = [np.interp(np.arange(drawn.a.size), nodes, u) for u in (a_x, a_x * response)]
     h = np.full(drawn.h.size, np.nan)
     h[nodes] = drawn.h[nodes]
-    literally = replace(drawn, h=h)
-    expected = literal(
-        literally, inputs, np.zeros(h.size), (C.lean_sigma_rad, C.tilt_sigma), walk_along=0.0
-    )
+    literally = replace(drawn, h=h).literally(constants, inputs, np.zeros(h.size), PRIORS)
+    expected = smooth(*literally)
     ours = through(RoadPriorSmoother(constants, tolerance_m=0.0), drawn)[HEIGHT]
     assert_literal(ours - drawn.h[0], expected)
 
@@ -146,17 +114,15 @@ def test_lean_and_tilt_of_a_brake_are_others_after_a_constant_speed(drive, throu
     """A brake before and one behind: the literal smoother is given coefficients for each."""
     one, rate = drive(seed, 6.0, 60, (-0.8, -0.4)), 60
     other = drive(seed + 1, 20.0, rate, (begin, begin + 0.5))
-    a = np.concatenate((one.a, other.a))
-    place = one.distance[-1] + (one.distance[-1] - one.distance[-2]) + other.distance
-    drawn = type(one)(rate, a, np.concatenate((one.h, other.h)), np.append(one.distance, place))
-    a_x, response = excited(drawn)
+    drawn = one.followed_by(other)
+    a_x, response = drawn.excitation(C)
     anew = [k * 4 * rate for k in range(1, 7) if _steady(drawn, k * 4 * rate)]
     assert anew
-    part = np.searchsorted(anew, np.arange(a.size), "right")
+    part = np.searchsorted(anew, np.arange(a_x.size), "right")
     inputs = [
         np.where(part == k, u, 0.0) for k in range(len(anew) + 1) for u in (a_x, a_x * response)
     ]
-    expected = literal(drawn, inputs, a_x, (C.lean_sigma_rad, C.tilt_sigma) * (len(anew) + 1))
+    expected = smooth(*drawn.literally(C, inputs, a_x, PRIORS * (len(anew) + 1)))
     ours = through(RoadPriorSmoother(C, tolerance_m=0.0), drawn)[HEIGHT]
     assert_literal(ours - drawn.h[0], expected)
 

@@ -30,8 +30,8 @@ def test_at_a_constant_speed_the_encoder_may_be_silent(drive, through, seed, beg
     distance[begin : begin + count] = np.nan
     constants = RoadPrior(road_memory_m=1e15)
     silent = through(RoadPriorSmoother(constants), replace(whole, distance=distance))[HEIGHT]
-    told = through(RoadPriorSmoother(constants), whole)[HEIGHT]
-    np.testing.assert_allclose(silent, told, rtol=0, atol=1e-7)
+    expected = through(RoadPriorSmoother(constants), whole)[HEIGHT]
+    np.testing.assert_allclose(silent, expected, rtol=0, atol=1e-7)
 
 
 def deviations(drive, through, seed, gaps, constants=LINEAR):

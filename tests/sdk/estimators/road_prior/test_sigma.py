@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
-from floatref.estimators.road_prior.excitation import Excitation
 from floatref.measures import high_pass
 from floatref.values.channels import ChannelId
 from floatref_reference.road_prior.least_squares import deviation, least_squares
-from floatref_reference.road_prior.symbols import Constants, recorded
 
 SIGMA = ChannelId("elevation_sigma", "left")
 RATE, SECONDS, SPEED = 25, 6.0, 30.0
@@ -19,27 +17,13 @@ ONE_PASS = 105.91 / 91.44
 
 def least(drive, c):
     """Return 1-σ of the height, filtered as a profile is, at all samples of ``drive``."""
-    excitation = Excitation.of(1 / RATE, c.pitch_hz, c.pitch_damping)
-    excitation.add(drive.distance)
-    excitation.end()
-    a_x, response = excitation.take()
-    constants = Constants(
-        c.acceleration,
-        c.acceleration_walk,
-        c.walk_along,
-        c.reading_m,
-        c.road,
-        c.long_waves,
-        c.road_reach_m,
-        sigma_b=c.acceleration_bias,
-        sigma_kappa=(c.lean_sigma_rad, c.tilt_sigma),
-    )
-    times, u = np.arange(a_x.size) / RATE, np.stack((a_x, a_x * response), axis=-1)
-    run = recorded(times, drive.distance, drive.a, drive.h - drive.h[0], u, a_x)
+    a_x, response = drive.excitation(c)
+    priors = (c.lean_sigma_rad, c.tilt_sigma)
+    literally = drive.literally(c, (a_x, a_x * response), a_x, priors)
     weights = np.zeros((a_x.size, a_x.size, 7))
     for k, impulse in enumerate(np.eye(a_x.size)):
         weights[:, k, 0] = high_pass(impulse, SPEED / RATE, WAVELENGTH_M)
-    return deviation(least_squares(run, constants), weights)
+    return deviation(least_squares(*literally), weights)
 
 
 @pytest.mark.slow

@@ -21,7 +21,6 @@ def smoother():
 
 
 def lacking(drive, seed):
-    """Return a drive in which samples of all sensors are missing."""
     drawn = drive(seed, LENGTH / RATE, RATE, (9.0, 11.0), share=0.95)
     rng = np.random.default_rng(seed)
     drawn.a[rng.uniform(size=LENGTH) < 0.01] = np.nan

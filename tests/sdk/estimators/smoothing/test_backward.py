@@ -76,7 +76,6 @@ COUNTS = st.integers(1, 6)
 
 
 def filled(rng, count, fields):
-    """Return records with any numbers in all that is not an integer."""
     rows = np.zeros(count, fields)
     for name in fields.names:
         part = rows[name]

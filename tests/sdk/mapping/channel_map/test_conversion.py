@@ -18,8 +18,8 @@ HEIGHTS = ("m", "mm", "in", "ft", "um")
 finite = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)
 
 
-def conversion(channel: str = "height", unit: str = "m", file: str = "", **more) -> Conversion:
-    return Conversion(ChannelEntry("c", channel, unit=unit, **more), Column("c", file))
+def conversion(channel: str = "height", unit: str = "m", **more) -> Conversion:
+    return Conversion(ChannelEntry("c", channel, unit=unit, **more), Column("c"))
 
 
 def converted(
@@ -39,7 +39,6 @@ def cut_samples(draw: st.DrawFn) -> tuple[list[float], list[int]]:
 
 
 def travelled(speeds: Sequence[float], times: Sequence[float]) -> list[float]:
-    """Return the distance by the trapezoidal rule, one sample after the other."""
     distance, found, before = 0.0, [], None
     for v, t in zip(speeds, times, strict=True):
         if math.isnan(v):

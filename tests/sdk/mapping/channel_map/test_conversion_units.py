@@ -1,7 +1,5 @@
 """The unit of a mapped channel is what map and file say, or they are refused."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import pytest
 
@@ -12,30 +10,20 @@ from floatref.mapping.channel_map.units import unit_of
 from floatref.values.native import Column
 
 
-def conversion(channel: str = "height", unit: str = "m", file: str = "", **more) -> Conversion:
-    return Conversion(ChannelEntry("c", channel, unit=unit, **more), Column("c", file))
-
-
-def converted(
-    made: Conversion, values: Sequence[float], times: Sequence[float] | None = None, cuts=()
-) -> np.ndarray:
-    """Return all of ``values``, given to ``made`` in pieces that end at ``cuts``."""
-    samples = np.asarray(values, np.float64)
-    when = np.arange(samples.size) / 100 if times is None else np.asarray(times, np.float64)
-    pieces = zip(np.split(samples, sorted(cuts)), np.split(when, sorted(cuts)), strict=True)
-    return np.concatenate([made(piece, time) for piece, time in pieces])
+def converted(made: Conversion, value: float) -> float:
+    return made(np.array([value]), np.zeros(1)).item()
 
 
 def test_the_unit_of_the_file_counts_where_the_map_says_none() -> None:
     made = Conversion(ChannelEntry("c", "height"), Column("c", "mm"))
-    assert converted(made, [250.0])[0] == pytest.approx(0.25)
+    assert converted(made, 250.0) == pytest.approx(0.25)
     assert made.unit == "mm"
 
 
 @pytest.mark.parametrize("given_", ["", " "])
 def test_a_channel_without_a_unit_may_have_none_in_the_file(given_: str) -> None:
     made = Conversion(ChannelEntry("c", "gnss_quality"), Column("c", given_))
-    assert converted(made, [4.0]).tolist() == [4.0]
+    assert converted(made, 4.0) == 4.0
     with pytest.raises(InputError, match="the file gives no unit; state it in the map"):
         Conversion(ChannelEntry("c", "height"), Column("c", given_))
 
@@ -63,7 +51,7 @@ def test_units_that_cannot_be_are_refused(
 
 
 @pytest.mark.parametrize(
-    ("unit", "file", "scale", "told"),
+    ("unit", "file", "scale", "warned"),
     [
         ("mm", "m", 1.0, True),
         ("m", "counts", 1.0, True),
@@ -75,10 +63,10 @@ def test_units_that_cannot_be_are_refused(
     ],
 )
 def test_a_map_that_overrules_the_file_is_told(
-    unit: str, file: str, scale: float, told: bool
+    unit: str, file: str, scale: float, warned: bool
 ) -> None:
-    made = conversion(unit=unit, file=file, scale=scale)
+    made = Conversion(ChannelEntry("c", "height", unit=unit, scale=scale), Column("c", file))
     assert made.warnings == (
-        [f"the file says unit {file}, the map {unit}; the map counts"] if told else []
+        [f"the file says unit {file}, the map {unit}; the map counts"] if warned else []
     )
-    assert converted(made, [2.0])[0] == pytest.approx(unit_of(unit).factor * scale * 2.0)
+    assert converted(made, 2.0) == pytest.approx(unit_of(unit).factor * scale * 2.0)

@@ -13,7 +13,6 @@ from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 
 CLOCK = UniformClock.of(100.0)
-TURN = 2 * math.pi
 RUNS = {
     "gnss_latitude": [math.radians(-90), math.radians(89.99), math.radians(52.5)],
     "gnss_longitude": [math.radians(-180), math.radians(180), math.radians(359.99)],

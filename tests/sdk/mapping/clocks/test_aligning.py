@@ -140,9 +140,9 @@ def test_that_streams_begin_together_is_told_unless_file_or_map_says_so(
     lines: int,
 ) -> None:
     laser = laser_of(0, 0, **rated)
-    told = read(clock + FORCE + HEIGHT, adc(), laser).warnings
-    assert len(told) == lines
-    assert all("counted from zero by its rate" in line for line in told)
+    warnings = read(clock + FORCE + HEIGHT, adc(), laser).warnings
+    assert len(warnings) == lines
+    assert all("counted from zero by its rate" in line for line in warnings)
 
 
 @pytest.mark.parametrize(

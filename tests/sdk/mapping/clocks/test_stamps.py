@@ -182,7 +182,7 @@ def test_ticks_that_are_no_numbers_are_refused(ticks: np.ndarray) -> None:
         as_ticks(ticks)
 
 
-def told(ticks: np.ndarray) -> list[str]:
+def warnings_of(ticks: np.ndarray) -> list[str]:
     advancing = Advancing()
     for piece in np.split(ticks, [ticks.size // 2]):
         advancing(piece)
@@ -193,7 +193,7 @@ def test_a_few_rows_that_go_back_are_dropped_and_told() -> None:
     ticks = np.arange(1000)
     ticks[600] = 500
     ticks[900] = 3
-    lines = told(ticks)
+    lines = warnings_of(ticks)
     assert lines == [
         "time goes back in 2 rows, first at row 600, from 599 to 500; they are dropped"
     ]
@@ -202,21 +202,21 @@ def test_a_few_rows_that_go_back_are_dropped_and_told() -> None:
 @pytest.mark.parametrize("second", [np.arange(500), np.arange(500) - 10**9])
 def test_a_clock_that_was_set_back_is_refused(second: np.ndarray) -> None:
     with pytest.raises(InputError, match=r"time goes back in 500 of 1000 rows, first at row 500"):
-        told(np.concatenate([np.arange(500) + 10**6, second]))
+        warnings_of(np.concatenate([np.arange(500) + 10**6, second]))
 
 
 def test_one_wild_stamp_that_hides_all_the_rest_is_refused() -> None:
     ticks = np.arange(1000)
     ticks[10] = 10**15
     with pytest.raises(InputError, match=r"first at row 11, from 1e\+15 to 11; the clock was set"):
-        told(ticks)
+        warnings_of(ticks)
 
 
-@pytest.mark.parametrize(("step", "told"), [(3599, False), (3601, True), (1.7e9, True)])
-def test_a_clock_that_comes_to_another_epoch_is_told(step: float, told: bool) -> None:
+@pytest.mark.parametrize(("step", "warned"), [(3599, False), (3601, True), (1.7e9, True)])
+def test_a_clock_that_comes_to_another_epoch_is_told(step: float, warned: bool) -> None:
     times = np.concatenate([np.arange(50.0), 49 + step + np.arange(50.0)])
     line = warn_of_leap(times)
-    assert (line is not None) == told
+    assert (line is not None) == warned
     if line is not None:
         assert line.startswith(f"no rows for {step:.6g} s after row 49; if the clock was set")
     assert warn_of_leap(times[:1]) is None
@@ -225,4 +225,4 @@ def test_a_clock_that_comes_to_another_epoch_is_told(step: float, told: bool) ->
 def test_rows_without_a_time_are_told() -> None:
     ticks = np.arange(1000.0)
     ticks[[3, 700]] = np.nan, np.inf
-    assert told(ticks) == ["2 rows have no time; they are dropped"]
+    assert warnings_of(ticks) == ["2 rows have no time; they are dropped"]

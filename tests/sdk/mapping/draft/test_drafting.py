@@ -56,7 +56,6 @@ def natives(draw: st.DrawFn) -> NativeFile:
 
 
 def holds(text: str) -> bool:
-    """Tell whether TOML can hold ``text`` as the name of an adapter."""
     return len(text) <= 256 and not any("\ud800" <= c <= "\udfff" for c in text)
 
 

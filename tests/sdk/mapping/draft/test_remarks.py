@@ -18,7 +18,6 @@ def drafted(*columns: Column) -> str:
 
 
 def vehicle_of(text: str) -> str:
-    """Return ``text`` with its table of the vehicle no longer a comment."""
     lines = text.splitlines()
     at = lines.index(next(line for line in lines if line.startswith("# [setup.vehicle]")))
     end = lines.index("", at)

@@ -80,13 +80,6 @@ def test_scale_scales_and_an_offset_is_not_seen(
     assert other.standard_deviation == pytest.approx(factor * x.std(), rel=1e-8)
 
 
-@given(slope=st.floats(1e-6, 1e6), rate=st.floats(0.1, 1e5))
-@FEW
-def test_a_ramp_has_the_deviation_of_its_closed_form(slope: float, rate: float) -> None:
-    found = allan_deviation(slope * np.arange(1000) / rate, 1.0 / rate)
-    assert found.deviation == pytest.approx(slope * found.cluster_s / np.sqrt(2.0), rel=1e-9)
-
-
 def test_single_samples_of_white_noise_have_their_standard_deviation() -> None:
     x = drawn(1, 200_000)
     found = allan_deviation(x, 0.01)
@@ -144,10 +137,10 @@ def test_cluster_sizes_rise_from_one_to_a_third_and_stay_dense(count: int) -> No
 
 
 def test_progress_goes_up_to_one() -> None:
-    warnings: list[float] = []
-    allan_deviation(drawn(0, 1000), 1.0, warnings.append)
-    assert warnings == sorted(warnings)
-    assert warnings[-1] == 1.0
+    shares: list[float] = []
+    allan_deviation(drawn(0, 1000), 1.0, shares.append)
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
 
 
 @given(seed=seeds, held=st.integers(2, 60))

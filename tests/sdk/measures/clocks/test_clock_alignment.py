@@ -42,7 +42,6 @@ def irregular(rng, count: int) -> np.ndarray:
 
 
 def off(found: Alignment, own: np.ndarray, offset: float, drift: float) -> float:
-    """Return by how much base times at ``own`` are off."""
     return float(np.abs(found.to_base(own) - (offset + (1 + drift) * own)).max())
 
 

@@ -18,7 +18,6 @@ VEHICLES = ["loaded-van", "minivan", "pickup", "trailer", "soft-van"]
 
 @cache
 def driven(manoeuvre: str, vehicle: str, seed: int) -> tuple[Channel, Channel, Channel]:
-    """Return force, height and distance of a drive."""
     recording = simulate(
         Scenario(
             seed=seed,

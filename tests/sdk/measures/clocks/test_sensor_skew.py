@@ -97,11 +97,11 @@ def test_several_stops_know_more_than_one() -> None:
 
 
 @pytest.mark.parametrize("shift_ms", SHIFTS_MS)
-@pytest.mark.parametrize("told", [True, False])
-def test_a_bounce_test_shows_half_a_hold_of_the_laser(shift_ms: float, told: bool) -> None:
+@pytest.mark.parametrize("with_distance", [True, False])
+def test_a_bounce_test_shows_half_a_hold_of_the_laser(shift_ms: float, with_distance: bool) -> None:
     """Its distance says 72 km/h, or is not there."""
     force, height, distance = parts(driven("bounce", "loaded-van", 1))
-    found = sensor_skew(force, later(height, shift_ms / 1e3), distance if told else None)
+    found = sensor_skew(force, later(height, shift_ms / 1e3), distance if with_distance else None)
     assert found.skew_s == pytest.approx(shift_ms / 1e3 + HOLD_S, abs=2e-5)
     assert found.sigma_s < 5e-5
     assert found.seconds >= 3.0

@@ -16,37 +16,6 @@ def noise(seed: int, count: int) -> np.ndarray:
     return np.random.default_rng(seed).normal(0.3, 1.0, count)
 
 
-@given(seed=seeds, lag=st.integers(-40, 40), count=st.integers(200, 900))
-@FEW
-def test_shifted_copy_is_found_and_scores_one(seed: int, lag: int, count: int) -> None:
-    longer = noise(seed, count + 80)
-    p, q = longer[40 : 40 + count], longer[40 - lag : 40 - lag + count]
-    found = cross_correlation(p, q, 0.05, max_offset_m=2.0)
-    # q(x) = p(x − s): the second signal lies farther along by s.
-    assert found.offset_m == pytest.approx(lag * 0.05, abs=1e-12)
-    assert found.cross_correlation == pytest.approx(1.0, abs=1e-9)
-
-
-@given(seed=seeds, factor=st.floats(0.01, 100.0), datum=st.floats(-10.0, 10.0))
-@FEW
-def test_amplitude_lowers_the_score_and_the_mean_does_not(
-    seed: int, factor: float, datum: float
-) -> None:
-    p = noise(seed, 300)
-    found = cross_correlation(p, factor * p + datum, 0.1)
-    assert found.correlation == pytest.approx(1.0, abs=1e-9)
-    assert found.amplitude_factor == pytest.approx(min(factor, 1 / factor), rel=1e-9)
-    assert found.cross_correlation == found.correlation * found.amplitude_factor
-
-
-@given(seed=seeds, other=seeds, count=st.integers(8, 200), lags=st.integers(0, 2))
-@FEW
-def test_lies_between_minus_one_and_one(seed: int, other: int, count: int, lags: int) -> None:
-    found = cross_correlation(noise(seed, count), noise(other, count), 1.0, float(lags))
-    assert -1.0 <= found.cross_correlation <= 1.0
-    assert 0.0 <= found.amplitude_factor <= 1.0
-
-
 @pytest.mark.cites("(2.13) to (2.15)")
 @given(seed=seeds, other=seeds, count=st.integers(50, 400), lags=st.integers(0, 12))
 @FEW
@@ -65,20 +34,7 @@ def test_is_the_best_of_the_correlations_of_the_overlaps(
     assert found.offset_m == pytest.approx(0.5 * best)
     sigmas = sorted((first.std(), second.std()))
     assert found.amplitude_factor == pytest.approx(sigmas[0] / sigmas[1], rel=1e-9)
-
-
-@given(seed=seeds, other=seeds)
-@FEW
-def test_exchanging_the_signals_turns_the_offset_round(seed: int, other: int) -> None:
-    p, q = noise(seed, 300), noise(other, 300)
-    there, back = cross_correlation(p, q, 0.1), cross_correlation(q, p, 0.1)
-    assert back.offset_m == pytest.approx(-there.offset_m)
-    assert back.cross_correlation == pytest.approx(there.cross_correlation, abs=1e-10)
-
-
-def test_opposite_signal_scores_minus_one_without_a_search() -> None:
-    p = noise(4, 300)
-    assert cross_correlation(p, -p, 0.1, 0.0).cross_correlation == pytest.approx(-1.0)
+    assert found.cross_correlation == found.correlation * found.amplitude_factor
 
 
 @pytest.mark.parametrize("level", [0.0, 0.1, -583.0])

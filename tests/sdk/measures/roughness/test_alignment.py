@@ -13,7 +13,6 @@ FEW = settings(deadline=None, max_examples=30)
 
 
 def plane(start: float, interval: float, count: int, grade: float = 0.01) -> Profile:
-    """A profile whose elevation is ``grade`` times distance."""
     x = start + interval * np.arange(count)
     return Profile(interval, (ProfileTrack.of("main", grade * x),), start_m=start)
 

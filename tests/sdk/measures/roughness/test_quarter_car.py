@@ -12,7 +12,6 @@ CARS = [GOLDEN_CAR, RIDE_NUMBER_CAR]
 
 
 def unpacked(modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Complex poles and gains of both modes."""
     poles, gains = modes.reshape(2, 2, 2).transpose(1, 0, 2) @ np.array([1.0, 1j])
     return poles, gains
 
@@ -44,18 +43,6 @@ def test_modes_are_the_matrix_exponential_of_the_equations_of_motion(
         modal = poles * modal + gains
         found.append(modal.real.sum())
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-12)
-
-
-@pytest.mark.parametrize("car", CARS)
-@given(step=st.floats(1e-5, 0.05))
-@settings(deadline=None, max_examples=20)
-def test_two_steps_at_one_slope_are_one_step_of_twice_the_length(
-    car: QuarterCar, step: float
-) -> None:
-    poles, gains = unpacked(car.modes(step))
-    double_poles, double_gains = unpacked(car.modes(2 * step))
-    assert poles**2 == pytest.approx(double_poles, rel=1e-12)
-    assert poles * gains + gains == pytest.approx(double_gains, rel=1e-10)
 
 
 @pytest.mark.cites("(2.9)")

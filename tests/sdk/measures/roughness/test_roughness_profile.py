@@ -54,15 +54,6 @@ def test_each_value_is_the_mean_of_the_trace_around_it(
 
 @given(seed=seeds, interval=intervals)
 @FEW
-def test_base_of_one_interval_is_the_rectified_trace(seed: int, interval: float) -> None:
-    z = rough_road(seed, interval)
-    rectified = np.abs(iri_trace(z, interval))
-    found = short_interval_roughness(z, interval, interval)
-    np.testing.assert_allclose(found, rectified, atol=1e-9)
-
-
-@given(seed=seeds, interval=intervals)
-@FEW
 def test_base_beyond_the_profile_is_the_iri_everywhere(seed: int, interval: float) -> None:
     z = rough_road(seed, interval)
     found = short_interval_roughness(z, interval, 1000.0)

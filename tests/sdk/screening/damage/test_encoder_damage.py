@@ -31,9 +31,7 @@ def damage(values, clock=CLOCK):
 
 def taken(steady, values, size=4096):
     """Distances and flags that the source makes of ``values``."""
-    recording = steady(
-        seconds=COUNT / RATE, distance=Channel.of("distance", values, UniformClock.of(RATE))
-    )
+    recording = steady(seconds=COUNT / RATE, distance=values)
     blocks = list(Source(Screening.of(recording)).blocks(size))
     flags = [b.flags.get(DISTANCE, np.zeros(len(b), np.uint8)) for b in blocks]
     return np.concatenate([b[DISTANCE] for b in blocks]), np.concatenate(flags)

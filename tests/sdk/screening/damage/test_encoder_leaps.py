@@ -7,13 +7,11 @@ from hypothesis import strategies as st
 
 import floatref
 from floatref.screening.damage.encoder_damage import encoder_damage
-from floatref.values.channels import ChannelId
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
 RATE, COUNT = 1000.0, 20_000
 CLOCK = UniformClock.of(RATE)
-DISTANCE = ChannelId("distance")
 laws = settings(
     deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
@@ -115,7 +113,7 @@ def test_a_missing_distance_is_no_leap():
 def test_around_a_leap_no_point_is_valid_and_the_user_is_told(steady, pipeline):
     values = travel()
     values[10_000:] += 2.0
-    recording = steady(seconds=20.0, distance=Channel.of("distance", values, CLOCK))
+    recording = steady(seconds=20.0, distance=values)
     with pytest.warns(floatref.FloatrefWarning, match="distance: leaps for 1 samples in 1 places"):
         profile = floatref.process(recording, pipeline)
     x, valid = profile.distance_m, profile.tracks[0].valid

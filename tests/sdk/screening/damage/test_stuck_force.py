@@ -24,7 +24,6 @@ def distance_of(speed: float) -> Channel:
 
 
 def shaken(quantum: float = 0.015) -> FloatArray:
-    """Return the readings of a wheel's accelerometer."""
     noise = np.random.default_rng(0).standard_normal(COUNT)
     return quantum * np.round((9.8 + 3.0 * noise) / quantum)
 

@@ -63,8 +63,6 @@ def test_it_works_in_time_alone():
 
 
 class TestAdvance(StageLaws):
-    """By a few samples."""
-
     reads = ("vertical_acceleration", "height")
 
     def make(self):

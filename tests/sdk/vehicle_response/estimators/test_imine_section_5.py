@@ -15,7 +15,6 @@ SEEDS = [1, 2, 3]
 
 @pytest.fixture(scope="module")
 def cases():
-    """Return the module of the cases."""
     with pytest.MonkeyPatch.context() as patched:
         patched.syspath_prepend(str(BENCHMARKS))
         yield importlib.import_module("imine_cases")
@@ -27,7 +26,7 @@ def left_drive(cases):
     return cases.drive(cases.left_road())
 
 
-def told(case):
+def settled(case):
     """The samples at which the observer has settled, the same for both wheels."""
     settled = ~np.isnan(case.estimate.road)
     np.testing.assert_array_equal(settled[:, 0], settled[:, 1])
@@ -39,9 +38,9 @@ def test_the_chirp_is_followed_within_half_a_percent(cases):
     case = cases.observed(cases.drive(cases.chirps))
     assert case.road.shape == (2559, 2)
     assert np.abs(case.road).max() == pytest.approx(1e-3, rel=1e-3)
-    assert np.abs(case.error[told(case)]).max() <= 5e-6
+    assert np.abs(case.error[settled(case)]).max() <= 5e-6
     # Nothing but the start is left out: less than a second.
-    assert told(case)[128:].all()
+    assert settled(case)[128:].all()
 
 
 @pytest.mark.slow
@@ -49,7 +48,7 @@ def test_the_chirp_is_followed_within_half_a_percent(cases):
 def test_the_left_wheel_is_followed_within_four_thousandths(cases, left_drive, seed):
     case = cases.observed(left_drive, cases.BENCH, seed)
     assert np.abs(case.road[:, 0]).max() == pytest.approx(cases.ROAD_M, rel=0.01)
-    assert np.abs(case.error[told(case), 0]).max() <= 0.004 * np.abs(case.road[:, 0]).max()
+    assert np.abs(case.error[settled(case), 0]).max() <= 0.004 * np.abs(case.road[:, 0]).max()
 
 
 @pytest.mark.slow
@@ -59,7 +58,7 @@ def test_the_right_wheel_that_stands_varies_around_zero(cases, left_drive, seed)
     assert not case.road[:, 1].any()
     # It does not stand for the sensors: the body moves by nearly a centimetre.
     assert np.abs(case.displacements[:, 2]).max() > 5e-3
-    right = case.estimate.road[told(case), 1]
+    right = case.estimate.road[settled(case), 1]
     assert np.abs(right).max() <= 2e-3
     assert right.min() < 0 < right.max()
 
@@ -67,6 +66,6 @@ def test_the_right_wheel_that_stands_varies_around_zero(cases, left_drive, seed)
 @pytest.mark.parametrize("seed", SEEDS)
 def test_sigma_tells_the_error_that_noise_makes(cases, left_drive, seed):
     case = cases.observed(left_drive, cases.BENCH, seed)
-    error = case.error[told(case)]
-    share = np.mean(np.abs(error) <= 2.0 * case.estimate.road_sigma[told(case)])
+    error = case.error[settled(case)]
+    share = np.mean(np.abs(error) <= 2.0 * case.estimate.road_sigma[settled(case)])
     assert 0.92 <= share <= 0.98

@@ -20,7 +20,6 @@ MOTIONS = Kind.ACCELERATION, Kind.DISPLACEMENT
 
 
 def all_read(model, sigma=1.0, without=()):
-    """Acceleration and displacement of every freedom but those named."""
     names = [f.name for f in model.freedoms if f.name not in without]
     return [Reading(kind, name, sigma) for kind in MOTIONS for name in names]
 
@@ -52,12 +51,12 @@ def test_without_noise_all_is_exact_from_any_start(model, seed, hold):
     readings = all_read(model)
     force, states, samples = driven(model, readings, seed, hold)
     found = JointInputState.of(model, readings, STEP, start(model), start(model, 1e4), hold)
-    told = found.estimate(samples)
+    estimate = found.estimate(samples)
     late = slice(200, None)
-    np.testing.assert_allclose(told.force[late], force[late], atol=1e-4 * np.abs(force).max())
+    np.testing.assert_allclose(estimate.force[late], force[late], atol=1e-4 * np.abs(force).max())
     scale = np.abs(states).max(axis=0)
-    np.testing.assert_allclose(told.states[late] / scale, states[late] / scale, atol=1e-4)
-    np.testing.assert_allclose(told.road, told.force / [t.stiffness for t in model.tyres])
+    np.testing.assert_allclose(estimate.states[late] / scale, states[late] / scale, atol=1e-4)
+    np.testing.assert_allclose(estimate.road, estimate.force / [t.stiffness for t in model.tyres])
 
 
 @pytest.mark.slow
@@ -76,26 +75,6 @@ def test_any_split_gives_the_same_bits(seed, hold, cuts):
     for name in ("road", "road_sigma", "states", "states_sigma", "force", "force_sigma"):
         joined = np.concatenate([getattr(part, name) for part in parts])
         np.testing.assert_array_equal(joined, getattr(whole, name))
-
-
-@pytest.mark.slow
-@FEW
-@given(seed=SEEDS, gone=st.sampled_from([0, 2, 3]))
-def test_a_reading_that_is_never_there_is_no_reading(seed, gone):
-    model = CORNER.model()
-    readings = all_read(model, 1e-2)
-    _, _, samples = driven(model, readings, seed, Hold.ZERO_ORDER)
-    samples += 1e-2 * np.random.default_rng(seed).normal(size=samples.shape)
-    kept = [at for at in range(4) if at != gone]
-    rule = JointInputState.of(model, readings, STEP, start(model, 1e-6), start(model, 1e-2))
-    other = JointInputState.of(
-        model, [readings[at] for at in kept], STEP, start(model, 1e-6), start(model, 1e-2)
-    )
-    expected = other.estimate(samples[:, kept])
-    samples[:, gone] = np.nan
-    found = rule.estimate(samples)
-    for name in ("road", "road_sigma", "states", "states_sigma"):
-        np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-9)
 
 
 @pytest.mark.slow
@@ -137,8 +116,10 @@ def test_equipment_that_carries_no_sensor_is_told(hold):
     noisy = samples + sigmas * np.random.default_rng(6).normal(size=samples.shape)
     known = [Reading(r.kind, r.freedom, s) for r, s in zip(readings, sigmas, strict=True)]
     noise = hold_error_of(model, STEP, 10.0, "C", hold)
-    told = JointInputState.of(model, known, STEP, noise, start(model, 5e-5), hold).estimate(noisy)
-    found = told.states @ output.T + told.force @ direct.T
+    estimate = JointInputState.of(model, known, STEP, noise, start(model, 5e-5), hold).estimate(
+        noisy
+    )
+    found = estimate.states @ output.T + estimate.force @ direct.T
     right = states @ output.T + force @ direct.T
     error = np.linalg.norm(found - right, axis=0) / np.linalg.norm(right, axis=0)
     assert error[1] < 0.08
@@ -164,19 +145,6 @@ def test_a_tyre_with_damping_tells_the_road_and_not_its_force(damping, wave_hz):
     np.testing.assert_array_less(0.0, found.road_sigma)
 
 
-def refused(says, **changed):
-    model = CORNER.model()
-    given = {
-        "readings": all_read(model),
-        "step_s": STEP,
-        "disturbance": start(model),
-        "initial": start(model),
-    }
-    with pytest.raises(InputError, match=says) as raised:
-        JointInputState.of(model, **{**given, **changed})
-    assert "\n" not in str(raised.value)
-
-
 @pytest.mark.parametrize(
     ("changed", "says"),
     [
@@ -195,7 +163,12 @@ def refused(says, **changed):
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(changed, says):
-    refused(says, **changed)
+    model = CORNER.model()
+    zero = start(model)
+    given = {"readings": all_read(model), "step_s": STEP, "disturbance": zero, "initial": zero}
+    with pytest.raises(InputError, match=says) as raised:
+        JointInputState.of(model, **{**given, **changed})
+    assert "\n" not in str(raised.value)
 
 
 @pytest.mark.parametrize(

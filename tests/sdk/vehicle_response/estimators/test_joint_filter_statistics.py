@@ -38,13 +38,13 @@ def normalised_errors(model, hold):
         states = np.array(states)
         samples = states @ system.output.T + force @ system.direct.T
         samples += np.sqrt(system.variance) * rng.normal(size=samples.shape)
-        told = rule.estimate(samples)
+        estimate = rule.estimate(samples)
         # The road under a tyre with damping is a state behind the model's own.
         roads = states[:, size:] if whole > size else force / [t.stiffness for t in model.tyres]
         errors = (
-            (told.force - force) / told.force_sigma,
-            (told.states - states[:, :size]) / told.states_sigma,
-            (told.road - roads) / told.road_sigma,
+            (estimate.force - force) / estimate.force_sigma,
+            (estimate.states - states[:, :size]) / estimate.states_sigma,
+            (estimate.road - roads) / estimate.road_sigma,
         )
         scaled.append(np.hstack(errors))
     return np.array(scaled)

@@ -44,10 +44,10 @@ def started(system):
     return Memory(*parts, np.zeros((inputs, inputs)), np.zeros((states, inputs)))
 
 
-def run(system, samples, memory=None):
+def run(system, samples):
     states, inputs = system.after.shape
     out = Estimates(*(np.full((len(samples), s), 9.0) for s in (inputs, inputs, states, states)))
-    done = joint_input_state(samples, system, memory or started(system), out)
+    done = joint_input_state(samples, system, started(system), out)
     assert done == len(samples)
     return out
 
@@ -97,17 +97,6 @@ def test_it_is_steps_a_to_c_of_the_readings_that_are_there(seed, sizes, gone):
     for found, right in zip(out, expected, strict=True):
         scale = 1.0 + np.nanmax(np.abs(right), initial=0.0)
         np.testing.assert_allclose(found, right, rtol=0, atol=1e-9 * scale)
-
-
-@given(seed=SEEDS, sizes=SIZES, cuts=st.lists(st.integers(0, 40), max_size=5))
-@laws
-def test_any_split_gives_the_same_bits(seed, sizes, cuts):
-    system, samples = drawn(seed, *sizes)
-    samples[np.random.default_rng(seed).random(samples.shape) < 0.2] = np.nan
-    memory, whole = started(system), run(system, samples)
-    parts = [run(system, part, memory) for part in np.split(samples, sorted(cuts))]
-    for found, right in zip(zip(*parts, strict=True), whole, strict=True):
-        np.testing.assert_array_equal(np.concatenate(found), right)
 
 
 def test_it_stops_where_the_covariance_is_no_longer_finite():

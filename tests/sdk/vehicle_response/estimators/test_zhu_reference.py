@@ -69,15 +69,16 @@ def literal(model, readings, hold, noise, start, samples):
     else:
         discrete, after = system(a, b, g, j, STEP), np.zeros_like(b)
     r = np.diag([reading.sigma**2 for reading in readings])
-    told = joint_input_state(samples, discrete, noise, r, np.zeros(len(a)), start)
+    estimate = joint_input_state(samples, discrete, noise, r, np.zeros(len(a)), start)
     both = np.hstack([np.eye(len(a)), after])
-    turned = told.P_XF.transpose(0, 2, 1)
+    turned = estimate.P_XF.transpose(0, 2, 1)
     joint = np.concatenate(
-        [np.concatenate([told.P, told.P_XF], 2), np.concatenate([turned, told.P_F], 2)], 1
+        [np.concatenate([estimate.P, estimate.P_XF], 2), np.concatenate([turned, estimate.P_F], 2)],
+        1,
     )
     spread = np.sqrt(np.diagonal(both @ joint @ both.T, axis1=1, axis2=2))
-    force_spread = np.sqrt(np.diagonal(told.P_F, axis1=1, axis2=2))
-    return told.F, force_spread, told.X + told.F @ after.T, spread
+    force_spread = np.sqrt(np.diagonal(estimate.P_F, axis1=1, axis2=2))
+    return estimate.F, force_spread, estimate.X + estimate.F @ after.T, spread
 
 
 @pytest.mark.slow
@@ -96,14 +97,14 @@ def test_forces_states_and_sigmas_of_drawn_models(seed, masses, tyres, hold):
         rule = JointInputState.of(model, readings, STEP, noise, start, hold)
     except InputError:
         assume(False)
-    told = rule.estimate(samples)
-    found = told.force, told.force_sigma, told.states, told.states_sigma
+    estimate = rule.estimate(samples)
+    found = estimate.force, estimate.force_sigma, estimate.states, estimate.states_sigma
     expected = literal(model, readings, hold, noise, start, samples)
     for ours, theirs in zip(found, expected, strict=True):
         error = np.abs(ours - theirs).max(axis=0)
         assert (error <= LITERAL * np.abs(theirs).max(axis=0)).all()
     np.testing.assert_allclose(
-        told.road, told.force / [t.stiffness for t in model.tyres], rtol=1e-12
+        estimate.road, estimate.force / [t.stiffness for t in model.tyres], rtol=1e-12
     )
 
 

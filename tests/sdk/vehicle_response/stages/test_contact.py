@@ -27,13 +27,11 @@ class TestRestoreContact(StageLaws):
 
 
 def restored(values: FloatArray, contact_m: float = CONTACT_M) -> FloatArray:
-    """Return what the stage makes of an elevation at intervals of the tests' stream."""
     stream = Stream(lambda: RestoreContact(contact_m), {CHANNEL: values}, ("left",), Axis.DISTANCE)
     return stream.run([values.size])[CHANNEL]
 
 
 def wave(length_m: float, points: int = 3000) -> FloatArray:
-    """Return a sine wave at the stream's interval."""
     return np.sin(2 * np.pi * STEP_M * np.arange(points) / length_m)
 
 

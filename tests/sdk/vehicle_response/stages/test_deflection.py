@@ -21,7 +21,7 @@ class TestCompareTravel(StageLaws):
         return CompareTravel(*NAMES, 5e-4)
 
 
-def told(
+def warnings_of(
     change: Callable[[FloatArray, FloatArray, FloatArray], tuple[FloatArray, ...]],
     rms_m: float,
 ) -> tuple[str, ...]:
@@ -40,8 +40,8 @@ def told(
 
 
 def test_sensors_that_agree_are_not_told() -> None:
-    assert told(lambda t, b, w: (t, b, w), 5e-3) == ()
-    assert told(lambda t, b, w: (1.2 * t, b, w), 5e-3) == ()
+    assert warnings_of(lambda t, b, w: (t, b, w), 5e-3) == ()
+    assert warnings_of(lambda t, b, w: (1.2 * t, b, w), 5e-3) == ()
 
 
 @pytest.mark.parametrize(
@@ -59,14 +59,14 @@ def test_sensors_that_agree_are_not_told() -> None:
 def test_sensors_that_do_not_agree_are_told(
     change: Callable[[FloatArray, FloatArray, FloatArray], tuple[FloatArray, ...]],
 ) -> None:
-    (line,) = told(change, 5e-3)
+    (line,) = warnings_of(change, 5e-3)
     assert line.startswith("track left: suspension_deflection follows the heights")
 
 
 def test_a_suspension_that_hardly_moves_tells_nothing() -> None:
-    assert told(lambda t, b, w: (-t, b, w), 2e-4) == ()
+    assert warnings_of(lambda t, b, w: (-t, b, w), 2e-4) == ()
 
 
 def test_a_drift_of_the_heights_is_no_disagreement() -> None:
     drift = 0.05 * np.sin(2 * np.pi * 0.15 * np.arange(2000) / 100.0)
-    assert told(lambda t, b, w: (t, b + drift, w), 5e-3) == ()
+    assert warnings_of(lambda t, b, w: (t, b + drift, w), 5e-3) == ()

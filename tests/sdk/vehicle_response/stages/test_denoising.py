@@ -1,4 +1,4 @@
-"""Singular spectrum analysis, against the trajectory matrix written out."""
+"""Singular spectrum analysis: what it keeps of sines and of noise, and what it refuses."""
 
 import math
 import tracemalloc
@@ -15,34 +15,9 @@ FEW = settings(deadline=None, max_examples=20)
 SEEDS = st.integers(0, 2**32 - 1)
 
 
-def written_out(samples, window, components):
-    """Singular values and the reconstruction from the trajectory matrix itself."""
-    rows = samples.size - window + 1
-    trajectory = np.array([samples[i : i + window] for i in range(rows)]).T
-    left, values, right = np.linalg.svd(trajectory, full_matrices=False)
-    part = left[:, :components] * values[:components] @ right[:components]
-    means = [np.mean(np.diag(part[:, ::-1], rows - 1 - i)) for i in range(samples.size)]
-    return values**2 / rows, np.array(means)
-
-
 def drawn(seed, size, coloured=True):
     noise = np.random.default_rng(seed).standard_normal(size)
     return np.convolve(noise, [1.0, 0.8, 0.5], mode="same") if coloured else noise
-
-
-@settings(deadline=None, max_examples=10)
-@given(seed=SEEDS, size=st.integers(24, 90), window=st.integers(2, 12), keep=st.integers(1, 12))
-def test_it_is_the_mean_over_the_windows_of_the_first_singular_triples(seed, size, window, keep):
-    keep = min(keep, window)
-    samples = drawn(seed, size)
-    values, expected = written_out(samples, window, keep)
-    variances, vectors = singular_spectrum(samples, window)
-    np.testing.assert_allclose(variances, values, rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(vectors.T @ vectors, np.eye(window), atol=1e-12)
-    found = remove_noise(samples, window, components=keep)
-    # Where two singular values are nearly equal, what is kept of the pair is rounding.
-    gap = 1.0 if keep == window else (values[keep - 1] - values[keep]) / values[0]
-    np.testing.assert_allclose(found, expected, atol=1e-11 / gap)
 
 
 @FEW

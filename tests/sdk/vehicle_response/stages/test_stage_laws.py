@@ -10,7 +10,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.values.arrays import Flag, FloatArray
-from floatref.values.block import Axis, Block
+from floatref.values.block import Axis
 from floatref.values.channels import ChannelId
 from floatref.vehicle_response import Kind, QuarterCar, Reading
 from floatref.vehicle_response.estimators.estimate import Estimate
@@ -27,7 +27,7 @@ from floatref.vehicle_response.stages import (
 )
 from floatref.vehicle_response.stages.estimation import drift_sigma
 from floatref_conformance.testing import StageLaws
-from floatref_conformance.testing.streams import Stream, join
+from floatref_conformance.testing.streams import Stream
 
 TRACKS = "left", "right"
 UNDER, SIGMA = "elevation_under_tyre_0", "sigma_under_tyre_0"
@@ -162,8 +162,8 @@ def test_the_better_tyre_counts_more_and_a_lost_one_not_at_all() -> None:
     out = stream.run()
     np.testing.assert_allclose(out[ChannelId("elevation", "left")], [1.6, 4.0, np.nan])
     np.testing.assert_allclose(out[ChannelId("elevation_sigma", "left")], [1e-3, 2e-3, np.nan])
-    told = out.flags[ChannelId("elevation", "left")]
-    assert [bool(flag) for flag in told] == [False, True, True]
+    flags = out.flags[ChannelId("elevation", "left")]
+    assert [bool(flag) for flag in flags] == [False, True, True]
 
 
 def test_components_beyond_the_window_are_refused() -> None:
@@ -179,14 +179,6 @@ def test_stages_name_the_axis_they_need() -> None:
             stage.start(distance)
     with pytest.raises(InputError, match="is not on the distance axis"):
         ShiftAlong(SHIFTS).start(time)
-
-
-def test_an_empty_block_gives_an_empty_one() -> None:
-    stream = TestToRate().stream()
-    stage = stream.begin([])
-    nothing = {channel: np.empty(0) for channel in stream.samples}
-    assert len(stage.push(Block(0, nothing))) == 0
-    assert len(join([stage.push(b) for b in stream.blocks()] + list(stage.finish()))) == 101
 
 
 def test_the_last_distance_is_that_which_the_encoder_told_last() -> None:
@@ -206,7 +198,6 @@ class Steady:
         """Keep nothing."""
 
     def advance(self, memory: None, samples: FloatArray) -> Estimate:
-        """Return the same for all samples."""
         size, rest = len(samples), np.zeros((len(samples), 4))
         road = np.full((size, 1), 3e-3)
         return Estimate(road, np.full((size, 1), 1e-3), rest, rest)
