@@ -18,7 +18,7 @@ from floatref.measures.clocks.sensor_skew import (
     sensor_skew,
     skew_warning,
 )
-from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, find_standing, on_grid, stretches
 from floatref.measures.clocks.skew_windows import skew_window
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import UniformClock
@@ -97,7 +97,7 @@ def stopping(recording: Recording) -> tuple[FloatArray, FloatArray, int, int]:
     force, height, distance = parts(recording)
     begin, end = force.span_s
     grid = begin + STEP_S * np.arange(int((end - begin) * RATE_HZ))
-    (first, end), *_ = stretches(standing(distance, grid, STANDS_M, STANDS_S))
+    (first, end), *_ = stretches(find_standing(distance, grid, STANDS_M, STANDS_S))
     return on_grid(force, grid), on_grid(height, grid), first, min(COUNT, end - first)
 
 

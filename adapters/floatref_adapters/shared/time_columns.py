@@ -53,7 +53,7 @@ def time_column(columns: Sequence[Column], option: str | None) -> TimeColumn | N
     if option == NONE:
         return None
     if option is not None:
-        return _named(columns, option)
+        return _find_named(columns, option)
     found = [(i, unit) for i, c in enumerate(columns) if (unit := find_unit(c)) is not None]
     if not found:
         return None
@@ -61,7 +61,7 @@ def time_column(columns: Sequence[Column], option: str | None) -> TimeColumn | N
     return TimeColumn(*found[0], others)
 
 
-def _named(columns: Sequence[Column], option: str) -> TimeColumn:
+def _find_named(columns: Sequence[Column], option: str) -> TimeColumn:
     for index, column in enumerate(columns):
         if column.name != option:
             continue

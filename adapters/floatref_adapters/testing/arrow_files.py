@@ -17,8 +17,8 @@ from floatref_adapters.testing.file_writing import (
     by_clock,
     check_quanta,
     quantum_of,
-    replacing,
-    rounded,
+    replace_file,
+    round_to_quantum,
     start_of,
 )
 
@@ -38,7 +38,7 @@ def batches(recording: Recording, quanta: Mapping[str, float] | None) -> tuple[A
     pa = library("pyarrow", "writing Arrow")
     parts = [part for group in by_clock(recording.channels) for part in _parts(group, quanta)]
     rows = max(part.values.size for part in parts)
-    fields = [pa.field(part.name, pa.float64(), metadata=_counted(part, rows)) for part in parts]
+    fields = [pa.field(part.name, pa.float64(), metadata=_count_rows(part, rows)) for part in parts]
     schema = pa.schema(fields, {"vendor": recording.vendor, "model": recording.model})
     return schema, _batches(schema, parts, rows)
 
@@ -57,7 +57,7 @@ def _parts(group: Sequence[Channel], quanta: Mapping[str, float] | None) -> Iter
         yield _Part(str(channel.id), channel.values, quantum, {"unit": channel.unit, **stated})
 
 
-def _counted(part: _Part, rows: int) -> dict[str, str]:
+def _count_rows(part: _Part, rows: int) -> dict[str, str]:
     count = part.values.size
     return {**part.metadata, **({"count": str(count)} if count < rows else {})}
 
@@ -68,7 +68,7 @@ def _batches(schema: Any, parts: Sequence[_Part], rows: int) -> Iterator[Any]:
         count = min(ROWS, rows - first)
         arrays = []
         for part in parts:
-            values = pa.array(rounded(part.values[first : first + count], part.quantum))
+            values = pa.array(round_to_quantum(part.values[first : first + count], part.quantum))
             missing = pa.nulls(count - len(values), pa.float64())
             arrays.append(pa.concat_arrays([values, missing]) if len(missing) else values)
         yield pa.record_batch(arrays, schema=schema)
@@ -85,7 +85,7 @@ def write_arrow(
 
     check_quanta(recording, quanta)
     schema, rows = batches(recording, quanta)
-    with replacing(path) as beside, pa.ipc.new_file(beside, schema) as writer:
+    with replace_file(path) as beside, pa.ipc.new_file(beside, schema) as writer:
         for batch in rows:
             writer.write_batch(batch)
 
@@ -102,7 +102,7 @@ def write_parquet(
     check_quanta(recording, quanta)
     schema, rows = batches(recording, quanta)
     with (
-        replacing(path) as beside,
+        replace_file(path) as beside,
         pq.ParquetWriter(
             beside, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
         ) as writer,

@@ -21,8 +21,8 @@ from floatref_adapters.testing.file_writing import (
     check_quanta,
     exact_start,
     quantum_of,
-    replacing,
-    rounded,
+    replace_file,
+    round_to_quantum,
 )
 
 ROWS = 1 << 16
@@ -40,7 +40,7 @@ def write_csv(recording: Recording, path: Path, quanta: Mapping[str, float] | No
     decimals = max(_decimals(channel) for channel in recording.channels)
     ticks = {str(c.id): _ticks(c, decimals) for c in recording.channels}
     every = np.unique(np.concatenate(list(ticks.values())))
-    with replacing(path) as beside, beside.open("w", encoding="utf-8", newline="") as stream:
+    with replace_file(path) as beside, beside.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(["time_s", *ticks])
         for first in range(0, every.size, ROWS):
@@ -70,7 +70,7 @@ def _ticks(channel: Channel, decimals: int) -> Ticks:
     clock, scale = channel.clock, 10**decimals
     if isinstance(clock, UniformClock):
         start, step = exact_start(clock) * scale, scale / clock.rate
-        ticks = _rounded(start, step, channel.values.size)
+        ticks = _round(start, step, channel.values.size)
     else:
         ticks = np.rint(clock.times_s * scale).astype(np.int64)
     if (np.diff(ticks) <= 0).any():
@@ -78,7 +78,7 @@ def _ticks(channel: Channel, decimals: int) -> Ticks:
     return ticks
 
 
-def _rounded(start: Fraction, step: Fraction, count: int) -> Ticks:
+def _round(start: Fraction, step: Fraction, count: int) -> Ticks:
     """Return ``start + k * step``, rounded to whole numbers, without float error."""
     bottom = start.denominator * step.denominator * 2
     base = int(start * bottom) + bottom // 2
@@ -97,7 +97,7 @@ def _fields(channel: Channel, ticks: Ticks, rows: Ticks, quantum: float | None) 
     """Return the fields of ``channel`` in the rows at the times ``rows``."""
     first, stop = np.searchsorted(ticks, (rows[0], rows[-1] + 1))
     fields = [""] * rows.size
-    values = rounded(channel.values[first:stop], quantum).tolist()
+    values = round_to_quantum(channel.values[first:stop], quantum).tolist()
     places = np.searchsorted(rows, ticks[first:stop]).tolist()
     shown = repr if quantum is None else f"{{:.{_places(quantum)}f}}".format
     for place, value in zip(places, values, strict=True):

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def replace_file(path: Path) -> Iterator[Path]:
     """Yield a path beside ``path`` to write to; give it that name when all went well."""
     beside = path.with_name(f".{path.name}-{secrets.token_hex(4)}")
     try:
@@ -44,7 +44,7 @@ def check_quanta(recording: Recording, quanta: Mapping[str, float] | None) -> No
             raise InputError(f"quantum of {name} is {quantum}; give a number above zero")
 
 
-def rounded(values: Floats, quantum: float | None) -> Floats:
+def round_to_quantum(values: Floats, quantum: float | None) -> Floats:
     """Return ``values`` as multiples of ``quantum``; as they are without one."""
     return values if quantum is None else np.round(values / quantum) * quantum
 
@@ -84,7 +84,7 @@ __all__ = [
     "check_quanta",
     "exact_start",
     "quantum_of",
-    "replacing",
-    "rounded",
+    "replace_file",
+    "round_to_quantum",
     "start_of",
 ]

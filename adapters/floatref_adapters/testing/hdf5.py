@@ -18,7 +18,7 @@ from floatref_adapters.testing.file_writing import (
     by_clock,
     check_quanta,
     quantum_of,
-    replacing,
+    replace_file,
     start_of,
 )
 
@@ -31,7 +31,7 @@ def write_hdf5(recording: Recording, path: Path, quanta: Mapping[str, float] | N
     h5py = library("h5py", "writing HDF5")
 
     check_quanta(recording, quanta)
-    with replacing(path) as beside, h5py.File(beside, "w") as file:
+    with replace_file(path) as beside, h5py.File(beside, "w") as file:
         _state(file, {"vendor": recording.vendor, "model": recording.model})
         for number, channels in enumerate(by_clock(recording.channels), 1):
             group = file.create_group(f"clock_{number}")

@@ -193,10 +193,10 @@ def _group(group: ClockGroup, quanta: Mapping[str, float] | None) -> StoredGroup
         master = Stored("time", np.empty(group.count, "V0"), "s", line, VIRTUAL_MASTER)
     else:
         master = Stored("time", group.times_s, "s", kind=MASTER)
-    return StoredGroup(group.name, [master, *(_stored(c, quanta) for c in group.channels)])
+    return StoredGroup(group.name, [master, *(_store(c, quanta) for c in group.channels)])
 
 
-def _stored(channel: Channel, quanta: Mapping[str, float] | None) -> Stored:
+def _store(channel: Channel, quanta: Mapping[str, float] | None) -> Stored:
     counted = count_quanta(channel, quanta)
     if counted is None:
         return Stored(str(channel.id), channel.values, channel.unit)

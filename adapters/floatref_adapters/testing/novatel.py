@@ -48,12 +48,12 @@ def long_log(
         definition,
         0,
     )
-    return _summed(header + body)
+    return _add_checksum(header + body)
 
 
 def short_log(number: int, gps_ms: int, body: bytes) -> bytes:
     """Return a binary log with the short header."""
-    return _summed(
+    return _add_checksum(
         SHORT_HEADER.pack(SHORT_SYNC, len(body), number, *divmod(gps_ms, WEEK_MS)) + body
     )
 
@@ -66,7 +66,7 @@ def text_log(name: str, gps_ms: int, definition: int, fields: str, status: str) 
     return b"#%s*%08x" % (body, crc32(body))
 
 
-def _summed(log: bytes) -> bytes:
+def _add_checksum(log: bytes) -> bytes:
     return log + struct.pack("<I", crc32(log))
 
 

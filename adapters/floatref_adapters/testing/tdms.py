@@ -33,7 +33,7 @@ def write_tdms(recording: Recording, path: Path, quanta: Mapping[str, float] | N
 def _segments(group: ClockGroup, quanta: Mapping[str, float] | None) -> Iterator[list[Any]]:
     from nptdms import ChannelObject
 
-    stored = [(str(c.id), *_stored(c, quanta)) for c in group.channels]
+    stored = [(str(c.id), *_store(c, quanta)) for c in group.channels]
     timing = {"wf_increment": group.step_s, "wf_start_offset": group.start_s}
     if group.times_s is not None:
         timing = {}
@@ -45,7 +45,7 @@ def _segments(group: ClockGroup, quanta: Mapping[str, float] | None) -> Iterator
         ]
 
 
-def _stored(
+def _store(
     channel: Channel, quanta: Mapping[str, float] | None
 ) -> tuple[np.ndarray[Any, Any], dict[str, Any]]:
     properties: dict[str, Any] = {"unit_string": channel.unit}
@@ -82,7 +82,7 @@ def metadata_text(value: str) -> bytes:
     return struct.pack("<I", len(encoded)) + encoded
 
 
-def stored(properties: Properties) -> bytes:
+def write_properties(properties: Properties) -> bytes:
     """Return the count of ``properties`` and each with its type; a pair is a time stamp."""
     out = struct.pack("<I", len(properties))
     for name, value in properties.items():
@@ -97,10 +97,10 @@ def stored(properties: Properties) -> bytes:
     return out
 
 
-def described(name: str, kind: int, count: int, properties: Properties) -> bytes:
+def describe_channel(name: str, kind: int, count: int, properties: Properties) -> bytes:
     """Return the metadata of channel ``name`` of group `g`, of ``count`` values a chunk."""
     path = metadata_text(f"/'g'/'{name}'")
-    return path + struct.pack("<IIIQ", 20, kind, 1, count) + stored(properties)
+    return path + struct.pack("<IIIQ", 20, kind, 1, count) + write_properties(properties)
 
 
 def segment(flags: int, metadata: bytes, raw: bytes) -> bytes:
@@ -111,7 +111,7 @@ def segment(flags: int, metadata: bytes, raw: bytes) -> bytes:
     return head + metadata + raw
 
 
-def laid(columns: Sequence[NDArray[Any]], chunk: int, interleaved: bool) -> bytes:
+def lay_out(columns: Sequence[NDArray[Any]], chunk: int, interleaved: bool) -> bytes:
     """Return the bytes of ``columns`` of float64 in chunks of ``chunk`` values."""
     out = b""
     for first in range(0, len(columns[0]), chunk):
@@ -123,7 +123,7 @@ def laid(columns: Sequence[NDArray[Any]], chunk: int, interleaved: bool) -> byte
 def doubles(count: int, chunk: int, wave: Properties | None = None) -> bytes:
     """Return the metadata of ``count`` channels of float64, called `c0` and on."""
     wave = {"wf_increment": 0.001} if wave is None else wave
-    channels = [described(f"c{k}", DOUBLE, chunk, wave) for k in range(count)]
+    channels = [describe_channel(f"c{k}", DOUBLE, chunk, wave) for k in range(count)]
     return struct.pack("<I", count) + b"".join(channels)
 
 
@@ -135,7 +135,7 @@ def waves(parts: Sequence[tuple[int, Properties]]) -> bytes:
     )
 
 
-def scaled(kind: str, count: int = 1) -> Properties:
+def scale_waveform(kind: str, count: int = 1) -> Properties:
     """Return a waveform that says it has ``count`` scales, of which the first is of ``kind``."""
     return {
         "wf_increment": 0.1,

@@ -51,7 +51,7 @@ def read_whole(opener: Opener, source: Path) -> tuple[NativeFile, list[Whole]]:
         return native, [whole(stream) for stream in native.streams]
 
 
-def opened(opener: Opener, source: Path, content: bytes | str, **options: str) -> NativeFile:
+def open_content(opener: Opener, source: Path, content: bytes | str, **options: str) -> NativeFile:
     """Write ``content`` to ``source`` and return what ``opener`` finds in it."""
     source.write_bytes(content if isinstance(content, bytes) else content.encode())
     return opener.streams(source, options)
@@ -112,7 +112,7 @@ __all__ = [
     "Table",
     "Whole",
     "make_columns",
-    "opened",
+    "open_content",
     "read_or_refused",
     "read_whole",
     "refusal",

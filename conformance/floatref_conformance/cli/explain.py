@@ -9,7 +9,7 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.judge.judging import find_scored
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.render.drawing import drawing
+from floatref_conformance.render.drawing import draw
 
 
 @click.command()
@@ -41,7 +41,7 @@ def _draw_case(check: Check) -> list[str]:
     cases = check.cases(0, Effort.QUICK)
     if not cases:
         return []
-    drawn = drawing(cases[0].scenario, find_scored(check, cases[0]))
+    drawn = draw(cases[0].scenario, find_scored(check, cases[0]))
     return [f"Drawing of {cases[0].name}", *drawn]
 
 

@@ -27,11 +27,11 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
     scenario = _scenario(run, seed)
     _check_targets(out, truth)
     from floatref.files import write_profile, write_recording
-    from floatref.files.sources import naming
+    from floatref.files.sources import name_errors
     from floatref_conformance.proving_ground.simulate import simulate as simulated
 
     click.echo(f"simulating {run}, seed {scenario.seed} …", err=True)
-    with naming(run):
+    with name_errors(run):
         simulation = simulated(scenario)
     click.echo("writing …", err=True)
     write_recording(simulation.recording, out)

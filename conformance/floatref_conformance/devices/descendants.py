@@ -79,14 +79,14 @@ class Descendants:
         limit = time.monotonic() + PATIENCE_S
         while time.monotonic() < limit:
             has_ended = device.poll() is not None
-            remaining = self._remaining(device)
+            remaining = self._find_remaining(device)
             if has_ended and not remaining:
                 return
             for process in remaining:
                 _kill(process, device.pid)
             time.sleep(0.002)
 
-    def _remaining(self, device: "subprocess.Popen[bytes]") -> list[Process]:
+    def _find_remaining(self, device: "subprocess.Popen[bytes]") -> list[Process]:
         """Return the device's processes that still exist, also ended ones to be waited for."""
         table = processes()
         running = {device.pid} if device.returncode is None else set()

@@ -6,7 +6,7 @@ from math import atan
 from types import MappingProxyType
 
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Setup, TrackSetup
 from floatref_conformance.proving_ground.drives import manoeuvres
@@ -24,7 +24,7 @@ from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
-from floatref_conformance.proving_ground.vehicles.response import oversampling
+from floatref_conformance.proving_ground.vehicles.response import count_steps
 from floatref_conformance.proving_ground.vehicles.suspended import Suspended
 
 BUMP_LENGTH_M = 3.0
@@ -68,7 +68,7 @@ def drive_of(scenario: Scenario) -> Drive:
     if scenario.manoeuvre in RUNS:
         drive = run_drive(scenario.manoeuvre)
     else:
-        with naming(f"manoeuvre {scenario.manoeuvre}"):
+        with name_errors(f"manoeuvre {scenario.manoeuvre}"):
             drive = _DRIVES[scenario.manoeuvre](scenario)
     _check_samples(scenario, drive.duration_s)
     return drive
@@ -105,7 +105,7 @@ def setup_of(scenario: Scenario, vehicle: Suspended, lateral_m: Mapping[str, flo
 
 def _check_samples(s: Scenario, duration_s: float) -> None:
     """Raise InputError for a drive too long to be kept in memory at the rate asked for."""
-    rate_hz = s.rate_hz * oversampling(s.rate_hz)
+    rate_hz = s.rate_hz * count_steps(s.rate_hz)
     if not duration_s * rate_hz * len(s.tracks) <= MOST_SAMPLES:
         raise InputError(
             f"length_m {s.length_m:g} takes {duration_s:.4g} s, which at {rate_hz:g} steps/s on "

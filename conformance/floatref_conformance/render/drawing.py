@@ -25,7 +25,7 @@ MOST = 3
 SAMPLES = 2000
 
 
-def drawing(scenario: Scenario, scored_m: Stretches = ()) -> list[str]:
+def draw(scenario: Scenario, scored_m: Stretches = ()) -> list[str]:
     """Return lines of at most 88 columns of ASCII: speed, and below what lies where.
 
     Along the axis runs distance in m, for a parked vehicle time in s. ``scored_m`` are the

@@ -45,11 +45,11 @@ def explain_check(check: Check, anchor: str) -> Asked:
             (quantity, tuple(str(limits.get(c, "no limit")) for c in DeviceClass))
             for quantity, limits in check.limits.items()
         ),
-        drawing=_drawing(check, anchor),
+        drawing=_draw(check, anchor),
     )
 
 
-def _drawing(check: Check, anchor: str) -> Markup | None:
+def _draw(check: Check, anchor: str) -> Markup | None:
     """Return the drawing; None for a check without cases, or whose first makes no drive."""
     cases = check.cases(0, Effort.QUICK)
     if not cases:

@@ -93,7 +93,7 @@ def draw_figure(figure: Figure) -> str:
     for panel in figure.panels:
         tops.append(tops[-1] + panel.height + GAP)
     bottom = tops[-1] - GAP
-    parts = [opening(figure.name, figure.title, figure.description, bottom + BOTTOM)]
+    parts = [open_picture(figure.name, figure.title, figure.description, bottom + BOTTOM)]
     parts += [_shade(shade, across, bottom) for shade in figure.shades]
     for panel, top in zip(figure.panels, tops, strict=False):
         parts += _panel(panel, across, top)
@@ -102,7 +102,7 @@ def draw_figure(figure: Figure) -> str:
     return "\n".join(part for part in parts if part)
 
 
-def opening(name: str, title: str, description: str, height: float) -> str:
+def open_picture(name: str, title: str, description: str, height: float) -> str:
     """Return the start tag of a picture, with its words for those who do not see it."""
     name = escape_text(name)
     return (

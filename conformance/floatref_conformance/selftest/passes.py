@@ -56,10 +56,10 @@ def situations_of_invariance(check: InvarianceCheck) -> tuple[Situation, ...]:
     graded = (
         Graded(
             ("correlation loss between both",),
-            _changed_only(lambda v: put_in.mix_in_road(v, *stretch)),
+            _change_only(lambda v: put_in.mix_in_road(v, *stretch)),
         ),
-        Graded(("IRI difference of both",), _changed_only(lambda v: put_in.make_higher(v / 100.0))),
-        Graded(("displacement between both",), _changed_only(put_in.move_features)),
+        Graded(("IRI difference of both",), _change_only(lambda v: put_in.make_higher(v / 100.0))),
+        Graded(("displacement between both",), _change_only(put_in.move_features)),
         Graded(("correlation loss",), lambda loss: put_in.mix_in_road(loss, *stretch)),
     )
     return (
@@ -76,11 +76,11 @@ def _at_a_stop(check: InvarianceCheck) -> Situation:
     )
     ends = scenario.event_at_m - BEFORE_M, scenario.event_at_m + BEHIND_M
     graded = (
-        Graded(("rise of the IRI error",), _changed_only(lambda v: put_in.make_rougher(v, *ends))),
+        Graded(("rise of the IRI error",), _change_only(lambda v: put_in.make_rougher(v, *ends))),
         Graded(("correlation loss",), lambda loss: put_in.mix_in_road(loss, RAN_IN_M, FREE_M)),
     )
     return Situation(check, replace(case, scenario=scenario), graded)
 
 
-def _changed_only(put: Put) -> Put:
+def _change_only(put: Put) -> Put:
     return lambda amount: put_in.limit_to_labels(put(amount), "changed")

@@ -8,7 +8,7 @@ import click
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
 from floatref.values.profile import Profile
 
@@ -37,7 +37,7 @@ def compare(
     along.
     """
     expected, found = profile_of(reference), profile_of(profile)
-    with naming(f"{reference} and {profile}"):
+    with name_errors(f"{reference} and {profile}"):
         _check_tracks(expected, found)
         expected, found = on_common_grid(expected, found)
         report = compare_report(expected, found, max_offset_m)
@@ -85,7 +85,7 @@ def _track_report(
     """Return agreement and IRI of the wheel path ``name``."""
     interval = reference.interval_m
     p, q = reference.track(name).elevation, profile.track(name).elevation
-    with naming(f"track {name}"):
+    with name_errors(f"track {name}"):
         found = agreement(p, q, interval, "iri", max_offset_m)
         bands = {
             band: agreement(p, q, interval, band, max_offset_m).cross_correlation

@@ -9,7 +9,7 @@ from floatref.cli.printing import number, print_table
 from floatref.engine.formats import format_of, profile_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.values.profile import Profile
 
 
@@ -28,7 +28,7 @@ def convert(profile: Path, out: Path, form: str | None, overwrite: bool) -> None
     check_target(out, overwrite)
     _check_apart(profile, out)
     read = profile_of(profile)
-    with naming(profile):
+    with name_errors(profile):
         write_as(written, read, out, overwrite)
     _print_table(read, out)
 

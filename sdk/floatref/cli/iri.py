@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.engine.formats import profile_of
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.measures import (
     IriSettings,
     Segment,
@@ -36,7 +36,7 @@ def iri(profile: Path, segment_m: float | None, units: str, as_json: bool) -> No
     """
     settings = IriSettings(segment_m=segment_m)
     read = profile_of(profile)
-    with naming(profile):
+    with name_errors(profile):
         report = iri_report(read, settings, units)
     if as_json:
         print_json(report)
@@ -66,7 +66,7 @@ def _track_report(
 ) -> dict[str, Any]:
     """Return name, IRI, invalid length in m, and segments of ``track``."""
     interval = profile.interval_m
-    with naming(f"track {track.name}"):
+    with name_errors(f"track {track.name}"):
         value = whole_iri(track.elevation, interval, settings)
         segments = iri_segments(track.elevation, interval, settings, profile.start_m)
     return {

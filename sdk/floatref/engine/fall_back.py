@@ -99,7 +99,7 @@ class _Gap:
 
     def bridged(self) -> tuple[ProfileTrack, float]:
         """Return the track with its gaps filled, and the length of these in m."""
-        line, misfit = self._meeting()
+        line, misfit = self._meet()
         correction = self.other + line - self.track.elevation
         done = np.isfinite(correction)
         if not done.any():
@@ -113,7 +113,7 @@ class _Gap:
         track = ProfileTrack.of(self.track.name, elevation, self.track.valid & ~done, sigma)
         return track, float(np.count_nonzero(done) * interval_m)
 
-    def _meeting(self) -> tuple[FloatArray, FloatArray]:
+    def _meet(self) -> tuple[FloatArray, FloatArray]:
         """Return the line to add to the other estimate in each gap, and its 1-σ; NaN elsewhere."""
         off = np.where(self.inside, np.nan, self.track.elevation - self.other)
         line, misfit = np.full(off.size, np.nan), np.full(off.size, np.nan)

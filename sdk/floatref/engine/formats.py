@@ -11,7 +11,7 @@ from floatref.engine.plugins import plugins
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
 from floatref.files.atomic import replacing_file
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.interfaces.adapter import (
     Adapter,
     NativeAdapter,
@@ -183,7 +183,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
     form = _choose(out, name)
     check = getattr(form, "check_installed", None)
     if callable(check):
-        with naming(out):
+        with name_errors(out):
             check()
     return form
 

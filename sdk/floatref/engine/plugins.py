@@ -176,7 +176,7 @@ class Plugins:
             if caller.scope and pipeline not in caller.scope:
                 trace_hook(caller.plugin, where, f"not asked, it names {list_names(caller.scope)}")
                 continue
-            found = self._guarded(caller.plugin, partial(caller.call, context=context))
+            found = self._guard(caller.plugin, partial(caller.call, context=context))
             if found:
                 answers[caller.plugin] = checked(found[0], _who(caller.plugin, pipeline))
             trace_hook(caller.plugin, where, _describe(answers.get(caller.plugin)))
@@ -208,13 +208,13 @@ class Plugins:
         before = set(register.found)
         call = partial(caller.call, register=register.of(caller.plugin))
         try:
-            self._guarded(caller.plugin, call)
+            self._guard(caller.plugin, call)
         except InputError as error:
             self._skip(caller.plugin, error)
         new = [name for name in register.found if name not in before]
         trace_hook(caller.plugin, hook, f"registered {list_names(new)}")
 
-    def _guarded(self, plugin: str, call: Callable[[], Any]) -> Any:
+    def _guard(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:
             return call()
         except FloatrefError:

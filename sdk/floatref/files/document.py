@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.files.sources import opened
+from floatref.files.sources import open_bytes
 
 LARGEST_BYTES = 4 << 20
 """Largest JSON file that is read; samples belong in separate files."""
@@ -21,7 +21,7 @@ def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
     Raises InputError for a file that is missing, empty, above ``most_bytes``, not UTF-8, not JSON
     or truncated, and for numbers beyond float64. The last of repeated keys counts.
     """
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         text = stream.read(most_bytes + 1)
     if len(text) > most_bytes:
         raise InputError(
@@ -63,7 +63,7 @@ def plain(value: Any, where: str) -> Any:
     raise InputError(f"{where} is a {kind}; give a number, a string, a list or a mapping")
 
 
-def shown(value: Any) -> str:
+def show(value: Any) -> str:
     """Return ``value`` as JSON in at most 60 printable characters, for an error text."""
     text = json.dumps(value, ensure_ascii=False, default=str)
     text = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text[:61])
@@ -102,7 +102,7 @@ def _refuse_constant(literal: str) -> NoReturn:
 def _parse_float(literal: str) -> float:
     value = float(literal)
     if math.isinf(value):
-        raise InputError(f"holds the number {shown(literal)[1:-1]}; float64 ends at 1.8e308")
+        raise InputError(f"holds the number {show(literal)[1:-1]}; float64 ends at 1.8e308")
     return value
 
 

@@ -4,7 +4,7 @@ import hashlib
 from pathlib import Path
 
 from floatref.files.recording_directory import DOCUMENT, sample_files
-from floatref.files.sources import document_path, opened
+from floatref.files.sources import document_path, open_bytes
 
 
 def fingerprint(path: Path) -> dict[str, str]:
@@ -30,5 +30,5 @@ def fingerprint_native(path: Path) -> dict[str, str]:
 
 def sha256(path: Path) -> str:
     """Return the SHA-256 of the file ``path``; InputError if it cannot be read."""
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -15,8 +15,8 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.atomic import replacing_file
-from floatref.files.document import shown
-from floatref.files.sources import naming, opened
+from floatref.files.document import show
+from floatref.files.sources import name_errors, open_bytes
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import FARTHEST_M, Profile, ProfileTrack
 
@@ -127,7 +127,7 @@ def read_profile_csv(path: Path) -> Profile:
     columns, text that is not a number, and a distance without a constant interval.
     """
     path = Path(path)
-    with opened(path) as raw, naming(path):
+    with open_bytes(path) as raw, name_errors(path):
         stream = io.TextIOWrapper(raw, encoding="utf-8-sig", newline="")
         try:
             return _profile(csv.reader(stream, strict=True))
@@ -172,7 +172,7 @@ def _tracks(header: list[str]) -> list[str]:
             "columns are not separated by commas; export with commas and decimal points"
         )
     raise InputError(
-        f"columns are {shown(', '.join(header))}; "
+        f"columns are {show(', '.join(header))}; "
         f"expected {DISTANCE}, <track>{ELEVATION} and optionally <track>{VALID}"
     )
 
@@ -223,12 +223,12 @@ def _numbers(texts: list[str], name: str, first: int) -> FloatArray:
     except ValueError:
         bad = next(i for i, text in enumerate(texts) if not _is_number(text))
         raise InputError(
-            f"row {first + bad}: {name} is {shown(texts[bad])}; "
+            f"row {first + bad}: {name} is {show(texts[bad])}; "
             "write a number with a decimal point, or nan"
         ) from None
     if name.endswith(VALID) and not np.isin(numbers, (0, 1)).all():
         bad = int(np.argmin(np.isin(numbers, (0, 1))))
-        raise InputError(f"row {first + bad}: {name} is {shown(texts[bad])}; write 0 or 1")
+        raise InputError(f"row {first + bad}: {name} is {show(texts[bad])}; write 0 or 1")
     return numbers
 
 

@@ -16,7 +16,7 @@ from floatref.files.samples import (
     write_samples,
 )
 from floatref.files.schema import enforce
-from floatref.files.sources import document_path, naming
+from floatref.files.sources import document_path, name_errors
 from floatref.values.profile import Profile, ProfileTrack
 
 DOCUMENT = "profile.json"
@@ -37,7 +37,7 @@ def read_profile(path: Path) -> Profile:
     document = read_document(source)
     enforce(document, SCHEMA, source)
     tracks = tuple(_track(entry, source) for entry in document["tracks"])
-    with naming(source):
+    with name_errors(source):
         return Profile(
             interval_m=float(document["interval_m"]),
             tracks=tracks,
@@ -66,7 +66,7 @@ def write_profile(profile: Profile, directory: Path, overwrite: bool = False) ->
 
 
 def _track(entry: Mapping[str, Any], source: Path) -> ProfileTrack:
-    with naming(f"track {entry['name']}"):
+    with name_errors(f"track {entry['name']}"):
         elevation = read_samples(source.with_name(entry["elevation_file"]))
         valid = sigma = None
         if "valid_file" in entry:
@@ -75,7 +75,7 @@ def _track(entry: Mapping[str, Any], source: Path) -> ProfileTrack:
         if "sigma_file" in entry:
             sigma = read_samples(source.with_name(entry["sigma_file"]))
             _check_length(source, entry["sigma_file"], sigma.size, elevation.size)
-    with naming(source):
+    with name_errors(source):
         return ProfileTrack.of(entry["name"], elevation, valid, sigma)
 
 

@@ -9,7 +9,7 @@ from floatref.files.atomic import replace_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.samples import free_name, read_samples, write_samples
 from floatref.files.schema import enforce
-from floatref.files.sources import document_path, naming
+from floatref.files.sources import document_path, name_errors
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
@@ -29,12 +29,12 @@ def read_recording(path: Path) -> Recording:
     """
     source = document_path(path, DOCUMENT)
     document = _read_enforced(source)
-    with naming(source):
+    with name_errors(source):
         _check_files(document["channels"])
     clocks: dict[str, StampedClock] = {}
     channels = tuple(_channel(entry, source, clocks) for entry in document["channels"])
     device = document.get("device", {})
-    with naming(source):
+    with name_errors(source):
         setup = setup_of(document.get("setup", {}))
         return Recording(channels, setup, device.get("vendor", ""), device.get("model", ""))
 
@@ -81,12 +81,12 @@ def _check_files(entries: Sequence[Mapping[str, Any]]) -> None:
 
 def _channel(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedClock]) -> Channel:
     channel = ChannelId(entry["name"], entry.get("track"))
-    with naming(source):
+    with name_errors(source):
         check_unit(channel, entry["unit"])
-    with naming(f"channel {channel}"):
+    with name_errors(f"channel {channel}"):
         samples = read_samples(source.with_name(entry["file"]))
         clock = _clock(entry, source, clocks)
-    with naming(source.with_name(entry["file"])):
+    with name_errors(source.with_name(entry["file"])):
         return Channel(channel, samples, clock)
 
 
@@ -97,7 +97,7 @@ def _clock(entry: Mapping[str, Any], source: Path, clocks: dict[str, StampedCloc
     if name not in clocks:
         path = source.with_name(name)
         times = read_samples(path)
-        with naming(path):
+        with name_errors(path):
             clocks[name] = StampedClock(times)
     return clocks[name]
 

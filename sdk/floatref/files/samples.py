@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.files.sources import opened
+from floatref.files.sources import open_bytes
 from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.scanning import chunks
 
@@ -58,7 +58,7 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
 
 
 def _map_file(path: Path, item_bytes: int) -> NDArray[np.uint8]:
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         size = stream.seek(0, 2)
         if size == 0:
             raise InputError(f"{path}: empty; copy the complete file")

@@ -8,7 +8,7 @@ from importlib.resources import files
 from typing import TYPE_CHECKING, Any, cast
 
 from floatref.errors import InputError
-from floatref.files.document import shown
+from floatref.files.document import show
 
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
@@ -52,7 +52,7 @@ def _enforce(validator: "Draft202012Validator", document: Any, source: object) -
     error = next(validator.iter_errors(document), None)
     if error is not None:
         place = _place(document, error.absolute_path)
-        raise InputError(f"{source}: {place}{_complaint(error)}; {_expected(error)}")
+        raise InputError(f"{source}: {place}{_complaint(error)}; {_describe_expected(error)}")
 
 
 @cache
@@ -66,7 +66,7 @@ def _place(document: Any, path: Iterable[str | int]) -> str:
     text, label, node = "", "", document
     for step in path:
         node = node[step]
-        text += f"[{step}]" if isinstance(step, int) else f".{shown(step)[1:-1]}"
+        text += f"[{step}]" if isinstance(step, int) else f".{show(step)[1:-1]}"
         if isinstance(step, int) and isinstance(node, dict):
             label = _label(node)
     return f"{text.lstrip('.')}{label} " if text else ""
@@ -74,7 +74,7 @@ def _place(document: Any, path: Iterable[str | int]) -> str:
 
 def _label(node: dict[str, Any]) -> str:
     known = (node.get("track"), node.get("name", node.get("channel")))
-    parts = [shown(part)[1:-1] for part in known if isinstance(part, str)]
+    parts = [show(part)[1:-1] for part in known if isinstance(part, str)]
     return f" ({'.'.join(parts)})" if parts else ""
 
 
@@ -89,12 +89,12 @@ def _complaint(error: "ValidationError") -> str:
         found = [key for key in keys if key in cast(dict[str, Any], error.instance)]
         return f"has {' and '.join(found) or 'no key'} of {', '.join(keys)}"
     if error.validator == "additionalProperties" and error.validator_value is False:
-        return f"has the unknown key {shown(_unknown(error))}"
+        return f"has the unknown key {show(_unknown(error))}"
     if "propertyNames" in error.absolute_schema_path:
-        return f"holds the name {shown(error.instance)}"
+        return f"holds the name {show(error.instance)}"
     if isinstance(error.instance, list) and error.validator in ("minItems", "maxItems"):
         return f"is a list of {len(error.instance)}"
-    return f"is {shown(error.instance)}"
+    return f"is {show(error.instance)}"
 
 
 def _unknown(error: "ValidationError") -> str:
@@ -102,7 +102,7 @@ def _unknown(error: "ValidationError") -> str:
     return next(key for key in cast(dict[str, Any], error.instance) if key not in known)
 
 
-def _expected(error: "ValidationError") -> str:
+def _describe_expected(error: "ValidationError") -> str:
     schema = cast(dict[str, Any], error.schema)
     if error.validator == "additionalProperties":
         return _similar(_unknown(error), list(schema["properties"]))

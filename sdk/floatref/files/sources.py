@@ -11,7 +11,7 @@ from floatref.errors import InputError, one_line
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[BufferedReader]:
+def open_bytes(path: Path) -> Iterator[BufferedReader]:
     """Open the regular file ``path`` for reading bytes.
 
     Raises InputError naming ``path`` if it is missing, a folder, a device, a loop of links, or
@@ -32,7 +32,7 @@ def document_path(path: Path, name: str) -> Path:
 
 
 @contextmanager
-def naming(where: object) -> Iterator[None]:
+def name_errors(where: object) -> Iterator[None]:
     """Put ``where: `` in front of the text of any InputError raised inside, unless it is there."""
     try:
         yield

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.document import shown
-from floatref.files.sources import naming, opened
+from floatref.files.document import show
+from floatref.files.sources import name_errors, open_bytes
 
 LARGEST_BYTES = 1 << 20
 DEEPEST = 16
@@ -27,9 +27,9 @@ def read_toml(path: Path, kind: str) -> dict[str, Any]:
     "channel map", if it cannot be read, is above 1 MiB, not UTF-8 or not TOML, and for dates,
     numbers beyond float64 and 64 bits, and deep nesting.
     """
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         content = stream.read(LARGEST_BYTES + 1)
-    with naming(path):
+    with name_errors(path):
         if len(content) > LARGEST_BYTES:
             raise InputError(f"larger than 1 MiB; give a {kind} in TOML")
         document = _parse(_decode(content, kind), kind)
@@ -65,7 +65,7 @@ def _check_plain(value: Any, where: str, depth: int = 0) -> None:
         raise InputError(f"{where[:60]}: nested too deeply; there is no such entry")
     if isinstance(value, dict):
         for key, item in value.items():
-            _check_plain(item, f"{where}.{shown(key)[1:-1]}".lstrip("."), depth + 1)
+            _check_plain(item, f"{where}.{show(key)[1:-1]}".lstrip("."), depth + 1)
     elif isinstance(value, list):
         for index, item in enumerate(value):
             _check_plain(item, f"{where}[{index}]", depth + 1)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from floatref.engine.formats import native_of, reader_of
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.clock_entries import name_stream
 from floatref.mapping.channel_map.column_names import similar
 from floatref.mapping.channel_map.entries import SOURCE, ChannelMap, ClockEntry, FileEntry
@@ -41,8 +41,8 @@ class Opened:
         names = [stream.name for stream in self.file(entry.file).streams]
         if entry.stream is not None and entry.stream not in names:
             with (
-                naming(self.paths[entry.file]),
-                naming(f"clock of {name_stream(entry.file, None)}"),
+                name_errors(self.paths[entry.file]),
+                name_errors(f"clock of {name_stream(entry.file, None)}"),
             ):
                 hint = similar(entry.stream, names) or "the file has no streams"
                 raise InputError(f"no stream is called {entry.stream[:80]!r}; {hint}")

@@ -8,7 +8,7 @@ from typing import Any
 
 from floatref.engine.formats import guard
 from floatref.errors import one_line
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.column_names import find, full_name, map_of_ours
 from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap
@@ -74,7 +74,7 @@ def read_native(
     with ExitStack() as stack:
         opened = Opened(source, adapter, chart, stack)
         if chart is None:
-            with naming(source):
+            with name_errors(source):
                 chart = map_of_ours(opened.file(SOURCE))
         return _Mapping(opened, chart, stack.enter_context(Spool()), progress).reading()
 
@@ -114,7 +114,7 @@ class _Mapping:
         taken, places = self._taken(plan, extra)
         clocks = aligned_clocks(taken, places, self._chart.clocks, base.key, self._spool)
         whole = [self._channel(p, taken, places, clocks) for p in plan]
-        with naming(self._opened.paths[SOURCE]):
+        with name_errors(self._opened.paths[SOURCE]):
             of = [clocks[p.key].alignment for p in plan]
             channels, cut = cut_to_shared(whole, of, plan.index(base))
         warnings = [*self._opened.warnings(), *self._warnings]
@@ -139,10 +139,10 @@ class _Mapping:
 
     def _plan(self, entry: ChannelEntry) -> _Planned:
         native = self._opened.file(entry.file)
-        with naming(self._opened.paths[entry.file]):
+        with name_errors(self._opened.paths[entry.file]):
             stream, column = find(native, entry.native)
             name = full_name(stream, column)
-            with naming(f"{name} as {entry.channel}"):
+            with name_errors(f"{name} as {entry.channel}"):
                 conversion = Conversion(entry, column)
         return _Planned(entry, (entry.file, stream.name), stream, column.name, name, conversion)
 
@@ -169,7 +169,7 @@ class _Mapping:
         stated = {(c.file, c.stream): c for c in self._chart.clocks if c.rate is not None}
         clock = stated.get(key) or stated.get((key[0], None))
         path = self._opened.paths[key[0]]
-        with naming(path), guard(self._opened.adapters[key[0]], path):
+        with name_errors(path), guard(self._opened.adapters[key[0]], path):
             taken = take(stream, wanted, self._spool, clock, shown.of(stream.count))
         name = f"{path.name}: stream {stream.name!r}: "
         self._warnings += [f"{name}{line}" for line in taken.warnings]
@@ -179,7 +179,7 @@ class _Mapping:
         """Return the conversion of ``planned``, whose errors name the channel."""
 
         def convert(values: FloatArray, times_s: FloatArray) -> FloatArray:
-            with naming(self._where(planned)):
+            with name_errors(self._where(planned)):
                 return planned.conversion(values, times_s)
 
         return convert
@@ -193,7 +193,7 @@ class _Mapping:
     ) -> Channel:
         entry = planned.entry
         values = taken[planned.key].columns[places[planned.key, entry]]
-        with naming(self._opened.paths[entry.file]), naming(self._where(planned)):
+        with name_errors(self._opened.paths[entry.file]), name_errors(self._where(planned)):
             clock = clocks[planned.key].clock(entry.delay_s)
             if entry.skips_empty_rows:
                 values, clock = clocks[planned.key].sparse(values, clock)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from floatref.engine.formats import is_native, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.interfaces.adapter import Adapter, RecordingDirectory
 from floatref.values.recording import Recording
 
@@ -142,7 +142,7 @@ def make_profile(
     """
     from floatref.engine.run import run
 
-    with naming(read.path), read.named():
+    with name_errors(read.path), read.named():
         result = run(read.recording, pipeline, settings, progress)
     provenance = {**result.profile.provenance, **read.origin}
     warnings = (*read.warnings, *map(read.said, result.warnings))

@@ -67,17 +67,17 @@ class Levels:
     def settings(self, point: Point) -> dict[str, float]:
         """Return the values at ``point``, those of the start as they are."""
         return {
-            name: rounded(value * 2.0 ** (step / PER_OCTAVE)) if step else value
+            name: round_value(value * 2.0 ** (step / PER_OCTAVE)) if step else value
             for name, value, step in zip(TUNED, self.start, point, strict=True)
         }
 
 
-def moved(point: Point, which: int, step: int) -> Point:
+def move(point: Point, which: int, step: int) -> Point:
     """Return ``point`` with setting number ``which`` at ``step``."""
     return _point([*point[:which], step, *point[which + 1 :]])
 
 
-def rounded(value: float) -> float:
+def round_value(value: float) -> float:
     """Return ``value`` as a settings file holds it."""
     return float(f"{value:.{DIGITS}g}")
 

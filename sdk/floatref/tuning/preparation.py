@@ -7,7 +7,7 @@ from typing import Any
 from floatref.engine.plugins import plugins
 from floatref.engine.run import run
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.tuning.levels import TUNED
 from floatref.tuning.preliminary_runs import HIGH_KMH, RECOMMENDED, Kind, drive_of
 from floatref.tuning.run_scores import Comparison, Scores, section
@@ -72,7 +72,7 @@ def prepare(
     runs, nominal, warnings = {}, {}, []
     for name, recording in recordings.items():
         tell(f"Preparation of {name} (the first time, this compiles)")
-        with naming(name):
+        with name_errors(name):
             made, cautions = _preliminary(name, recording, reference, pipeline, given, max_offset_m)
             runs[name] = made
             nominal[name] = _nominal(made, given)

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from floatref.tuning.levels import START, TUNED, Levels, Point, moved
+from floatref.tuning.levels import START, TUNED, Levels, Point, move
 from floatref.tuning.preliminary_runs import STOPS, Kind
 from floatref.tuning.search import (
     LEAST_GAIN,
@@ -98,13 +98,13 @@ class Procedure:
         self.tell("Step 2: no harm at high speed and in light braking")
 
         def good(density: int, walk: int) -> bool:
-            return self._harm(moved(moved(point, DENSITY, density), WALK, walk)) <= TOLERANCE
+            return self._harm(move(move(point, DENSITY, density), WALK, walk)) <= TOLERANCE
 
         low, high = self.levels.lowest, self.levels.highest
         pair = lowest_good((low[DENSITY], low[WALK]), (high[DENSITY], high[WALK]), good)
         self.harmless = pair is not None
         if pair is None:
-            return moved(moved(point, DENSITY, START[DENSITY]), WALK, START[WALK])
+            return move(move(point, DENSITY, START[DENSITY]), WALK, START[WALK])
         density, walk = pair
         self.ranges[TUNED[DENSITY]] = good_range(
             density, low[DENSITY], high[DENSITY], lambda step: good(step, walk)
@@ -112,7 +112,7 @@ class Procedure:
         self.ranges[TUNED[WALK]] = good_range(
             walk, low[WALK], high[WALK], lambda step: good(density, step)
         )
-        return moved(moved(point, DENSITY, density), WALK, walk)
+        return move(move(point, DENSITY, density), WALK, walk)
 
     def _braking(self, point: Point) -> Point:
         """Step 3: the walk of the pitch rate for heavy braking and stops, left side first."""
@@ -138,7 +138,7 @@ class Procedure:
         before = self._each(point, others)
 
         def loss(step: int) -> float:
-            there = moved(point, which, step)
+            there = move(point, which, step)
             worse = [
                 max(a - b, 0.0) for a, b in zip(self._each(there, others), before, strict=True)
             ]
@@ -146,7 +146,7 @@ class Procedure:
 
         found = best_range(self.levels.lowest[which], self.levels.highest[which], loss)
         self.ranges[TUNED[which]] = found
-        return moved(point, which, found.lowest)
+        return move(point, which, found.lowest)
 
     def _climb(self, point: Point) -> Point:
         free = (WALK, PITCH, ROLL)
@@ -157,7 +157,7 @@ class Procedure:
         """Return ``point`` with every setting at its start where that loses nothing."""
         limit = self.collective(point) + LEAST_GAIN
         for which, step in enumerate(START):
-            there = moved(point, which, step)
+            there = move(point, which, step)
             if self.collective(there) <= limit:
                 point = there
         return point
@@ -191,7 +191,7 @@ def first_point(given: Collection[str], levels: Levels) -> Point:
     """Step 1: the walks of the rates that sensors at rest showed, else the lowest."""
     point = START
     for which in (PITCH, ROLL):
-        point = point if TUNED[which] in given else moved(point, which, levels.lowest[which])
+        point = point if TUNED[which] in given else move(point, which, levels.lowest[which])
     return point
 
 

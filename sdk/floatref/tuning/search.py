@@ -7,7 +7,7 @@ that lose no more than a tolerance are as good as the best: the result is a rang
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from floatref.tuning.levels import Point, moved
+from floatref.tuning.levels import Point, move
 
 COARSE = 4
 """Steps between the values that are tried first: two octaves."""
@@ -113,7 +113,7 @@ def _around(
     for which in free:
         for step in (point[which] - width, point[which] + width):
             if lowest[which] <= step <= highest[which]:
-                yield moved(point, which, step)
+                yield move(point, which, step)
 
 
 def _coarse(lowest: int, highest: int) -> list[int]:

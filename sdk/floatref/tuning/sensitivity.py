@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from floatref.tuning.levels import FIXED, TUNED, rounded
+from floatref.tuning.levels import FIXED, TUNED, round_value
 from floatref.tuning.run_scores import Scores
 from floatref.tuning.trials import Trials
 
@@ -64,7 +64,7 @@ def sensitivities(
         value = chosen.get(name, values[name])
         scores = {}
         for factor in FACTORS:
-            changed = {} if factor == 1.0 else {name: rounded(factor * value)}
+            changed = {} if factor == 1.0 else {name: round_value(factor * value)}
             scores[factor] = trials.scores({**chosen, **changed}, runs)
         found.append(Sensitivity(name, value, scores))
     return found

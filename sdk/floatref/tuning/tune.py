@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from floatref.engine.run import pipeline_capabilities
-from floatref.tuning.levels import START, TUNED, Levels, Point, moved
+from floatref.tuning.levels import START, TUNED, Levels, Point, move
 from floatref.tuning.preparation import Prepared, check_pipeline, prepare
 from floatref.tuning.procedure import Found, Procedure, first_point
 from floatref.tuning.run_scores import Scores
@@ -129,7 +129,7 @@ def _ranges(found: Found, levels: Levels) -> dict[str, tuple[float, float]]:
         if name in found.ranges:
             steps = found.ranges[name]
             low, high = (
-                levels.settings(moved(START, which, step))[name]
+                levels.settings(move(START, which, step))[name]
                 for step in (steps.lowest, steps.highest)
             )
             ranges[name] = (low, high)

@@ -15,14 +15,14 @@ from floatref.vehicle_response.estimators.observability import (
     unseen_freedoms,
 )
 from floatref.vehicle_response.estimators.observer import UnknownInputObserver
-from floatref.vehicle_response.estimators.wheelbase import join_at_speed, joined, shifted
-from floatref.vehicle_response.models.connections import Connection, connected
+from floatref.vehicle_response.estimators.wheelbase import join_at_speed, join_roads, shift
+from floatref.vehicle_response.models.connections import Connection, connect
 from floatref.vehicle_response.models.half_car import ZHU_HALF_CAR, HalfCar
 from floatref.vehicle_response.models.model import Freedom, Tyre, VehicleModel
 from floatref.vehicle_response.models.named import MODELS, model_of, parameters_of
 from floatref.vehicle_response.models.outputs import Kind, Reading, output_matrices
 from floatref.vehicle_response.models.quarter_car import QuarterCar
-from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized, state_space
+from floatref.vehicle_response.models.state_space import Discrete, Hold, discretize, state_space
 from floatref.vehicle_response.models.trailer import IMINE_TRAILER, Trailer
 from floatref.vehicle_response.stages.calculation_rate import calculation_rate
 from floatref.vehicle_response.stages.denoising import remove_noise
@@ -49,19 +49,19 @@ __all__ = [
     "VehicleModel",
     "calculation_rate",
     "check_readings",
-    "connected",
+    "connect",
     "default_gains",
-    "discretized",
+    "discretize",
     "disturbance_of",
     "hold_error_of",
     "join_at_speed",
-    "joined",
+    "join_roads",
     "missing_displacements",
     "model_of",
     "output_matrices",
     "parameters_of",
     "remove_noise",
-    "shifted",
+    "shift",
     "state_space",
     "unfelt_tyres",
     "unseen_freedoms",

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.parked import plates_of
 from floatref_conformance.proving_ground.scenario import MANOEUVRES, Scenario
-from floatref_conformance.render.drawing import drawing, drawing_svg
+from floatref_conformance.render.drawing import draw, drawing_svg
 from floatref_conformance.render.places import events, join_stretches, speed_along
 
 AXIS = 8
@@ -34,7 +34,7 @@ def rows(lines):
 @pytest.mark.parametrize("manoeuvre", MANOEUVRES)
 def test_every_manoeuvre_fits_a_terminal_and_a_page(manoeuvre):
     stretches = ((150.0, 190.0), (220.0, 380.9), (390.0, 391.0), (395.0, 396.0))
-    lines = drawing(scenario(manoeuvre, bump_mm=20.0, bump_at_m=130.0), stretches)
+    lines = draw(scenario(manoeuvre, bump_mm=20.0, bump_at_m=130.0), stretches)
     assert len(lines) <= 18
     assert all(len(line) <= 88 and line.isascii() for line in lines)
     ElementTree.fromstring(drawing_svg(scenario(manoeuvre), "name", stretches))
@@ -45,7 +45,7 @@ def test_every_manoeuvre_fits_a_terminal_and_a_page(manoeuvre):
 @example(30, 20, 404)
 def test_a_stop_touches_the_ground_where_it_lies_and_nowhere_else(initial, final, at):
     stop = scenario("stop", speed_kmh=initial, final_speed_kmh=final, event_at_m=at, length_m=700.0)
-    lines = drawing(stop)
+    lines = draw(stop)
     ground = rows(lines)[-1]
     (mark,) = [line.index("^") for line in lines if "stop," in line]
     assert ground[mark - AXIS] == "*"
@@ -54,7 +54,7 @@ def test_a_stop_touches_the_ground_where_it_lies_and_nowhere_else(initial, final
 
 
 def test_the_speed_falls_from_left_to_right_while_a_vehicle_coasts():
-    plot = rows(drawing(scenario("coasting")))
+    plot = rows(draw(scenario("coasting")))
     height = [
         min(k for k, row in enumerate(plot) if row[column : column + 1] == "*")
         for column in range(70)
@@ -96,15 +96,15 @@ def test_what_is_scored_is_marked_where_it_lies(manoeuvre):
     asked = scenario(manoeuvre)
     factor = 1.0 if manoeuvre == "stop" else 1.0 / 20.0
     told = [f"scored, {factor * a:.4g} to {factor * b:.4g}" for a, b in ((150, 190), (250, 300))]
-    lines = drawing(asked, ((250.0, 300.0), (150.0, 190.0)))
+    lines = draw(asked, ((250.0, 300.0), (150.0, 190.0)))
     assert [line.strip(" [=]") for line in lines if "scored" in line] == told
     said = ElementTree.fromstring(drawing_svg(asked, "name", ((150.0, 190.0),))).find("desc").text
     assert f"S{told[0][1:].replace(',', ':')}." in said
-    assert not any("scored" in line for line in drawing(asked))
+    assert not any("scored" in line for line in draw(asked))
 
 
 def test_a_parked_vehicle_is_drawn_over_time_with_its_plates_and_its_bounce():
-    lines = drawing(scenario("bounce"))
+    lines = draw(scenario("bounce"))
     assert any(line.lstrip().startswith("s 0") for line in lines)
     assert any("pushed" in line and "10 to 16.5" in line for line in lines)
     for track, plate in plates_of(scenario("bounce")).items():

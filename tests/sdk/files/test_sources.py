@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floatref.errors import InputError, one_line
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 
 
 @given(st.text(), st.text(), st.integers(1, 3))
@@ -13,7 +13,7 @@ def test_a_place_is_named_once(where: str, said: str, times: int) -> None:
     def within(left: int) -> None:
         if not left:
             raise InputError(said)
-        with naming(where):
+        with name_errors(where):
             within(left - 1)
 
     with pytest.raises(InputError) as caught:
@@ -26,8 +26,8 @@ def test_a_place_is_named_once(where: str, said: str, times: int) -> None:
 def test_places_around_each_other_are_all_named() -> None:
     with (
         pytest.raises(InputError, match=r"^list: line 2: a\.csv: no$"),
-        naming("list"),
-        naming("line 2"),
-        naming("a.csv"),
+        name_errors("list"),
+        name_errors("line 2"),
+        name_errors("a.csv"),
     ):
         raise InputError("no")

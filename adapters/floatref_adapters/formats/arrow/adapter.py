@@ -161,13 +161,13 @@ class _Reader:
 def _samples(array: Any) -> NDArray[np.float64]:
     """Return an Arrow array as float64, nulls as NaN."""
     pa = library("pyarrow", "reading Arrow")
-    array = _decoded(array)
+    array = _decode(array)
     found: NDArray[np.float64] = array.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False)
     # What is read from a mapped file must outlive the map.
     return np.array(found)
 
 
-def _decoded(array: Any) -> Any:
+def _decode(array: Any) -> Any:
     """Return the numbers that are meant where an Arrow array holds places in a dictionary."""
     if not library("pyarrow.types", "reading Arrow").is_dictionary(array.type):
         return array
@@ -179,7 +179,7 @@ def _decoded(array: Any) -> Any:
 def _ticks(array: Any, first: int) -> NDArray[np.int64] | NDArray[np.float64]:
     """Return the times in an Arrow array, integers where it has integers."""
     pa = library("pyarrow", "reading Arrow")
-    array = _decoded(array)
+    array = _decode(array)
     if array.null_count:
         row = first + int(np.argmax(array.is_null().to_numpy(zero_copy_only=False)))
         raise InputError(f"row {row}: its time is missing; every row needs its time")

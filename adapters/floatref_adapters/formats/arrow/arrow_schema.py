@@ -71,7 +71,7 @@ def find_tables(
         warnings += (UNKNOWN,)
     names = _stream_names([(*key, fields) for key in groups])
     return tuple(
-        Table(name, tuple(group), _made(key[0], key[1], fields, options), key[1], key[2])
+        Table(name, tuple(group), _make_clock(key[0], key[1], fields, options), key[1], key[2])
         for name, (key, group) in zip(names, groups.items(), strict=True)
     ), (*_warn_of_other_types(fields, default), *warnings)
 
@@ -168,7 +168,7 @@ def _count(field: Field, rows: int) -> int:
     return min(int(count), rows)
 
 
-def _made(
+def _make_clock(
     stated: NativeClock | None,
     time: int | None,
     fields: Sequence[Field],

@@ -42,7 +42,7 @@ class IpcSource:
         self._path, self._arrow = path, library("pyarrow", "reading Arrow")
         self.warnings: tuple[str, ...] = ()
         self.rows = self._batches = self._packed = self._kept = 0
-        with self._mapped() as (buffer, _):
+        with self._map_bytes() as (buffer, _):
             with self._arrow.ipc.open_stream(self._arrow.BufferReader(buffer)) as opened:
                 self.schema = opened.schema
             self._count(buffer)
@@ -63,7 +63,7 @@ class IpcSource:
         dictionary = message.type == "dictionary"
         if message.type not in ("dictionary", "record batch"):
             return
-        batch = _checked(bytes(message.metadata), message.body, dictionary)
+        batch = _check(bytes(message.metadata), message.body, dictionary)
         self._kept += batch.bytes
         if self._kept > MOST_UNPACKED:
             raise InputError(f"compressed dictionaries of {self._kept} bytes; write plain columns")
@@ -80,7 +80,7 @@ class IpcSource:
             )
         options = self._arrow.ipc.IpcReadOptions(included_fields=list(places), use_threads=False)
         rows = count_piece_rows(len(places))
-        with self._mapped() as (buffer, mapped):
+        with self._map_bytes() as (buffer, mapped):
             reader = self._arrow.ipc.open_stream(self._arrow.BufferReader(buffer), options=options)
             for _ in range(self._batches):
                 batch = reader.read_next_batch()
@@ -90,7 +90,7 @@ class IpcSource:
                     _let_go(mapped)
 
     @contextmanager
-    def _mapped(self) -> Iterator[tuple[Any, mmap.mmap]]:
+    def _map_bytes(self) -> Iterator[tuple[Any, mmap.mmap]]:
         """Yield the bytes of the stream, and the map that they are seen through."""
         with self._path.open("rb") as stream:
             mapped = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
@@ -108,7 +108,7 @@ def _let_go(mapped: mmap.mmap) -> None:
         mapped.madvise(mmap.MADV_DONTNEED)
 
 
-def _checked(message: bytes, body: Any, dictionary: bool) -> _Batch:
+def _check(message: bytes, body: Any, dictionary: bool) -> _Batch:
     """Return what the metadata of a batch or a dictionary, a flatbuffer, say of it.
 
     InputError if they are unsound, or it is too long to be unpacked.
@@ -119,7 +119,7 @@ def _checked(message: bytes, body: Any, dictionary: bool) -> _Batch:
         at = _place(message, table, _LENGTH)
         rows = struct.unpack_from("<q", message, table + at)[0] if at else 0
         packed = _place(message, table, _COMPRESSION) != 0
-        size = sum(_unpacked(message, table, body)) if packed and dictionary else 0
+        size = sum(_measure_unpacked(message, table, body)) if packed and dictionary else 0
     except struct.error as error:
         raise InputError("a record batch without its length; copy the file again") from error
     if rows < 0 or (packed and rows > MOST_COMPRESSED):
@@ -129,7 +129,7 @@ def _checked(message: bytes, body: Any, dictionary: bool) -> _Batch:
     return _Batch(rows, packed, size)
 
 
-def _unpacked(message: bytes, table: int, body: Any) -> Iterator[int]:
+def _measure_unpacked(message: bytes, table: int, body: Any) -> Iterator[int]:
     """Yield how many bytes each buffer of a compressed batch has when it is unpacked."""
     vector = table + _place(message, table, _BUFFERS)
     vector += struct.unpack_from("<I", message, vector)[0]

@@ -19,7 +19,7 @@ class ParquetSource:
     def __init__(self, path: Path) -> None:
         """Read the footer of the file at ``path``."""
         self._path = path
-        with self._opened() as opened:
+        with self._open() as opened:
             self.schema = opened.schema_arrow
             self.rows = opened.metadata.num_rows
 
@@ -30,7 +30,7 @@ class ParquetSource:
         # A name can be that of several columns: all of them are read, in the order of the file.
         turns = [names[:place].count(names[place]) for place in places]
         rows = count_piece_rows(len(places))
-        with self._opened() as opened:
+        with self._open() as opened:
             for batch in opened.iter_batches(rows, columns=wanted, use_threads=False):
                 found = batch.schema.get_all_field_indices
                 yield [
@@ -38,7 +38,7 @@ class ParquetSource:
                     for name, turn in zip(wanted, turns, strict=True)
                 ]
 
-    def _opened(self) -> Any:
+    def _open(self) -> Any:
         return library("pyarrow.parquet", "reading Parquet").ParquetFile(
             self._path, buffer_size=BUFFER, pre_buffer=False, page_checksum_verification=True
         )

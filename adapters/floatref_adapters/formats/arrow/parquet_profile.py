@@ -59,13 +59,13 @@ class ParquetProfile:
         if not path.is_file():
             raise InputError(f"{path}: not a file; give a Parquet file")
         arrow, parquet = _libraries(f"{path}: reading Parquet")
-        with _explained(path, arrow), parquet.ParquetFile(path) as file:
+        with _explain(path, arrow), parquet.ParquetFile(path) as file:
             return _profile(file)
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` to ``path``; InputError where pyarrow is missing."""
         arrow, parquet = _libraries(f"{path}: writing Parquet")
-        with _explained(path, arrow):
+        with _explain(path, arrow):
             schema = _schema(profile, arrow)
             with parquet.ParquetWriter(path, schema, compression="zstd") as writer:
                 for first in range(0, profile.tracks[0].elevation.size, ROWS):
@@ -79,7 +79,7 @@ def _libraries(task: str) -> tuple[Any, Any]:
 
 
 @contextmanager
-def _explained(path: Path, arrow: Any) -> Iterator[None]:
+def _explain(path: Path, arrow: Any) -> Iterator[None]:
     """Name ``path`` in every refusal, those of pyarrow included."""
     try:
         yield

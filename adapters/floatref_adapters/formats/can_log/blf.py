@@ -55,14 +55,14 @@ class SoundBlf:
         try:
             with source.open("rb") as stream:
                 yield _header(source, stream)
-                for frames in self._frames(self._unpacked(stream)):
+                for frames in self._frames(self._unpack(stream)):
                     size = BASE.size + CONTAINER.size + len(frames)
                     yield BASE.pack(SIGNATURE, BASE.size, 1, size, LOG_CONTAINER)
                     yield CONTAINER.pack(STORED, len(frames)) + frames + bytes(size % 4)
         except OSError as error:
             raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
 
-    def _unpacked(self, stream: BinaryIO) -> Iterator[bytes]:
+    def _unpack(self, stream: BinaryIO) -> Iterator[bytes]:
         """Yield what the containers hold, b"" where one is damaged."""
         while base := stream.read(BASE.size):
             signature, _, _, size, kind = BASE.unpack(base.ljust(BASE.size, b"\0"))
@@ -72,13 +72,13 @@ class SoundBlf:
             body = stream.read(size - BASE.size)
             stream.read(size % 4)
             if kind == LOG_CONTAINER:
-                yield self._inflated(body)
+                yield self._inflate(body)
             else:
                 self._faults["event"] += 1
             if len(body) < size - BASE.size:
                 self._faults["rest"] += 1
 
-    def _inflated(self, body: bytes) -> bytes:
+    def _inflate(self, body: bytes) -> bytes:
         if len(body) < CONTAINER.size:
             return b""
         method, _ = CONTAINER.unpack_from(body)

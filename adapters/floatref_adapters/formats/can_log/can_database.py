@@ -56,7 +56,7 @@ class Database:
 
     def __init__(self, path: Path) -> None:
         self._messages: dict[tuple[int, bool], Any] = {}
-        for message in _loaded(path).messages:
+        for message in _load(path).messages:
             self._messages[message.frame_id, bool(message.is_extended_frame)] = message
 
     def message(self, number: int, extended: bool) -> Message | None:
@@ -65,7 +65,7 @@ class Database:
         return None if found is None else Message(found)
 
 
-def _loaded(path: Path) -> Any:
+def _load(path: Path) -> Any:
     cantools = library("cantools", f"{path}: reading a CAN database")
     logging.getLogger("cantools").addHandler(logging.NullHandler())
     try:

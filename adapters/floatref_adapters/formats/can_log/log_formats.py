@@ -33,29 +33,29 @@ class Format:
     dated: bool = False
 
 
-def _joined(found: re.Match[str] | None) -> int | None:
+def _join(found: re.Match[str] | None) -> int | None:
     return int(found[1]) * 10**9 + int(found[2][:9].ljust(9, "0")) if found else None
 
 
 def _asc_time(line: str, reader: Any) -> int | None:
-    return _joined(SECONDS.match(line))
+    return _join(SECONDS.match(line))
 
 
 def _candump_time(line: str, reader: Any) -> int | None:
-    return _joined(BRACKETED.match(line))
+    return _join(BRACKETED.match(line))
 
 
 def _csv_time(line: str, reader: Any) -> int | None:
-    return _scaled(line.partition(",")[0], 9)
+    return _scale(line.partition(",")[0], 9)
 
 
 def _trc_time(line: str, reader: Any) -> int | None:
     fields = line.split(maxsplit=8)
     at = reader.columns.get("O", 1)
-    return None if line.lstrip()[:1] in ("", ";") or at >= len(fields) else _scaled(fields[at], 6)
+    return None if line.lstrip()[:1] in ("", ";") or at >= len(fields) else _scale(fields[at], 6)
 
 
-def _scaled(text: str, places: int) -> int | None:
+def _scale(text: str, places: int) -> int | None:
     try:
         ticks = Decimal(text[:40]).scaleb(places)
         return round(ticks) if abs(ticks) < LATEST_NS else None
@@ -63,17 +63,17 @@ def _scaled(text: str, places: int) -> int | None:
         return None
 
 
-def _counted_from_one(channel: Any) -> str:
+def _count_from_one(channel: Any) -> str:
     return str(channel + 1) if isinstance(channel, int) else str(channel)
 
 
 FORMATS = (
-    Format(re.compile(rb"\ALOGG"), "BLFReader", _asc_time, _counted_from_one),
+    Format(re.compile(rb"\ALOGG"), "BLFReader", _asc_time, _count_from_one),
     Format(
         re.compile(rb"\A\s*(?:date [^\r\n]*[\r\n]+\s*)?base\s+(?:hex|dec)\b", re.IGNORECASE),
         "ASCReader",
         _asc_time,
-        _counted_from_one,
+        _count_from_one,
         headed=True,
     ),
     Format(

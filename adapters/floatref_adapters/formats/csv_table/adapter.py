@@ -68,7 +68,7 @@ class CsvTable:
         with prefix_errors(source), _readable():
             layout = find_layout(source, options)
             times, warnings = _times(layout, options.get("time"))
-            extent, times = _measured(source, layout, times)
+            extent, times = _measure(source, layout, times)
             unknown = NativeClock(Fraction(1), name="unknown")
             clock = of_epoch(times.clock(), options) if times else unknown
         stream = Stream(
@@ -129,7 +129,7 @@ def _complete(source: Path, layout: Layout, cut: bool) -> Iterator[Piece]:
             yield Piece(layout, piece.first, piece.text + b"\n")
 
 
-def _measured(source: Path, layout: Layout, times: Times | None) -> tuple[_Extent, Times | None]:
+def _measure(source: Path, layout: Layout, times: Times | None) -> tuple[_Extent, Times | None]:
     rows, cut, before = 0, False, b""
     for piece in pieces(source, layout):
         ended = piece.text.endswith(b"\n")

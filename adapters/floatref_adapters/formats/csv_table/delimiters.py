@@ -37,11 +37,11 @@ def find_delimiter(lines: Sequence[str], stated: str | None) -> str:
         if found not in DELIMITERS:
             raise InputError(f"delimiter = {stated!r}; give comma, semicolon, tab, pipe or space")
         return found
-    found = max(DELIMITERS, key=lambda delimiter: _parted(lines, delimiter))
-    return found if _parted(lines, found) > 0 else ","
+    found = max(DELIMITERS, key=lambda delimiter: _rate(lines, delimiter))
+    return found if _rate(lines, found) > 0 else ","
 
 
-def _parted(lines: Sequence[str], delimiter: str) -> float:
+def _rate(lines: Sequence[str], delimiter: str) -> float:
     """Return how well ``delimiter`` parts the lines with numbers, from 0 to 1.
 
     That is the part of them that has as many fields as most, times the part of numbers and

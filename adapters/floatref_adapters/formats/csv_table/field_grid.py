@@ -51,7 +51,7 @@ class Grid:
         if (edges[:, 1] <= edges[:, 0]).any() or (edges[:, -2] >= ends).any():
             return None
         if b'"' in text:
-            if _quoted(codes, edges):
+            if _has_quoted_edge(codes, edges):
                 return None
             # A space keeps every place; it means nothing beside a number.
             text = text.replace(b'"', b" ")
@@ -81,9 +81,9 @@ class Grid:
         text = _BLANK.sub(b"", b"," + text) if _SPACE.search(text) else b"," + text
         if b",," in text:
             text = text.replace(b",,", b",nan,").replace(b",,", b",nan,")
-        found = _parsed(text[1:], count)
+        found = _parse(text[1:], count)
         if found is None:
-            found = _parsed(_MISSING.sub(b"nan", text)[1:], count)
+            found = _parse(_MISSING.sub(b"nan", text)[1:], count)
         return None if found is None else found.reshape(self.rows, len(columns))
 
     def plain(self, columns: Sequence[int]) -> bytes | None:
@@ -118,7 +118,7 @@ class Grid:
         return np.frombuffer(self.text, np.uint8)[kept].tobytes()
 
 
-def _quoted(codes: NDArray[np.uint8], edges: NDArray[np.int64]) -> bool:
+def _has_quoted_edge(codes: NDArray[np.uint8], edges: NDArray[np.int64]) -> bool:
     """Tell whether a delimiter or a line's end is within quotes."""
     inside = np.cumsum(codes == QUOTE, dtype=np.int64) & 1
     return bool(inside[edges[:, 1:]].any())
@@ -131,7 +131,7 @@ def _single_spaced(text: bytes) -> bytes:
     return text.replace(b" \n", b"\n").replace(b"\n ", b"\n").removeprefix(b" ")
 
 
-def _parsed(text: bytes, count: int) -> NDArray[np.float64] | None:
+def _parse(text: bytes, count: int) -> NDArray[np.float64] | None:
     """Return the ``count`` numbers in ``text``, each with a comma behind it, or None."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")

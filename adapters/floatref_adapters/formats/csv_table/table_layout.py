@@ -69,13 +69,13 @@ def find_layout(path: Path, options: Mapping[str, str]) -> Layout:
     of a table, or could be read in two ways.
     """
     encoding, sample = read_sample(path)
-    filled = list(islice(_filled(sample), BODY))
+    filled = list(islice(_find_filled(sample), BODY))
     if not filled:
         raise InputError("holds no rows; copy the complete file")
     texts = [line for _, line in filled]
     delimiter = find_delimiter(texts, options.get("delimiter"))
     fields = [tolerant(text, delimiter) for text in texts]
-    trailing = delimiter != SPACES and _trailing(fields)
+    trailing = delimiter != SPACES and _has_trailing(fields)
     if trailing:
         fields = [row[:-1] if row and not row[-1] else row for row in fields]
     lines = _Lines([number for number, _ in filled], fields, _width(fields))
@@ -96,7 +96,7 @@ def find_layout(path: Path, options: Mapping[str, str]) -> Layout:
     )
 
 
-def _filled(sample: Sequence[str]) -> Iterator[tuple[int, str]]:
+def _find_filled(sample: Sequence[str]) -> Iterator[tuple[int, str]]:
     """Yield the lines that hold anything with their numbers, one that a quote goes over as one."""
     held: list[str] = []
     for number, line in enumerate(sample, 1):
@@ -110,7 +110,7 @@ def _filled(sample: Sequence[str]) -> Iterator[tuple[int, str]]:
         held = []
 
 
-def _trailing(fields: Sequence[Sequence[str]]) -> bool:
+def _has_trailing(fields: Sequence[Sequence[str]]) -> bool:
     """Tell whether every line of a row's width ends in a delimiter, that with the names too."""
     width = _width(fields)
     rows = [row for row in fields if len(row) >= width - 1]

@@ -87,7 +87,7 @@ def _blocks(stream: BinaryIO) -> Iterator[bytes]:
         cut = max(block.rfind(space) for space in (b" ", b"\t", b"\r", b"\n", b",")) + 1
         rest = block[cut:]
         if len(rest) > LONGEST_NUMBER:
-            raise InputError(f"{_shown(rest)} is no number; give numbers as text below END")
+            raise InputError(f"{_show(rest)} is no number; give numbers as text below END")
         yield block[:cut]
     yield rest.rstrip(_DOS_END)
 
@@ -107,11 +107,11 @@ def _numbers(block: bytes, commas: bool) -> Floats:
     except ValueError:
         bad = next(word for word in words if not _is_number(word))
         raise InputError(
-            f"{_shown(bad)} is no number; export the file again, in wider fields"
+            f"{_show(bad)} is no number; export the file again, in wider fields"
         ) from None
     if np.isinf(numbers).any():
         bad = words[int(np.argmax(np.isinf(numbers)))]
-        raise InputError(f"{_shown(bad)} is more than float64 holds")
+        raise InputError(f"{_show(bad)} is more than float64 holds")
     return numbers
 
 
@@ -123,13 +123,13 @@ def _check_commas(block: bytes, separators: bool) -> None:
     advice = "a number is missing between two commas"
     if not _NO_NUMBER.match(found[0]):
         advice = "write decimal points, not decimal commas"
-    raise InputError(f"{_shown(around)}: {advice}")
+    raise InputError(f"{_show(around)}: {advice}")
 
 
 def _number_or_missing(word: bytes) -> bytes:
     if word.strip(b"+-").lower() == b"nan" or not word.translate(None, _DIGITS):
         return word
-    raise InputError(f"{_shown(word)} is no number; export the file again, in wider fields")
+    raise InputError(f"{_show(word)} is no number; export the file again, in wider fields")
 
 
 def _is_number(word: bytes) -> bool:
@@ -140,7 +140,7 @@ def _is_number(word: bytes) -> bool:
     return True
 
 
-def _shown(word: bytes) -> str:
+def _show(word: bytes) -> str:
     return repr(word[:40].decode("latin-1"))
 
 

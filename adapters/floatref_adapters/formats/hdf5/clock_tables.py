@@ -66,12 +66,12 @@ def _series(group: Group) -> list[Series]:
     found = [series for dataset in group.datasets for series in find_series(dataset)]
     names = number_repeats([series.column.name for series in found])
     return [
-        s if s.column.name == name else replace(s, column=_renamed(s.column, name))
+        s if s.column.name == name else replace(s, column=_rename(s.column, name))
         for s, name in zip(found, names, strict=True)
     ]
 
 
-def _renamed(column: Column, name: str) -> Column:
+def _rename(column: Column, name: str) -> Column:
     note = "; ".join(filter(None, (column.note, f"another column {column.name}")))
     return replace(column, name=name, note=note)
 
@@ -100,7 +100,7 @@ def _tables(
         Table(
             whole if len(parts) == 1 else _name(whole, key[1], clocks[key], key[0]),
             tuple(several),
-            _made(key[1], clocks[key], options),
+            _make_clock(key[1], clocks[key], options),
             clocks[key],
             key[0],
         )
@@ -162,7 +162,7 @@ def _clock(
     return stated, None
 
 
-def _made(
+def _make_clock(
     stated: NativeClock | None, time: Series | None, options: Mapping[str, str]
 ) -> NativeClock:
     """Return the clock of a table."""

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.formats.hdf5.clock_tables import Table, find_tables
-from floatref_adapters.formats.hdf5.object_tree import decode_text, opened, read_tree
+from floatref_adapters.formats.hdf5.object_tree import decode_text, open_hdf5, read_tree
 from floatref_adapters.formats.hdf5.series import MOST_HELD, Held, Series, chosen
 from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows, keep_freed_memory
 
 
 def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return the datasets of each group and clock; InputError if the file cannot be used."""
-    with opened(source) as file:
+    with open_hdf5(source) as file:
         tree = read_tree(file)
         tables, warnings = find_tables(tree, options)
     if not tables:
@@ -55,9 +55,9 @@ class _Reader:
                 raise InputError(f"{name}: no such column of numbers")
         wanted = {name: named[name] for name in names}
         keep_freed_memory()
-        with opened(self.path) as file:
+        with open_hdf5(self.path) as file:
             time = self.table.time
-            held = _held(file, [*wanted.values(), *([time] if time else [])])
+            held = _open_datasets(file, [*wanted.values(), *([time] if time else [])])
             rows = min([MOST_ROWS, *(each.step for each in held.values())])
             for first in range(0, self.table.count if held else 0, rows):
                 stop = min(first + rows, self.table.count)
@@ -71,7 +71,7 @@ class _Reader:
                 )
 
 
-def _held(file: Any, wanted: Sequence[Series]) -> dict[str, Held]:
+def _open_datasets(file: Any, wanted: Sequence[Series]) -> dict[str, Held]:
     """Return the opened datasets of the series ``wanted``, each once; InputError for too much."""
     by_dataset: dict[str, list[Series]] = {}
     for series in wanted:

@@ -61,7 +61,7 @@ class Tree:
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[Any]:
+def open_hdf5(path: Path) -> Iterator[Any]:
     """Yield the HDF5 file at ``path``; InputError in one line for what goes wrong with it."""
     h5py = library("h5py", "reading HDF5")
     try:

@@ -12,7 +12,7 @@ from typing import Any
 from floatref import Column, InputError, NativeClock, NativeFile, Rows, Stream
 from floatref_adapters.formats.mdf4.channel_group import Group, Piece
 from floatref_adapters.formats.mdf4.master_clock import Timing, find_timing, is_clock, start_of
-from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, first_line, opened, quiet
+from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, first_line, open_mdf, quiet
 from floatref_adapters.formats.mdf4.record_fields import Field, find_unit
 from floatref_adapters.shared.numbered_names import number_repeats
 
@@ -42,7 +42,7 @@ class Mdf4:
         Close it: asammdf keeps the file open.
         """
         try:
-            mdf = opened(source)
+            mdf = open_mdf(source)
         except InputError as error:
             raise InputError(f"{source}: {error}") from error
         except OSError as error:
@@ -102,7 +102,7 @@ def _stream(group: Group, start: NativeClock, warnings: list[str]) -> Stream:
     names = number_repeats([field.origin.name for field in fields])
     faults = [field.unreadable() for field in fields]
     columns = tuple(map(_column, fields, names, faults))
-    warnings.extend(_undecoded(group, faults))
+    warnings.extend(_count_undecoded(group, faults))
     count = _count(group, warnings)
     usable = {n: f for n, f, fault in zip(names, fields, faults, strict=True) if not fault}
     return Stream(group.name, columns, count, timing.clock, Reader(group, timing, usable, count))
@@ -115,7 +115,7 @@ def _column(field: Field, name: str, fault: str) -> Column:
     return Column(name, find_unit(field.origin), "; ".join(notes), numeric=not fault)
 
 
-def _undecoded(group: Group, faults: list[str]) -> Iterator[str]:
+def _count_undecoded(group: Group, faults: list[str]) -> Iterator[str]:
     bad = [fault for fault in faults if fault]
     for fault in dict.fromkeys(bad):
         yield f"{group.name}: {bad.count(fault)} channels are {fault}"

@@ -76,7 +76,7 @@ def check_links(file: BinaryIO, size: int) -> list[int]:
             groups.append(address)
         if block.kind == b"##CN" and len(block.links) > CONVERSION and block.links[CONVERSION]:
             _check_calls(file, block.links[CONVERSION], size, called, ())
-        waiting.extend(_followed(block))
+        waiting.extend(_follow(block))
     return groups
 
 
@@ -84,7 +84,7 @@ def _text(block: Block) -> str:
     return block.kind.decode("latin-1")[2:]
 
 
-def _followed(block: Block) -> Iterator[tuple[int, bytes]]:
+def _follow(block: Block) -> Iterator[tuple[int, bytes]]:
     for index, kinds in CHAINS[block.kind].items():
         if index < len(block.links) and block.links[index]:
             yield block.links[index], kinds

@@ -22,7 +22,7 @@ RECORD_IDS = 56
 """Where a data group says how many bytes tell its records apart, after four links."""
 
 
-def opened(source: Path) -> Any:
+def open_mdf(source: Path) -> Any:
     """Return asammdf's MDF of ``source``; InputError in one line if it is damaged."""
     with source.open("rb") as file:
         _check(file, source.stat().st_size)

@@ -88,11 +88,11 @@ class Survey:
         if moment is None:
             self._faults[f"untimed {kind}"] += 1
             return
-        self._spool.add(kind, moment, self._packed(sentence))
+        self._spool.add(kind, moment, self._pack(sentence))
         while moment % self._unit:
             self._unit //= 10
 
-    def _packed(self, sentence: Sentence) -> bytes:
+    def _pack(self, sentence: Sentence) -> bytes:
         """Return the values of a sentence as float64, NaN where a field is no number."""
         values = array("d")
         fields = [*sentence.fields, *PADDING]

@@ -49,13 +49,13 @@ class Sentences:
             seen = False
             for found in SENTENCE.finditer(text):
                 seen = True
-                sentence = self._checked(found, faults)
+                sentence = self._check(found, faults)
                 if sentence is not None:
                     yield sentence
             if not seen:
                 faults["broken" if "$" in text else "lines"] += 1
 
-    def _checked(self, found: re.Match[str], faults: Counter[str]) -> Sentence | None:
+    def _check(self, found: re.Match[str], faults: Counter[str]) -> Sentence | None:
         kind = _kind(found)
         fields = found[2][1:].split(",")
         if found[3] is None and (self.checked or not _complete(kind, fields)):

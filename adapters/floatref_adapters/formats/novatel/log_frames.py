@@ -93,10 +93,10 @@ class Frames:
         for block in blocks(self._source):
             self._read += len(block)
             kept += block
-            kept = kept[(yield from self._found(kept, False)) :]
-        yield from self._found(kept, True)
+            kept = kept[(yield from self._find_logs(kept, False)) :]
+        yield from self._find_logs(kept, True)
 
-    def _found(self, data: bytes, last: bool) -> Generator[Log, None, int]:
+    def _find_logs(self, data: bytes, last: bool) -> Generator[Log, None, int]:
         """Yield the logs in ``data``; return up to where nothing more can be had from it."""
         at = done = 0
         self._line_end = -1

@@ -51,7 +51,7 @@ def find_layout(definition: Any, crc: int | None) -> LogLayout:
         return LogLayout((), {}, 0, 0)
     last = fields[-1]
     pairs = dict(pair for field in fields for pair in _columns(definition.name, field))
-    pairs.update(_derived(fields))
+    pairs.update(_derive(fields))
     return LogLayout(
         tuple(column for column, _ in pairs.values()),
         {name: value for name, (_, value) in pairs.items()},
@@ -96,7 +96,7 @@ def _columns(log: str, field: Any) -> list[Pair]:
     ]
 
 
-def _derived(fields: Any) -> list[Pair]:
+def _derive(fields: Any) -> list[Pair]:
     names = {field.name for field in fields}
     enums = {f.enum_def.name: f.name for f in reversed(fields) if f.type.name == "ENUM"}
     pairs: list[Pair] = []

@@ -59,7 +59,7 @@ def _native(source: Source) -> NativeFile:
         if empty:
             warnings.append(f"{name}: {empty} channels hold no values")
         held = [channel for channel in channels if channel.origin.count]
-        found += [(name, timed) for timed in _timed(source, held)]
+        found += [(name, timed) for timed in _group_by_clock(source, held)]
     names = number_repeats([name for name, _ in found])
     streams = [
         _stream(source, name, timed, warnings)
@@ -89,7 +89,7 @@ class Timed:
     others: tuple[str, ...] = ()
 
 
-def _timed(source: Source, channels: Sequence[TdmsChannel]) -> Iterator[Timed]:
+def _group_by_clock(source: Source, channels: Sequence[TdmsChannel]) -> Iterator[Timed]:
     """Yield ``channels`` of a group by clocks: those of one waveform, then the others."""
     waves: dict[object, list[TdmsChannel]] = defaultdict(list)
     others: dict[int, list[TdmsChannel]] = defaultdict(list)

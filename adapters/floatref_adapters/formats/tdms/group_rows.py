@@ -59,7 +59,7 @@ class Reader:
             if name not in self.channels:
                 raise self._fault(f"{name}: not a column of numbers; see floatref channels")
         every = [self.channels[name] for name in names] + ([self.time] if self.time else [])
-        through = self._buffered if any(c.daqmx for c in every) else self._direct
+        through = self._read_buffered if any(c.daqmx for c in every) else self._direct
         pieces = through(every) if every else self._nothing()
         first = 0
         keep_freed_memory()
@@ -120,7 +120,7 @@ class Reader:
             return lambda raw: raw.astype(np.int64, copy=False)
         return channel.scaled()
 
-    def _buffered(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
+    def _read_buffered(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
         """Yield the values of ``channels``, some of which npTDMS has to find in buffers.
 
         It reads the chunks of the file one after the other, for all channels at once.
@@ -134,13 +134,13 @@ class Reader:
             TdmsFile.open(file, raw_timestamps=True) as tdms,
         ):
             for chunk in tdms.data_chunks():
-                held = [_joined(h, chunk, c) for h, c in zip(held, channels, strict=True)]
+                held = [_join(h, chunk, c) for h, c in zip(held, channels, strict=True)]
                 while (rows := min(left, MOST_ROWS)) and min(map(len, held)) >= rows:
                     yield [part[:rows] for part in held]
                     held, left = [part[rows:] for part in held], left - rows
 
 
-def _joined(held: Numbers, chunk: Any, channel: TdmsChannel) -> Numbers:
+def _join(held: Numbers, chunk: Any, channel: TdmsChannel) -> Numbers:
     """Return ``held`` and what ``chunk`` has of ``channel`` behind it."""
     more = chunk[channel.origin.group][channel.origin.name][:]
     if not len(more):

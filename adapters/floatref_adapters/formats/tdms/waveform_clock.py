@@ -119,7 +119,7 @@ def find_waveforms(
 
     ``properties`` are the last ones, ``changes`` what those that changed were before.
     """
-    stated = dict(_stated(properties, changes))
+    stated = dict(_find_stated(properties, changes))
     waves = [(row, wave) for row, wave in stated.items() if wave is not None]
     if len(waves) < len(stated) or len({wave.start_ns is None for _, wave in waves}) > 1:
         return None
@@ -141,7 +141,7 @@ def _between_s(one: Waveform, other: Waveform) -> float:
     return ((other.start_ns or 0) - (one.start_ns or 0)) / 1e9 + other.offset_s - one.offset_s
 
 
-def _stated(
+def _find_stated(
     properties: Mapping[str, Any], changes: Mapping[str, History]
 ) -> Iterator[tuple[int, Waveform | None]]:
     """Yield the time properties with the number of the first value that they were stated for."""

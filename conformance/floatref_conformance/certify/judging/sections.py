@@ -9,7 +9,7 @@ from math import isnan
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.causes import causes
@@ -56,7 +56,7 @@ def truth_of(plan: SectionPlan, reference: Profile) -> Profile:
     Raises InputError for a stretch that it does not hold, one that it did not measure all along,
     and a wheel path that is too even for a road.
     """
-    with naming(f"section {plan.name}: {plan.reference}"):
+    with name_errors(f"section {plan.name}: {plan.reference}"):
         truth = section_of(reference, plan.stretch_m)
         for name, value in _roughness(truth).items():
             if value < LEAST_IRI:

@@ -15,7 +15,7 @@ import numpy as np
 
 from floatref.errors import FloatrefError
 from floatref.files import fingerprint_native, read_profile
-from floatref.files.sources import opened
+from floatref.files.sources import open_bytes
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.plan.commands import Commands
 from floatref_conformance.certify.plan.plan_document import Processing
@@ -74,7 +74,7 @@ def _convert(path: Path, processing: Processing, out: Path, commands: Commands) 
                 return Converted(_load_apart(read_profile(out), path))
         return _process(path, processing, out, commands, no_profile)
     except (FloatrefError, OSError, MemoryError) as error:
-        return Converted(None, error=_naming(path, str(error) or type(error).__name__))
+        return Converted(None, error=_name_path(path, str(error) or type(error).__name__))
 
 
 def _process(
@@ -108,7 +108,7 @@ def _is_ours(path: Path) -> bool:
     """Return whether ``path`` is a profile directory or a CSV of ours, by its content."""
     if path.is_dir():
         return (path / "profile.json").is_file()
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         header = stream.readline(LONGEST_HEADER).removeprefix(b"\xef\xbb\xbf")
     return b"distance_m" in (name.strip(b' "\r\n') for name in header.split(b","))
 
@@ -134,7 +134,7 @@ def _load_apart(profile: Profile, source: Path) -> Profile:
     return replace(profile, tracks=tuple(tracks), provenance=provenance)
 
 
-def _naming(path: Path, reason: str) -> str:
+def _name_path(path: Path, reason: str) -> str:
     """Return ``reason`` with the path at its start."""
     line = " ".join(reason.split())
     return line if line.startswith(str(path)) else f"{path}: {line}"

@@ -8,7 +8,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files.schema import enforce_schema
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.files.toml_document import read_toml
 from floatref_conformance.certify.plan.run_paths import check_exists, runs_of
 from floatref_conformance.schemas import read_schema
@@ -86,11 +86,11 @@ def read_plan(path: Path) -> Plan:
     path = Path(path)
     document = read_toml(path, "plan")
     schema = read_schema(SCHEMA)
-    with naming(path):
+    with name_errors(path):
         for place, table, known in _tables(document, schema):
             _check_keys(place, table, known)
     enforce_schema(document, schema, path)
-    with naming(path):
+    with name_errors(path):
         return _plan(document, path.parent)
 
 
@@ -111,7 +111,7 @@ def _plan(document: Mapping[str, Any], folder: Path) -> Plan:
 
 
 def _section(entry: Mapping[str, Any], folder: Path) -> SectionPlan:
-    with naming(f"section {entry['name']}"):
+    with name_errors(f"section {entry['name']}"):
         return SectionPlan(
             entry["name"],
             check_exists(entry["reference"], folder),
@@ -123,7 +123,7 @@ def _section(entry: Mapping[str, Any], folder: Path) -> SectionPlan:
 def _stationary(document: Mapping[str, Any], name: str, folder: Path) -> StationaryPlan | None:
     if name not in document:
         return None
-    with naming(name):
+    with name_errors(name):
         return StationaryPlan(
             check_exists(document[name]["source"], folder), _stretch(document[name])
         )

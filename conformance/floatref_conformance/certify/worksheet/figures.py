@@ -15,7 +15,7 @@ from floatref_conformance.certify.worksheet import pictures, wording
 from floatref_conformance.certify.worksheet.pictures import lag_picture
 from floatref_conformance.certify.worksheet.wording import correlation
 from floatref_conformance.render.failures import Markup, Picture
-from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH, escape_text, opening, px
+from floatref_conformance.render.svg import LEFT, RIGHT, TOP, WIDTH, escape_text, open_picture, px
 
 WIDEST, HIGHEST = 64.0, 26.0
 """Size of a cell, as long as there is room."""
@@ -36,7 +36,7 @@ def heat_map(name: str, title: str, values: FloatArray, limit: float) -> str:
     width = min(WIDEST, (WIDTH - LEFT - RIGHT) / max(n - 1, 1))
     height = min(HIGHEST, width)
     below = int((values < limit).sum())
-    parts = [opening(name, title, _describe(n, below, limit), TOP + n * height + 8.0)]
+    parts = [open_picture(name, title, _describe(n, below, limit), TOP + n * height + 8.0)]
     parts.append(_heads(n, width, height))
     for row in range(n - 1):
         for column in range(row + 1, n):

@@ -56,7 +56,7 @@ def write_report(worksheet: Worksheet, folder: Path, document: Writer, page: Wri
     the new one is complete. Raises InputError if ``folder`` cannot be one, or not be written.
     """
     check_report(folder)
-    with _replacing(folder) as beside:
+    with _replace_folder(folder) as beside:
         _write_profiles(worksheet, beside)
         page(worksheet, beside / PAGE)
         document(worksheet, beside / DOCUMENT)
@@ -94,7 +94,7 @@ def _write_profiles(worksheet: Worksheet, folder: Path) -> None:
 
 
 @contextmanager
-def _replacing(folder: Path) -> Iterator[Path]:
+def _replace_folder(folder: Path) -> Iterator[Path]:
     """Yield a new folder beside ``folder``; give it that name when all went well."""
     target = Path(os.path.realpath(folder))
     beside = target.with_name(f".floatref-{secrets.token_hex(6)}")

@@ -11,7 +11,7 @@ from floatref.values.recording import Setup
 from floatref_conformance.proving_ground.drives.drive import Longitudinal
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.vehicles.kinematics import Course, Sighted
-from floatref_conformance.proving_ground.vehicles.response import Response, oversampling
+from floatref_conformance.proving_ground.vehicles.response import Response, count_steps
 from floatref_conformance.proving_ground.vehicles.suspended import Suspended
 from floatref_conformance.proving_ground.vehicles.suspension import SuspensionMotion, Watch
 
@@ -113,7 +113,7 @@ def drive_over(
         response_rate_hz: rate in Hz at which the freedoms are kept; None: not at all.
     """
     clock = UniformClock.of(rate_hz)
-    every = oversampling(rate_hz)
+    every = count_steps(rate_hz)
     inner = UniformClock(clock.rate * every)
     seen = Sighted.of(course, road, list(setup.tracks.values()), vehicle.cg_height_m)
     count = int(duration_s * rate_hz) * every + 1

@@ -24,7 +24,7 @@ NONE: IndexArray = np.empty(0, dtype=np.int64)
 NOWHERE: FloatArray = np.empty((0, STATES + INPUTS))
 
 
-def oversampling(rate_hz: float) -> int:
+def count_steps(rate_hz: float) -> int:
     """Return how many steps of the model make one sample of a recording at ``rate_hz``."""
     return max(1, int(np.ceil(LOWEST_RATE_HZ / rate_hz)))
 

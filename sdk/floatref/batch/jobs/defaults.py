@@ -25,7 +25,7 @@ class Defaults:
     segment_m: float | None = None
 
 
-def checked(options: Defaults) -> ChannelMap | None:
+def read_given_map(options: Defaults) -> ChannelMap | None:
     """Return the channel map of ``options``, None without a map.
 
     Raises InputError for a pipeline, adapter, setting, map or segment that no file can be

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from glob import has_magic
 from pathlib import Path
 
-from floatref.batch.jobs.defaults import Defaults, checked, files_of
+from floatref.batch.jobs.defaults import Defaults, files_of, read_given_map
 from floatref.batch.jobs.job import Job
 from floatref.batch.jobs.manifest import is_manifest, read_manifest
 from floatref.batch.jobs.recognition import (
@@ -21,11 +21,11 @@ from floatref.batch.jobs.source_names import name_below, unique_names
 from floatref.engine.formats import find_readers
 from floatref.errors import InputError
 from floatref.files.recording_directory import DOCUMENT as RECORDING
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.entries import ChannelMap
 
 
-def matching(text: str) -> tuple[Path, list[Path]]:
+def find_matches(text: str) -> tuple[Path, list[Path]]:
     """Return the folder before the first pattern character, and the sorted matches of ``text``.
 
     Hidden files below that folder match only a pattern that names hidden files. Raises InputError
@@ -85,7 +85,7 @@ class _Search:
     def __init__(self, out: Path, defaults: Defaults) -> None:
         self._out, self._defaults = out, defaults
         self._real_out = os.path.realpath(out)
-        self._charts = {defaults.channel_map: checked(defaults)}
+        self._charts = {defaults.channel_map: read_given_map(defaults)}
         self._sources: dict[str, _Source] = {}
         self._passed_over: dict[Path, None] = {}
 
@@ -121,7 +121,7 @@ class _Search:
             self._take_manifest(path)
 
     def _take_manifest(self, path: Path) -> None:
-        with naming(path):
+        with name_errors(path):
             for entry in read_manifest(path, self._defaults):
                 _check_kind(entry.path)
                 folder = entry.path.is_dir()
@@ -129,7 +129,7 @@ class _Search:
                     self._add(entry.path, path.parent, entry.options)
 
     def _take_pattern(self, text: str) -> None:
-        base, matches = matching(text)
+        base, matches = find_matches(text)
         beside, count = self._beside(self._defaults), 0
         entered: set[Path] = set()
         for path in matches:
@@ -177,7 +177,7 @@ class _Search:
 
     def _chart(self, options: Defaults) -> ChannelMap | None:
         if options.channel_map not in self._charts:
-            self._charts[options.channel_map] = checked(options)
+            self._charts[options.channel_map] = read_given_map(options)
         return self._charts[options.channel_map]
 
     def _beside(self, options: Defaults) -> frozenset[str]:

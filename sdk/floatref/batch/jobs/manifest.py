@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-from floatref.batch.jobs.defaults import Defaults, checked
+from floatref.batch.jobs.defaults import Defaults, read_given_map
 from floatref.errors import InputError
 from floatref.files.settings_file import read_settings
-from floatref.files.sources import naming, opened
+from floatref.files.sources import name_errors, open_bytes
 
 COLUMNS = ("file", "adapter", "map", "pipeline", "settings")
 COMMENT = "#"
@@ -39,7 +39,7 @@ def is_manifest(path: Path) -> bool:
     lines is a path, from the folder of the manifest, that exists.
     """
     try:
-        with opened(path) as stream:
+        with open_bytes(path) as stream:
             start = stream.read(HEAD)
     except InputError:
         return False
@@ -57,9 +57,9 @@ def read_manifest(path: Path, options: Defaults) -> tuple[Entry, ...]:
     Raises InputError with one line naming the manifest, the line and the value for unknown columns,
     lines without a file, and options that no file can be processed with.
     """
-    with opened(path) as stream:
+    with open_bytes(path) as stream:
         content = stream.read(LARGEST_BYTES + 1)
-    with naming(path):
+    with name_errors(path):
         if len(content) > LARGEST_BYTES:
             raise InputError("larger than 256 MiB; divide the list")
         try:
@@ -81,7 +81,7 @@ class _Reading:
         if columns is not None:
             _check_columns(columns)
         for number, text in lines[columns is not None :]:
-            with naming(f"line {number}"):
+            with name_errors(f"line {number}"):
                 row = {"file": text} if columns is None else _row(columns, text, lines[0][1])
                 yield Entry(self._path(row["file"]), self._options_of(row))
 
@@ -99,7 +99,7 @@ class _Reading:
             pipeline=pipeline or self._options.pipeline,
             settings=read_settings(self._path(settings)) if settings else self._options.settings,
         )
-        checked(chosen)
+        read_given_map(chosen)
         return chosen
 
     def _path(self, text: str) -> Path:

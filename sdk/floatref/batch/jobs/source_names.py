@@ -37,7 +37,7 @@ def unique_names(names: Sequence[str], sources: Sequence[Path]) -> tuple[str, ..
     """
     found = list(names)
     for digits in DIGITS:
-        for index in _meeting(found):
+        for index in _find_meeting(found):
             found[index] = _mark(names[index], sources[index], digits)
     return tuple(found)
 
@@ -69,7 +69,7 @@ def _digest(text: str) -> str:
     return sha256(os.fsencode(text)).hexdigest()
 
 
-def _meeting(names: Sequence[str]) -> list[int]:
+def _find_meeting(names: Sequence[str]) -> list[int]:
     """Return which of ``names`` are equal, or lie inside another's profile or record."""
     keys = [tuple(_fold(name).split("/")) for name in names]
     counts = Counter(keys)

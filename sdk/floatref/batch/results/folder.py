@@ -19,14 +19,14 @@ BESIDE = ".floatref-*"
 
 
 @contextmanager
-def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None]:
+def prepare_folder(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None]:
     """Make folder ``out`` ready for this command alone; leave nothing if no task began in it.
 
     Raises InputError for a folder with content unless ``resume``, for one that no batch has
     written, while another command works in it, and if tasks of a killed command still work there
     after ``patience_s`` seconds.
     """
-    made = _made(out, resume)
+    made = _make(out, resume)
     with _lock(out / LOCK) as alone:
         if not alone:
             raise InputError(f"{out}: another batch works there; wait for it or choose another")
@@ -41,7 +41,7 @@ def prepared(out: Path, resume: bool, patience_s: float = 60.0) -> Iterator[None
 
 
 @contextmanager
-def working(out: Path) -> Iterator[None]:
+def mark_working(out: Path) -> Iterator[None]:
     """Mark, for other commands, that a task works in ``out``; many may do so at once."""
     with _lock(out / WORKING, shared=True):
         yield
@@ -65,7 +65,7 @@ def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
     return tuple(sorted({name.removesuffix(".json") for name in found} - given))
 
 
-def _made(out: Path, resume: bool) -> bool:
+def _make(out: Path, resume: bool) -> bool:
     """Make ``out`` if it is missing, and return whether it was."""
     with suppress(FileExistsError):
         try:

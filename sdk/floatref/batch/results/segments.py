@@ -15,7 +15,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
 
-def measured(
+def measure_segments(
     profile: Profile, segment_m: float | None, recording: Recording | None = None
 ) -> tuple[tuple[Row, ...], tuple[str, ...]]:
     """Return the rows of ``profile``, cut every ``segment_m``, and the measures that failed.

@@ -62,7 +62,7 @@ def connect(out: Path, jobs: int | None = None, address: str | None = None) -> I
     check_installed()
     with ExitStack() as stack:
         stack.enter_context(_quiet())
-        client = stack.enter_context(_local(jobs) if address is None else _existing(address))
+        client = stack.enter_context(_local(jobs) if address is None else _find_cluster(address))
         if address is not None:
             _check_workers(client, out)
         yield client
@@ -117,7 +117,7 @@ def _local(jobs: int | None) -> Iterator["Client"]:
 
 
 @contextmanager
-def _existing(address: str) -> Iterator["Client"]:
+def _find_cluster(address: str) -> Iterator["Client"]:
     from distributed import Client
 
     try:

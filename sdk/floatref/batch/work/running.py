@@ -8,7 +8,7 @@ from shutil import rmtree
 from typing import TYPE_CHECKING
 
 from floatref.batch.jobs.job import Job
-from floatref.batch.results.folder import working
+from floatref.batch.results.folder import mark_working
 from floatref.batch.results.record import Record
 from floatref.errors import FloatrefError
 
@@ -55,7 +55,7 @@ def _run_job(job: Job, resume: bool) -> Record:
 
 def _mark(job: Job, resume: bool, task: Task) -> Record:
     """Do one task on a worker, and let other commands know that it is being done."""
-    with working(job.out):
+    with mark_working(job.out):
         return task(job, resume)
 
 
@@ -114,6 +114,6 @@ def _give_up(job: Job, reason: str) -> Record:
 
 
 def _fail(job: Job, reason: str) -> Record:
-    from floatref.batch.work.task import failed
+    from floatref.batch.work.task import record_failure
 
-    return failed(job, " ".join(reason.split()))
+    return record_failure(job, " ".join(reason.split()))

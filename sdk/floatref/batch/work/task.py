@@ -11,8 +11,8 @@ from time import perf_counter, process_time
 from floatref.batch.jobs.job import Job
 from floatref.batch.results.positions import is_located
 from floatref.batch.results.record import Effort, Record, make_folder_of, read_record, write_record
-from floatref.batch.results.segments import measured
-from floatref.batch.work.unchanged import asked, check_unchanged, holds, stamps_of
+from floatref.batch.results.segments import measure_segments
+from floatref.batch.work.unchanged import check_unchanged, holds, list_what_matters, stamps_of
 from floatref.engine.plugins import plugins
 from floatref.errors import FloatrefError, one_line
 from floatref.files import fingerprint_native, read_profile, write_profile
@@ -77,13 +77,13 @@ def run_job(job: Job, resume: bool = False) -> Record:
         return _work(job) if old is None else old
 
 
-def failed(job: Job, reason: str) -> Record:
+def record_failure(job: Job, reason: str) -> Record:
     """Return the record of ``job`` with the reason why it has no profile."""
     return Record(job.name, str(job.source), error=one_line(reason), key=_key(job))
 
 
 def _key(job: Job) -> dict[str, object]:
-    return {"asked": asked(job), "segment_m": job.segment_m}
+    return {"asked": list_what_matters(job), "segment_m": job.segment_m}
 
 
 @contextmanager
@@ -114,7 +114,7 @@ def kept(job: Job) -> Record | None:
 
 def _measure_again(old: Record, job: Job) -> Record:
     """Return ``old`` with the rows of its profile for segments of another length."""
-    rows, remarks = measured(
+    rows, remarks = measure_segments(
         read_profile(job.profile), job.segment_m, _recording(job) if old.key["located"] else None
     )
     key = {**old.key, "segment_m": job.segment_m}
@@ -128,23 +128,23 @@ def _recording(job: Job) -> Recording:
 def _work(job: Job) -> Record:
     watch = Watch()
     try:
-        record = watch.complete(_made(job), job)
+        record = watch.complete(_make_profile(job), job)
         write_record(record, job.record)
     except Exception as error:
-        record = watch.complete(failed(job, _reason(error)), job)
+        record = watch.complete(record_failure(job, _reason(error)), job)
         _remove(job.profile)
         with suppress(FloatrefError, OSError):
             write_record(record, job.record)
     return record
 
 
-def _made(job: Job) -> Record:
+def _make_profile(job: Job) -> Record:
     """Write the profile of ``job``; return its record without the effort."""
     before = stamps_of(job)
     read = recording_of(job.source, job.adapter, job.channel_map)
     result = make_profile(read, job.pipeline, job.settings)
     profile = result.profile
-    rows, remarks = measured(profile, job.segment_m, read.recording)
+    rows, remarks = measure_segments(profile, job.segment_m, read.recording)
     check_unchanged(before, read.inputs)
     _make_room(job.profile)
     write_profile(profile, job.profile, overwrite=True)

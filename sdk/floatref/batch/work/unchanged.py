@@ -27,7 +27,7 @@ def versions() -> dict[str, str]:
     return {"floatref": __version__, **{name: version(name) for name in LIBRARIES}}
 
 
-def asked(job: Job) -> dict[str, Any]:
+def list_what_matters(job: Job) -> dict[str, Any]:
     """Return all that the profile of ``job`` depends on besides the content of its inputs."""
     described: dict[str, Any] = plain(
         {
@@ -49,7 +49,7 @@ def holds(record: Record, job: Job) -> bool:
 
     The length of segments may differ. A failed record is never valid.
     """
-    if record.error or not record.outputs or record.key.get("asked") != asked(job):
+    if record.error or not record.outputs or record.key.get("asked") != list_what_matters(job):
         return False
     outputs = {job.profile / name: value for name, value in record.outputs.items()}
     inputs = {Path(path): value for path, value in record.inputs.items()}

@@ -65,7 +65,7 @@ def silence() -> Iterator[TextIO]:
     sys.stderr.flush()
     kept = [os.dup(number) for number in OUTPUTS]
     nowhere = os.open(os.devnull, os.O_WRONLY)
-    shown = _shown(kept[1])
+    shown = _open_errors(kept[1])
     try:
         for number in OUTPUTS:
             os.dup2(nowhere, number)
@@ -80,7 +80,7 @@ def silence() -> Iterator[TextIO]:
         os.close(nowhere)
 
 
-def _shown(copy: int) -> TextIO:
+def _open_errors(copy: int) -> TextIO:
     """Return standard error on descriptor ``copy``; as it is if it is not a descriptor's."""
     try:
         if sys.stderr.fileno() != OUTPUTS[1]:

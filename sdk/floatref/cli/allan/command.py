@@ -17,7 +17,7 @@ from floatref.cli.printing import print_json
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replacing_file
 from floatref.files.document import write_document
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.mapping.sources import recording_of
 from floatref.measures.allan.at_rest import ChannelNoise, channel_noise
 from floatref.values.recording import Channel, Recording
@@ -57,7 +57,7 @@ def allan(
     """
     _check_targets(settings, plot)
     read = recording_of(recording, adapter).recording
-    with naming(recording):
+    with name_errors(recording):
         found, warnings = _analyse(read, names, between, quiet=as_json)
         report = allan_report(found, warnings)
         if settings is not None and not report["settings"]:

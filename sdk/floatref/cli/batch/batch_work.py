@@ -15,7 +15,7 @@ from floatref.batch.results.batch_document import (
     batch_document,
     write_batch_document,
 )
-from floatref.batch.results.folder import not_given, prepared
+from floatref.batch.results.folder import not_given, prepare_folder
 from floatref.batch.results.record import Returned, returned_records
 from floatref.batch.results.summary import write_summary
 from floatref.batch.results.totals import Tally
@@ -59,7 +59,7 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
 
     Raises InputError for a folder or a cluster that cannot be used.
     """
-    with prepared(work.out, work.resume), returned_records(work.out) as returned:
+    with prepare_folder(work.out, work.resume), returned_records(work.out) as returned:
         workers = _process(found.jobs, work, tally, returned)
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)

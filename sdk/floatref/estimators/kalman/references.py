@@ -119,7 +119,7 @@ class References:
         """Return the observations of ``stretch``, which follows the one before."""
         parts = []
         for part, standing in _runs(stretch, self.plan.reflects):
-            parts.append(self._standing(part) if standing else self._moving(part))
+            parts.append(self._observe_standing(part) if standing else self._observe_moving(part))
         found = parts[0] if len(parts) == 1 else join_observations(parts)
         observed = np.flatnonzero(found.marks != FORGET)[-1:]
         if observed.size:
@@ -142,14 +142,14 @@ class References:
             y[HEIGHT] = np.nan if mark & REFLECTED else 0.0
         return y, variance
 
-    def _moving(self, stretch: Stretch) -> Observations:
+    def _observe_moving(self, stretch: Stretch) -> Observations:
         self.origin = np.nan
         observed = self._observe(stretch, heights=True)
         for sample in stretch.quiet.tolist():
             observed = mark_sample(observed, sample, FORGET)
         return observed
 
-    def _standing(self, stretch: Stretch) -> Observations:
+    def _observe_standing(self, stretch: Stretch) -> Observations:
         """Return the height sensor's readings in place of heights, the rest as ever."""
         beside = self._observe(stretch, heights=False)
         beside.values[:, HEIGHT], beside.drifted[:] = np.nan, 0.0

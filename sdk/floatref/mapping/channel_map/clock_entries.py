@@ -5,8 +5,8 @@ from fractions import Fraction
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.document import shown
-from floatref.files.sources import naming
+from floatref.files.document import show
+from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.entries import SOURCE, ClockEntry
 from floatref.values.clock import rational
 
@@ -29,7 +29,7 @@ def clocks_of(entries: Sequence[Mapping[str, Any]]) -> tuple[ClockEntry, ...]:
     """
     found: dict[tuple[str, str | None], ClockEntry] = {}
     for entry in entries:
-        with naming(f"clock of {name_stream(entry.get('file', SOURCE), entry.get('stream'))}"):
+        with name_errors(f"clock of {name_stream(entry.get('file', SOURCE), entry.get('stream'))}"):
             clock = _clock(entry)
             if (clock.file, clock.stream) in found:
                 raise InputError("given twice; keep one entry")
@@ -39,8 +39,8 @@ def clocks_of(entries: Sequence[Mapping[str, Any]]) -> tuple[ClockEntry, ...]:
 
 def name_stream(file: str, stream: str | None) -> str:
     """Return ``stream`` of the file labelled ``file`` as an error text names it."""
-    place = "the source" if file == SOURCE else shown(file)[1:-1]
-    return place if stream is None else f"{place}, stream {shown(stream)}"
+    place = "the source" if file == SOURCE else show(file)[1:-1]
+    return place if stream is None else f"{place}, stream {show(stream)}"
 
 
 def _clock(entry: Mapping[str, Any]) -> ClockEntry:

@@ -47,10 +47,10 @@ class Conversion:
         found = self._finite(found)
         if self._counter is not None:
             found = self._counter(found)
-        found = self._finite(self._scaled(found))
+        found = self._finite(self._scale(found))
         return self._travelled(found, times_s) if self.integrates else found
 
-    def _scaled(self, values: FloatArray) -> FloatArray:
+    def _scale(self, values: FloatArray) -> FloatArray:
         entry = self.entry
         if entry.scale == self._factor == 1 and entry.offset == 0:
             return values

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files.document import shown
+from floatref.files.document import show
 from floatref.files.recording_directory import setup_of
 from floatref.files.schema import enforce
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.files.toml_document import read_toml
 from floatref.mapping.channel_map.clock_entries import clocks_of
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap, FileEntry
@@ -67,13 +67,13 @@ def read_map(path: Path) -> ChannelMap:
     path = Path(path)
     document = read_toml(path, "channel map")
     enforce(document, SCHEMA, path)
-    with naming(path):
+    with name_errors(path):
         files = _files(document, path)
         channels = tuple(_channel(entry, files) for entry in document["channels"])
         _check_channels(channels)
         clocks = clocks_of(document.get("clocks", []))
         for clock in clocks:
-            with naming("clocks"):
+            with name_errors("clocks"):
                 _check_file(clock.file, files)
         return ChannelMap(
             channels=channels,
@@ -108,7 +108,7 @@ def _file(entry: Mapping[str, Any], place: Path) -> FileEntry:
 
 def _resolve_inside(name: str, place: Path) -> Path:
     """Return the file ``name`` beside the map ``place``; InputError if it leaves that folder."""
-    said = f"path {shown(name)}"
+    said = f"path {show(name)}"
     # A map has the same meaning and the same errors on every system.
     if "\\" in name or re.match(r"/|[A-Za-z]:", name):
         raise InputError(f"{said}: give it relative to the map's folder, with / in between")
@@ -125,7 +125,7 @@ def _resolve_inside(name: str, place: Path) -> Path:
 
 def _channel(entry: dict[str, Any], files: Mapping[str, FileEntry]) -> ChannelEntry:
     given = dict(entry)
-    with naming(f"channel {_plain(entry['channel'])} ({_plain(entry['native'])})"):
+    with name_errors(f"channel {_plain(entry['channel'])} ({_plain(entry['native'])})"):
         _check_file(given.get("file", SOURCE), files)
         given["channel"], sign = quantity_of(given["channel"], given.pop("axis", None))
         if given.get("scale") == 0:
@@ -136,7 +136,7 @@ def _channel(entry: dict[str, Any], files: Mapping[str, FileEntry]) -> ChannelEn
 
 
 def _plain(text: str) -> str:
-    return shown(text)[1:-1]
+    return show(text)[1:-1]
 
 
 def _check_channels(channels: tuple[ChannelEntry, ...]) -> None:
@@ -151,4 +151,4 @@ def _check_channels(channels: tuple[ChannelEntry, ...]) -> None:
 def _check_file(name: str, files: Mapping[str, FileEntry]) -> None:
     if name != SOURCE and name not in files:
         there = ", ".join(map(_plain, files)) or "it has no files"
-        raise InputError(f"file {shown(name)}: not in the map's files ({there}); add it there")
+        raise InputError(f"file {show(name)}: not in the map's files ({there}); add it there")

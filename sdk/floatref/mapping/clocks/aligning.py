@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import hypot, sqrt
 
 from floatref.errors import InputError
-from floatref.files.sources import naming
+from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.column_names import find
 from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
 from floatref.mapping.clocks.clock_keys import (
@@ -96,7 +96,7 @@ class _Aligning:
                 warn_of_beginning(key, stream.stream) if self._has_no_entry(key, entry) else (),
             )
             if (clock, entry) not in known:
-                with naming(f"clock of {name_clock(key)}"):
+                with name_errors(f"clock of {name_clock(key)}"):
                     known[clock, entry] = alignment = self._alignment(key, entry)
                 if alignment is not None:
                     report = alignment_report(key, entry, alignment)

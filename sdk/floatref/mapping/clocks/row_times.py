@@ -39,7 +39,7 @@ class Timing:
         """
         ticks = None if rows.ticks is None else as_ticks(np.asarray(rows.ticks))
         if self.rate is not None:
-            times, kept = self._counted(rows, ticks), None
+            times, kept = self._count_ticks(rows, ticks), None
         elif ticks is None:
             raise InputError(f"stream {self._stream.name!r} has no time from its adapter")
         else:
@@ -74,7 +74,7 @@ class Timing:
             yield f"has {seen} of {self._stream.count} rows; the file is truncated"
         yield from self._advancing.warnings()
 
-    def _counted(self, rows: Rows, ticks: Ticks | None) -> FloatArray:
+    def _count_ticks(self, rows: Rows, ticks: Ticks | None) -> FloatArray:
         assert self.rate is not None
         columns = [rows.ticks] if rows.ticks is not None else list(rows.values.values())
         count = len(columns[0]) if columns else 0

@@ -57,7 +57,7 @@ def remark(found: Guess) -> str:
     return f"  # {SIGNS[found.channel]}{either}" if found.channel in SIGNS else ""
 
 
-def turned(found: Guess, note: str) -> bool:
+def is_turned(found: Guess, note: str) -> bool:
     """Tell whether ``found`` has the other sign by the ``note`` of an adapter."""
     return found.channel in NOSE_DOWN and "nose up positive" in note
 
@@ -188,7 +188,7 @@ def _entry(stream: Stream, column: Column, found: Guess, mark: str) -> str:
         f"native = {_text(full_name(stream, column))}{note}",
         f"channel = {_text(found.channel)}{remark(found)}",
     ]
-    if turned(found, column.note):
+    if is_turned(found, column.note):
         lines.append("sign = -1")
     if found.track is not None:
         lines.append(f"track = {_text(found.track)}")

@@ -72,7 +72,7 @@ def guess(stream: str, column: Column) -> Guess | None:
     gnss = receiver or bool(re.search(GNSS, words))
     gnss = gnss or (si in (None, "rad", "m") and bool(re.search(PLACE, words)))
     if not gnss and (found := response(words_of(stream), words, si)) is not None:
-        return _responding(found, stream, words, known=unit is not None)
+        return _guess_response(found, stream, words, known=unit is not None)
     for channel, usual, pattern in QUANTITIES:
         if channel.startswith("gnss_") != gnss or si not in (None, usual):
             continue
@@ -84,7 +84,7 @@ def guess(stream: str, column: Column) -> Guess | None:
     return None
 
 
-def _responding(found: Response, stream: str, words: str, known: bool) -> Guess | None:
+def _guess_response(found: Response, stream: str, words: str, known: bool) -> Guess | None:
     if found.channel is None:
         return None
     shared = found.channel.startswith(("pitch", "roll"))

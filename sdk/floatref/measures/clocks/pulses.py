@@ -69,7 +69,7 @@ def pulse_times_by(values: FloatArray, times: Callable[[int, int], FloatArray]) 
     """
     idle, pulse = pulse_levels(values)
     found, rest = [], []
-    for first, before in _leading(values, idle, pulse):
+    for first, before in _find_leading(values, idle, pulse):
         at = times(first, 2)
         stretch = (values[first : first + 2] - idle) / (pulse - idle)
         share = (0.5 - stretch[0]) / (stretch[1] - stretch[0])
@@ -131,7 +131,7 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
     return float(lowest), float(highest), float(np.median(steps or [0.0])) / 0.954
 
 
-def _leading(values: FloatArray, idle: float, pulse: float) -> Iterator[tuple[int, int]]:
+def _find_leading(values: FloatArray, idle: float, pulse: float) -> Iterator[tuple[int, int]]:
     """Yield the sample before every crossing of the middle on the way to a pulse.
 
     Also yield the last sample of the pulse before, -1 for the first pulse.

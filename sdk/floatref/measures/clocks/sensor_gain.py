@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, find_standing, on_grid, stretches
 from floatref.measures.clocks.skew_windows import SkewWindow, skew_window
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
@@ -41,7 +41,7 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
     if min(force.mean_rate_hz, height.mean_rate_hz) < SLOWEST_HZ or end - begin < WINDOW_S:
         return np.nan
     grid: FloatArray = begin + STEP_S * np.arange(int((end - begin) * RATE_HZ) + 1.0)
-    stands = standing(distance, grid, STANDS_M, STANDS_S)
+    stands = find_standing(distance, grid, STANDS_M, STANDS_S)
     if not stands.any():
         return np.nan
     force_series, height_series = on_grid(force, grid), on_grid(height, grid)

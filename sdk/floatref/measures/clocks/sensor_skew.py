@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, on_grid, standing, stretches
+from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, find_standing, on_grid, stretches
 from floatref.measures.clocks.skew_windows import SkewWindow, skew_window
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
@@ -83,7 +83,7 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
     series = on_grid(force, grid), on_grid(height, grid)
     stands = np.zeros(grid.size, dtype=np.bool_)
     if distance is not None:
-        stands = standing(distance, grid, STANDS_M, STANDS_S)
+        stands = find_standing(distance, grid, STANDS_M, STANDS_S)
     return _combine([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 

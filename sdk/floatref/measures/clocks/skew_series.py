@@ -37,7 +37,7 @@ def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
     return found
 
 
-def standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: float) -> BoolArray:
+def find_standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: float) -> BoolArray:
     """Return at which points of ``grid_s`` the vehicle moves by less than ``most_m``.
 
     The travel is over ``over_s`` behind or before the point. Where ``distance`` is missing the

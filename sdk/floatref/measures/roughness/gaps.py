@@ -49,7 +49,7 @@ def measured_stretch(elevation: FloatArray) -> slice:
     return slice(int(finite.argmax()), elevation.size - int(finite[::-1].argmax()))
 
 
-def bridged(elevation: FloatArray) -> FloatArray:
+def bridge(elevation: FloatArray) -> FloatArray:
     """Return ``elevation`` with every NaN between finite points on the straight line over it."""
     finite = np.isfinite(elevation)
     if finite.all():

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
+from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH
 from floatref.values.arrays import FloatArray
@@ -116,7 +116,7 @@ class _Run:
         values = check_elevation(elevation, interval_m)
         window, start = settings.window(interval_m), settings.start_count(interval_m)
         stretch = measured_stretch(values)
-        measured = bridged(values[stretch])
+        measured = bridge(values[stretch])
         if measured.size <= start:
             raise InputError(
                 f"{(measured.size - 1) * interval_m:g} m of profile were measured; the car needs "

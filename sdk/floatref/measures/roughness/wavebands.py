@@ -10,7 +10,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.gaps import bridged, check_elevation, measured_stretch
+from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
 
@@ -50,7 +50,7 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     stretch = measured_stretch(values)
     filtered = np.full(values.size, np.nan)
     cutoff = high_pass_wavelength_setting(wavelength_m)
-    rise = bridged(values[stretch]) - values[stretch.start]
+    rise = bridge(values[stretch]) - values[stretch.start]
 
     filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan
@@ -73,7 +73,7 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     values = check_elevation(elevation, interval_m)
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
-    slope = np.diff(bridged(values)) / interval_m
+    slope = np.diff(bridge(values)) / interval_m
     margin = math.ceil(limits.long_m / interval_m)
     continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
     return _pass_band(continued, interval_m, limits)[margin : margin + slope.size]
@@ -97,7 +97,7 @@ def agreement(
     if p.shape != q.shape:
         raise InputError(f"profiles of {p.size} and {q.size} points; cut them to the same points")
     common = _common_stretch(p, q)
-    p_band, q_band = (_filtered(z[common], interval_m, band) for z in (p, q))
+    p_band, q_band = (_filter(z[common], interval_m, band) for z in (p, q))
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
@@ -111,7 +111,7 @@ def _pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatA
     return low_pass_b3x2(passed, interval_m, limits.short_m)
 
 
-def _filtered(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+def _filter(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
     """Return ``elevation`` through the filter of ``band``, one value fewer than points."""
     if band == "iri":
         return iri_trace(elevation, interval_m)

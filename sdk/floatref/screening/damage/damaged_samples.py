@@ -105,7 +105,7 @@ class Usual:
     @property
     def samples(self) -> int:
         """Number of samples."""
-        return int(self._lying().sum())
+        return int(self._count_lying().sum())
 
     @property
     def hold(self) -> float:
@@ -117,11 +117,11 @@ class Usual:
 
         One run of ``length`` is excluded, because a damaged run must not count as usual.
         """
-        samples = self._lying()
+        samples = self._count_lying()
         samples[min(length, samples.size - 1)] -= length
         return self._middle(samples)
 
-    def _lying(self) -> IndexArray:
+    def _count_lying(self) -> IndexArray:
         """Number of samples in runs of each length."""
         return np.append(self.held[:-1] * np.arange(self.held.size - 1), self.longest)
 

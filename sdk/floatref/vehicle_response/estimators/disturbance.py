@@ -8,7 +8,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.vehicle_response.models.model import VehicleModel
-from floatref.vehicle_response.models.state_space import Hold, discretized, state_space
+from floatref.vehicle_response.models.state_space import Hold, discretize, state_space
 
 CLASSES = "ABCDEFGH"
 CLASS_A = 16e-6
@@ -27,7 +27,7 @@ def disturbance_of(
     Raises InputError for an unknown freedom, a density that is negative or not finite, or a step
     that is not above zero.
     """
-    discretized(model, step_s)
+    discretize(model, step_s)
     size = len(model.freedoms)
     squares = np.zeros(size)
     for name, density in densities.items():
@@ -70,7 +70,7 @@ def hold_error_of(
         raise InputError(
             f"model {model.name}: a speed of {speed_mps:g} m/s; give a finite number above zero"
         )
-    ramp = discretized(model, step_s, Hold.FIRST_ORDER).after
+    ramp = discretize(model, step_s, Hold.FIRST_ORDER).after
     level = CLASS_A * 4.0 ** CLASSES.index(road_class)
     # Half of the one-sided density, for the variance of a walk is that over both signs.
     rate = (2 * pi * REFERENCE_WAVE_NUMBER) ** 2 * level * speed_mps / 2

@@ -21,7 +21,7 @@ from floatref.vehicle_response.estimators.joint_values import Estimates, Memory,
 from floatref.vehicle_response.estimators.observability import check_readings
 from floatref.vehicle_response.models.model import Tyre, VehicleModel
 from floatref.vehicle_response.models.outputs import Reading, output_matrices
-from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized
+from floatref.vehicle_response.models.state_space import Discrete, Hold, discretize
 
 
 def with_tyre_states(model: VehicleModel, discrete: Discrete) -> Discrete:
@@ -97,7 +97,7 @@ class JointInputState:
         size = 2 * len(model.freedoms)
         noise = _covariance(model, "the disturbance", disturbance, size)
         start = _covariance(model, "the initial covariance", initial, size)
-        discrete = with_tyre_states(model, discretized(model, step_s, hold))
+        discrete = with_tyre_states(model, discretize(model, step_s, hold))
         unseen = np.zeros(discrete.transition.shape[0] - size)
         output, direct = output_matrices(model, readings)
         output = np.hstack([output, np.zeros((len(readings), unseen.size))])

@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.vehicle_response.models.model import VehicleModel
 from floatref.vehicle_response.models.outputs import Kind, Reading, output_matrices, selection
-from floatref.vehicle_response.models.state_space import Discrete, Hold, discretized
+from floatref.vehicle_response.models.state_space import Discrete, Hold, discretize
 
 NOTHING = 1e-9
 """Singular value of a matrix with rows and columns of about 1 that counts as rounding."""
@@ -105,7 +105,7 @@ def check_readings(
     _check_felt(model, unfelt_tyres(model, readings))
     _check_heights(model, missing_displacements(model, readings))
     output, direct = output_matrices(model, readings)
-    system = discretized(model, step_s, hold)
+    system = discretize(model, step_s, hold)
     motions = lasting_motions(system, output, system.feedthrough(output, direct))
     if motions:
         moving = " and the ".join(_moving(model, [motion for _, motion in motions]))
@@ -151,7 +151,7 @@ def unseen_freedoms(
     Empty if (A_c, G) is observable.
     """
     output, _ = output_matrices(model, readings)
-    return _moving(model, unseen_modes(discretized(model, step_s), output))
+    return _moving(model, unseen_modes(discretize(model, step_s), output))
 
 
 def _moving(model: VehicleModel, motions: Sequence[Matrix]) -> tuple[str, ...]:

@@ -24,7 +24,7 @@ from floatref.vehicle_response.estimators.unknown_inputs import (
 )
 from floatref.vehicle_response.models.model import VehicleModel
 from floatref.vehicle_response.models.outputs import Reading
-from floatref.vehicle_response.models.state_space import Sampled, sampled, stationary_sigma
+from floatref.vehicle_response.models.state_space import Sampled, sample, stationary_sigma
 
 DEGREES = 1, 2, 3
 """Degree of the polynomial between two samples. At 10 Hz and 128 samples a second, lines lose
@@ -82,7 +82,7 @@ class UnknownInputObserver:
         closed = observer_equations(model, gain, outputs)
         free = observer_equations(model, np.zeros_like(gain), outputs)
         rate = decay_rate(model, measured, outputs, closed.error)
-        steps = [sampled(each.error, each.inputs, step_s, degree) for each in (closed, free)]
+        steps = [sample(each.error, each.inputs, step_s, degree) for each in (closed, free)]
         noise = np.array([r.sigma for r in measured] + [acceleration_sigma] * len(model.tyres))
         return cls(
             model=model,

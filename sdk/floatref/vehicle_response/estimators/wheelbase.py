@@ -18,7 +18,7 @@ EVEN = 1e-6
 """Share of the step by which steps of a distance may differ."""
 
 
-def joined(
+def join_roads(
     roads: Sequence[ArrayLike],
     sigmas: Sequence[ArrayLike],
     x_m: Sequence[float],
@@ -80,10 +80,10 @@ def join_at_speed(
                 f"joining of tyres: a {name} of {value:g} {unit}; give a number above zero"
             )
     distance = speed_m_per_s * step_s * np.arange(np.size(roads[0]) if len(roads) else 0)
-    return joined(roads, sigmas, x_m, distance)
+    return join_roads(roads, sigmas, x_m, distance)
 
 
-def shifted(values: ArrayLike, samples: float) -> FloatArray:
+def shift(values: ArrayLike, samples: float) -> FloatArray:
     """Return ``values``, shape (n,), as they are ``samples`` later, by a polynomial through six.
 
     NaN where one of the six is missing or NaN; exact copies for a whole number of samples. Raises
@@ -134,7 +134,7 @@ def _read_earlier(
     if (deviation <= 0).any():
         raise InputError(f"a sigma of {np.nanmin(deviation):g} m; give numbers above zero, or NaN")
     # The road under a tyre x ahead of the point is under the point x later.
-    height = shifted(height, -samples)
+    height = shift(height, -samples)
     deviation = np.maximum(_move(deviation, floor(-samples)), _move(deviation, ceil(-samples)))
     known = np.isfinite(height) & np.isfinite(deviation)
     weight = known / np.where(known, deviation, 1.0) ** 2

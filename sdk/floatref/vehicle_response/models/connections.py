@@ -30,7 +30,7 @@ class Connection:
     damping: float = 0.0
 
 
-def connected(
+def connect(
     name: str,
     freedoms: Sequence[tuple[Freedom, float]],
     tyres: Sequence[Tyre],

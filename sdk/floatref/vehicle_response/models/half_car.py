@@ -6,7 +6,7 @@ from floatref.vehicle_response.models.connections import (
     Connection,
     check_inertia,
     check_parameters,
-    connected,
+    connect,
 )
 from floatref.vehicle_response.models.model import Freedom, Tyre, VehicleModel
 
@@ -77,7 +77,7 @@ class HalfCar:
             Tyre("rear wheel", self.tyre_n_per_m, x_m=-self.rear_axle_m),
             Tyre("front wheel", self.tyre_n_per_m, x_m=self.front_axle_m),
         ]
-        return connected(HALF_CAR, masses, tyres, self._connections())
+        return connect(HALF_CAR, masses, tyres, self._connections())
 
     def _connections(self) -> list[Connection]:
         axle = 2.0 * self.suspension_n_per_m, 2.0 * self.suspension_ns_per_m

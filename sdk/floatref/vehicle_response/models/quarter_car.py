@@ -2,7 +2,7 @@
 
 from dataclasses import asdict, dataclass
 
-from floatref.vehicle_response.models.connections import Connection, check_parameters, connected
+from floatref.vehicle_response.models.connections import Connection, check_parameters, connect
 from floatref.vehicle_response.models.model import Freedom, Tyre, VehicleModel
 
 QUARTER_CAR = "quarter-car"
@@ -39,4 +39,4 @@ class QuarterCar:
         tyre = Tyre("wheel", self.tyre_n_per_m, self.tyre_ns_per_m, track=track)
         stroke = Connection((1.0, -1.0), self.suspension_n_per_m, self.suspension_ns_per_m)
         masses = [(body, self.sprung_kg), (wheel, self.unsprung_kg)]
-        return connected(QUARTER_CAR, masses, [tyre], [stroke])
+        return connect(QUARTER_CAR, masses, [tyre], [stroke])

@@ -65,7 +65,7 @@ def state_space(model: VehicleModel) -> tuple[FloatArray, FloatArray]:
     return a, b
 
 
-def discretized(model: VehicleModel, step_s: float, hold: Hold = Hold.ZERO_ORDER) -> Discrete:
+def discretize(model: VehicleModel, step_s: float, hold: Hold = Hold.ZERO_ORDER) -> Discrete:
     """Return the model from sample to sample, ``step_s`` apart, exact for forces that ``hold``.
 
     The exponential of the matrix that the forces and their slope are added to serves a singular
@@ -111,7 +111,7 @@ class Sampled(NamedTuple):
     taps: FloatArray
 
 
-def sampled(matrix: FloatArray, inputs: FloatArray, step_s: float, degree: int) -> Sampled:
+def sample(matrix: FloatArray, inputs: FloatArray, step_s: float, degree: int) -> Sampled:
     """Return x' = ``matrix``·x + ``inputs``·w from sample to sample.
 
     ``matrix`` has the shape (s, s), ``inputs`` (s, m). Between two samples w is the polynomial of

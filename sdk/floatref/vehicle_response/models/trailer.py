@@ -6,7 +6,7 @@ from floatref.vehicle_response.models.connections import (
     Connection,
     check_inertia,
     check_parameters,
-    connected,
+    connect,
 )
 from floatref.vehicle_response.models.model import Freedom, Tyre, VehicleModel
 
@@ -82,7 +82,7 @@ class Trailer:
             Tyre("left wheel", self.left_tyre_n_per_m, self.left_tyre_ns_per_m, back, left),
             Tyre("right wheel", self.right_tyre_n_per_m, self.right_tyre_ns_per_m, back, right),
         ]
-        return connected(TRAILER, masses, tyres, self._connections())
+        return connect(TRAILER, masses, tyres, self._connections())
 
     def _connections(self) -> list[Connection]:
         near_left = self.left_suspension_n_per_m, self.left_suspension_ns_per_m

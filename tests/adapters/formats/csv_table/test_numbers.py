@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from floatref import NativeFile
 from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.whole_reading import make_columns as columns
-from floatref_adapters.testing.whole_reading import opened
+from floatref_adapters.testing.whole_reading import open_content
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 
 pytestmark = pytest.mark.slow
@@ -23,7 +23,7 @@ MISSING = ("", "nan", "NaN", "NA", "-", "n/a", "#DIV/0!", "#NUM!")
 
 def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     """Return what the adapter finds in a file that holds ``text``."""
-    return opened(CsvTable(), folder / "run.csv", text, **options)
+    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 @few

@@ -14,14 +14,14 @@ from floatref import InputError, NativeFile
 from floatref.engine.plugins import plugins
 from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.whole_reading import make_columns as columns
-from floatref_adapters.testing.whole_reading import opened
+from floatref_adapters.testing.whole_reading import open_content
 
 few = settings(deadline=None, max_examples=80)
 
 
 def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     """Return what the adapter finds in a file that holds ``text``."""
-    return opened(CsvTable(), folder / "run.csv", text, **options)
+    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 REFUSED = {

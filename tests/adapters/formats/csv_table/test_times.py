@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.formats.csv_table.adapter import CsvTable
-from floatref_adapters.testing.whole_reading import opened
+from floatref_adapters.testing.whole_reading import open_content
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 
 few = settings(deadline=None, max_examples=80)
@@ -18,7 +18,7 @@ few = settings(deadline=None, max_examples=80)
 
 def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
     """Return what the adapter finds in a file that holds ``text``."""
-    return opened(CsvTable(), folder / "run.csv", text, **options)
+    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 @few

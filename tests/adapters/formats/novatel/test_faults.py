@@ -11,7 +11,7 @@ from floatref import InputError, NativeFile
 from floatref_adapters.formats.novatel.adapter import NovAtel
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, short_log, text_log
-from floatref_adapters.testing.whole_reading import opened as opened_by
+from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import read_or_refused, stream_of, table_of
 
 WEEK_MS = 604_800_000

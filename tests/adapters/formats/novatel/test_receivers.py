@@ -8,7 +8,7 @@ import pytest
 
 from floatref import NativeFile
 from floatref_adapters.formats.novatel.adapter import NovAtel
-from floatref_adapters.testing.whole_reading import opened as opened_by
+from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import stream_of, table_of
 
 DATA = Path(__file__).parent / "data"

@@ -18,8 +18,8 @@ from floatref_adapters.testing.tdms import (
     NEW,
     RAW,
     doubles,
-    laid,
-    scaled,
+    lay_out,
+    scale_waveform,
     segment,
 )
 from floatref_adapters.testing.whole_reading import read_whole, refusal
@@ -34,8 +34,8 @@ def test_a_damaged_file_is_refused_or_read_and_nothing_else(
     tmp_path: Path, interleaved: bool
 ) -> None:
     path, draw = tmp_path / "a.tdms", random.Random(interleaved)
-    raw = laid(np.arange(18.0).reshape(3, 6), 3, interleaved)
-    wave = scaled("Linear")
+    raw = lay_out(np.arange(18.0).reshape(3, 6), 3, interleaved)
+    wave = scale_waveform("Linear")
     sound = segment(META | NEW | RAW | INTERLEAVED * interleaved, doubles(3, 3, wave), raw)
     sound += segment(RAW | INTERLEAVED * interleaved, b"", raw)
     for _ in range(250):

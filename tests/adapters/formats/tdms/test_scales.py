@@ -14,10 +14,10 @@ from floatref_adapters.testing.tdms import (
     RAW,
     doubles,
     metadata_text,
-    scaled,
+    scale_waveform,
     segment,
-    stored,
     waves,
+    write_properties,
 )
 from floatref_adapters.testing.whole_reading import read_whole
 
@@ -27,12 +27,12 @@ read = partial(read_whole, Tdms())
 def test_scales_are_applied_and_those_that_are_not_known_are_told(tmp_path: Path) -> None:
     path = tmp_path / "a.tdms"
     raw = np.arange(3.0).tobytes()
-    path.write_bytes(segment(META | NEW | RAW, doubles(1, 3, scaled("Linear")), raw))
+    path.write_bytes(segment(META | NEW | RAW, doubles(1, 3, scale_waveform("Linear")), raw))
     np.testing.assert_array_equal(read(path)[1][0][0]["c0"], [1, 3, 5])
     for properties, why in (
-        (scaled("Magic"), "numbers with a scale of unknown kind Magic"),
-        (scaled("Linear", 2**30), f"numbers with {2**30} scales"),
-        (scaled("Table"), "numbers with a scale that cannot be computed"),
+        (scale_waveform("Magic"), "numbers with a scale of unknown kind Magic"),
+        (scale_waveform("Linear", 2**30), f"numbers with {2**30} scales"),
+        (scale_waveform("Table"), "numbers with a scale that cannot be computed"),
     ):
         path.write_bytes(segment(META | NEW | RAW, doubles(1, 3, properties), raw))
         native, [(values, _)] = read(path)
@@ -47,7 +47,9 @@ def test_a_scale_or_unit_that_changes_on_the_way_is_not_applied_to_what_came_bef
     tmp_path: Path, name: str, values: tuple[float | str, float | str]
 ) -> None:
     path = tmp_path / "a.tdms"
-    before, after = ({"wf_increment": 1.0, **scaled("Linear"), name: value} for value in values)
+    before, after = (
+        {"wf_increment": 1.0, **scale_waveform("Linear"), name: value} for value in values
+    )
     path.write_bytes(waves([(2, before), (2, after)]))
     native, _ = read(path)
     assert not native.streams[0].columns[0].numeric
@@ -67,11 +69,11 @@ def test_buffers_of_a_device_are_read(tmp_path: Path) -> None:
         scaler = struct.pack("<IIIII", 3, 0, 2 * k, 0, 0)
         layout = struct.pack("<IIIQI", 0x1269, 0xFFFFFFFF, 1, 5, 1) + scaler
         widths = struct.pack("<II", 1, 4)
-        scale = scaled("Linear", 2) | {"NI_Scale[1]_Scale_Type": "Linear"}
+        scale = scale_waveform("Linear", 2) | {"NI_Scale[1]_Scale_Type": "Linear"}
         del scale["NI_Scale[0]_Scale_Type"]
         scale |= {"NI_Scale[1]_Linear_Slope": 0.5, "NI_Scale[1]_Linear_Y_Intercept": 1.0}
         scale |= {"NI_Scale[1]_Linear_Input_Source": 0}
-        channels += metadata_text(f"/'g'/'c{k}'") + layout + widths + stored(scale)
+        channels += metadata_text(f"/'g'/'c{k}'") + layout + widths + write_properties(scale)
     data = segment(META | NEW | RAW | 128, struct.pack("<I", 2) + channels, rows.tobytes())
     (tmp_path / "a.tdms").write_bytes(data + segment(RAW | 128, b"", rows.tobytes()))
     native, [(values, _)] = read(tmp_path / "a.tdms")

@@ -16,7 +16,7 @@ from floatref_adapters.testing.tdms import (
     NEW,
     RAW,
     doubles,
-    laid,
+    lay_out,
     segment,
 )
 from floatref_adapters.testing.whole_reading import read_whole
@@ -50,7 +50,7 @@ def test_values_are_found_however_they_are_laid(
         part = columns[:, first : first + chunk * count]
         told = not number or repeated
         metadata = doubles(channels, chunk) if told else b""
-        raw = laid(part, chunk, interleaved)
+        raw = lay_out(part, chunk, interleaved)
         data += segment(flags | (META | NEW if told else 0), metadata, raw)
         first += chunk * count
     cut = min(cut, len(raw) - 1)
@@ -68,7 +68,9 @@ def test_values_are_found_however_they_are_laid(
 
 def test_high_byte_first_is_read_too(tmp_path: Path) -> None:
     path = tmp_path / "a.tdms"
-    little = segment(META | NEW | RAW, doubles(2, 3), laid(np.arange(6.0).reshape(2, 3), 3, False))
+    little = segment(
+        META | NEW | RAW, doubles(2, 3), lay_out(np.arange(6.0).reshape(2, 3), 3, False)
+    )
     big = np.arange(6.0, 12).reshape(2, 3).astype(">f8").tobytes()
     path.write_bytes(little + segment(RAW | BIG, b"", big))
     _, [(values, _)] = read(path)
@@ -80,7 +82,7 @@ def test_high_byte_first_is_read_too(tmp_path: Path) -> None:
 def test_chunks_of_any_size_are_read_in_pieces(tmp_path: Path, chunk: int) -> None:
     path = tmp_path / "a.tdms"
     columns = np.random.default_rng(1).normal(size=(3, 150_000))
-    raw = segment(META | NEW | RAW, doubles(3, chunk), laid(columns, chunk, False))
+    raw = segment(META | NEW | RAW, doubles(3, chunk), lay_out(columns, chunk, False))
     path.write_bytes(raw)
     with Tdms().streams(path, {}) as native:
         pieces = [rows.values["c1"] for rows in native.streams[0].read(["c1"])]
@@ -97,7 +99,7 @@ def test_an_index_of_another_file_changes_nothing(tmp_path: Path) -> None:
     assert path.with_suffix(".tdms_index").is_file()
     assert not Tdms().recognises(path.with_suffix(".tdms_index"))
     columns = np.arange(8.0).reshape(2, 4)
-    path.write_bytes(segment(META | NEW | RAW, doubles(2, 4), laid(columns, 4, False)))
+    path.write_bytes(segment(META | NEW | RAW, doubles(2, 4), lay_out(columns, 4, False)))
     _, [(values, _)] = read(path)
     np.testing.assert_array_equal(values["c1"], columns[1])
 

@@ -18,7 +18,7 @@ from floatref_adapters.testing.tdms import (
     STAMP,
     UNIX_S,
     Properties,
-    described,
+    describe_channel,
     segment,
 )
 from floatref_adapters.testing.whole_reading import read_whole
@@ -33,7 +33,7 @@ def test_time_stamps_are_whole_ns(tmp_path: Path) -> None:
         struct.pack("<Qq", (int(r) << 64) // 10**9, int(s))
         for s, r in zip(seconds, rest, strict=True)
     )
-    channels = described("when", STAMP, 2, {}) + described("x", DOUBLE, 2, {})
+    channels = describe_channel("when", STAMP, 2, {}) + describe_channel("x", DOUBLE, 2, {})
     metadata = struct.pack("<I", 2) + channels
     path = tmp_path / "a.tdms"
     path.write_bytes(segment(META | NEW | RAW, metadata, raw + np.arange(2.0).tobytes()))
@@ -63,7 +63,7 @@ def test_a_column_that_is_called_so_and_has_a_unit_of_time_is_the_clock(
     tmp_path: Path, name: str, unit: str, tick_s: Fraction | None
 ) -> None:
     unit_of: Properties = {"unit_string": unit} if unit else {}
-    channels = described("x", DOUBLE, 2, {}) + described(name, DOUBLE, 2, unit_of)
+    channels = describe_channel("x", DOUBLE, 2, {}) + describe_channel(name, DOUBLE, 2, unit_of)
     raw = np.array([5.0, 6.0, 0.5, 1.5]).tobytes()
     path = tmp_path / "a.tdms"
     path.write_bytes(segment(META | NEW | RAW, struct.pack("<I", 2) + channels, raw))

@@ -19,8 +19,8 @@ from floatref_conformance.proving_ground.vehicles.parameter_sets import (
 from floatref_conformance.proving_ground.vehicles.response import (
     ENVELOPE_M,
     Response,
+    count_steps,
     equilibrium,
-    oversampling,
     state_space,
 )
 
@@ -169,7 +169,7 @@ def test_state_is_carried_from_stretch_to_stretch() -> None:
 
 @pytest.mark.parametrize(("rate", "steps"), [(16000, 1), (8000, 1), (7999, 2), (1000, 8)])
 def test_model_steps_at_8_khz_or_more(rate: float, steps: int) -> None:
-    assert oversampling(rate) == steps
+    assert count_steps(rate) == steps
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.batch.results.segments import measured
+from floatref.batch.results.segments import measure_segments
 from floatref.cli.iri import iri_report
 from floatref.errors import InputError
 from floatref.measures import IriSettings
@@ -39,7 +39,7 @@ def test_rows_are_those_of_the_iri_command_and_add_up(
     points: int, interval_m: float, start_m: float, segment_m: float | None, tracks: int
 ) -> None:
     profile = road(points, interval_m, start_m, tracks)
-    rows, remarks = measured(profile, segment_m)
+    rows, remarks = measure_segments(profile, segment_m)
     report = iri_report(profile, IriSettings(segment_m=segment_m))
     assert remarks == ()
     for track in report["tracks"]:
@@ -58,7 +58,7 @@ def test_rows_are_those_of_the_iri_command_and_add_up(
 
 
 def test_the_mean_is_of_both_wheel_paths_in_the_same_segment() -> None:
-    rows, _ = measured(road(4000, 0.05), 60.0)
+    rows, _ = measure_segments(road(4000, 0.05), 60.0)
     left, right = ([row for row in rows if row.track == name] for name in ("left", "right"))
     assert len(left) == 4
     for one, other in zip(left, right, strict=True):
@@ -71,7 +71,7 @@ def test_flagged_points_count_in_the_segment_they_lie_in() -> None:
     valid = np.ones(1001, dtype=bool)
     valid[[0, 399, 400, 1000]] = False
     profile = Profile(0.1, (ProfileTrack.of("main", np.zeros(1001), valid),))
-    rows, _ = measured(profile, 20.0)
+    rows, _ = measure_segments(profile, 20.0)
     assert [row.flagged_m for row in rows] == pytest.approx([0.1, 0.1, 0.1, 0.0, 0.1])
 
 
@@ -88,7 +88,7 @@ def test_flagged_points_count_in_the_segment_they_lie_in() -> None:
 def test_a_profile_without_an_iri_has_rows_all_the_same(
     profile: Profile, segment_m: float | None, count: int, remark: str
 ) -> None:
-    rows, remarks = measured(profile, segment_m)
+    rows, remarks = measure_segments(profile, segment_m)
     assert [row.segment for row in rows if row.track == "left"] == list(range(count))
     assert all(np.isnan(row.iri_m_per_km) for row in rows)
     assert all(np.isnan(row.mean_roughness_index_m_per_km) for row in rows)
@@ -99,13 +99,13 @@ def test_a_profile_without_an_iri_has_rows_all_the_same(
 @pytest.mark.parametrize("segment_m", [0.0, -1.0, float("nan"), float("inf")])
 def test_a_segment_that_is_none_is_refused(segment_m: float) -> None:
     with pytest.raises(InputError, match="segment_m is"):
-        measured(road(3000, 0.05), segment_m)
+        measure_segments(road(3000, 0.05), segment_m)
 
 
 def test_places_are_those_of_the_segments_starts(recording: Recording) -> None:
     profile = road(3200, 0.05)
-    rows, _ = measured(profile, 50.0, recording)
+    rows, _ = measure_segments(profile, 50.0, recording)
     for row in rows:
         assert np.radians(row.latitude_deg) == pytest.approx(0.8 + row.start_m / 6.4e6, abs=1e-9)
         assert np.radians(row.longitude_deg) == pytest.approx(0.2)
-    assert all(np.isnan(row.latitude_deg) for row in measured(profile, 50.0)[0])
+    assert all(np.isnan(row.latitude_deg) for row in measure_segments(profile, 50.0)[0])

@@ -6,7 +6,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.mapping import read_map
-from floatref.mapping.draft.drafting import EITHER, SIGNS, draft_map, remark, turned
+from floatref.mapping.draft.drafting import EITHER, SIGNS, draft_map, is_turned, remark
 from floatref.mapping.draft.guesses import Guess
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, NativeClock, NativeFile, Stream
@@ -58,8 +58,8 @@ def test_a_height_that_may_be_over_the_axle_says_what_it_then_is() -> None:
 def test_what_pitches_is_turned_where_the_note_says_so(channel: str) -> None:
     found = Guess(channel, None, sure=True)
     pitch = channel in {"gnss_pitch", "pitch_rate", "pitch_angle", "pitch_acceleration"}
-    assert turned(found, "attitude, nose up positive") is pitch
-    assert not turned(found, "nose down positive")
+    assert is_turned(found, "attitude, nose up positive") is pitch
+    assert not is_turned(found, "nose down positive")
 
 
 def test_a_map_that_is_not_completed_is_refused_by_name(tmp_path: Path) -> None:

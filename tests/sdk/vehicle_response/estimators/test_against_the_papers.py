@@ -11,7 +11,7 @@ from floatref.vehicle_response import (
     Hold,
     Kind,
     Reading,
-    discretized,
+    discretize,
     join_at_speed,
     output_matrices,
     state_space,
@@ -107,7 +107,7 @@ def test_states_are_carried_as_by_precise_integration(seed, hold, drawn_paramete
         a, b = section_3_state_space.state_space(vehicle)
         for found, wanted in zip(state_space(model), (a, b), strict=True):
             close(found, wanted)
-        system = discretized(model, STEP, hold)
+        system = discretize(model, STEP, hold)
         transition, whole, ramp = section_3_discretization.first_order_hold(a, b, STEP)
         close(system.transition, transition)
         if hold is Hold.ZERO_ORDER:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import ZHU_HALF_CAR, Hold, QuarterCar, discretized, state_space
+from floatref.vehicle_response import ZHU_HALF_CAR, Hold, QuarterCar, discretize, state_space
 from floatref.vehicle_response.estimators.disturbance import disturbance_of, hold_error_of
 
 FEW = settings(deadline=None, max_examples=15)
@@ -18,12 +18,12 @@ def pieces(model, step, count):
     """What a force of 1 N in each of ``count`` pieces of a step has done at its end."""
     size = len(model.freedoms)
     pushed = np.vstack([np.zeros((size, size)), np.linalg.inv(model.mass)])
-    once = discretized(model, step / count).transition
+    once = discretize(model, step / count).transition
     along = [np.eye(2 * size)]
     for _ in range(count - 1):
         along.append(once @ along[-1])
     # Half a piece, to second order, is what lies between the middle and the end.
-    half = discretized(model, step / count / 2).transition
+    half = discretize(model, step / count / 2).transition
     return np.array([m @ half for m in along[::-1]]), pushed
 
 
@@ -50,7 +50,7 @@ def test_white_forces_add_up_over_the_step(model, step, sizes):
 def test_two_steps_are_one_that_is_as_long(step, parts):
     densities = {"body": 5.0, "wheel": 20.0}
     short, total = disturbance_of(MODEL, step / parts, densities), 0.0
-    once = discretized(MODEL, step / parts).transition
+    once = discretize(MODEL, step / parts).transition
     for _ in range(parts):
         total = once @ total @ once.T + short if np.ndim(total) else short
     np.testing.assert_allclose(disturbance_of(MODEL, step, densities), total, rtol=1e-8)
@@ -77,13 +77,13 @@ def test_a_walking_force_errs_from_its_hold_by_what_is_told(hold):
     rate = (2 * np.pi * 0.1) ** 2 * 1024e-6 * 20.0 / 2
     moves = rng.normal(size=(4000, pieces_of)) * 320e3 * np.sqrt(rate * step / pieces_of)
     walk = np.hstack([np.zeros((4000, 1)), moves.cumsum(axis=1)])
-    fine = discretized(MODEL, step / pieces_of, Hold.FIRST_ORDER)
+    fine = discretize(MODEL, step / pieces_of, Hold.FIRST_ORDER)
     state = np.zeros((4000, 4))
     for before, after in zip(walk.T[:-1], walk.T[1:], strict=True):
         state = (
             state @ fine.transition.T + np.outer(before, fine.before) + np.outer(after, fine.after)
         )
-    coarse = discretized(MODEL, step, hold)
+    coarse = discretize(MODEL, step, hold)
     error = state - np.outer(walk[:, -1], coarse.after)
     spread = np.sqrt(np.diag(hold_error_of(MODEL, step, 20.0, "D", hold)))
     # The wheel's velocity, which the force reaches first; the mean square of 4000 is within 7 %.

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.vehicle_response import Hold, Kind, QuarterCar, Reading, discretized, output_matrices
+from floatref.vehicle_response import Hold, Kind, QuarterCar, Reading, discretize, output_matrices
 from floatref.vehicle_response.estimators.observability import (
     lasting_motions,
     null_space,
@@ -16,7 +16,7 @@ CORNER = QuarterCar(700.0, 75.0, 45e3, 3300.0, 320e3).model()
 
 
 def system_of(readings, step_s=0.005, hold=Hold.ZERO_ORDER):
-    system = discretized(CORNER, step_s, hold)
+    system = discretize(CORNER, step_s, hold)
     output, direct = output_matrices(CORNER, readings)
     return system, output, system.feedthrough(output, direct)
 
@@ -67,7 +67,7 @@ def test_a_displacement_leaves_none():
 
 
 def test_a_free_body_is_unseen_by_its_own_velocity():
-    loose = discretized(QuarterCar(700.0, 75.0, 45e3, 3300.0, 1e-9).model(), 0.005)
+    loose = discretize(QuarterCar(700.0, 75.0, 45e3, 3300.0, 1e-9).model(), 0.005)
     output = np.array([[0.0, 0.0, 1.0, 0.0]])
     modes = unseen_modes(loose, output)
     assert modes

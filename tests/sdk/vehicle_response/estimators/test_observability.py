@@ -16,8 +16,8 @@ from floatref.vehicle_response import (
     Reading,
     Tyre,
     check_readings,
-    connected,
-    discretized,
+    connect,
+    discretize,
     missing_displacements,
     output_matrices,
     unfelt_tyres,
@@ -37,7 +37,7 @@ DEFLECTIONS = [
 
 def drift_of(readings, hold=Hold.ZERO_ORDER, count=4000):
     """Return the road's standard deviation of steps (a)-(c) of Zhu after ``count`` samples."""
-    system = discretized(HALF_CAR, STEP, hold)
+    system = discretize(HALF_CAR, STEP, hold)
     output, direct = output_matrices(HALF_CAR, readings)
     j, noise = system.feedthrough(output, direct), np.diag([r.sigma**2 for r in readings])
     p, found = 1e-9 * np.eye(10), []
@@ -122,7 +122,7 @@ def test_a_chassis_that_turns_freely_has_to_be_seen():
 def test_an_undamped_motion_that_nothing_tells_is_named():
     freedoms = [(Freedom(name, name, name), 10.0) for name in ("wheel", "one horn", "other horn")]
     horns = [Connection((1.0, -1.0, 0.0), 5e3), Connection((1.0, 0.0, -1.0), 5e3)]
-    model = connected("cart", freedoms, [Tyre("wheel", 1e5, 50.0)], horns)
+    model = connect("cart", freedoms, [Tyre("wheel", 1e5, 50.0)], horns)
     readings = [Reading(k, "wheel", 1e-3) for k in (Kind.ACCELERATION, Kind.DISPLACEMENT)]
     with pytest.raises(InputError, match="motion of the one horn and the other horn unknown"):
         check_readings(model, readings, STEP)

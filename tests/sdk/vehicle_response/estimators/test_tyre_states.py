@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from floatref.vehicle_response import Hold, QuarterCar, discretized
+from floatref.vehicle_response import Hold, QuarterCar, discretize
 from floatref.vehicle_response.estimators.joint_filter import with_tyre_states
 
 FEW = settings(deadline=None, max_examples=15)
@@ -27,7 +27,7 @@ def car(damping):
 )
 def test_a_step_is_the_solution_for_a_force_that_changes_linearly(damping, force, first, hold):
     model, step = car(damping), 0.005
-    found = with_tyre_states(model, discretized(model, step, hold))
+    found = with_tyre_states(model, discretize(model, step, hold))
     x = found.transition[4] @ [0, 0, 0, 0, first]
     x += found.before[4, 0] * force[0] + found.after[4, 0] * force[1]
 
@@ -41,9 +41,9 @@ def test_a_step_is_the_solution_for_a_force_that_changes_linearly(damping, force
 @FEW
 @given(hold=st.sampled_from(Hold))
 def test_a_tyre_without_damping_adds_none_and_the_vehicle_stays_as_it_is(hold):
-    plain = discretized(car(0.0), 0.005, hold)
+    plain = discretize(car(0.0), 0.005, hold)
     assert with_tyre_states(car(0.0), plain).transition.shape == (4, 4)
-    damped = discretized(car(100.0), 0.005, hold)
+    damped = discretize(car(100.0), 0.005, hold)
     found = with_tyre_states(car(100.0), damped)
     np.testing.assert_array_equal(found.transition[:4, :4], damped.transition)
     np.testing.assert_array_equal(found.input[:4], damped.input)
@@ -56,7 +56,7 @@ def test_a_tyre_without_damping_adds_none_and_the_vehicle_stays_as_it_is(hold):
 def test_a_slow_tyre_loses_no_digits(damping):
     """What 1 N after the step gives is (1 - (1 - exp(-s))/s)/k, here with 60 digits."""
     model = car(damping)
-    found = with_tyre_states(model, discretized(model, 0.005)).after[4, 0]
+    found = with_tyre_states(model, discretize(model, 0.005)).after[4, 0]
     with localcontext() as context:
         context.prec = 60
         steps = 320_000 * Decimal("0.005") / Decimal(damping)

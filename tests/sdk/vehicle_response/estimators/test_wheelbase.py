@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.vehicle_response import join_at_speed, joined, shifted
+from floatref.vehicle_response import join_at_speed, join_roads, shift
 
 SEEDS = st.integers(0, 2**32 - 1)
 laws = settings(deadline=None, max_examples=25)
@@ -23,7 +23,7 @@ def road_at(distance):
 @given(axles=st.tuples(*[st.floats(-8.0, 8.0)] * 2))
 def test_every_tyre_of_one_road_tells_it_at_its_place(axles):
     roads = [road_at(DISTANCE + x) for x in axles]
-    found, sigma = joined(roads, [np.full(COUNT, 1e-3)] * 2, axles, DISTANCE)
+    found, sigma = join_roads(roads, [np.full(COUNT, 1e-3)] * 2, axles, DISTANCE)
     known = np.isfinite(found)
     # One tyre or the other has been at all but what both leave out at an end.
     out = max(max(min(axles), 0) + min(-max(axles), 0), 0)
@@ -36,7 +36,7 @@ def test_every_tyre_of_one_road_tells_it_at_its_place(axles):
 @given(samples=st.integers(-50, 50), seed=SEEDS)
 def test_whole_samples_are_copied(samples, seed):
     values = np.random.default_rng(seed).normal(size=40)
-    found = shifted(values, samples)
+    found = shift(values, samples)
     for at in range(40):
         wanted = values[at + samples] if 0 <= at + samples < 40 else np.nan
         np.testing.assert_equal(found[at], wanted)
@@ -48,7 +48,7 @@ def test_polynomials_of_degree_five_are_kept_between_samples(samples, seed):
     coefficients = np.random.default_rng(seed).normal(size=6)
     place = np.linspace(-1, 1, 40)
     polynomial = np.polynomial.Polynomial(coefficients)
-    found = shifted(polynomial(place), samples)
+    found = shift(polynomial(place), samples)
     known = np.isfinite(found)
     assert known.sum() >= 40 - 5 - 6
     wanted = polynomial(place + samples * 2 / 39)
@@ -60,7 +60,7 @@ def test_polynomials_of_degree_five_are_kept_between_samples(samples, seed):
 def test_weights_are_one_over_the_variances(seed):
     rng = np.random.default_rng(seed)
     roads, sigmas = rng.normal(size=(2, COUNT)), rng.uniform(0.1, 2.0, (2, COUNT))
-    found, sigma = joined(roads, sigmas, (0.0, 0.0), DISTANCE)
+    found, sigma = join_roads(roads, sigmas, (0.0, 0.0), DISTANCE)
     np.testing.assert_allclose(found, np.average(roads, axis=0, weights=sigmas**-2.0))
     np.testing.assert_allclose(sigma, np.average(sigmas, axis=0, weights=sigmas**-2.0))
     assert (sigma <= sigmas.max(axis=0)).all()
@@ -71,11 +71,11 @@ def test_where_one_tyre_tells_nothing_the_other_does():
     sigmas = np.full(roads.shape, 1e-3)
     roads[0, 200:300] = np.nan
     sigmas[0, 400] = np.nan
-    found, sigma = joined(roads, sigmas, AXLES, DISTANCE)
+    found, sigma = join_roads(roads, sigmas, AXLES, DISTANCE)
     inner = slice(150, -150)
     np.testing.assert_allclose(found[inner], road_at(DISTANCE)[inner], atol=2e-6)
     assert np.isfinite(sigma[inner]).all()
-    alone, _ = joined(np.full(roads.shape, np.nan), sigmas, AXLES, DISTANCE)
+    alone, _ = join_roads(np.full(roads.shape, np.nan), sigmas, AXLES, DISTANCE)
     assert np.isnan(alone).all()
 
 
@@ -115,13 +115,13 @@ def test_what_cannot_be_joined_is_refused(changed, message):
 def test_distances_have_even_steps():
     uneven = np.array([0.0, 1.0, 2.5, 3.0])
     with pytest.raises(InputError, match="not in even steps above zero; resample them"):
-        joined([np.ones(4)] * 2, [np.ones(4)] * 2, AXLES, uneven)
+        join_roads([np.ones(4)] * 2, [np.ones(4)] * 2, AXLES, uneven)
 
 
 @pytest.mark.parametrize("x_m", [float("nan"), float("inf")])
 def test_tyres_have_a_place(x_m):
     with pytest.raises(InputError, match=rf"^tyres at -3\.19, {x_m:g} m; give finite numbers$"):
-        joined([np.ones(9)] * 2, [np.ones(9)] * 2, (-3.19, x_m), np.arange(9.0))
+        join_roads([np.ones(9)] * 2, [np.ones(9)] * 2, (-3.19, x_m), np.arange(9.0))
 
 
 @pytest.mark.parametrize(
@@ -129,14 +129,14 @@ def test_tyres_have_a_place(x_m):
 )
 def test_one_channel_is_shifted_by_a_number(values, samples):
     with pytest.raises(InputError, match="give one channel and a finite number"):
-        shifted(values, samples)
+        shift(values, samples)
 
 
 @pytest.mark.parametrize("ahead", [-2.5, -0.5, 0.5, 2.5])
 def test_between_two_samples_the_larger_sigma_counts(ahead):
     sigma = np.full(40, 1e-3)
     sigma[20] = 5e-3
-    _, found = joined([np.zeros(40)], [sigma], (ahead * STEP,), STEP * np.arange(40))
+    _, found = join_roads([np.zeros(40)], [sigma], (ahead * STEP,), STEP * np.arange(40))
     np.testing.assert_array_equal(
         np.flatnonzero(found > 3e-3), [20 + ahead - 0.5, 20 + ahead + 0.5]
     )

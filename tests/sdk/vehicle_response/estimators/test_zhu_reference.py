@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.vehicle_response import Freedom, Hold, Kind, Reading, Tyre
 from floatref.vehicle_response.estimators.joint_filter import JointInputState
-from floatref.vehicle_response.models.connections import Connection, connected
+from floatref.vehicle_response.models.connections import Connection, connect
 from floatref.vehicle_response.stages.denoising import remove_noise
 from floatref_reference.zhu_2021.section_3_discretization import first_order_system, system
 from floatref_reference.zhu_2021.section_3_joint_estimation import joint_input_state
@@ -33,7 +33,7 @@ def chain(rng, masses, tyres):
         )
         for i in range(masses - 1)
     ]
-    return connected(
+    return connect(
         "chain",
         list(zip(freedoms, 10 ** rng.uniform(1.5, 3, masses), strict=True)),
         [Tyre(end, stiffness=10 ** rng.uniform(5, 6)) for end in ends],

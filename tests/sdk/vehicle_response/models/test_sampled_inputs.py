@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.vehicle_response.models.state_space import Sampled, sampled, stationary_sigma
+from floatref.vehicle_response.models.state_space import Sampled, sample, stationary_sigma
 
 FEW = settings(deadline=None, max_examples=25)
 
@@ -21,7 +21,7 @@ def test_a_lag_of_any_stiffness_follows_a_polynomial_exactly(rate, step, degree,
     polynomial = np.polynomial.Polynomial(np.random.default_rng(seed).normal(size=degree + 1))
     # x' = rate·(w - x) has the solution Σ (-1/rate)^i w^(i), whatever w is.
     solution = sum((-1.0 / rate) ** i * polynomial.deriv(i) for i in range(degree + 1))
-    system = sampled(np.array([[-rate]]), np.array([[rate]]), step, degree)
+    system = sample(np.array([[-rate]]), np.array([[rate]]), step, degree)
     t = step * np.arange(10.0)
     w, x = polynomial(t), solution(t)
     for k in range(degree, 10):
@@ -32,7 +32,7 @@ def test_a_lag_of_any_stiffness_follows_a_polynomial_exactly(rate, step, degree,
 
 
 def test_a_system_without_springs_integrates():
-    system = sampled(np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), 0.5, 1)
+    system = sample(np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), 0.5, 1)
     np.testing.assert_allclose(system.transition, [[1.0, 0.5], [0.0, 1.0]])
     # Of an acceleration that goes from 1 to 0 and from 0 to 1 in half a second.
     np.testing.assert_allclose(system.taps[1, :, 0], [0.25 / 3.0, 0.25])
