@@ -96,9 +96,9 @@ def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
 
 def _read_written(job: Job, resume: bool) -> Record | None:
     """Return the record that a task has written for ``job`` but not returned, or None."""
-    from floatref.batch.work.task import kept
+    from floatref.batch.work.task import read_valid_record
 
-    found = kept(job)
+    found = read_valid_record(job)
     return found and replace(found, skipped=resume)
 
 

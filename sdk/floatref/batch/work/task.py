@@ -73,7 +73,7 @@ def run_job(job: Job, resume: bool = False) -> Record:
     error is stored in the record, and the profile of an earlier run is removed.
     """
     with _reports_apart():
-        old = kept(job) if resume else None
+        old = read_valid_record(job) if resume else None
         return _work(job) if old is None else old
 
 
@@ -97,7 +97,7 @@ def _reports_apart() -> Iterator[None]:
         del reports[count:]
 
 
-def kept(job: Job) -> Record | None:
+def read_valid_record(job: Job) -> Record | None:
     """Return the existing record of ``job`` if it is still valid; None if it must be redone."""
     try:
         old = read_record(job.record)

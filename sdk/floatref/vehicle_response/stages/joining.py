@@ -57,7 +57,7 @@ class JoinTyres(Stage):
         """Join the estimates of every wheel path."""
         values, flags = {}, {}
         for track, numbers in self.tyres.items():
-            elevation, sigma, marks = _join([_found(block, track, k) for k in numbers])
+            elevation, sigma, marks = _join([_find(block, track, k) for k in numbers])
             target = ChannelId(ELEVATION, track)
             values[target], values[ChannelId(SIGMA, track)] = elevation, sigma
             if marks.any():
@@ -69,7 +69,7 @@ class JoinTyres(Stage):
         return [(name(k), k) for k in numbers for name in (elevation_under, sigma_under)]
 
 
-def _found(block: Block, track: str, number: int) -> Found:
+def _find(block: Block, track: str, number: int) -> Found:
     elevation = ChannelId(elevation_under(number), track)
     sigma = ChannelId(sigma_under(number), track)
     marks = flags_of(block, elevation, sigma)
