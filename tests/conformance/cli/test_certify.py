@@ -3,7 +3,6 @@
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -232,13 +231,3 @@ def test_a_run_of_another_road_is_named(call: Callable[..., Result]) -> None:
     assert told["verdict"] == "FAIL"
     runs = {run["name"]: run for run in told["sections"][0]["runs"]}
     assert any("not on this road" in line for line in runs["other"]["said"])
-
-
-def test_wheel_paths_that_a_run_lacks(
-    call: Callable[..., Result], folder: Path, tmp_path: Path
-) -> None:
-    run = read_profile(folder / "runs" / "run-1")
-    write_profile(replace(run, tracks=run.tracks[:1]), tmp_path / "one")
-    told = document(call("runs", tmp_path / "one", "--json"))
-    runs = {run["name"]: run for run in told["sections"][0]["runs"]}
-    assert any("right" in line for line in (*runs["one"]["said"], runs["one"]["error"]))

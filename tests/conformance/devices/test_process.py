@@ -3,7 +3,6 @@
 import ctypes
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -221,18 +220,6 @@ def test_processes_of_others_are_left_alone(child):
         for one in (before, during):
             one.kill()
             one.wait()
-
-
-def test_an_interrupted_wait_leaves_no_process_behind(child):
-    program = child("escape(hang)\nask()\nos.kill(os.getppid(), signal.SIGINT)\nhang()")
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            asked(program)
-    finally:
-        signal.signal(signal.SIGINT, before)
-        program.kill()
-    assert not is_there(program._process.pid)
 
 
 @pytest.mark.slow

@@ -2,12 +2,12 @@
 
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 from itertools import pairwise
 from math import nan
 
 import numpy as np
 import pytest
+from tests.conformance.page_reader import HEADINGS, LEADING, Page
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
@@ -18,43 +18,6 @@ from floatref_conformance.judge.events import RunFinished, RunStarted
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render import text
 from floatref_conformance.render.html import HtmlReport, as_html
-
-VOID = {"meta", "link", "br", "hr", "img", "input"}
-LEADING = {"src", "href", "action", "data", "poster", "srcset", "formaction", "xlink:href"}
-HEADINGS = ("h1", "h2", "h3", "h4")
-
-
-class Page(HTMLParser):
-    """Collects the elements of a page, and what does not close as it opened."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.elements, self.open, self.crossed, self.words = [], [], [], []
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag, attributes):
-        self.elements.append((tag, dict(attributes)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.elements.append((tag, dict(attributes)))
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.crossed.append(tag)
-
-    def handle_data(self, data):
-        if not self.open or self.open[-1] != "style":
-            self.words.append(data)
-
-    def all(self, *tags):
-        return [attributes for tag, attributes in self.elements if tag in tags]
-
-    @property
-    def text(self):
-        return " ".join(" ".join(self.words).split())
 
 
 @pytest.fixture
@@ -227,10 +190,6 @@ def test_what_a_check_asks_is_told_with_its_limits_and_its_drawing(page, result,
         for part in (asked.title, asked.clause, asked.derivation, *asked.limits):
             assert " ".join(part.split()) in found.text
     assert len(found.all("svg")) == len(suite_checks)
-
-
-def test_one_result_makes_one_page(every, suite_checks):
-    assert as_html(every, suite_checks) == as_html(every, suite_checks)
 
 
 def test_the_report_explains_the_checks_of_its_run_and_replaces_an_older_one(

@@ -2,52 +2,15 @@
 
 import re
 from dataclasses import replace
-from html.parser import HTMLParser
 from itertools import pairwise
 
 import pytest
+from tests.conformance.page_reader import HEADINGS, LEADING, Page
 
 from floatref.errors import InputError
 from floatref_conformance.certify.judging.contents import Judged
 from floatref_conformance.certify.worksheet.page import as_html, write_page
 from floatref_conformance.render import text
-
-VOID = {"meta", "link", "br", "hr", "img", "input"}
-LEADING = {"src", "href", "action", "data", "poster", "srcset", "formaction", "xlink:href"}
-HEADINGS = ("h1", "h2", "h3", "h4")
-
-
-class Page(HTMLParser):
-    """Collects the elements and the words of a page, and what does not close as it opened."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.elements, self.open, self.crossed, self.words = [], [], [], []
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag, attributes):
-        self.elements.append((tag, dict(attributes)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.elements.append((tag, dict(attributes)))
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.crossed.append(tag)
-
-    def handle_data(self, data):
-        if not self.open or self.open[-1] != "style":
-            self.words.append(data)
-
-    def all(self, *tags):
-        return [attributes for tag, attributes in self.elements if tag in tags]
-
-    @property
-    def text(self):
-        return " ".join(" ".join(self.words).split())
 
 
 @pytest.fixture
