@@ -53,15 +53,15 @@ def main() -> None:
         learned = [profile.provenance["learned"] for profile in plain]
         found: list[list[float]] = [[], []]
         for number, (made, profile) in enumerate(zip(runs, plain, strict=True)):
-            others = combine_estimates([told for k, told in enumerate(learned) if k != number])
+            others = combine_estimates([run for k, run in enumerate(learned) if k != number])
             again = quietly(made[1].recording, OURS, others)
             for each, values in zip((profile, again), found, strict=True):
                 tracks = compared(made[1], each, made[0].where_m)
                 values += [track.cross_correlation for track in tracks]
-        told = ", ".join(f"{per_g(one['tilt_expected']):.2f}" for one in learned)
+        tilts = ", ".join(f"{per_g(one['tilt_expected']):.2f}" for one in learned)
         sigma = f"{per_g(combine_estimates(learned)['tilt_sigma']):.2f}"
         figures = [f"{f(values):.3f}" for values in found for f in (np.mean, np.min)]
-        table.add_row(name, f"{per_g(abs(float(own))):.2f}", told, sigma, *figures)
+        table.add_row(name, f"{per_g(abs(float(own))):.2f}", tilts, sigma, *figures)
     Console(width=150).print(table)
 
 

@@ -85,8 +85,8 @@ def keep():
         case = Case(check, Scenario(**{"iri_m_per_km": 6.0, **numbers}))
         path = folder / "cases" / f"{check}-1.json"
         path.parent.mkdir(parents=True, exist_ok=True)
-        told = document(case, device_class, "fake:bad", "too rough")
-        path.write_text(json.dumps({**told, "edition": edition}))
+        content = document(case, device_class, "fake:bad", "too rough")
+        path.write_text(json.dumps({**content, "edition": edition}))
         return path
 
     return make

@@ -54,8 +54,8 @@ def child(written, tmp_path):
 def test_a_device_has_our_environment_but_is_not_told_where_the_truth_is_kept(child, monkeypatch):
     monkeypatch.setenv("FLOATREF_CACHE", "/somewhere/secret")
     monkeypatch.setenv("OF_THE_VENDOR", "kept")
-    told = child("sys.stdin.readline()\nprint(json.dumps(dict(os.environ)), flush=True)")
-    found = json.loads(asked(told))
+    reporter = child("sys.stdin.readline()\nprint(json.dumps(dict(os.environ)), flush=True)")
+    found = json.loads(asked(reporter))
     assert found["OF_THE_VENDOR"] == "kept"
     assert not [name for name, value in found.items() if value == "/somewhere/secret"]
 

@@ -150,11 +150,11 @@ def test_a_device_may_choose_its_interval_as_long_as_it_carries_the_iri(
     assert result_of(plan(fake_device(interval_m=0.04))).verdict is Verdict.PASS
     close = plan(fake_device(interval_m=0.001), searching=False)
     assert result_of(close).verdict is Verdict.PASS
-    for told in (0.3, 0.00099):
-        refused = result_of(plan(fake_device(interval_m=told), searching=False))
+    for interval_m in (0.3, 0.00099):
+        refused = result_of(plan(fake_device(interval_m=interval_m), searching=False))
         assert refused.verdict is Verdict.FAIL
         assert refused.checks[0].outcome is Outcome.ERROR
-        assert f"interval_m is {told:g};" in refused.checks[0].reason
+        assert f"interval_m is {interval_m:g};" in refused.checks[0].reason
 
 
 def test_the_closest_interval_that_may_be_asked_for_may_be_delivered():

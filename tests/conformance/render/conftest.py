@@ -93,8 +93,8 @@ def kept():
     """Return a function that makes the entry of a case that was run again."""
 
     def make(outcome, reason="", file="stop-0000aaaa.json", value=1.5):
-        told = {"file": file, "check": "stop", "outcome": outcome.value, "reason": reason}
-        return {**told, "value": value, "limit": 1.0, "unit": "m/km"}
+        entry = {"file": file, "check": "stop", "outcome": outcome.value, "reason": reason}
+        return {**entry, "value": value, "limit": 1.0, "unit": "m/km"}
 
     return make
 

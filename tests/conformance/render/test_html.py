@@ -106,10 +106,10 @@ def test_no_value_is_shown_that_the_class_does_not_limit(page, check, result):
         371.2: "no value that class nominal limits was valid "
         "up to 371.2 m of a wheel path flagged invalid",
     }
-    for flagged_m, told in said.items():
+    for flagged_m, sentence in said.items():
         above = {DeviceClass.ADEQUATE: 0.08}
         words = page(result(check(Outcome.PASS, limits=above, flagged_m=flagged_m))).text
-        assert f"pass no limit {told} nominal 4" in words
+        assert f"pass no limit {sentence} nominal 4" in words
         assert "IRI error" not in words
         words = page(result(check(Outcome.PASS, flagged_m=flagged_m))).text
         assert "IRI error" in words
@@ -136,8 +136,8 @@ def test_a_failure_shows_numbers_picture_and_commands(page, check, result, stopp
         assert part in words
     left = stopped.result.track("left")
     flagged, missing = 0.05 * (~left.valid).sum(), np.isnan(left.elevation).sum()
-    told = f"{flagged:.1f} m are flagged invalid, {missing} points have no elevation."
-    assert f"{told} stop at 316 m" in words
+    sentence = f"{flagged:.1f} m are flagged invalid, {missing} points have no elevation."
+    assert f"{sentence} stop at 316 m" in words
 
 
 def test_what_the_check_scored_is_shaded_and_nothing_where_it_did_not_say(check, result):

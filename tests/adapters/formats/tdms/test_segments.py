@@ -48,10 +48,10 @@ def test_values_are_found_however_they_are_laid(
     flags, data, first = RAW | INTERLEAVED * interleaved, b"", 0
     for number, count in enumerate(chunks):
         part = columns[:, first : first + chunk * count]
-        told = not number or repeated
-        metadata = doubles(channels, chunk) if told else b""
+        stated = not number or repeated
+        metadata = doubles(channels, chunk) if stated else b""
         raw = laid(part, chunk, interleaved)
-        data += segment(flags | (META | NEW if told else 0), metadata, raw)
+        data += segment(flags | (META | NEW if stated else 0), metadata, raw)
         first += chunk * count
     cut = min(cut, len(raw) - 1)
     path.write_bytes(data[: len(data) - cut])
