@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 from bench_response import drive, show
-from bench_road_prior_limits import write_page
 from road_prior_measuring import quietly, truth
+from tables import write_page
 
 import floatref
 from floatref.measures import high_pass

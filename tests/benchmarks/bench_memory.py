@@ -65,7 +65,6 @@ def write_samples(folder: Path, seconds: float) -> None:
 
 
 def append(path: Path, samples: np.ndarray) -> None:
-    """Add ``samples`` to the file."""
     with path.open("ab") as stream:
         stream.write(samples.astype("<f8").tobytes())
 

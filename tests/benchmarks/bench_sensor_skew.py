@@ -43,7 +43,6 @@ def parts(recording: Recording) -> tuple[Channel, Channel, Channel]:
 
 
 def later(channel: Channel, by_s: float) -> Channel:
-    """Return the channel on a clock that is late by ``by_s``."""
     assert isinstance(channel.clock, UniformClock)
     return replace(channel, clock=UniformClock(channel.clock.rate, by_s))
 

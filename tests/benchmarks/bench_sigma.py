@@ -49,7 +49,6 @@ def compared(
 
 
 def row(run: str, seed: int, pipeline: str) -> list[str]:
-    """Return one line of the table."""
     simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)

@@ -100,7 +100,6 @@ def found(native: NativeFile) -> dict[str, tuple[np.ndarray, np.ndarray, str]]:
 def written(
     folder: Path, suffix: str, recording: Recording, quanta: Mapping[str, float] | None = None
 ) -> NativeFile:
-    """Return what is read of ``recording`` from a file with ``suffix``."""
     path = folder / f"run{suffix}"
     WRITERS[suffix](recording, path, quanta)
     reader = READERS.get(suffix, CsvTable())

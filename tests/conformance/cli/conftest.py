@@ -63,7 +63,6 @@ def registry(toy_check, devices):
 
 @pytest.fixture
 def call(monkeypatch, registry):
-    """Return a function that calls the command."""
     for module in MODULES:
         monkeypatch.setattr(module, "load_registry", lambda: registry)
     return lambda *words: CliRunner().invoke(main, [*map(str, words)])

@@ -25,7 +25,6 @@ FORMS = {"run.parquet": Parquet(), "run.arrow": ArrowIpc(), "run.arrows": ArrowI
 
 @pytest.fixture(params=list(FORMS))
 def form(request: pytest.FixtureRequest, tmp_path: Path, write_table: WriteTable):
-    """Return what writes a table in one of the forms and returns what is read of it."""
     adapter = FORMS[request.param]
 
     def read(table: pa.Table, **options: str) -> NativeFile:

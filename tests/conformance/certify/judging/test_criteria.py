@@ -17,7 +17,6 @@ NOISY_M = 3e-3
 
 
 def criterion(sheet, id_, track=""):
-    """Return the one criterion of that name."""
     (found,) = [c for c in sheet.criteria if (c.id, c.track) == (id_, track)]
     return found
 

@@ -49,7 +49,6 @@ def bounced():
 
 
 def on_truths_grid(simulated, change):
-    """Return the truth, filtered alike, with ``change`` of it."""
     interval = simulated.truth.interval_m
     tracks = tuple(
         ProfileTrack.of(t.name, change(high_pass(t.elevation, interval), simulated))
