@@ -13,7 +13,6 @@ import cProfile
 import importlib.util
 import sys
 from collections import Counter
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -102,8 +101,9 @@ def report_peers() -> None:
         steps = peers.Steps.of(run, c)
         found["filterpy"] = lambda: peers.by_filterpy(steps)
     for name, peer in found.items():
-        mine = partial(short.through, RoadPriorSmoother())
-        report_peer(name, short.samples, mine, peer, ours, rounds=3)
+        report_peer(
+            name, short.samples, lambda: short.through(RoadPriorSmoother()), peer, ours, rounds=3
+        )
 
 
 def main(length_m: float) -> None:
