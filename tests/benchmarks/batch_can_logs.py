@@ -56,7 +56,6 @@ def signal(channel: Channel) -> str:
 
 
 def chart(recording: Recording) -> str:
-    """Return the channel map."""
     lines = ['format = "floatref-map/1"', "[source]", f'dbc = "{DATABASE}"']
     lines += ["[setup]", f"profile_interval_m = {recording.setup.profile_interval_m}"]
     for channel in recording.channels:

@@ -69,7 +69,6 @@ class Item:
 
     @property
     def row(self) -> Mapping[str, str]:
-        """The line of the manifest."""
         said = {"map": self.chart, "pipeline": self.pipeline, "settings": self.settings}
         return MappingProxyType({"file": self.path, **said})
 
@@ -83,7 +82,6 @@ def plan(files: int, corrupt: int, seed: int) -> list[Item]:
 
 
 def item(draw: np.random.Generator, number: int, damage: Damage | None) -> Item:
-    """Return what is written as file ``number``."""
     suffix = SUFFIXES[number % len(SUFFIXES)]
     if damage is not None:
         suffix = str(draw.choice(damage.suffixes))
@@ -98,7 +96,6 @@ def item(draw: np.random.Generator, number: int, damage: Damage | None) -> Item:
 
 
 def write(entry: Item, folder: Path, seed: int, seconds: float | None) -> None:
-    """Write one file."""
     draw = np.random.default_rng([seed, entry.number])
     tracks = ("main",) if entry.chart else None
     in_can = entry.suffix in CAN_FORMATS

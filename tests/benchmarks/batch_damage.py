@@ -84,7 +84,6 @@ def laser(channel: Channel) -> bool:
 
 
 def as_it_is(recording: Recording) -> Recording:
-    """Return the recording."""
     return recording
 
 

@@ -33,7 +33,6 @@ class Sines:
     phases: Floats
 
     def at(self, where: Floats, derivative: int = 0) -> Floats:
-        """Return the sum or one of its derivatives at ``where``."""
         total = np.zeros_like(where)
         turned = self.phases + derivative * np.pi / 2
         for a, w, p in zip(self.amplitudes, self.frequencies, turned, strict=True):

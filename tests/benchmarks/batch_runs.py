@@ -100,7 +100,6 @@ def _watched(
 
 
 def records_in(out: Path) -> list[Path]:
-    """Return the records that are there."""
     folder = out / "records"
     if not folder.is_dir():
         return []

@@ -35,8 +35,6 @@ LEAST_RATIO = 1.7
 
 @dataclass
 class Bench:
-    """The corpus, and what was found."""
-
     work: Path
     items: list[Item]
     some: list[Item]
@@ -48,7 +46,6 @@ class Bench:
 
     @property
     def manifest(self) -> Path:
-        """What is given to the command."""
         return self.work / "corpus" / MANIFEST
 
     @property

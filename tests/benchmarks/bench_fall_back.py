@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from bench_response import drive, show
-from bench_road_prior_limits import write_page
+from bench_response import drive
 from road_prior_measuring import quietly, truth
+from tables import show, write_page
 
 import floatref
 from floatref.measures import high_pass
@@ -74,7 +74,7 @@ def main() -> None:
     parser.add_argument("--page", type=Path, help="Markdown page whose table is replaced")
     asked = parser.parse_args()
     table = lines(asked.draws)
-    show("RMS error at 72 km/h", COLUMNS, table)
+    show("RMS error at 72 km/h", COLUMNS, table, 120)
     if asked.page:
         write_page(asked.page, table, COLUMNS)
 

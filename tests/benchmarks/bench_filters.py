@@ -7,15 +7,16 @@ Prints medians and the ratio; below 1 is faster than the peer. Run as
 import statistics
 import sys
 import time
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import scipy.signal
+from timing import in_turns
 
 from floatref.measures.roughness.zero_phase import high_pass_b3x2
 
 INTERVAL_M, WAVELENGTH_M = 0.00508, 105.91
-ROUNDS = 31
+timed = partial(in_turns, rounds=31, clock=time.perf_counter)
 
 
 def sosfilt_twice(x: np.ndarray) -> np.ndarray:
@@ -24,23 +25,10 @@ def sosfilt_twice(x: np.ndarray) -> np.ndarray:
     return scipy.signal.sosfilt(sos, scipy.signal.sosfilt(sos, x)[::-1])[::-1]
 
 
-def in_turns(*calls: Callable[[], object]) -> list[list[float]]:
-    """Seconds of every call, taken in turns after one warm-up."""
-    for call in calls:
-        call()
-    times: list[list[float]] = [[] for _ in calls]
-    for _ in range(ROUNDS):
-        for call, taken in zip(calls, times, strict=True):
-            begin = time.perf_counter()
-            call()
-            taken.append(time.perf_counter() - begin)
-    return times
-
-
 def main(points: int) -> None:
     """Print both times and the median of the ratios, pair by pair."""
     x = np.random.default_rng(0).standard_normal(points).cumsum()
-    ours, peer = in_turns(
+    ours, peer = timed(
         lambda: high_pass_b3x2(x, INTERVAL_M, WAVELENGTH_M), lambda: sosfilt_twice(x)
     )
     ratio = statistics.median(a / b for a, b in zip(ours, peer, strict=True))

@@ -71,7 +71,6 @@ def iri_off(profile: Profile, reference: Profile) -> float:
 
 
 def nominal(recording: Recording) -> Recording:
-    """Return the nominal channels alone."""
     return replace(recording, channels=tuple(c for c in recording.channels if c.id.name in QUANTA))
 
 

@@ -24,7 +24,6 @@ def largest(cases: list[Case], wheel: int) -> float:
 
 
 def row(case: str, sensors: str, cases: list[Case], printed: str, wheel: int) -> list[str]:
-    """Return one line of the table."""
     error, height = largest(cases, wheel), float(np.abs(cases[0].road[:, wheel]).max())
     rms = max(float(np.sqrt(np.nanmean(each.error[:, wheel] ** 2))) for each in cases)
     share = f"{100.0 * error / height:.2f} %" if height else "–"

@@ -7,16 +7,17 @@ Prints medians and ratios; below 1 is faster than the peer. Run as
 import statistics
 import sys
 import time
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import scipy.signal
+from timing import in_turns
 
 from floatref.measures import cross_correlation, iri
 from floatref.measures.roughness.quarter_car import KMH
 
 INTERVAL_M = 0.00508
-ROUNDS = 7
+timed = partial(in_turns, rounds=7, clock=time.perf_counter)
 
 
 def road(points: int, seed: int) -> np.ndarray:
@@ -55,23 +56,12 @@ def scipy_correlation(p: np.ndarray, q: np.ndarray, largest: int) -> float:
     return float(middle.max() / (p.size * p.std() * q.std()))
 
 
-def median_times(*calls: Callable[[], object]) -> list[float]:
-    """Median seconds of every call, taken in turns."""
-    times: list[list[float]] = [[] for _ in calls]
-    for call in calls:
-        call()
-    for _ in range(ROUNDS):
-        for call, taken in zip(calls, times, strict=True):
-            begin = time.perf_counter()
-            call()
-            taken.append(time.perf_counter() - begin)
-    return [statistics.median(taken) for taken in times]
-
-
 def main(kilometres: float) -> None:
     """Print one line for each comparison."""
     z = road(int(kilometres * 1000 / INTERVAL_M), seed=1)
-    ours, peer = median_times(lambda: iri(z, INTERVAL_M), lambda: lfilter_iri(z, INTERVAL_M))
+    ours, peer = map(
+        statistics.median, timed(lambda: iri(z, INTERVAL_M), lambda: lfilter_iri(z, INTERVAL_M))
+    )
     print(f"IRI of {kilometres:g} km at {INTERVAL_M * 1000:g} mm ({z.size} points)")
     print(f"  value      {iri(z, INTERVAL_M):.9f} against {lfilter_iri(z, INTERVAL_M):.9f} m/km")
     print(f"  floatref   {ours / z.size * 1e9:8.2f} ns/point")
@@ -83,10 +73,11 @@ def main(kilometres: float) -> None:
 def compare_correlations(largest: int) -> None:
     """Print the times of a cross correlation over ±``largest`` lags."""
     p, q = (np.diff(road(31_674, seed)) for seed in (2, 3))
-    ours, peer = median_times(
+    taken = timed(
         lambda: cross_correlation(p, q, INTERVAL_M, largest * INTERVAL_M),
         lambda: scipy_correlation(p, q, largest),
     )
+    ours, peer = map(statistics.median, taken)
     print(f"cross correlation of {p.size} points over ±{largest} lags")
     print(f"  floatref   {ours * 1e3:8.2f} ms")
     print(f"  correlate  {peer * 1e3:8.2f} ms          ratio {ours / peer:.2f}")

@@ -11,11 +11,10 @@ medians and ratios, then how long whole processes take to start. Run as
 import ctypes
 import importlib.util
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
@@ -23,7 +22,7 @@ os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
 import kalman_peers as peers
 import numpy as np
 from kalman_task import TRACK, Prepared, Task
-from timing import RATE_HZ, in_turns, line, ratio, report_start
+from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
 from floatref.estimators.kalman import Noise, Plan
 from floatref.estimators.models.kalman_values import FORGET
@@ -101,28 +100,17 @@ def report_peers(prepared: Prepared) -> None:
     start, variance = task.x[:states], task.variance[:states]
     problem = peers.Problem(model[0], model[1], arm, process, start, variance, inputs, at, rows)
     print(f"at every sample, {short.samples / RATE_HZ:.1f} s, seven states, GNSS at 20 Hz")
+
+    def ours() -> object:
+        return short.smoothed(PLANS["kalman-smoother"], SEVEN_STATES)
+
+    # The first sample of a peer is where it starts.
+    expected = np.append(np.nan, task.height[1:])
     if importlib.util.find_spec("filterpy"):
-        report_peer("filterpy", short, task, lambda: peers.by_filterpy(problem), rounds=1)
+        by_filterpy = partial(peers.by_filterpy, problem)
+        report_peer("filterpy", short.samples, ours, by_filterpy, expected, rounds=1)
     if importlib.util.find_spec("jax"):
-        report_peer("JAX scan", short, task, peers.by_jax(problem), rounds=5)
-
-
-def report_peer(
-    name: str, short: Prepared, task: Task, peer: Callable[[], np.ndarray], rounds: int
-) -> None:
-    """Print the time of ``peer`` and how far its height is from ours."""
-    plan, found = PLANS["kalman-smoother"], []
-    ours, theirs = in_turns(
-        lambda: [short.smoothed(plan, SEVEN_STATES) for _ in range(3)],
-        lambda: found.append(peer()),
-        rounds=rounds,
-    )
-    apart = np.abs(found[-1][1:] - task.height[1:]).max()
-    print(
-        f"  {name:26} {statistics.median(theirs) / short.samples * 1e9:9.0f} ns/sample    "
-        f"{3 * ratio(theirs, ours):6.0f} of ours, {apart:.1e} m apart",
-        flush=True,
-    )
+        report_peer("JAX scan", short.samples, ours, peers.by_jax(problem), expected, rounds=5)
 
 
 def main(length_m: float) -> None:

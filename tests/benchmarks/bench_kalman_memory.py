@@ -20,6 +20,7 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+from timing import RUN
 
 import floatref
 from floatref.files import read_recording, write_recording
@@ -40,7 +41,6 @@ GROWING = ("gnss_height", "gnss_latitude", "gnss_longitude")
 BEGIN_S = 4.0
 """A piece begins so long after the first standstill, when the springs have come to rest."""
 AGREEMENT_M = 1e-5
-RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
 
 
 def past_two_stops(pipeline: str) -> Scenario:

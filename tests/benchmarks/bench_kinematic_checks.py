@@ -62,7 +62,6 @@ class Fault:
     words: tuple[str, ...]
 
     def applied(self, recording: Recording) -> Recording:
-        """Return the recording with the fault."""
         changed = (self.change(c) if c.id.name in self.names else c for c in recording.channels)
         return replace(recording, channels=tuple(changed))
 
@@ -73,7 +72,6 @@ def times(factor: float) -> Change:
 
 
 def exchanged(first: str, second: str) -> Fault:
-    """Return two channels exchanged."""
     twin = {first: second, second: first}
     return Fault(
         (first, second),
@@ -104,7 +102,6 @@ def gap(values: np.ndarray, at: int) -> None:
 
 
 def jump(values: np.ndarray, at: int) -> None:
-    """Jump by a metre."""
     values[at:] += 1.0
 
 
@@ -119,7 +116,6 @@ def unfixed(values: np.ndarray, at: int) -> None:
 
 
 def constant(values: np.ndarray, at: int) -> None:
-    """Measure nothing."""
     values[:] = 0.0
 
 

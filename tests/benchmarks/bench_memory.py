@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from timing import RUN
 
 RATE_HZ, COUNT_M, MEAN_SPEED_MPS = 16_000, 0.0003, 50 / 3.6
 CYCLE_S = (0.0, 85.0, 97.0, 105.0, 120.0)
@@ -28,7 +29,6 @@ POINT_BYTES = 9
 QUANTITIES = (("vertical_specific_force", "m/s^2"), ("height", "m"))
 TRACKS = ("left", "right")
 LIMIT_MB = 300
-RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
 
 
 def cruise_mps() -> float:
@@ -65,7 +65,6 @@ def write_samples(folder: Path, seconds: float) -> None:
 
 
 def append(path: Path, samples: np.ndarray) -> None:
-    """Add ``samples`` to the file."""
     with path.open("ab") as stream:
         stream.write(samples.astype("<f8").tobytes())
 

@@ -158,12 +158,10 @@ def adapter(form: str, path: Path) -> None:
 
 
 def ours(form: str, path: Path) -> None:
-    """Read ``path`` into a recording."""
     assert len(floatref.read_native(path).recording.channels) == 9
 
 
 def process(form: str, path: Path) -> None:
-    """Run the command."""
     from floatref.cli.main import main
 
     out = path.with_name("profile")

@@ -12,11 +12,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from bench_road_prior_limits import write_page
-from rich.console import Console
 from rich.progress import track as shown
-from rich.table import Table
 from road_prior_measuring import compared, quietly, stretch
+from tables import show, write_page
 
 import floatref
 from floatref.measures import cross_correlation, high_pass, iri_trace
@@ -211,16 +209,6 @@ def draw_figure(lines: list[list[str]], path: Path) -> None:
     figure.savefig(path, dpi=110)
 
 
-def show(title: str, columns: tuple[str, ...], lines: list[list[str]]) -> None:
-    """Print one table."""
-    table = Table(title=title)
-    for name in columns:
-        table.add_column(name, justify="right")
-    for cells in lines:
-        table.add_row(*cells)
-    Console(width=120).print(table)
-
-
 def main() -> None:
     """Print the tables, and write and draw what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -230,9 +218,9 @@ def main() -> None:
     asked = parser.parse_args()
     lines = [*by_speed(asked.draws), *by_error(asked.draws)]
     alone, apart = by_parameter(asked.draws), lines_apart(asked.draws)
-    show("Road from the vehicle's response", COLUMNS, lines)
-    show("One parameter off at 72 km/h, joint filter", ALONE_COLUMNS, alone)
-    show("Road in the wheels' line and in the laser's", APART_COLUMNS, apart)
+    show("Road from the vehicle's response", COLUMNS, lines, 120)
+    show("One parameter off at 72 km/h, joint filter", ALONE_COLUMNS, alone, 120)
+    show("Road in the wheels' line and in the laser's", APART_COLUMNS, apart, 120)
     if asked.page:
         write_page(asked.page, lines, COLUMNS)
         write_page(asked.page, alone, ALONE_COLUMNS)

@@ -11,16 +11,14 @@ ratios, where the time of the stage goes, and how long whole processes take to s
 
 import cProfile
 import importlib.util
-import statistics
 import sys
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import road_prior_peers as peers
 from kalman_task import TRACK, Prepared
-from timing import RATE_HZ, in_turns, line, ratio, report_start
+from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
 import floatref
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
@@ -98,28 +96,14 @@ def report_peers() -> None:
     ours = np.concatenate([block[ChannelId(REFERENCE_HEIGHT, TRACK)] for block in blocks])
     ours -= short.blocks[0][ChannelId("height", TRACK)][0]
     print(f"at every sample, {short.samples / RATE_HZ:.1f} s of a stop, six states")
-    report_peer("literal reference", short, ours, lambda: peers.by_reference(run, c))
+    found = {"literal reference": lambda: peers.by_reference(run, c)}
     if importlib.util.find_spec("filterpy"):
         steps = peers.Steps.of(run, c)
-        report_peer("filterpy", short, ours, lambda: peers.by_filterpy(steps))
-
-
-def report_peer(
-    name: str, short: Prepared, ours: np.ndarray, peer: Callable[[], np.ndarray]
-) -> None:
-    """Print the time of ``peer``, how many times ours that is, and how far apart both are."""
-    found: list[np.ndarray] = []
-    mine, theirs = in_turns(
-        lambda: [short.through(RoadPriorSmoother()) for _ in range(3)],
-        lambda: found.append(peer()),
-        rounds=3,
-    )
-    apart = np.abs(found[-1] - ours).max()
-    print(
-        f"  {name:26} {statistics.median(theirs) / short.samples * 1e9:9.0f} ns/sample    "
-        f"{3 * ratio(theirs, mine):6.0f} of ours, {apart:.1e} m apart",
-        flush=True,
-    )
+        found["filterpy"] = lambda: peers.by_filterpy(steps)
+    for name, peer in found.items():
+        report_peer(
+            name, short.samples, lambda: short.through(RoadPriorSmoother()), peer, ours, rounds=3
+        )
 
 
 def main(length_m: float) -> None:

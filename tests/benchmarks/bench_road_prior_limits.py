@@ -11,15 +11,13 @@ the axis, not of the elevation. Run as
 
 import argparse
 import json
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 from road_prior_adversities import Adversity, adversities
 from road_prior_measuring import OURS, Row, measured, quietly, simulated, stretch, truth
+from tables import show, write_page
 
 from floatref.measures import high_pass
 
@@ -45,20 +43,6 @@ def cells(rows: Sequence[Row]) -> list[str]:
     else:
         line += ["refused"] * 5
     return line + [f"{o.mean('cross_correlation'):.3f}" if o.found else "refused" for o in others]
-
-
-def write_page(
-    page: Path, lines: Sequence[Sequence[str]], columns: Sequence[str] = COLUMNS
-) -> None:
-    """Put ``lines`` in place of the table of a Markdown page that has these columns."""
-    begin = f"| {' | '.join(columns)} |\n"
-    table = begin + "|---|---" + "|---:" * (len(columns) - 2) + "|\n"
-    table += "".join(f"| {' | '.join(line)} |\n" for line in lines)
-    text = page.read_text(encoding="utf-8")
-    found = re.compile(re.escape(begin) + r"(\|.*\n)+")
-    if not found.search(text):
-        raise SystemExit(f"{page}: no table with the columns {', '.join(columns)}")
-    page.write_text(found.sub(lambda _: table, text), encoding="utf-8")
 
 
 def draw(cases: Sequence[Adversity], settings: dict[str, float], path: Path) -> None:
@@ -94,7 +78,6 @@ def number(text: str) -> tuple[str, float]:
 
 
 def arguments() -> argparse.Namespace:
-    """Return what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="one seed, every kind's worst alone")
     parser.add_argument("--seeds", type=int, default=2)
@@ -109,7 +92,7 @@ def arguments() -> argparse.Namespace:
 def main() -> None:
     """Print a line for each case as it is there, and the table."""
     given, lines, figures = arguments(), [], []
-    settings, console = dict(given.set), Console(width=150)
+    settings = dict(given.set)
     only = tuple(given.only) or (DRAWN if given.plot else ())
     cases = [case for case in adversities() if not only or case.kind.startswith(only)]
     if given.quick or (given.plot and not given.only):
@@ -124,14 +107,10 @@ def main() -> None:
         print(" | ".join(lines[-1]), flush=True)
         if given.json:
             given.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    table = Table(title=f"Cross correlation with the road; ! below {LEAST}. {settings or ''}")
-    for name in COLUMNS:
-        table.add_column(name, justify="left" if name in COLUMNS[:2] else "right")
-    for line in lines:
-        table.add_row(*line)
-    console.print(table)
+    title = f"Cross correlation with the road; ! below {LEAST}. {settings or ''}"
+    show(title, COLUMNS, lines, 150)
     if given.page:
-        write_page(given.page, lines)
+        write_page(given.page, lines, COLUMNS)
 
 
 if __name__ == "__main__":

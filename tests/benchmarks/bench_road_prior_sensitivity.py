@@ -15,12 +15,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from bench_road_prior_limits import write_page
-from rich.console import Console
-from rich.table import Table
 from road_prior_adversities import STOP, Adversity, stop
 from road_prior_changes import crack, injured
 from road_prior_measuring import OURS, Found, compared, quietly, simulated
+from tables import show, write_page
 
 from floatref.builtin_pipelines.road_prior import CONSTANTS, EXPECTED, ROAD_PRIOR
 from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
@@ -87,7 +85,6 @@ class Row:
 
 
 def of_run(name: str) -> Adversity:
-    """Return a run of the table."""
     place = RUNS[name].event_location_m
     assert place is not None
     scenario = scenario_of_run(name, imu=False, gnss=False)
@@ -118,7 +115,6 @@ def driven(case: Adversity) -> Simulation:
 
 
 def label(case: Adversity) -> str:
-    """Return the name of a case."""
     return f"{case.kind}, {case.severity}".rstrip(", ")
 
 
@@ -135,7 +131,6 @@ def values(only: tuple[str, ...]) -> Iterator[tuple[str, float, float]]:
 def measured(
     made: Mapping[str, tuple[Simulation, float]], name: str, value: float, factor: float
 ) -> Row:
-    """Return the row of constant ``name`` at ``value``."""
     found = {}
     settings = {name: value} if name in CONSTANTS else {}
     for case, (simulation, where_m) in made.items():
@@ -145,7 +140,6 @@ def measured(
 
 
 def cells(warnings: Mapping[str, Any]) -> list[str]:
-    """Return one line of the table."""
     line = [f"`{warnings['constant']}`", f"{warnings['value']:.3g} ({warnings['factor']:.2g} ×)"]
     if warnings["constant"] == USUAL:
         line = [USUAL, ""]
@@ -157,7 +151,6 @@ def cells(warnings: Mapping[str, Any]) -> list[str]:
 
 
 def arguments() -> argparse.Namespace:
-    """Return what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", default=[], help="begins of constants")
     parser.add_argument("--json", type=Path, help="figures, written as they come")
@@ -177,12 +170,7 @@ def main() -> None:
         print(" | ".join(lines[-1]), flush=True)
         if given.json:
             given.json.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    table = Table(title="Cross correlation with the road, one constant changed at a time")
-    for name in COLUMNS:
-        table.add_column(name, justify="left" if name in COLUMNS[:2] else "right")
-    for line in lines:
-        table.add_row(*line)
-    Console(width=150).print(table)
+    show("Cross correlation with the road, one constant changed at a time", COLUMNS, lines, 150)
     if given.page:
         write_page(given.page, lines, COLUMNS)
 

@@ -10,10 +10,9 @@ springs. Run as
 from math import degrees
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 from road_prior_adversities import Adversity, stop
 from road_prior_measuring import OURS, compared, quietly, simulated
+from tables import show
 
 from floatref.cli.vehicle import combine_estimates
 from floatref.values.channels import STANDARD_GRAVITY
@@ -43,9 +42,7 @@ def case(name: str, number: int) -> tuple[Adversity, Simulation]:
 
 def main() -> None:
     """Print a line for each vehicle."""
-    table = Table(title="What a run learns of its vehicle")
-    for column in COLUMNS:
-        table.add_column(column)
+    lines = []
     for name, vehicle in VEHICLES.items():
         own = np.linalg.solve(vehicle.stiffness(), vehicle.forcing()[:, ALONG])[PITCH]
         runs = [case(name, number) for number in range(len(STOPS))]
@@ -53,16 +50,16 @@ def main() -> None:
         learned = [profile.provenance["learned"] for profile in plain]
         found: list[list[float]] = [[], []]
         for number, (made, profile) in enumerate(zip(runs, plain, strict=True)):
-            others = combine_estimates([told for k, told in enumerate(learned) if k != number])
+            others = combine_estimates([run for k, run in enumerate(learned) if k != number])
             again = quietly(made[1].recording, OURS, others)
             for each, values in zip((profile, again), found, strict=True):
                 tracks = compared(made[1], each, made[0].where_m)
                 values += [track.cross_correlation for track in tracks]
-        told = ", ".join(f"{per_g(one['tilt_expected']):.2f}" for one in learned)
+        tilts = ", ".join(f"{per_g(one['tilt_expected']):.2f}" for one in learned)
         sigma = f"{per_g(combine_estimates(learned)['tilt_sigma']):.2f}"
         figures = [f"{f(values):.3f}" for values in found for f in (np.mean, np.min)]
-        table.add_row(name, f"{per_g(abs(float(own))):.2f}", told, sigma, *figures)
-    Console(width=150).print(table)
+        lines.append([name, f"{per_g(abs(float(own))):.2f}", tilts, sigma, *figures])
+    show("What a run learns of its vehicle", COLUMNS, lines, 150)
 
 
 if __name__ == "__main__":

@@ -43,7 +43,6 @@ def parts(recording: Recording) -> tuple[Channel, Channel, Channel]:
 
 
 def later(channel: Channel, by_s: float) -> Channel:
-    """Return the channel on a clock that is late by ``by_s``."""
     assert isinstance(channel.clock, UniformClock)
     return replace(channel, clock=UniformClock(channel.clock.rate, by_s))
 
@@ -62,10 +61,10 @@ def run_row(name: str) -> str:
         if skew_warning(skew, force, shifted):
             warned.append(f"{shift_ms:+g}")
     if not found.known:
-        told = f"open, {1e3 * found.sigma_s:.2f}" if found.sigma_s > 0 else "open, no such moment"
-        return f"| {name} | {told} | | {', '.join(warned) or '–'} |"
-    told = f"{1e3 * found.skew_s:+.3f} ± {1e3 * found.sigma_s:.3f}"
-    return f"| {name} | {told} | {1e3 * max(errors):.3f} | {', '.join(warned) or '–'} |"
+        figure = f"open, {1e3 * found.sigma_s:.2f}" if found.sigma_s > 0 else "open, no such moment"
+        return f"| {name} | {figure} | | {', '.join(warned) or '–'} |"
+    figure = f"{1e3 * found.skew_s:+.3f} ± {1e3 * found.sigma_s:.3f}"
+    return f"| {name} | {figure} | {1e3 * max(errors):.3f} | {', '.join(warned) or '–'} |"
 
 
 def drawn_stops() -> Iterator[tuple[str, Recording]]:

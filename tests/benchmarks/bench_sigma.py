@@ -39,9 +39,9 @@ def compared(
     """Yield errors in m, and sigma: along the encoder's distance, and along the true one."""
     motion, name = simulation.motion, track.name
     encoder = simulation.recording.channel("distance")
-    told = np.interp(motion.times_s, encoder.times_s, encoder.values)
+    encoder_m = np.interp(motion.times_s, encoder.times_s, encoder.values)
     points = interval_m * np.arange(track.elevation.size)
-    for axis in (told, motion.distance):
+    for axis in (encoder_m, motion.distance):
         truth = high_pass(np.interp(points, axis, motion.tracks[name].road_m), interval_m)
         inside = slice(round(RUN_IN_M / interval_m), -round(RUN_IN_M / interval_m))
         assert track.sigma is not None
@@ -49,7 +49,6 @@ def compared(
 
 
 def row(run: str, seed: int, pipeline: str) -> list[str]:
-    """Return one line of the table."""
     simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)

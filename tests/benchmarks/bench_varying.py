@@ -12,9 +12,11 @@ import sys
 import time
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import scipy.signal
+from timing import in_turns
 
 from floatref.intake.blocks import BLOCK
 from floatref.kernels.schedule import frequencies, tangents
@@ -27,7 +29,7 @@ from floatref.values.channels import ChannelId
 
 ELEVATION, SPEED = ChannelId("elevation", "main"), ChannelId("travel_speed")
 RATE_HZ, CUTOFF_HZ = 16_000.0, 0.05
-ROUNDS = 15
+timed = partial(in_turns, rounds=15, clock=time.perf_counter)
 PIECE = 16_384
 """Samples taken together, so that what lies between two loops stays in the cache."""
 CONSTANTS = 0.45, 105.91, 2.778, 2.5
@@ -70,19 +72,6 @@ def staged(x: np.ndarray, speed: np.ndarray) -> None:
         backward.push(there.pop())
 
 
-def in_turns(*calls: Callable[[], object]) -> list[list[float]]:
-    """Seconds of every call, taken in turns after one warm-up."""
-    for call in calls:
-        call()
-    times: list[list[float]] = [[] for _ in calls]
-    for _ in range(ROUNDS):
-        for call, taken in zip(calls, times, strict=True):
-            begin = time.perf_counter()
-            call()
-            taken.append(time.perf_counter() - begin)
-    return times
-
-
 def main(samples: int) -> None:
     """Report what the filter costs on arrays, and in the stages of a pipeline."""
     speed = drive(samples)
@@ -95,7 +84,7 @@ def main(samples: int) -> None:
 
 def report(name: str, ours: Callable[[], object], sos: np.ndarray, x: np.ndarray) -> None:
     """Print ours beside the peer and the median of their ratios."""
-    times, peer = in_turns(ours, lambda: scipy.signal.sosfiltfilt(sos, x))
+    times, peer = timed(ours, lambda: scipy.signal.sosfiltfilt(sos, x))
     ratio = statistics.median(a / b for a, b in zip(times, peer, strict=True))
     print(
         f"  {name}  floatref {statistics.median(times) / x.size * 1e9:6.2f} ns/sample"

@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import zhu_simulation as zhu
-from bench_road_prior_limits import write_page
-from rich.console import Console
-from rich.table import Table
+from tables import show, write_page
 
 from floatref.vehicle_response import Hold
 
@@ -96,7 +94,6 @@ def at_speed(speed: float, rate_hz: float, length_m: float = 400.0) -> tuple[zhu
 
 
 def band_ratios(waves: zhu.Array, density: zhu.Array, other: zhu.Array) -> list[float]:
-    """Return the ratio of two densities' power in every band."""
     inside = [(waves >= low) & (waves < high) for low, high in pairwise(BANDS)]
     return [float(density[i].sum() / other[i].sum()) for i in inside]
 
@@ -108,16 +105,6 @@ def speeds() -> list[list[str]]:
         ratios = band_ratios(*at_speed(speed, rate_hz))
         lines.append([f"{speed:g} m/s", f"{rate_hz:g} Hz", *(f"{r:.2f}" for r in ratios)])
     return lines
-
-
-def show(title: str, columns: tuple[str, ...], lines: list[list[str]]) -> None:
-    """Print one table."""
-    table = Table(title=title)
-    for name in columns:
-        table.add_column(name, justify="right")
-    for line in lines:
-        table.add_row(*line)
-    Console(width=110).print(table)
 
 
 def draw(path: Path) -> None:
@@ -164,7 +151,6 @@ def _draw_spectra(density: "Axes", ratio: "Axes") -> None:
 
 
 def arguments() -> argparse.Namespace:
-    """Return what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--plot", type=Path, help="figure to draw")
@@ -185,7 +171,7 @@ def main() -> None:
         ("Power of the estimate over that of the road, by band", BAND_COLUMNS, speeds()),
     ]
     for title, columns, lines in tables:
-        show(title, columns, lines)
+        show(title, columns, lines, 110)
         if asked.page:
             write_page(asked.page, lines, columns)
     if asked.plot:

@@ -117,7 +117,6 @@ def drive(road: Road) -> tuple[FloatArray, FloatArray, FloatArray]:
 def read(
     displacements: FloatArray, accelerations: FloatArray, sensors: Sensors, seed: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Return what the sensors tell of a drive."""
     rng = np.random.default_rng(seed)
     arm = np.array([1.0, 1.0, 1.0, IMINE_TRAILER.half_track_m, IMINE_TRAILER.half_track_m])
     y = displacements * arm * (1.0 + sensors.scale * rng.choice([-1.0, 1.0], 5))

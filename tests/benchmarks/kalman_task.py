@@ -31,8 +31,6 @@ TRACK = "left"
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """What the stage is pushed."""
-
     header: Header
     blocks: list[Block]
 
@@ -55,11 +53,9 @@ class Prepared:
         return sum(map(len, self.blocks))
 
     def smoothed(self, plan: Plan, noise: Noise, **options: float) -> list[Block]:
-        """Run the stage."""
         return self.through(KalmanSmoother(plan, noise, **options))
 
     def through(self, stage: Stage) -> list[Block]:
-        """Return what ``stage`` makes of the blocks."""
         stage.start(self.header)
         pushed = [stage.push(block) for block in self.blocks]
         return [*pushed, *stage.finish()]

@@ -97,7 +97,6 @@ def of_the_drive() -> Iterator[Adversity]:
 
 
 def of_the_road() -> Iterator[Adversity]:
-    """Yield what roads do."""
     for depth_mm in (5.0, 20.0, 50.0):
         yield Adversity("crack under the laser", f"{depth_mm:g} mm deep", road=crack(depth_mm))
     for percent in (6.0, 12.0, 20.0):

@@ -124,8 +124,8 @@ def injured(fault: str, seconds: float, ahead_m: float = 0.0) -> Change:
 
     def hurt(simulation: Simulation) -> floatref.Recording:
         motion, whole = simulation.motion, simulation.recording
-        told = whole.channel("distance").values[np.argmax(motion.distance >= STOP_M - ahead_m)]
-        numbers = {"at_m": float(told), "length_s": seconds, "fault": fault}
+        encoder_m = whole.channel("distance").values[np.argmax(motion.distance >= STOP_M - ahead_m)]
+        numbers = {"at_m": float(encoder_m), "length_s": seconds, "fault": fault}
         spoilt = SENSOR_FAULTS[fault](whole, numbers).recording
         if fault.startswith("encoder"):
             return spoilt

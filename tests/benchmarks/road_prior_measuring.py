@@ -52,7 +52,6 @@ class Row:
     found: tuple[Found, ...]
 
     def mean(self, name: str) -> float:
-        """Return the mean of a figure."""
         return float(np.mean([getattr(each, name) for each in self.found]))
 
     def summary(self) -> dict[str, Any]:
@@ -139,7 +138,6 @@ def quietly(
 
 
 def measured(case: Adversity, seeds: int, settings: dict[str, float]) -> list[Row]:
-    """Return a row for each pipeline."""
     found: dict[str, list[Found]] = {name: [] for name in (OURS, *OTHERS)}
     for seed in range(seeds):
         made = simulated(case, seed)

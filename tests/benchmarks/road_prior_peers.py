@@ -50,7 +50,6 @@ def signals(header: Header, block: Block, prior: RoadPrior) -> Recorded:
 
 
 def constants(prior: RoadPrior) -> Constants:
-    """Return the constants of the literal smoother."""
     return Constants(
         prior.acceleration,
         prior.acceleration_walk,
@@ -81,7 +80,6 @@ class Steps:
 
     @classmethod
     def of(cls, run: Recorded, c: Constants) -> "Steps":
-        """Return those of ``run``."""
         steps = range(run.t.size - 1)
         f = np.array([model.transition(run, k, c) for k in steps])
         q = np.array([model.process_noise(run, k, c) for k in steps])

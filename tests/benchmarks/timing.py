@@ -1,4 +1,4 @@
-"""Clocks that the benchmarks of the smoothers share."""
+"""Clocks that the benchmarks share."""
 
 import os
 import statistics
@@ -9,6 +9,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 import floatref
 from floatref.files import write_recording
 
@@ -16,16 +18,20 @@ RATE_HZ, ROUNDS = 16_000, 9
 RUN = "import sys; from floatref.cli.main import main; sys.exit(main())"
 
 
-def in_turns(*calls: Callable[[], object], rounds: int = ROUNDS) -> list[list[float]]:
-    """Processor seconds of every call, taken in turns after one warm-up."""
+def in_turns(
+    *calls: Callable[[], object],
+    rounds: int = ROUNDS,
+    clock: Callable[[], float] = time.process_time,
+) -> list[list[float]]:
+    """Seconds of every call, of the processor unless told else, in turns after one warm-up."""
     for call in calls:
         call()
     times: list[list[float]] = [[] for _ in calls]
     for _ in range(rounds):
         for call, taken in zip(calls, times, strict=True):
-            begin = time.process_time()
+            begin = clock()
             call()
-            taken.append(time.process_time() - begin)
+            taken.append(clock() - begin)
     return times
 
 
@@ -38,6 +44,27 @@ def line(times: list[float], count: int) -> str:
     """Median as time per sample, and as a multiple of real time."""
     each = statistics.median(times) / count
     return f"{each * 1e9:6.1f} ns/sample {1 / RATE_HZ / each:6.0f} x real time"
+
+
+def report_peer(
+    name: str,
+    samples: int,
+    ours: Callable[[], object],
+    peer: Callable[[], np.ndarray],
+    expected: np.ndarray,
+    rounds: int,
+) -> None:
+    """Print the time of ``peer``, how many times ours that is, and how far apart both are."""
+    found: list[np.ndarray] = []
+    mine, theirs = in_turns(
+        lambda: [ours() for _ in range(3)], lambda: found.append(peer()), rounds=rounds
+    )
+    apart = np.nanmax(np.abs(found[-1] - expected))
+    print(
+        f"  {name:26} {statistics.median(theirs) / samples * 1e9:9.0f} ns/sample    "
+        f"{3 * ratio(theirs, mine):6.0f} of ours, {apart:.1e} m apart",
+        flush=True,
+    )
 
 
 def report_start(recording: floatref.Recording, pipeline: str) -> None:

@@ -235,5 +235,4 @@ def events_of():
 
 @pytest.fixture
 def result_of(events_of):
-    """Return a function that runs a plan and returns its result."""
     return lambda planned: events_of(planned)[1]

@@ -61,9 +61,9 @@ def test_what_is_written_is_read_back(tmp_path_factory, case, device_class, reas
 @settings(deadline=None, max_examples=100)
 @given(cases())
 def test_a_case_is_told_by_what_differs_from_the_defaults_alone(case):
-    told = case.parameters["scenario"]
-    assert all(getattr(Scenario(), name) != getattr(case.scenario, name) for name in told)
-    assert not set(told) & set(CHANNELS_BY_NEED)
+    parameters = case.parameters["scenario"]
+    assert all(getattr(Scenario(), name) != getattr(case.scenario, name) for name in parameters)
+    assert not set(parameters) & set(CHANNELS_BY_NEED)
     assert Case.of(case.check, json.loads(json.dumps(case.parameters))) == case
 
 

@@ -70,8 +70,8 @@ def along_encoder(run: str, pipeline: str) -> list[np.ndarray]:
     for seed in SEEDS:
         simulation = simulated(run, seed)
         encoder = simulation.recording.channel("distance")
-        told = np.interp(simulation.motion.times_s, encoder.times_s, encoder.values)
-        found.append(ratios(simulation, pipeline, told, distance_scale_sigma=NO_SCALE))
+        encoder_m = np.interp(simulation.motion.times_s, encoder.times_s, encoder.values)
+        found.append(ratios(simulation, pipeline, encoder_m, distance_scale_sigma=NO_SCALE))
     return found
 
 

@@ -49,8 +49,8 @@ def test_limits_are_those_of_the_classes() -> None:
     for id_, field in names.items():
         for cell, device_class in zip(rows[id_][1:4], DeviceClass, strict=True):
             limit = getattr(limits_of(device_class), field)
-            told = None if cell == "reported" else float(cell.split()[0])
-            assert told == limit, (id_, device_class)
+            shown = None if cell == "reported" else float(cell.split()[0])
+            assert shown == limit, (id_, device_class)
     assert set(rows["coverage"][1:4]) == {f"{MISSING_PERCENT:g} %"}
 
 

@@ -25,9 +25,9 @@ def test_every_kind_of_device_is_shown():
 
 def test_exit_codes_are_those_of_the_verdicts():
     for verdict in Verdict:
-        told = re.search(rf"\*\*{verdict.value}\*\* \((?:exit code )?(\d)", PAGE)
-        assert told is not None
-        assert int(told[1]) == verdict.exit_code
+        shown = re.search(rf"\*\*{verdict.value}\*\* \((?:exit code )?(\d)", PAGE)
+        assert shown is not None
+        assert int(shown[1]) == verdict.exit_code
 
 
 def test_the_number_of_hangs_is_the_judges():

@@ -56,7 +56,6 @@ def test_every_point_is_in_the_signal_flows_of_the_architecture_page() -> None:
 
 
 def stages_at(plugins: Plugins, name: str, point: str) -> list[Stage]:
-    """Return what runs at ``point`` of pipeline ``name``."""
     header = Header(Axis.TIME, 1e-3, 0.0, Fraction(1000), frozenset({ELEVATION}), tracks=("main",))
     pipeline = plugins.pipeline(name)
     return list(plugins.ask(Context(point, pipeline, pipeline.resolve({}), header, origin_m=0.0)))

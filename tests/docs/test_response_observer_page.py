@@ -18,7 +18,6 @@ TEXT = " ".join(PAGE.split())
 
 @pytest.fixture
 def cases(monkeypatch):
-    """Return the module of the cases."""
     monkeypatch.syspath_prepend(str(ROOT / "tests" / "benchmarks"))
     return importlib.import_module("imine_cases")
 

@@ -34,11 +34,11 @@ def test_figures_are_those_measured(row):
     ours = CELLS[kind, severity, OURS]
     found = [float(mean), float(lowest.strip(" !")), float(iri), float(within), float(valid)]
     names = ("cross_correlation", "lowest", "iri_error_percent", "within_percent", "valid_percent")
-    for told, name, last in zip(found, names, (1e-3, 1e-3, 0.1, 0.1, 0.1), strict=True):
-        assert told == pytest.approx(ours[name], abs=0.51 * last + 1e-4)
-    for told, name in zip(others, OTHERS, strict=True):
+    for shown, name, last in zip(found, names, (1e-3, 1e-3, 0.1, 0.1, 0.1), strict=True):
+        assert shown == pytest.approx(ours[name], abs=0.51 * last + 1e-4)
+    for shown, name in zip(others, OTHERS, strict=True):
         cell = CELLS[kind, severity, name]
-        assert float(told) == pytest.approx(cell["cross_correlation"], abs=6.1e-4)
+        assert float(shown) == pytest.approx(cell["cross_correlation"], abs=6.1e-4)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: ", ".join(row[:2]))

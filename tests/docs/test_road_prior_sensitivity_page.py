@@ -31,29 +31,31 @@ def test_every_constant_has_two_rows_of_values_about_its_default() -> None:
             assert each["value"] == pytest.approx(each["factor"] * defaults[name])
 
 
-@pytest.mark.parametrize(("row", "told"), list(zip(ROWS, (USUAL, *CHANGED), strict=True)))
-def test_figures_are_those_measured(row: tuple[str, ...], told: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("row", "measured"), list(zip(ROWS, (USUAL, *CHANGED), strict=True)))
+def test_figures_are_those_measured(row: tuple[str, ...], measured: dict[str, Any]) -> None:
     name, value, lowest, median, loss, of, iri, within, fewest = row
-    assert name.strip("`") == told["constant"]
-    if told is not USUAL:
-        assert float(value.split()[0]) == pytest.approx(told["value"], rel=5e-3)
+    assert name.strip("`") == measured["constant"]
+    if measured is not USUAL:
+        assert float(value.split()[0]) == pytest.approx(measured["value"], rel=5e-3)
     for cell, figure in ((lowest, "lowest"), (median, "median"), (loss, "largest_loss")):
-        assert float(cell) == pytest.approx(max(told[figure], 0.0), abs=6e-4)
-    assert of in ("", told["of"])
-    figures = [told[f"{each}_percent"] for each in ("iri_error", "within", "fewest")]
+        assert float(cell) == pytest.approx(max(measured[figure], 0.0), abs=6e-4)
+    assert of in ("", measured["of"])
+    figures = [measured[f"{each}_percent"] for each in ("iri_error", "within", "fewest")]
     assert [float(cell) for cell in (iri, within, fewest)] == pytest.approx(figures, abs=0.051)
 
 
-@pytest.mark.parametrize("told", CHANGED, ids=lambda told: f"{told['constant']}-{told['factor']}")
-def test_the_largest_loss_is_that_of_the_cases(told: dict[str, Any]) -> None:
-    losses = {name: USUAL["cases"][name] - own for name, own in told["cases"].items()}
-    assert told["largest_loss"] == pytest.approx(max(losses.values()), abs=2e-4)
-    assert told["largest_loss"] == pytest.approx(losses[told["of"]], abs=2e-4)
+@pytest.mark.parametrize(
+    "measured", CHANGED, ids=lambda measured: f"{measured['constant']}-{measured['factor']}"
+)
+def test_the_largest_loss_is_that_of_the_cases(measured: dict[str, Any]) -> None:
+    losses = {name: USUAL["cases"][name] - own for name, own in measured["cases"].items()}
+    assert measured["largest_loss"] == pytest.approx(max(losses.values()), abs=2e-4)
+    assert measured["largest_loss"] == pytest.approx(losses[measured["of"]], abs=2e-4)
 
 
-def worst(told: dict[str, Any]) -> float:
+def worst(measured: dict[str, Any]) -> float:
     """Return the largest loss of a row."""
-    return float(told["largest_loss"])
+    return float(measured["largest_loss"])
 
 
 def test_what_matters_is_what_the_page_says() -> None:

@@ -76,8 +76,8 @@ def test_the_lowest_is_the_slowest() -> None:
 def test_every_pipeline_of_triggered_samples_is_in_the_command() -> None:
     page = "road-prior-spatial.md"
     table, ours = PAGES[page]
-    told = re.findall(r"`conformance table ([^`]*)`", read(page))[0].split()
-    assert {name for name, _ in cells(table)} == set(told[1::2][:3]) == {ours, *beside(page)}
+    words = re.findall(r"`conformance table ([^`]*)`", read(page))[0].split()
+    assert {name for name, _ in cells(table)} == set(words[1::2][:3]) == {ours, *beside(page)}
 
 
 OURS = PAGES["road-prior.md"][1]

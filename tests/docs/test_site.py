@@ -68,7 +68,6 @@ class Page(HTMLParser):
             element.text.append(data)
 
     def inside(self, name: str) -> list[Element]:
-        """Return the elements of the class ``name``."""
         return [element for element in self.elements if element.has(name)]
 
 
@@ -83,7 +82,6 @@ def leaves(nav: list[object]) -> Iterator[tuple[str, str]]:
 
 
 def menu() -> list[dict[str, list[object]]]:
-    """Return the menu of the configuration."""
     text = CONFIG.read_text(encoding="utf-8")
     nav: list[dict[str, list[object]]] = yaml.load(text[text.index("\nnav:") :], Loader)["nav"]
     return nav
@@ -120,7 +118,6 @@ def equations(source: Path) -> list[str]:
 
 
 def parsed(site: Path, source: str) -> Page:
-    """Return the built page of ``source``."""
     return Page((site / built(source)).read_text(encoding="utf-8"))
 
 

@@ -1,4 +1,4 @@
-"""The tutorial prints what it shows."""
+"""The tutorial and other pages of commands print what they show."""
 
 import subprocess
 import sys
@@ -11,9 +11,10 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 
 
-def test_every_command_of_the_tutorial_prints_what_the_page_shows() -> None:
+@pytest.mark.parametrize("page", ["tutorial", "allan", "batch"])
+def test_every_command_prints_what_the_page_shows(page: str) -> None:
     found = subprocess.run(
-        [sys.executable, ".ci/consoles.py", "docs/tutorial.md"],
+        [sys.executable, ".ci/consoles.py", f"docs/{page}.md"],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -85,7 +85,6 @@ def in_time(engine, drive):
 
 
 def temporal_record(engine, drive):
-    """Return the record of ``drive`` that the temporal engine reads."""
     acceleration, height, distance = drive
     record = np.empty(height.size, engine.SAMPLE)
     record["accel_g"], record["range_mm"] = 1.0 + acceleration / G, 1000.0 * height

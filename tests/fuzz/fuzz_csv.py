@@ -10,17 +10,17 @@ again. The first byte chooses what a channel map would state of the table. A tab
 has as many rows as it was counted to have, in every column, read twice the same.
 """
 
-import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
 import atheris
+from harness import fuzz, one_line
 
 with atheris.instrument_imports():
     import numpy as np
 
-    from floatref import InputError, Stream
+    from floatref import Stream
     from floatref_adapters.formats.csv_table.adapter import CsvTable
 
 TABLE = Path(tempfile.mkdtemp(prefix="fuzz-csv-")) / "a.csv"
@@ -44,17 +44,16 @@ SEEDS = (
 
 
 def read_any(data: bytes) -> None:
-    """Read ``data`` as a table."""
     chosen = OPTIONS[data[0] % len(OPTIONS)] if data else {}
     TABLE.write_bytes(data[1:])
     CsvTable().recognises(TABLE)
-    try:
-        with CsvTable().streams(TABLE, chosen) as native:
-            for stream in native.streams:
-                check(stream)
-    except InputError as error:
-        if not str(error).isprintable():
-            raise AssertionError(f"not one line: {error!r}") from error
+    one_line(check_all, chosen)
+
+
+def check_all(chosen: Mapping[str, str]) -> None:
+    with CsvTable().streams(TABLE, chosen) as native:
+        for stream in native.streams:
+            check(stream)
 
 
 def check(stream: Stream) -> None:
@@ -71,15 +70,5 @@ def check(stream: Stream) -> None:
                 raise AssertionError("the second reading differs")
 
 
-def main() -> None:
-    """Fuzz, beginning with `SEEDS` where the corpus is empty."""
-    folders = [Path(argument) for argument in sys.argv[1:] if Path(argument).is_dir()]
-    for number, seed in enumerate(SEEDS):
-        for folder in folders[:1]:
-            (folder / f"seed-{number}").write_bytes(seed)
-    atheris.Setup(sys.argv, read_any)
-    atheris.Fuzz()
-
-
 if __name__ == "__main__":
-    main()
+    fuzz(read_any, SEEDS)

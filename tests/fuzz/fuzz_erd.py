@@ -10,11 +10,11 @@ again. Numbers behind a byte 255 go to the `.bin` file beside the header, so tha
 reached too. A profile that is read is written and read again, and has to be the same then.
 """
 
-import sys
 import tempfile
 from pathlib import Path
 
 import atheris
+from harness import fuzz, one_line
 
 with atheris.instrument_imports():
     from floatref import InputError, Profile
@@ -32,12 +32,11 @@ SEEDS = (
 
 
 def read_any(data: bytes) -> None:
-    """Read ``data`` as an ERD file."""
     header, _, numbers = data.partition(b"\xff")
     HEADER.write_bytes(header)
     NUMBERS.write_bytes(numbers)
     Erd().recognises(HEADER)
-    profile = read(HEADER)
+    profile = one_line(Erd().read, HEADER)
     if profile is None:
         return
     try:
@@ -45,16 +44,6 @@ def read_any(data: bytes) -> None:
     except InputError:
         return
     same(profile, Erd().read(AGAIN))
-
-
-def read(path: Path) -> Profile | None:
-    """Return the profile, None if it is refused in a line that can be printed."""
-    try:
-        return Erd().read(path)
-    except InputError as error:
-        if not str(error).isprintable():
-            raise AssertionError(f"not one line: {error!r}") from error
-        return None
 
 
 def same(profile: Profile, again: Profile) -> None:
@@ -71,15 +60,5 @@ def same(profile: Profile, again: Profile) -> None:
             raise AssertionError("elevation changed")
 
 
-def main() -> None:
-    """Fuzz, beginning with `SEEDS` where the corpus is empty."""
-    folders = [Path(argument) for argument in sys.argv[1:] if Path(argument).is_dir()]
-    for number, seed in enumerate(SEEDS):
-        for folder in folders[:1]:
-            (folder / f"seed-{number}").write_bytes(seed)
-    atheris.Setup(sys.argv, read_any)
-    atheris.Fuzz()
-
-
 if __name__ == "__main__":
-    main()
+    fuzz(read_any, SEEDS)

@@ -11,7 +11,6 @@ that is mapped. Mutations put in whole lines of maps, so that more than the TOML
 """
 
 import random
-import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -20,9 +19,10 @@ from pathlib import Path
 
 import atheris
 import numpy as np
+from harness import fuzz, one_line
 
 with atheris.instrument_imports(include=["floatref", "tomllib"]):
-    from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream, hookimpl
+    from floatref import Column, Epoch, NativeClock, NativeFile, Rows, Stream, hookimpl
     from floatref.engine.plugins import plugins
     from floatref.mapping import read_map, read_native
     from floatref.mapping.channel_map.entries import ChannelMap
@@ -87,7 +87,6 @@ class Memory:
         return source.suffix == ".mem"
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
-        """Return the streams of the file."""
         content = (self.content + bytes(8 * SAMPLES))[: 8 * SAMPLES]
         values = np.frombuffer(content, "<f8")
         ticks = np.frombuffer(content, "<i8")
@@ -123,11 +122,8 @@ ADAPTER = Memory()
 
 
 class Plugin:
-    """Makes the adapter known."""
-
     @hookimpl
     def floatref_register_adapters(self, register: Callable[[object], None]) -> None:
-        """Register it."""
         register(ADAPTER)
 
 
@@ -153,16 +149,6 @@ def drafted(text: bytes) -> None:
         read_map(MAP)
 
 
-def one_line(function: Callable[..., object], *args: object) -> object:
-    """Return what ``function`` returns, None if it refuses in a line that can be printed."""
-    try:
-        return function(*args)
-    except InputError as error:
-        if not str(error).isprintable():
-            raise AssertionError(f"not one line: {error!r}") from error
-        return None
-
-
 def mutated(data: bytes, most: int, seed: int) -> bytes:
     """Return ``data`` with a line of a map put in, taken out or put elsewhere, or mutated."""
     chance = random.Random(seed)
@@ -184,12 +170,7 @@ def main() -> None:
     warnings.simplefilter("error")
     SOURCE.write_bytes(b"")
     plugins().add(Plugin(), "memory")
-    for folder in (Path(arg) for arg in sys.argv[1:] if not arg.startswith("-")):
-        if folder.is_dir():
-            for number, seed in enumerate(SEEDS):
-                (folder / f"seed{number}").write_bytes(seed)
-    atheris.Setup(sys.argv, read_any, custom_mutator=mutated)
-    atheris.Fuzz()
+    fuzz(read_any, SEEDS, mutated)
 
 
 if __name__ == "__main__":

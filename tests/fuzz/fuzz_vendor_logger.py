@@ -19,6 +19,7 @@ from pathlib import Path
 
 import atheris
 import numpy as np
+from harness import fuzz, one_line
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs" / "examples" / "vendor_plugin"))
@@ -31,7 +32,7 @@ with atheris.instrument_imports():
     from acme_roadlogger.layout import Header, LoggedChannel
     from acme_roadlogger.writer import packed_block, packed_header
 
-    from floatref import InputError, NativeFile, Stream
+    from floatref import NativeFile, Stream
 
 FILE = Path(tempfile.mkdtemp(prefix="fuzz-logger-")) / "run.arl"
 WHOLE, BLOCKS_AS_THEY_ARE, AS_IT_IS = range(3)
@@ -39,25 +40,14 @@ WHOLE, BLOCKS_AS_THEY_ARE, AS_IT_IS = range(3)
 
 
 def read_any(data: bytes) -> None:
-    """Read ``data`` as a file of the logger."""
     FILE.write_bytes(checked(data[1:], data[0] % 3) if data else b"")
     RoadLogger().recognises(FILE)
-    native = opened()
+    native = one_line(RoadLogger().streams, FILE, {})
     if native is None:
         return
     for stream in native.streams:
         whole(stream)
     accounted(native)
-
-
-def opened() -> NativeFile | None:
-    """Return what is in the file, None if it is refused in a line that can be printed."""
-    try:
-        return RoadLogger().streams(FILE, {})
-    except InputError as error:
-        if not str(error).isprintable():
-            raise AssertionError(f"not one line: {error!r}") from error
-        return None
 
 
 def whole(stream: Stream) -> None:
@@ -121,14 +111,9 @@ def seeds() -> list[bytes]:
 
 
 def main() -> None:
-    """Fuzz, beginning with `seeds` where the corpus is empty."""
-    folders = [Path(argument) for argument in sys.argv[1:] if Path(argument).is_dir()]
-    for number, seed in enumerate(seeds()):
-        for folder in folders[:1]:
-            (folder / f"seed-{number}").write_bytes(seed)
+    """Fuzz with every warning an error."""
     warnings.simplefilter("error")
-    atheris.Setup(sys.argv, read_any)
-    atheris.Fuzz()
+    fuzz(read_any, seeds())
 
 
 if __name__ == "__main__":

@@ -65,10 +65,12 @@ class RightBench:
     def run(self, taken, label=""):
         self.labels.append(label)
         whole = self.taken[taken.scenario].recording.channel("distance")
-        told = taken.recording.channel("distance")
-        known = ~np.isnan(told.values)
-        farthest = np.maximum.accumulate(told.values[known])
-        seconds = told.times_s[known] - told.times_s[0] + whole.times_s[-1] - self._span(told)
+        encoder = taken.recording.channel("distance")
+        known = ~np.isnan(encoder.values)
+        farthest = np.maximum.accumulate(encoder.values[known])
+        seconds = (
+            encoder.times_s[known] - encoder.times_s[0] + whole.times_s[-1] - self._span(encoder)
+        )
         shift = taken.truth.start_m
         true = np.interp(seconds, whole.times_s, whole.values)
         points = np.arange(farthest[0], farthest[-1], INTERVAL_M)

@@ -5,7 +5,11 @@ from dataclasses import replace
 import pytest
 
 from floatref_conformance.case_files import KeptCase
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
+from floatref_conformance.checks.sameness.changes import CHANGES
+from floatref_conformance.checks.sameness.invariance import INVARIANCE
 from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge.events import CheckStarted
@@ -22,39 +26,57 @@ from floatref_conformance.judge.events import CheckStarted
     ],
 )
 def test_a_check_is_fitted_to_what_the_device_declares(
-    plan, events_of, fake_device, toy_check, monkeypatch, architecture, capabilities, cases
+    plan, events_of, fake_device, toy_check, architecture, capabilities, cases
 ):
-    def fewer(check, meets):
-        return replace(check, count=2 + len({"gnss", "height"} & meets))
+    # A class of its own: `isinstance` would remember of the toy check itself that it can be fitted.
+    class Fewer(toy_check):
+        def fitted(self, meets):
+            return replace(self, count=2 + len({"gnss", "height"} & meets))
 
-    monkeypatch.setattr(toy_check, "fitted", fewer, raising=False)
     device = fake_device(architecture=architecture, capabilities=capabilities)
-    events, result = events_of(plan(device, toy_check(count=9), searching=False))
+    events, result = events_of(plan(device, Fewer(count=9), searching=False))
     assert [e.cases for e in events if isinstance(e, CheckStarted)] == [cases]
     assert result.checks[0].cases == cases
 
 
 @pytest.mark.slow
-def test_a_kept_case_of_a_receiver_is_skipped_without_one(
-    plan, result_of, fake_device, monkeypatch
+@pytest.mark.parametrize(
+    ("fault", "another", "having", "reason"),
+    [
+        ("gnss-outage", "laser-dropout", {}, "needs gnss"),
+        (
+            "laser-stuck",
+            "encoder-leap",
+            {"architecture": "response", "capabilities": ("response",)},
+            "laser-stuck: needs a height sensor, which the device does not have",
+        ),
+    ],
+)
+def test_a_kept_case_of_a_sensor_is_skipped_without_one(
+    plan, result_of, fake_device, monkeypatch, fault, another, having, reason
 ):
     cases = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
-    kept = KeptCase("kept.json", cases["gnss-outage"], DeviceClass.NOMINAL)
-    alone = replace(FAULTS, meets=frozenset({"height"}))
-    monkeypatch.setattr(type(alone), "cases", lambda *_: (cases["laser-dropout"],))
-    result = result_of(plan(fake_device(), alone, kept=(kept,), searching=False))
-    (again,) = result.replayed
+    kept = KeptCase("kept.json", cases[fault], DeviceClass.NOMINAL)
+    alone = replace(FAULTS, meets=frozenset(having.get("capabilities", ("height",))))
+    monkeypatch.setattr(type(alone), "cases", lambda *_: (cases[another],))
+    (again,) = result_of(plan(fake_device(**having), alone, kept=(kept,), searching=False)).replayed
     assert again["outcome"] == Outcome.SKIP.value
-    assert "needs gnss" in again["reason"]
+    assert reason in again["reason"]
 
 
-@pytest.mark.slow
-def test_a_kept_case_of_a_laser_is_skipped_without_one(plan, result_of, fake_device, monkeypatch):
-    cases = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
-    kept = KeptCase("kept.json", cases["laser-stuck"], DeviceClass.NOMINAL)
-    alone = replace(FAULTS, meets=frozenset({"response"}))
-    monkeypatch.setattr(type(alone), "cases", lambda *_: (cases["encoder-leap"],))
-    device = fake_device(architecture="response", capabilities=("response",))
-    (again,) = result_of(plan(device, alone, kept=(kept,), searching=False)).replayed
-    assert again["outcome"] == Outcome.SKIP.value
-    assert "laser-stuck: needs a height sensor, which the device does not have" in again["reason"]
+@pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
+@pytest.mark.parametrize(
+    ("check", "number", "known"),
+    [(FAULTS, "fault", SENSOR_FAULTS), (INVARIANCE, "change", CHANGES)],
+    ids=["faults", "invariance"],
+)
+def test_every_variation_comes_in_turn_and_the_seed_draws_the_road_alone(
+    check, number, known, effort, times
+):
+    one, other = (check.cases(seed, effort) for seed in (1, 2))
+    assert sorted(c.variation[number] for c in one) == sorted(list(known) * times)
+    assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
+    for case, again in zip(one, other, strict=True):
+        assert case.scenario.seed != again.scenario.seed
+        assert replace(case.scenario, seed=0) == replace(again.scenario, seed=0)
+        assert Case.of(check.id, case.parameters, case.name) == case

@@ -62,12 +62,12 @@ def test_what_a_class_does_not_limit_is_never_worse_than_what_it_does(value):
     assert worst(DeviceClass.ADEQUATE) is above
 
 
-@pytest.mark.parametrize(("unit", "told"), [("", "2, limit 1"), ("m", "2 m, limit 1 m")])
-def test_a_failure_is_told_with_the_unit_that_there_is(unit, told):
+@pytest.mark.parametrize(("unit", "shown"), [("", "2, limit 1"), ("m", "2 m, limit 1 m")])
+def test_a_failure_is_told_with_the_unit_that_there_is(unit, shown):
     worst = Measurement("loss", "left", 2.0, unit, same_limit(1.0, 0.5))
     assert (
         describe_failure(CaseResult("stop-1", {}, (worst,)), DeviceClass.NOMINAL)
-        == f"loss, track left: {told}"
+        == f"loss, track left: {shown}"
     )
 
 

@@ -63,7 +63,6 @@ def registry(toy_check, devices):
 
 @pytest.fixture
 def call(monkeypatch, registry):
-    """Return a function that calls the command."""
     for module in MODULES:
         monkeypatch.setattr(module, "load_registry", lambda: registry)
     return lambda *words: CliRunner().invoke(main, [*map(str, words)])
@@ -85,8 +84,8 @@ def keep():
         case = Case(check, Scenario(**{"iri_m_per_km": 6.0, **numbers}))
         path = folder / "cases" / f"{check}-1.json"
         path.parent.mkdir(parents=True, exist_ok=True)
-        told = document(case, device_class, "fake:bad", "too rough")
-        path.write_text(json.dumps({**told, "edition": edition}))
+        content = document(case, device_class, "fake:bad", "too rough")
+        path.write_text(json.dumps({**content, "edition": edition}))
         return path
 
     return make

@@ -3,7 +3,6 @@
 import json
 import shutil
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -166,16 +165,16 @@ def test_every_limit_is_an_option(folder: Path, option: str) -> None:
 
 
 def test_a_class_brings_its_limits(call: Callable[..., Result]) -> None:
-    told = document(call("runs", "--class", "reference", "--json"))
-    assert told["class"] == "reference"
-    assert (told["limits"]["repeatability"], told["limits"]["iri_bias_percent"]) == (0.98, 2.0)
-    assert told["limits"]["distance_percent"] is None
+    sheet = document(call("runs", "--class", "reference", "--json"))
+    assert sheet["class"] == "reference"
+    assert (sheet["limits"]["repeatability"], sheet["limits"]["iri_bias_percent"]) == (0.98, 2.0)
+    assert sheet["limits"]["distance_percent"] is None
 
 
 @pytest.mark.slow
 def test_sections_have_their_names_and_stretches(call: Callable[..., Result]) -> None:
-    told = document(call("runs", "--section", "10:100:first", "--section", "50:140", "--json"))
-    found = [(s["name"], s["start_m"], s["end_m"]) for s in told["sections"]]
+    sheet = document(call("runs", "--section", "10:100:first", "--section", "50:140", "--json"))
+    found = [(s["name"], s["start_m"], s["end_m"]) for s in sheet["sections"]]
     assert [name for name, _, _ in found] == ["first", "50 to 140 m"]
     assert [(start, end) for _, start, end in found] == [
         pytest.approx((10.0, 100.0)),
@@ -185,10 +184,10 @@ def test_sections_have_their_names_and_stretches(call: Callable[..., Result]) ->
 
 @pytest.mark.slow
 def test_tests_at_rest(call: Callable[..., Result], folder: Path) -> None:
-    told = document(call("runs", "--quiescent", "rest", "--bounce", "other@20:140", "--json"))
-    assert [test["id"] for test in told["stationary"]] == ["quiescent", "bounce"]
-    assert told["stationary"][1]["start_m"] == pytest.approx(20.0)
-    assert told["verdict"] == "FAIL"
+    sheet = document(call("runs", "--quiescent", "rest", "--bounce", "other@20:140", "--json"))
+    assert [test["id"] for test in sheet["stationary"]] == ["quiescent", "bounce"]
+    assert sheet["stationary"][1]["start_m"] == pytest.approx(20.0)
+    assert sheet["verdict"] == "FAIL"
     shutil.copytree(folder / "rest", folder / "rest@1:2", dirs_exist_ok=True)
     named = document(call("runs", "--quiescent", "rest@1:2", "--json"))
     assert named["stationary"][0]["source"].endswith("rest@1:2")
@@ -201,11 +200,11 @@ def test_a_plan_says_it_all(folder: Path) -> None:
         '[quiescent]\nsource = "rest"\nfrom_m = 20\nto_m = 140\n'
     )
     result = certify("--plan", folder / "whole.toml", *LOOSE, "--json")
-    told = document(result)
+    sheet = document(result)
     assert result.exit_code == 0, result.output
-    assert told["profiler"] == "Van 3"
-    assert [run["name"] for run in told["sections"][0]["runs"]] == ["run-1", "run-2"]
-    assert told["stationary"][0]["id"] == "quiescent"
+    assert sheet["profiler"] == "Van 3"
+    assert [run["name"] for run in sheet["sections"][0]["runs"]] == ["run-1", "run-2"]
+    assert sheet["stationary"][0]["id"] == "quiescent"
 
 
 @pytest.mark.slow
@@ -228,17 +227,7 @@ def test_a_report_holds_worksheet_and_profiles(
 
 @pytest.mark.slow
 def test_a_run_of_another_road_is_named(call: Callable[..., Result]) -> None:
-    told = document(call("runs", "other", "--json"))
-    assert told["verdict"] == "FAIL"
-    runs = {run["name"]: run for run in told["sections"][0]["runs"]}
+    sheet = document(call("runs", "other", "--json"))
+    assert sheet["verdict"] == "FAIL"
+    runs = {run["name"]: run for run in sheet["sections"][0]["runs"]}
     assert any("not on this road" in line for line in runs["other"]["said"])
-
-
-def test_wheel_paths_that_a_run_lacks(
-    call: Callable[..., Result], folder: Path, tmp_path: Path
-) -> None:
-    run = read_profile(folder / "runs" / "run-1")
-    write_profile(replace(run, tracks=run.tracks[:1]), tmp_path / "one")
-    told = document(call("runs", tmp_path / "one", "--json"))
-    runs = {run["name"]: run for run in told["sections"][0]["runs"]}
-    assert any("right" in line for line in (*runs["one"]["said"], runs["one"]["error"]))

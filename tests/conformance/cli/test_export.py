@@ -21,6 +21,6 @@ def test_the_command_for_afterwards_quotes_the_folder_and_names_the_checks(
     asked = [word for id_ in ids for word in ("--check", id_)]
     answer = CliRunner().invoke(main, ["export", "--out", str(out), "--seed", "5", *asked])
     assert answer.exit_code == 0, answer.output
-    told = shlex.split(answer.stdout.splitlines()[-1].partition("after processing: ")[2])
+    command = shlex.split(answer.stdout.splitlines()[-1].partition("after processing: ")[2])
     options = ["--device", f"files:{out}", "--seed", "5", "--effort", "quick"]
-    assert told == ["conformance", "run", *options, *asked]
+    assert command == ["conformance", "run", *options, *asked]

@@ -251,8 +251,8 @@ def test_a_kept_case_is_replayed_as_told_from_where_the_run_was_started(
     monkeypatch.chdir(tmp_path)
     run_toy("bad", "--report", "a report")
     answer = run_toy("bad", "--report", "a report", "--device-timeout", 3)
-    told = next(line for line in answer.stdout.splitlines() if "conformance replay" in line)
-    again = call(*shlex.split(told.partition("conformance ")[2]))
+    replay_line = next(line for line in answer.stdout.splitlines() if "conformance replay" in line)
+    again = call(*shlex.split(replay_line.partition("conformance ")[2]))
     assert again.exit_code == 1
     assert "fake:bad" in again.stdout
     assert answer.stdout.rstrip().endswith("--device-timeout 3")

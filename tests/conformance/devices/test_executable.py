@@ -205,13 +205,6 @@ def test_a_judged_program_that_crashes_fails_and_is_named(written, tmp_path):
     assert "start: exited with status 5 before it answered ; stderr: no lic" in judged["reason"]
 
 
-def test_a_command_that_is_not_found_is_wrong_usage():
-    done = CliRunner().invoke(main, ["run", "--device", "exec:no-such-program"])
-    assert done.exit_code == 2
-    assert "no-such-program not found" in done.output
-    assert os.linesep not in done.output.strip()
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path, name):

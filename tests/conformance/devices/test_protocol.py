@@ -103,15 +103,6 @@ def test_silence_is_a_hang_of_its_step(written, opened):
     assert isinstance(hung, DeviceHung)
 
 
-def test_an_answer_without_an_end_of_line_is_a_hang_that_shows_it(opened):
-    device = opened('c = ask()\nos.write(1, b\'{"seq": 2, "ok": true}\')\nhang()')
-    child = device._child
-    child.send(b"{}\n")
-    while not child._lines.rest:
-        child._lines.thread.join(0.01)
-    refused(lambda: device.run("/r", "/p", 0.0), "in the middle of a line: .*true}")
-
-
 @pytest.mark.parametrize(
     ("said", "words"),
     [

@@ -3,10 +3,8 @@
 import sys
 
 import pytest
-from click.testing import CliRunner
 
 from floatref.errors import InputError
-from floatref_conformance.cli.main import main
 from floatref_conformance.devices import python_device
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceSkipped
@@ -159,10 +157,3 @@ def test_an_import_that_hangs_or_floods_is_left_to_the_start(vendor, monkeypatch
     device.start_s = 0.2
     with pytest.raises(DeviceError, match=r"start: no answer within 0\.2 s"):
         describe(device)
-
-
-def test_on_the_command_line_what_does_not_exist_exits_with_2(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    done = CliRunner().invoke(main, ["run", "--device", "python:no_such_package:made"])
-    assert done.exit_code == 2
-    assert "no module no_such_package" in done.output

@@ -94,16 +94,18 @@ def test_a_recording_that_is_skipped_makes_the_run_incomplete(plan, events_of, r
     assert not any(isinstance(e, SearchStarted) for e in events)
 
 
-@pytest.mark.parametrize("told", [((150.0, 170.0), (10, 50)), ()])
+@pytest.mark.parametrize("stretches", [((150.0, 170.0), (10, 50)), ()])
 def test_a_failure_keeps_what_the_check_scores_of_its_simplest_case(
-    plan, result_of, halving, toy_check, told
+    plan, result_of, halving, toy_check, stretches
 ):
     class Telling(toy_check):
         def scored(self, case):
-            return told if case.scenario.seed == 0 else ((1.0, 2.0),)
+            return stretches if case.scenario.seed == 0 else ((1.0, 2.0),)
 
-    assert result_of(plan(halving, Telling())).checks[0].scored_m == told
-    assert result_of(plan(halving, Telling(), seed=1, searching=False)).checks[0].scored_m != told
+    assert result_of(plan(halving, Telling())).checks[0].scored_m == stretches
+    assert (
+        result_of(plan(halving, Telling(), seed=1, searching=False)).checks[0].scored_m != stretches
+    )
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,8 @@ def driven(times_s, speeds_kmh, start_m=0.0):
     """Return the recording of an encoder: speeds at some times, straight lines between."""
     times = np.arange(0.0, times_s[-1], 1 / RATE)
     speed = np.interp(times, times_s, speeds_kmh) / 3.6
-    told = start_m + np.concatenate(([0.0], np.cumsum((speed[1:] + speed[:-1]) / 2 / RATE)))
-    return Recording((Channel.of("distance", told, UniformClock.of(RATE)),))
+    distance = start_m + np.concatenate(([0.0], np.cumsum((speed[1:] + speed[:-1]) / 2 / RATE)))
+    return Recording((Channel.of("distance", distance, UniformClock.of(RATE)),))
 
 
 @settings(deadline=None, max_examples=10)
@@ -54,16 +54,16 @@ def test_a_start_from_rest():
 
 def test_missing_counts_and_counts_back_do_not_matter():
     sound = driven([0.0, 20.0], [50.0, 50.0])
-    told = np.array(sound.channel("distance").values)
-    told[5000:5100], told[9000] = np.nan, told[9000] - 0.05
-    hurt = Recording((Channel.of("distance", told, UniformClock.of(RATE)),))
+    distance = np.array(sound.channel("distance").values)
+    distance[5000:5100], distance[9000] = np.nan, distance[9000] - 0.05
+    hurt = Recording((Channel.of("distance", distance, UniformClock.of(RATE)),))
     assert Drive.of(hurt).slowest_kmh == pytest.approx(50.0, abs=0.5)
 
 
 def test_an_encoder_that_is_silent_seems_slow_for_less_than_its_silence():
-    told = np.array(driven([0.0, 20.0], [50.0, 50.0]).channel("distance").values)
-    told[9000:10000] = told[9000]
-    hurt = Drive.of(Recording((Channel.of("distance", told, UniformClock.of(RATE)),)))
+    distance = np.array(driven([0.0, 20.0], [50.0, 50.0]).channel("distance").values)
+    distance[9000:10000] = distance[9000]
+    hurt = Drive.of(Recording((Channel.of("distance", distance, UniformClock.of(RATE)),)))
     assert hurt.slowest_kmh < 6.0
     assert hurt.slow_s(16.0) < 1.0
 

@@ -57,7 +57,7 @@ def test_up_is_a_direction(pitch, roll):
 
 
 def test_a_right_attitude_changes_nothing(profile, recording):
-    same = add_tilt_error(lambda told: told)(profile, recording).track("left").elevation
+    same = add_tilt_error(lambda attitude: attitude)(profile, recording).track("left").elevation
     np.testing.assert_array_equal(same, profile.track("left").elevation)
 
 

@@ -15,11 +15,11 @@ TIMES = np.arange(10000) / RATE
 TOLD = SPEED * TIMES
 
 
-def recorded(told, first=0.3):
+def recorded(distance, first=0.3):
     height = np.where(TIMES == 0.0, first, 0.3)
     clock = UniformClock.of(RATE)
     return Recording(
-        (Channel.of("distance", told, clock), Channel.of("height", height, clock, "left"))
+        (Channel.of("distance", distance, clock), Channel.of("height", height, clock, "left"))
     )
 
 

@@ -64,8 +64,8 @@ def test_processes_share_a_folder(tmp_path: Path) -> None:
     """All start on an empty folder at once, then find it damaged, then evict each other."""
     running = []
     for number in range(OTHERS):
-        told = json.dumps([str(tmp_path), number, OTHERS, ROUNDS, TINY.to_dict()])
-        command = [sys.executable, "-c", PROCESS, told]
+        arguments = json.dumps([str(tmp_path), number, OTHERS, ROUNDS, TINY.to_dict()])
+        command = [sys.executable, "-c", PROCESS, arguments]
         running.append(subprocess.Popen(command, stderr=subprocess.PIPE))
     said = [process.communicate()[1].decode() for process in running]
     assert said == [""] * OTHERS

@@ -46,7 +46,6 @@ def stopped():
 
 @pytest.fixture
 def check(stopped):
-    """Return a function that makes the result of one check."""
 
     def make(outcome, id_="stop", value=None, reason="", limits=None, **changes):
         default = {Outcome.PASS: 0.5, Outcome.FAIL: 3.0, Outcome.WAIVED: 2.0}.get(outcome)
@@ -79,7 +78,6 @@ def check(stopped):
 
 @pytest.fixture
 def result():
-    """Return a function that makes the result of a run."""
 
     def make(*checks, replayed=(), device_class=DeviceClass.NOMINAL, given=(None, None), **device):
         about = {**DEVICE, **device}
@@ -93,8 +91,8 @@ def kept():
     """Return a function that makes the entry of a case that was run again."""
 
     def make(outcome, reason="", file="stop-0000aaaa.json", value=1.5):
-        told = {"file": file, "check": "stop", "outcome": outcome.value, "reason": reason}
-        return {**told, "value": value, "limit": 1.0, "unit": "m/km"}
+        entry = {"file": file, "check": "stop", "outcome": outcome.value, "reason": reason}
+        return {**entry, "value": value, "limit": 1.0, "unit": "m/km"}
 
     return make
 

@@ -95,11 +95,11 @@ def test_stretches_are_joined_where_they_overlap_and_nothing_else_is(stretches):
 def test_what_is_scored_is_marked_where_it_lies(manoeuvre):
     asked = scenario(manoeuvre)
     factor = 1.0 if manoeuvre == "stop" else 1.0 / 20.0
-    told = [f"scored, {factor * a:.4g} to {factor * b:.4g}" for a, b in ((150, 190), (250, 300))]
+    labels = [f"scored, {factor * a:.4g} to {factor * b:.4g}" for a, b in ((150, 190), (250, 300))]
     lines = draw(asked, ((250.0, 300.0), (150.0, 190.0)))
-    assert [line.strip(" [=]") for line in lines if "scored" in line] == told
+    assert [line.strip(" [=]") for line in lines if "scored" in line] == labels
     said = ElementTree.fromstring(drawing_svg(asked, "name", ((150.0, 190.0),))).find("desc").text
-    assert f"S{told[0][1:].replace(',', ':')}." in said
+    assert f"S{labels[0][1:].replace(',', ':')}." in said
     assert not any("scored" in line for line in draw(asked))
 
 

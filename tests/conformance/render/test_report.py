@@ -97,16 +97,12 @@ def test_a_report_that_breaks_its_schema_is_the_suites_fault_and_leaves_no_file(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_report_replaces_an_older_one_and_leaves_nothing_beside_it(tmp_path):
+def test_the_report_replaces_an_older_one_that_is_gone_before_the_run_begins(tmp_path):
     folder = tmp_path / "new" / "folder"
     JsonReport.into(folder)
     (folder / "report.json").write_text("old")
-    JsonReport.into(folder).handle(RunFinished(result(failed())))
+    report = JsonReport.into(folder)
+    assert list(folder.iterdir()) == []
+    report.handle(RunFinished(result(failed())))
     assert [p.name for p in folder.iterdir()] == ["report.json"]
     assert json.loads((folder / "report.json").read_text())["verdict"] == "FAIL"
-
-
-def test_an_older_report_is_gone_before_the_run_begins(tmp_path):
-    (tmp_path / "report.json").write_text("old")
-    JsonReport.into(tmp_path)
-    assert list(tmp_path.iterdir()) == []

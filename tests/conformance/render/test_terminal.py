@@ -35,8 +35,8 @@ def test_a_pipe_gets_the_table_whole_with_worst_limit_and_margin(plan, fake_devi
     assert (check, outcome, reached, cases, unit) == ("toy", "fail", ["no", "class"], "2", "m/km")
     assert float(worst) > float(limit) == 0.1
     assert float(margin.removesuffix("%")) == pytest.approx(100 - 1000 * float(worst), abs=2)
-    (told,) = (line for line in text.splitlines() if line.endswith("[Toy 1.2]"))
-    assert "limit 0.1 m/km" in told
+    (summary,) = (line for line in text.splitlines() if line.endswith("[Toy 1.2]"))
+    assert "limit 0.1 m/km" in summary
 
 
 def test_brackets_in_a_plugins_clause_are_text(plan, fake_device, toy_check):

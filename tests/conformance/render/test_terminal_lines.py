@@ -34,8 +34,10 @@ def test_a_failure_names_its_case_and_the_simplest_one(check, result):
     text = shown(RunFinished(result(check(Outcome.FAIL, reason="3 m/km, limit 1 m/km"))))
     assert "stop: 3 m/km, limit 1 m/km; worst is the IRI error of track left, case stop-2" in text
     simplest = "manoeuvre stop, speed_kmh 60, bump_mm 20, bump_at_m 150, gap_s 0.25"
-    told = next(line for line in text.splitlines() if "the simplest case that fails" in line)
-    assert sorted(told.partition("fails: ")[2].split(", ")) == sorted(simplest.split(", "))
+    simplest_line = next(
+        line for line in text.splitlines() if "the simplest case that fails" in line
+    )
+    assert sorted(simplest_line.partition("fails: ")[2].split(", ")) == sorted(simplest.split(", "))
     assert text.splitlines()[-1].startswith("Reproduce with: conformance run --device")
 
 

@@ -39,11 +39,11 @@ def test_the_time_that_was_given_is_given_again(result, check, limit_s):
 @pytest.mark.parametrize("module", [replay, run])
 def test_what_is_told_is_taken_by_the_command_line(result, check, module, monkeypatch):
     made = result(check(Outcome.FAIL), given=(2.5, Path("r p")))
-    told = {replay: wording.replay_command("a.json", made), run: wording.reproduction(made)}
+    commands = {replay: wording.replay_command("a.json", made), run: wording.reproduction(made)}
     command = module.replay if module is replay else module.run
     seen = {}
     monkeypatch.setattr(command, "callback", lambda **given: seen.update(given))
-    answer = CliRunner().invoke(main, shlex.split(told[module])[1:])
+    answer = CliRunner().invoke(main, shlex.split(commands[module])[1:])
     assert answer.exit_code == 0, answer.output
     assert (seen["spec"], seen["device_class"], seen["device_timeout"]) == (
         made.device["spec"],

@@ -20,11 +20,11 @@ def run(*options):
 def test_limits_and_false_alarms_of_one_check():
     answer = run("--seeds", "0", "--false-alarms", "1", "--json")
     assert answer.exit_code == 0, answer.output
-    told = json.loads(answer.stdout)
-    assert told["holds"]
-    assert told["complaints"] == []
-    assert told["limits"] == told["limits_asked"] == 9
-    assert (told["false_alarms"], told["alarms_asked"]) == (0, len(CLAIMS))
+    document = json.loads(answer.stdout)
+    assert document["holds"]
+    assert document["complaints"] == []
+    assert document["limits"] == document["limits_asked"] == 9
+    assert (document["false_alarms"], document["alarms_asked"]) == (0, len(CLAIMS))
 
 
 @pytest.fixture

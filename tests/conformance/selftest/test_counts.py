@@ -42,9 +42,9 @@ def test_nothing_to_complain_of():
     counts = Counts(KILLERS, ("quiescent",), KILLED, SPARED, limits=(SOUND,))
     assert counts.complaints == ()
     assert counts.only_killed_by("quiescent") == ("mutant:noisy",)
-    told = counts.to_dict()
-    assert told["holds"]
-    assert (told["kills"], told["kills_asked"], told["limits"]) == (9, 9, 1)
+    document = counts.to_dict()
+    assert document["holds"]
+    assert (document["kills"], document["kills_asked"], document["limits"]) == (9, 9, 1)
 
 
 def test_a_survivor_is_told_with_its_seed():

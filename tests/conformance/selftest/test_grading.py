@@ -26,7 +26,7 @@ def test_a_limit_that_holds_has_no_faults():
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "part"),
     [
         ({"truth_reading": 0.3}, "the truth itself"),
         ({"too_much": 0.99}, "1.5 times the limit passes"),
@@ -37,8 +37,8 @@ def test_a_limit_that_holds_has_no_faults():
         ({"too_much": float("nan")}, "1.5 times the limit passes"),
     ],
 )
-def test_each_fault_is_told(changes, told):
-    assert any(told in fault for fault in replace(SOUND, **changes).faults)
+def test_each_fault_is_told(changes, part):
+    assert any(part in fault for fault in replace(SOUND, **changes).faults)
 
 
 def test_a_limit_of_what_the_filter_does_may_be_used_by_the_truth():

@@ -54,7 +54,6 @@ class Firmware:
         return answer, profile
 
     def profile_of(self, recording, folder):
-        """Return the profile of ``recording``, written to ``folder`` first."""
         write_recording(recording, folder)
         answer, profile = self.run(folder)
         assert answer == {"ok": True}

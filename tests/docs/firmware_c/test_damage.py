@@ -28,7 +28,6 @@ def whole(simulated):
 
 @pytest.fixture(scope="module")
 def sound(start, whole, tmp_path_factory):
-    """Return their profiles."""
     folder = tmp_path_factory.mktemp("sound")
     return {key: start().profile_of(r, folder / str(key)) for key, r in whole.items()}
 

@@ -55,7 +55,6 @@ class Environment:
         self.pip("install", "--quiet", "--no-deps", *here, *projects)
 
     def pip(self, *words: object) -> None:
-        """Run pip."""
         self.run("python", "-m", "pip", "--disable-pip-version-check", *words)
 
 
@@ -63,19 +62,16 @@ class Environment:
 def make_environment(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Callable[[], Environment]:
-    """Make a fresh environment."""
     return lambda: Environment(tmp_path_factory.mktemp("fresh"))
 
 
 @pytest.fixture(scope="module")
 def plugin() -> Path:
-    """The sources of the example."""
     return PLUGIN
 
 
 @pytest.fixture(scope="module")
 def installed(make_environment: Callable[[], Environment], plugin: Path) -> Environment:
-    """A fresh environment into which the example was installed."""
     fresh = make_environment()
     fresh.install(plugin)
     return fresh

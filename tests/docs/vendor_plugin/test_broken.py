@@ -85,7 +85,7 @@ def broken(installed, tmp_path_factory):
     return installed
 
 
-def told(done):
+def plugin_warnings(done):
     """Return what is said of each plug-in on standard error, which is one line."""
     lines = [line for line in done.stderr.splitlines() if "plug-in" in line]
     assert done.stderr.splitlines() == lines
@@ -95,7 +95,7 @@ def told(done):
 
 def test_each_is_told_in_a_line_and_left_out(broken):
     done = broken.run("floatref", "adapters")
-    found = told(done)
+    found = plugin_warnings(done)
     assert found.keys() == BROKEN.keys()
     for name, line in found.items():
         assert line.startswith(SAID[name]), name
@@ -107,7 +107,7 @@ def test_each_is_told_in_a_line_and_left_out(broken):
 def test_all_else_works(broken, wavy, command):
     write_recording(wavy, broken.folder / "run", overwrite=True)
     done = broken.run("floatref", *command)
-    assert AT_IMPORT <= told(done).keys() <= BROKEN.keys()
+    assert AT_IMPORT <= plugin_warnings(done).keys() <= BROKEN.keys()
 
 
 def test_json_holds_the_warnings(broken):

@@ -1,5 +1,6 @@
 """Parquet and Arrow IPC as other programs write them; what is damaged or swollen."""
 
+from collections.abc import Callable
 from datetime import UTC, datetime
 from decimal import Decimal
 from fractions import Fraction
@@ -7,61 +8,37 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
+from floatref_adapters.testing.whole_reading import Whole, make_columns, whole
 
+WriteTable = Callable[[pa.Table, Path], None]
 few = settings(deadline=None, max_examples=120)
 
 
-def write_parquet(table: pa.Table, path: Path) -> None:
-    pq.write_table(table, path)
-
-
-def write_file(table: pa.Table, path: Path) -> None:
-    with pa.ipc.new_file(path, table.schema) as writer:
-        writer.write_table(table, max_chunksize=3)
-
-
-def write_stream(table: pa.Table, path: Path) -> None:
-    with pa.ipc.new_stream(path, table.schema) as writer:
-        writer.write_table(table, max_chunksize=3)
-
-
-FORMS = {
-    "run.parquet": (write_parquet, Parquet()),
-    "run.arrow": (write_file, ArrowIpc()),
-    "run.arrows": (write_stream, ArrowIpc()),
-}
+FORMS = {"run.parquet": Parquet(), "run.arrow": ArrowIpc(), "run.arrows": ArrowIpc()}
 
 
 @pytest.fixture(params=list(FORMS))
-def form(request: pytest.FixtureRequest, tmp_path: Path):
-    """Return what writes a table in one of the forms and returns what is read of it."""
-    write, adapter = FORMS[request.param]
+def form(request: pytest.FixtureRequest, tmp_path: Path, write_table: WriteTable):
+    adapter = FORMS[request.param]
 
     def read(table: pa.Table, **options: str) -> NativeFile:
         path = tmp_path / request.param
-        write(table, path)
+        write_table(table, path)
         assert adapter.recognises(path)
         return adapter.streams(path, options)
 
     return read
 
 
-def rows(native: NativeFile, stream: int = 0) -> tuple[dict[str, list[float]], np.ndarray | None]:
-    """Return the samples of every column of numbers, and the ticks."""
-    found = native.streams[stream]
-    names = [column.name for column in found.columns if column.numeric]
-    pieces = list(found.read(names))
-    none = [np.empty(0)]
-    values = {n: np.concatenate([p.values[n] for p in pieces] or none).tolist() for n in names}
-    ticks = [piece.ticks for piece in pieces if piece.ticks is not None]
-    return values, np.concatenate(ticks) if ticks else None
+def rows(native: NativeFile) -> Whole:
+    """Return the samples of every column of numbers of the only stream, and the ticks."""
+    return whole(native.streams[0])
 
 
 def test_every_type_of_number_comes_as_float64_and_others_are_listed(form) -> None:
@@ -129,15 +106,15 @@ def test_time_stamps_are_their_integers(
     zone: str | None,
     ticks: list[int],
     form: str,
+    write_table: WriteTable,
 ) -> None:
     if form == "run.parquet" and unit == "s":
         # Parquet has no time stamps in seconds: they are multiplied when written.
         ticks = [tick % 2**40 for tick in ticks]
     stamps = pa.array(ticks, pa.int64()).cast(pa.timestamp(unit, zone))
     path = tmp_path_factory.mktemp("run") / form
-    write, adapter = FORMS[form]
-    write(pa.table({"when": stamps, "x": np.arange(float(len(ticks)))}), path)
-    native = adapter.streams(path, {})
+    write_table(pa.table({"when": stamps, "x": np.arange(float(len(ticks)))}), path)
+    native = FORMS[form].streams(path, {})
     clock = native.streams[0].clock
     found = rows(native)[1]
     assert found.dtype == np.int64
@@ -170,14 +147,14 @@ def test_the_clock_is_a_column_named_like_time_or_stated(form) -> None:
 def test_repeated_names_and_names_with_points_are_told_apart(form) -> None:
     arrays = [pa.array([float(k), k + 0.5]) for k in range(4)]
     table = pa.Table.from_arrays(arrays, ["a", "left.height", "a", "left"])
-    assert rows(form(table))[0] == {
+    assert make_columns(form(table)) == {
         "a": [0, 0.5], "left.height": [1, 1.5], "a #2": [2, 2.5], "left": [3, 3.5]
     }  # fmt: skip
 
 
 def test_a_nested_column_is_not_taken_for_one_of_its_name(form) -> None:
     table = pa.table({"left": [{"height": 1.0}, {"height": 2.0}], "left.height": [3.0, 4.0]})
-    assert rows(form(table))[0] == {"left.height": [3, 4]}
+    assert make_columns(form(table)) == {"left.height": [3, 4]}
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import base64
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,41 +13,24 @@ import pyarrow.parquet.encryption as encryption
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.damage import check_damaged
 
-from floatref import Channel, InputError, NativeFile, Recording, UniformClock
-from floatref.engine.plugins import plugins
+from floatref import Channel, InputError, Recording, UniformClock
 from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
 from floatref_adapters.testing import WRITERS
+from floatref_adapters.testing.whole_reading import make_columns
 
+WriteTable = Callable[[pa.Table, Path], None]
 few = settings(deadline=None, max_examples=120)
-
-
-def write_file(table: pa.Table, path: Path) -> None:
-    with pa.ipc.new_file(path, table.schema) as writer:
-        writer.write_table(table, max_chunksize=3)
-
-
-def write_stream(table: pa.Table, path: Path) -> None:
-    with pa.ipc.new_stream(path, table.schema) as writer:
-        writer.write_table(table, max_chunksize=3)
-
-
-def rows(native: NativeFile, stream: int = 0) -> tuple[dict[str, list[float]], np.ndarray | None]:
-    """Return the samples of every column of numbers, and the ticks."""
-    found = native.streams[stream]
-    names = [column.name for column in found.columns if column.numeric]
-    pieces = list(found.read(names))
-    none = [np.empty(0)]
-    values = {n: np.concatenate([p.values[n] for p in pieces] or none).tolist() for n in names}
-    ticks = [piece.ticks for piece in pieces if piece.ticks is not None]
-    return values, np.concatenate(ticks) if ticks else None
 
 
 @pytest.mark.slow
 @few
 @given(data=st.data(), suffix=st.sampled_from([".parquet", ".arrow"]))
 def test_a_damaged_file_is_read_or_refused(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject, suffix: str
+    tmp_path_factory: pytest.TempPathFactory,
+    data: st.DataObject,
+    suffix: str,
 ) -> None:
     path = tmp_path_factory.mktemp("run") / f"run{suffix}"
     clock = UniformClock.of(100.0)
@@ -55,34 +39,20 @@ def test_a_damaged_file_is_read_or_refused(
         Channel.of("distance", np.ones(30), clock),
     )
     WRITERS[suffix](Recording(channels), path, None)
-    whole = path.read_bytes()
-    text = bytearray(whole[: data.draw(st.integers(0, len(whole)) | st.just(len(whole)))])
-    for _ in range(data.draw(st.integers(0, 3))):
-        if text:
-            text[data.draw(st.integers(0, len(text) - 1))] = data.draw(st.integers(0, 255))
-    path.write_bytes(bytes(text))
-    adapter = Parquet() if suffix == ".parquet" else ArrowIpc()
-    try:
-        native = adapter.streams(path, {})
-        for k in range(len(native.streams)):
-            rows(native, k)
-    except InputError as error:
-        said = str(error)
-    else:
-        said = ""
-    assert "\n" not in said
+    check_damaged(Parquet() if suffix == ".parquet" else ArrowIpc(), path, data)
 
 
 @pytest.mark.parametrize("suffix", [".arrow", ".arrows"])
-def test_whole_batches_of_a_file_that_was_cut_short_are_read(tmp_path: Path, suffix: str) -> None:
+def test_whole_batches_of_a_file_that_was_cut_short_are_read(
+    tmp_path: Path, suffix: str, write_table: WriteTable
+) -> None:
     path = tmp_path / f"run{suffix}"
-    write = write_file if suffix == ".arrow" else write_stream
-    write(pa.table({"x": np.arange(9.0)}), path)
+    write_table(pa.table({"x": np.arange(9.0)}), path)
     whole = path.read_bytes()
     third = whole.rindex(np.array([6.0, 7.0]).tobytes())
     path.write_bytes(whole[: third + 4])
     native = ArrowIpc().streams(path, {})
-    assert rows(native)[0] == {"x": [0, 1, 2, 3, 4, 5]}
+    assert make_columns(native) == {"x": [0, 1, 2, 3, 4, 5]}
     assert native.streams[0].count == 6
     assert native.warnings[0].startswith("behind row 6: ")
 
@@ -118,12 +88,16 @@ def test_a_parquet_file_of_a_billion_rows_takes_little_memory(tmp_path: Path) ->
     assert peak_kib < 200 << 10
 
 
+def write_compressed(batch: pa.RecordBatch, path: Path) -> None:
+    options = pa.ipc.IpcWriteOptions(compression="zstd")
+    with pa.ipc.new_file(path, batch.schema, options=options) as writer:
+        writer.write_batch(batch)
+
+
 def test_a_compressed_batch_that_swells_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "run.arrow"
     table = pa.table({"x": pa.array(np.zeros((1 << 25) + 1, np.int8))})
-    options = pa.ipc.IpcWriteOptions(compression="zstd")
-    with pa.ipc.new_file(path, table.schema, options=options) as writer:
-        writer.write_table(table)
+    write_compressed(table.to_batches()[0], path)
     assert path.stat().st_size < 1 << 16
     with pytest.raises(InputError, match="compressed batch of 33554433 rows; write batches of"):
         ArrowIpc().streams(path, {})
@@ -135,9 +109,7 @@ def test_a_compressed_dictionary_that_swells_is_refused(tmp_path: Path) -> None:
     values = pa.array([b"\0" * (1 << 27)])
     column = pa.DictionaryArray.from_arrays(pa.array([0], pa.int8()), values)
     batch = pa.record_batch({"x": pa.array([1.0]), "text": column})
-    options = pa.ipc.IpcWriteOptions(compression="zstd")
-    with pa.ipc.new_file(path, batch.schema, options=options) as writer:
-        writer.write_batch(batch)
+    write_compressed(batch, path)
     assert path.stat().st_size < 1 << 16
     with pytest.raises(InputError, match=r"compressed dictionaries of 134217.*; write plain"):
         ArrowIpc().streams(path, {})
@@ -147,9 +119,7 @@ def test_compressed_batches_are_not_unpacked_for_many_columns_at_once(tmp_path: 
     path = tmp_path / "run.arrow"
     long = pa.nulls(1 << 24, pa.null())
     batch = pa.record_batch({"abcdef"[k]: long.cast(pa.bool_()) for k in range(5)})
-    options = pa.ipc.IpcWriteOptions(compression="zstd")
-    with pa.ipc.new_file(path, batch.schema, options=options) as writer:
-        writer.write_batch(batch)
+    write_compressed(batch, path)
     (stream,) = ArrowIpc().streams(path, {}).streams
     assert len(next(iter(stream.read(["a", "b", "c", "d"]))).values["a"]) == 1 << 16
     with pytest.raises(InputError, match="16777216 rows for 5 columns at once; write batches of"):
@@ -190,4 +160,3 @@ def test_other_files_are_not_recognised(tmp_path: Path) -> None:
             assert not adapter.recognises(path)
             with pytest.raises(InputError, match="not a file"):
                 adapter.streams(path, {})
-        assert plugins().adapters()[adapter.name].summary == adapter.summary

@@ -111,7 +111,7 @@ GOOD = {
     "left_elevation_m": pa.array([0.0, None, 1.0], pa.float64()),
     "left_valid": pa.array([True, True, None]),
 }
-TOLD = {
+METADATA = {
     "format": "floatref-profile/1",
     "interval_m": "0.5",
     "start_m": "0",
@@ -131,7 +131,7 @@ def made(path, columns, warnings):
 
 
 def test_a_file_by_another_program_with_our_metadata_is_read(tmp_path):
-    path = made(tmp_path / "a.parquet", [*GOOD.items(), ("speed", pa.array([1, 2, 3]))], TOLD)
+    path = made(tmp_path / "a.parquet", [*GOOD.items(), ("speed", pa.array([1, 2, 3]))], METADATA)
     profile = ParquetProfile().read(path)
     assert profile.interval_m == 0.5
     assert profile.track("left").valid.tolist() == [True, False, False]
@@ -161,7 +161,7 @@ BAD = {
 @pytest.mark.parametrize("message", BAD)
 def test_one_clear_line_for_what_is_wrong(tmp_path, message):
     columns, warnings = BAD[message]
-    warnings = {key: value for key, value in {**TOLD, **warnings}.items() if value is not None}
+    warnings = {key: value for key, value in {**METADATA, **warnings}.items() if value is not None}
     path = made(tmp_path / "a.parquet", {**GOOD, **columns}.items(), warnings)
     with pytest.raises(InputError, match=message) as caught:
         ParquetProfile().read(path)
@@ -173,7 +173,7 @@ def test_one_clear_line_for_what_is_wrong(tmp_path, message):
 def test_a_column_that_is_there_twice_is_refused(tmp_path, twice):
     columns = [*GOOD.items(), (twice, GOOD["distance_m"]), (twice, GOOD["distance_m"])]
     with pytest.raises(InputError, match=rf"column {twice}: [23] of it among"):
-        ParquetProfile().read(made(tmp_path / "a.parquet", columns, TOLD))
+        ParquetProfile().read(made(tmp_path / "a.parquet", columns, METADATA))
 
 
 def test_settings_that_json_cannot_hold_are_named(tmp_path):
@@ -189,7 +189,7 @@ def test_settings_that_json_cannot_hold_are_named(tmp_path):
 @given(place=st.integers(0, 3000), junk=st.binary(max_size=8), cut=st.integers(0, 60))
 def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place, junk, cut):
     path = tmp_path_factory.getbasetemp() / "damaged.parquet"
-    raw = made(path, GOOD.items(), TOLD).read_bytes()
+    raw = made(path, GOOD.items(), METADATA).read_bytes()
     path.write_bytes(raw[:place] + junk + raw[place + cut :])
     refusals = []
     try:

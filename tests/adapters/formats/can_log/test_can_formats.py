@@ -2,18 +2,16 @@
 
 import struct
 import zlib
-from collections.abc import Mapping
 from pathlib import Path
 
-import can
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.can_log.files_of_frames import logged, opened
 
-from floatref import Epoch, InputError, NativeFile
+from floatref import Epoch, InputError
 from floatref_adapters.formats.can_log.adapter import CanLog
-from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.can_log import (
     FAST_ID,
     WHEELS_DBC,
@@ -39,43 +37,11 @@ CSV = """timestamp,arbitration_id,extended,remote,error,dlc,data
 """
 
 
-def opened(
-    folder: Path, content: bytes | str, name: str = "run.asc", dbc: str | None = WHEELS_DBC
-) -> NativeFile:
-    """Return what the adapter finds in a log that holds ``content``, with the database ``dbc``."""
-    path = folder / name
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    options: Mapping[str, str] = {}
-    if dbc is not None:
-        (folder / "bus.dbc").write_text(dbc)
-        options = {"dbc": str(folder / "bus.dbc")}
-    assert CanLog().recognises(path)
-    assert not CsvTable().recognises(path)
-    return CanLog().streams(path, options)
-
-
 @pytest.mark.parametrize("writer", ["asc", "blf", "csv", "log", "trc"])
 def test_what_python_can_writes_is_read(tmp_path: Path, writer: str) -> None:
-    path = tmp_path / f"run.{writer}"
-    makers = {
-        "asc": can.ASCWriter,
-        "blf": can.BLFWriter,
-        "csv": can.CSVWriter,
-        "log": can.CanutilsLogWriter,
-        "trc": can.TRCWriter,
-    }
+    name = f"run.{writer}"
     data = [wheels_data([k, 2 * k, 3 * k, 65535 - k]) for k in range(500)]
-    with makers[writer](str(path)) as log:
-        for k, content in enumerate(data):
-            frame = can.Message(
-                timestamp=1_704_067_200 + k / 64,
-                arbitration_id=WHEELS_ID,
-                is_extended_id=False,
-                data=content,
-                channel=0,
-            )
-            log.on_message_received(frame)
-    file = opened(tmp_path, path.read_bytes(), path.name)
+    file = opened(tmp_path, logged(tmp_path / name, data), name)
     values, ticks = table_of(stream_of(file, "WheelSpeeds"))
     np.testing.assert_allclose(values["RearLeft"], 0.03 * np.arange(500), rtol=1e-12)
     steps = np.diff(ticks) * float(stream_of(file, "WheelSpeeds").clock.tick_s)
@@ -99,19 +65,7 @@ def test_files_that_are_no_can_log_are_refused(tmp_path: Path) -> None:
 
 def blf(tmp_path: Path, frames: int = 40) -> bytes:
     """Return a BLF log of wheel speeds, as python-can writes it."""
-    path = tmp_path / "written.blf"
-    with can.BLFWriter(str(path)) as log:
-        for k in range(frames):
-            log.on_message_received(
-                can.Message(
-                    timestamp=1_704_067_200 + k / 64,
-                    arbitration_id=WHEELS_ID,
-                    is_extended_id=False,
-                    data=wheels_data([k] * 4),
-                    channel=0,
-                )
-            )
-    return path.read_bytes()
+    return logged(tmp_path / "written.blf", [wheels_data([k] * 4) for k in range(frames)])
 
 
 def container(data: bytes, size: int | None = None) -> bytes:
@@ -123,7 +77,7 @@ def container(data: bytes, size: int | None = None) -> bytes:
 
 
 @pytest.mark.parametrize(
-    ("bad", "told"),
+    ("bad", "warning"),
     [
         (container(bytes(1 << 25)), "1 containers that are damaged or unpack to more than 16 MiB"),
         (container(struct.pack("<4sHHLLQQ", b"LOBJ", 32, 1, 0, 1, 0, 0)), "objects that are dam"),
@@ -134,11 +88,11 @@ def container(data: bytes, size: int | None = None) -> bytes:
     ],
 )
 def test_a_blf_log_that_declares_wrong_sizes_keeps_what_is_sound(
-    tmp_path: Path, bad: bytes, told: str
+    tmp_path: Path, bad: bytes, warning: str
 ) -> None:
     file = opened(tmp_path, blf(tmp_path) + bad, "run.blf")
     assert stream_of(file, "WheelSpeeds").count == 40
-    assert any(told in line for line in file.warnings)
+    assert any(warning in line for line in file.warnings)
 
 
 @pytest.mark.parametrize("cut", [8, 20, 60])

@@ -1,6 +1,5 @@
 """CAN logs: wheel speeds come back by their database, in every format; faults are told."""
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import cantools
@@ -8,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.can_log.files_of_frames import opened
 
-from floatref import Epoch, InputError, NativeFile
+from floatref import Epoch, InputError
 from floatref_adapters.formats.can_log.adapter import CanLog
 from floatref_adapters.testing.can_log import (
     FAST_ID,
@@ -27,20 +27,6 @@ from floatref_adapters.testing.whole_reading import read_or_refused, stream_of, 
 ENDINGS = ("\n", "\r", "\r\n")
 counts = st.lists(st.integers(0, 65535), min_size=4, max_size=4)
 YEAR_2024_US = 1_704_067_200 * 10**6
-
-
-def opened(
-    folder: Path, content: bytes | str, name: str = "run.asc", dbc: str | None = WHEELS_DBC
-) -> NativeFile:
-    """Return what the adapter finds in a log that holds ``content``, with the database ``dbc``."""
-    path = folder / name
-    path.write_bytes(content.encode() if isinstance(content, str) else content)
-    options: Mapping[str, str] = {}
-    if dbc is not None:
-        (folder / "bus.dbc").write_text(dbc)
-        options = {"dbc": str(folder / "bus.dbc")}
-    assert CanLog().recognises(path)
-    return CanLog().streams(path, options)
 
 
 @pytest.mark.slow

@@ -4,17 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.adapters.formats.csv_table.files_of_text import read
 
-from floatref import NativeFile
-from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.whole_reading import make_columns as columns
-from floatref_adapters.testing.whole_reading import open_content
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
-
-
-def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``text``."""
-    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 def test_units_are_in_brackets_or_in_a_row_of_their_own(tmp_path: Path) -> None:

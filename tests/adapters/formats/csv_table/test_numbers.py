@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.csv_table.files_of_text import read
 
-from floatref import NativeFile
-from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.whole_reading import make_columns as columns
-from floatref_adapters.testing.whole_reading import open_content
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 
 pytestmark = pytest.mark.slow
@@ -19,11 +17,6 @@ pytestmark = pytest.mark.slow
 samples = st.none() | st.floats(-1e6, 1e6) | st.floats(-1e-6, 1e-6)
 few = settings(deadline=None, max_examples=80)
 MISSING = ("", "nan", "NaN", "NA", "-", "n/a", "#DIV/0!", "#NUM!")
-
-
-def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``text``."""
-    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 @few

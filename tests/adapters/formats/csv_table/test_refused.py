@@ -8,20 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.damage import check_damaged
+from tests.adapters.formats.csv_table.files_of_text import read
 
 import floatref
-from floatref import InputError, NativeFile
-from floatref.engine.plugins import plugins
+from floatref import InputError
 from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.testing.whole_reading import make_columns as columns
-from floatref_adapters.testing.whole_reading import open_content
 
 few = settings(deadline=None, max_examples=80)
-
-
-def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``text``."""
-    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 REFUSED = {
@@ -60,7 +55,7 @@ def test_anything_else_is_refused_in_one_line(tmp_path: Path, text: str | bytes)
 
 
 @pytest.mark.parametrize(
-    ("text", "count", "told"),
+    ("text", "count", "warnings"),
     [
         ("time,x\n0,1.25\n1,2.25", 2, ()),
         ("time,x\n0,1.25\n1,2.2", 1, ("1 row at the end, cut short: dropped",)),
@@ -69,11 +64,11 @@ def test_anything_else_is_refused_in_one_line(tmp_path: Path, text: str | bytes)
     ],
 )
 def test_a_last_line_that_was_cut_short_is_dropped(
-    tmp_path: Path, text: str, count: int, told: tuple[str, ...]
+    tmp_path: Path, text: str, count: int, warnings: tuple[str, ...]
 ) -> None:
     native = read(tmp_path, text)
     assert len(columns(native)["x"]) == count
-    assert native.warnings == told
+    assert native.warnings == warnings
 
 
 def test_a_line_without_an_end_is_refused_before_it_fills_the_memory(tmp_path: Path) -> None:
@@ -85,23 +80,15 @@ def test_a_line_without_an_end_is_refused_before_it_fills_the_memory(tmp_path: P
 @settings(deadline=None, max_examples=150)
 @given(data=st.data())
 def test_a_damaged_table_is_read_or_refused(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+    tmp_path_factory: pytest.TempPathFactory,
+    data: st.DataObject,
 ) -> None:
     whole = b"time_s;height [mm];state\r\n" + b"".join(
         b"%d,%02d;%d,5;ok\r\n" % (k // 100, k % 100, k) for k in range(40)
     )
-    text = bytearray(whole[: data.draw(st.integers(0, len(whole)))])
-    for _ in range(data.draw(st.integers(0, 4))):
-        if text:
-            text[data.draw(st.integers(0, len(text) - 1))] = data.draw(st.integers(0, 255))
-    folder = tmp_path_factory.mktemp("csv")
-    try:
-        columns(read(folder, bytes(text)))
-    except InputError as error:
-        said = str(error)
-    else:
-        said = ""
-    assert "\n" not in said
+    path = tmp_path_factory.mktemp("csv") / "run.csv"
+    path.write_bytes(whole)
+    check_damaged(CsvTable(), path, data)
 
 
 @settings(deadline=None, max_examples=150)
@@ -212,7 +199,3 @@ def test_a_folder_and_a_missing_file_are_refused(tmp_path: Path) -> None:
         assert not CsvTable().recognises(path)
         with pytest.raises(InputError, match="not a file"):
             CsvTable().streams(path, {})
-
-
-def test_floatref_finds_the_adapter_through_its_entry_point() -> None:
-    assert plugins().adapters()["csv"].summary == CsvTable.summary

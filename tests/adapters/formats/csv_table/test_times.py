@@ -7,18 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.csv_table.files_of_text import read
 
-from floatref import Epoch, InputError, NativeFile
-from floatref_adapters.formats.csv_table.adapter import CsvTable
-from floatref_adapters.testing.whole_reading import open_content
+from floatref import Epoch, InputError
 from floatref_adapters.testing.whole_reading import ticks_of as ticks
 
 few = settings(deadline=None, max_examples=80)
-
-
-def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``text``."""
-    return open_content(CsvTable(), folder / "run.csv", text, **options)
 
 
 @few

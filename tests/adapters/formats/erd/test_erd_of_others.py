@@ -157,7 +157,7 @@ def test_reals_of_four_bytes_beside_the_header(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    ("values", "told", "message"),
+    ("values", "changes", "message"),
     [
         ([1, 2, 3], {}, r"a\.bin has 12 bytes, no multiple of 8; it is cut short"),
         ([1, 2], {"bytes_per_sample": 4}, "NBYTES is 4, but 2 reals of 4 bytes take 8"),
@@ -167,11 +167,11 @@ def test_reals_of_four_bytes_beside_the_header(tmp_path, name):
         ([], {}, "no numbers below END"),
     ],
 )
-def test_reals_that_cannot_be(tmp_path, values, told, message):
+def test_reals_that_cannot_be(tmp_path, values, changes, message):
     with np.errstate(over="ignore"):
-        values = np.array(values, "f8") * (1e-3 if "order" in told else 1)
+        values = np.array(values, "f8") * (1e-3 if "order" in changes else 1)
     with pytest.raises(InputError, match=message):
-        read(tmp_path, reals(tmp_path, values, **told))
+        read(tmp_path, reals(tmp_path, values, **changes))
 
 
 BAD = {

@@ -9,27 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.hdf5.conftest import rows
 
 from floatref import Epoch, InputError, NativeFile
 from floatref_adapters.formats.hdf5.adapter import Hdf5
 from floatref_adapters.formats.hdf5.dataset_rows import native_file
-
-
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    return tmp_path / "run.h5"
-
-
-def rows(native: NativeFile) -> dict[str, dict[str, list[float]]]:
-    """Return the samples of every column of numbers, by the names of their streams."""
-    found = {}
-    for stream in native.streams:
-        names = [column.name for column in stream.columns if column.numeric]
-        pieces = list(stream.read(names))
-        found[stream.name] = {
-            n: np.concatenate([p.values[n] for p in pieces]).tolist() for n in names
-        }
-    return found
 
 
 def ticks(native: NativeFile, stream: str) -> np.ndarray:

@@ -9,30 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.damage import check_damaged
+from tests.adapters.formats.hdf5.conftest import rows
 
-from floatref import Channel, InputError, NativeFile, Recording, UniformClock
-from floatref.engine.plugins import plugins
+from floatref import Channel, InputError, Recording, UniformClock
 from floatref_adapters.formats.hdf5 import child_process
 from floatref_adapters.formats.hdf5.adapter import Hdf5
 from floatref_adapters.formats.hdf5.dataset_rows import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5
-
-
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    return tmp_path / "run.h5"
-
-
-def rows(native: NativeFile) -> dict[str, dict[str, list[float]]]:
-    """Return the samples of every column of numbers, by the names of their streams."""
-    found = {}
-    for stream in native.streams:
-        names = [column.name for column in stream.columns if column.numeric]
-        pieces = list(stream.read(names))
-        found[stream.name] = {
-            n: np.concatenate([p.values[n] for p in pieces]).tolist() for n in names
-        }
-    return found
 
 
 def test_what_is_in_other_files_is_not_followed(path: Path) -> None:
@@ -54,14 +38,14 @@ def test_what_is_in_other_files_is_not_followed(path: Path) -> None:
     native = Hdf5().streams(path, {})
     (numbers,) = rows(native).values()
     assert list(numbers.values()) == [[0, 1, 2]]
-    told = "\n".join(native.warnings)
+    warnings = "\n".join(native.warnings)
     for line in (
         "1 links to other files: left alone",
         "1 soft links: left alone",
         "2 further links to the same object: left alone",
         "2 datasets whose data are in other files: left alone",
     ):
-        assert line in told
+        assert line in warnings
     listed = {c.name: c.numeric for s in native.streams for c in s.columns}
     assert (listed["raw"], listed["virtual"], listed["reference"]) == (False, False, False)
 
@@ -116,7 +100,8 @@ def test_a_row_without_its_time_is_refused(path: Path) -> None:
 @settings(deadline=None, max_examples=10)
 @given(data=st.data())
 def test_a_damaged_file_is_read_or_refused(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+    tmp_path_factory: pytest.TempPathFactory,
+    data: st.DataObject,
 ) -> None:
     path = tmp_path_factory.mktemp("run") / "run.h5"
     clock = UniformClock.of(100.0)
@@ -125,19 +110,7 @@ def test_a_damaged_file_is_read_or_refused(
         Channel.of("distance", np.ones(30), clock),
     )
     write_hdf5(Recording(channels), path)
-    whole = path.read_bytes()
-    text = bytearray(whole[: data.draw(st.integers(0, len(whole)) | st.just(len(whole)))])
-    for _ in range(data.draw(st.integers(0, 3))):
-        if text:
-            text[data.draw(st.integers(0, len(text) - 1))] = data.draw(st.integers(0, 255))
-    path.write_bytes(bytes(text))
-    try:
-        rows(Hdf5().streams(path, {}))
-    except InputError as error:
-        said = str(error)
-    else:
-        said = ""
-    assert "\n" not in said
+    check_damaged(Hdf5(), path, data)
 
 
 @pytest.mark.slow
@@ -190,4 +163,3 @@ def test_other_files_are_not_recognised(path: Path) -> None:
         assert not Hdf5().recognises(other)
         with pytest.raises(InputError, match="not a file"):
             Hdf5().streams(other, {})
-    assert plugins().adapters()["hdf5"].summary == Hdf5.summary

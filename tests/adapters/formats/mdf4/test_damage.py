@@ -7,10 +7,12 @@ import sys
 import tracemalloc
 import zlib
 from functools import partial
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.adapters.damage import with_wrong_numbers
 
 from floatref import InputError
 from floatref_adapters.formats.mdf4.adapter import Mdf4
@@ -47,14 +49,7 @@ def test_a_damaged_file_is_refused_or_read_and_nothing_else(
 ) -> None:
     path, draw = tmp_path / "a.mf4", random.Random(compressed)
     sound = small(path, compressed)
-    for _ in range(150):
-        damaged = bytearray(sound)
-        if draw.random() < 0.1:
-            del damaged[draw.randrange(len(damaged)) :]
-        for _ in range(draw.choice([1, 1, 2, 6]) if len(damaged) == len(sound) else 0):
-            place, size = draw.randrange(8, len(sound) - 8), draw.choice([1, 1, 4, 8])
-            number = draw.choice([0, 1, 64, 2**63, 2**64 - 1, draw.randrange(2**64)])
-            damaged[place : place + size] = (number % 2 ** (8 * size)).to_bytes(size, "little")
+    for damaged in islice(with_wrong_numbers(sound, draw, 8), 150):
         path.write_bytes(damaged)
         with contextlib.suppress(InputError):
             _, numbers = read(path)

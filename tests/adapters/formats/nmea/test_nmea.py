@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.adapters.drawn_fixes import draw_fixes
 
 from floatref import Epoch, InputError, NativeFile, Stream
 from floatref_adapters.formats.nmea.adapter import Nmea
@@ -37,25 +38,9 @@ ENDINGS = ("\n", "\r", "\r\n")
 
 @st.composite
 def fixes(draw: st.DrawFn) -> Fixes:
-    """Draw fixes at 1 to 50 Hz anywhere on earth, many of them across a midnight."""
-    rows = draw(st.integers(1, 12))
-    step = draw(st.sampled_from([20, 50, 100, 1000]))
+    """Draw fixes at 1 to 50 Hz, many of them across a midnight."""
     start = MIDNIGHT_MS + draw(st.integers(-3000, 3000)) + draw(st.integers(0, 5000)) * 86_400_000
-
-    def column(low: float, high: float) -> list[float]:
-        return draw(st.lists(st.floats(low, high), min_size=rows, max_size=rows))
-
-    return Fixes(
-        [start + step * k for k in range(rows)],
-        column(-90, 90),
-        column(-180, 180),
-        column(-400, 9000),
-        column(-107, 86),
-        draw(st.lists(st.sampled_from([0, 1, 2, 4, 5]), min_size=rows, max_size=rows)),
-        column(0, 90),
-        column(0, 359.9),
-        column(-5, 5),
-    )
+    return draw_fixes(draw, start, [20, 50, 100, 1000], 15)
 
 
 def opened(folder: Path, content: bytes | str) -> NativeFile:

@@ -6,22 +6,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.formats.novatel.files_of_logs import NOW_MS, ONE, WEEK_MS, opened
 
-from floatref import InputError, NativeFile
+from floatref import InputError
 from floatref_adapters.formats.novatel.adapter import NovAtel
-from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, short_log, text_log
-from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import read_or_refused, stream_of, table_of
-
-WEEK_MS = 604_800_000
-NOW_MS = 2300 * WEEK_MS
-ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [-0.25])
-
-
-def opened(folder: Path, content: bytes) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``content``."""
-    return opened_by(NovAtel(), folder / "run.gps", content)
 
 
 def test_a_wrong_checksum_drops_a_log_and_is_told(tmp_path: Path) -> None:

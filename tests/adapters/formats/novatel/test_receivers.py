@@ -5,20 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.adapters.formats.novatel.files_of_logs import WEEK_MS, opened
 
-from floatref import NativeFile
 from floatref_adapters.formats.novatel.adapter import NovAtel
-from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import stream_of, table_of
 
 DATA = Path(__file__).parent / "data"
 EDIE, SWRI = DATA / "novatel-edie", DATA / "novatel-swri"
-WEEK_MS = 604_800_000
-
-
-def opened(folder: Path, content: bytes) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``content``."""
-    return opened_by(NovAtel(), folder / "run.gps", content)
 
 
 @pytest.mark.parametrize("ending", [b"\n", b"\r\n", b"\r"])

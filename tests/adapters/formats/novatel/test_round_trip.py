@@ -8,46 +8,21 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.adapters.drawn_fixes import draw_fixes
+from tests.adapters.formats.novatel.files_of_logs import NOW_MS, ONE, WEEK_MS, opened
 
-from floatref import NativeFile
 from floatref_adapters.formats.novatel.adapter import NovAtel
 from floatref_adapters.shared.text_lines import BLOCK
 from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log
-from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import stream_of, table_of
-
-WEEK_MS = 604_800_000
-NOW_MS = 2300 * WEEK_MS
-ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [-0.25])
-
-
-def opened(folder: Path, content: bytes) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``content``."""
-    return opened_by(NovAtel(), folder / "run.gps", content)
 
 
 @st.composite
 def fixes(draw: st.DrawFn) -> Fixes:
-    """Draw fixes anywhere on earth, many of them across the end of a GPS week."""
-    rows = draw(st.integers(1, 10))
-    step = draw(st.sampled_from([5, 50, 1000]))
+    """Draw fixes, many of them across the end of a GPS week."""
     start = draw(st.sampled_from([1024, 2048, 2300])) * WEEK_MS + draw(st.integers(-3000, 3000))
-
-    def column(low: float, high: float) -> list[float]:
-        return draw(st.lists(st.floats(low, high), min_size=rows, max_size=rows))
-
-    return Fixes(
-        [start + step * k for k in range(rows)],
-        column(-90, 90),
-        column(-180, 180),
-        column(-400, 9000),
-        [round(x, 4) for x in column(-107, 86)],
-        draw(st.lists(st.sampled_from([0, 1, 2, 4, 5]), min_size=rows, max_size=rows)),
-        column(0, 90),
-        column(0, 359.9),
-        column(-5, 5),
-    )
+    return draw_fixes(draw, start, [5, 50, 1000], 4)
 
 
 @pytest.mark.slow

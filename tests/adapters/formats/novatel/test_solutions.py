@@ -5,22 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.adapters.formats.novatel.files_of_logs import NOW_MS, ONE, opened
 
-from floatref import NativeFile
-from floatref_adapters.formats.novatel.adapter import NovAtel
-from floatref_adapters.testing.fixes import Fixes
 from floatref_adapters.testing.novatel import ascii_log, binary_log, long_log, text_log
-from floatref_adapters.testing.whole_reading import open_content as opened_by
 from floatref_adapters.testing.whole_reading import stream_of, table_of
-
-NOW_MS = 2300 * 604_800_000
-ONE = Fixes([NOW_MS], [-33.5], [151.25], [20.0], [22.5], [4], [20.0], [359.5], [-0.25])
-
-
-def opened(folder: Path, content: bytes) -> NativeFile:
-    """Return what the adapter finds in a file that holds ``content``."""
-    return opened_by(NovAtel(), folder / "run.gps", content)
-
 
 KINDS = {0: 0, 1: 7, 2: 7, 8: 1, 16: 1, 17: 2, 18: 2, 19: 6, 20: 2, 32: 5, 33: 5, 34: 5}
 KINDS |= {48: 4, 49: 4, 50: 4, 51: 4, 52: 2, 53: 1, 54: 2, 55: 5, 56: 4, 57: 2, 58: 5, 59: 5}

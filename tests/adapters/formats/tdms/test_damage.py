@@ -5,10 +5,12 @@ import random
 import struct
 import sys
 from functools import partial
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.adapters.damage import with_wrong_numbers
 
 from floatref import InputError
 from floatref_adapters.formats.tdms.adapter import Tdms
@@ -38,14 +40,7 @@ def test_a_damaged_file_is_refused_or_read_and_nothing_else(
     wave = scale_waveform("Linear")
     sound = segment(META | NEW | RAW | INTERLEAVED * interleaved, doubles(3, 3, wave), raw)
     sound += segment(RAW | INTERLEAVED * interleaved, b"", raw)
-    for _ in range(250):
-        damaged = bytearray(sound)
-        if draw.random() < 0.15:
-            del damaged[draw.randrange(4, len(damaged)) :]
-        for _ in range(draw.choice([1, 1, 2, 6]) if len(damaged) == len(sound) else 0):
-            place, size = draw.randrange(4, len(sound) - 8), draw.choice([1, 1, 4, 8])
-            number = draw.choice([0, 1, 64, 2**63, 2**64 - 1, draw.randrange(2**64)])
-            damaged[place : place + size] = (number % 2 ** (8 * size)).to_bytes(size, "little")
+    for damaged in islice(with_wrong_numbers(sound, draw, 4), 250):
         path.write_bytes(damaged)
         with contextlib.suppress(InputError):
             _, numbers = read(path)

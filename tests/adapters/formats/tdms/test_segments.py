@@ -48,10 +48,10 @@ def test_values_are_found_however_they_are_laid(
     flags, data, first = RAW | INTERLEAVED * interleaved, b"", 0
     for number, count in enumerate(chunks):
         part = columns[:, first : first + chunk * count]
-        told = not number or repeated
-        metadata = doubles(channels, chunk) if told else b""
+        stated = not number or repeated
+        metadata = doubles(channels, chunk) if stated else b""
         raw = lay_out(part, chunk, interleaved)
-        data += segment(flags | (META | NEW if told else 0), metadata, raw)
+        data += segment(flags | (META | NEW if stated else 0), metadata, raw)
         first += chunk * count
     cut = min(cut, len(raw) - 1)
     path.write_bytes(data[: len(data) - cut])
@@ -68,9 +68,8 @@ def test_values_are_found_however_they_are_laid(
 
 def test_high_byte_first_is_read_too(tmp_path: Path) -> None:
     path = tmp_path / "a.tdms"
-    little = segment(
-        META | NEW | RAW, doubles(2, 3), lay_out(np.arange(6.0).reshape(2, 3), 3, False)
-    )
+    rows = lay_out(np.arange(6.0).reshape(2, 3), 3, False)
+    little = segment(META | NEW | RAW, doubles(2, 3), rows)
     big = np.arange(6.0, 12).reshape(2, 3).astype(">f8").tobytes()
     path.write_bytes(little + segment(RAW | BIG, b"", big))
     _, [(values, _)] = read(path)

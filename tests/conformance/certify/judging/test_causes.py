@@ -16,21 +16,21 @@ from floatref_conformance.certify.locating.fit import fit
 STRICT = CertificationLimits(repeatability=0.98, accuracy=0.98)
 
 
-def told(reference, run, limits=None):
+def causes_by_id(reference, run, limits=None):
     found = causes(reference, run, "left", fit(reference, run, "left"), limits)
     return {cause.id: cause for cause in found}
 
 
 def test_a_good_run_has_no_cause(road) -> None:
     for seed in range(5):
-        assert told(road.reference(), road.run(noise=0.08, seed=seed)) == {}
+        assert causes_by_id(road.reference(), road.run(noise=0.08, seed=seed)) == {}
 
 
 @settings(max_examples=10, deadline=None)
 @given(percent=st.floats(0.5, 5.0), sign=st.sampled_from([-1, 1]))
 def test_an_error_of_distance_is_named_and_explains_what_is_lost(road, percent, sign) -> None:
     run = road.run(scale=1.0 + sign * percent / 100.0, noise=0.05)
-    found = told(road.reference(), run)
+    found = causes_by_id(road.reference(), run)
     assert set(found) == {"distance"}
     assert found["distance"].text.endswith("too long" if sign > 0 else "too short")
     assert found["distance"].explains > 0.8
@@ -40,7 +40,7 @@ def test_an_error_of_distance_is_named_and_explains_what_is_lost(road, percent, 
 @given(percent=st.floats(2.5, 10.0), sign=st.sampled_from([-1, 1]))
 def test_a_scale_of_heights_is_named_and_explains_what_is_lost(road, percent, sign) -> None:
     run = road.run(gain=1.0 + sign * percent / 100.0, noise=0.05)
-    found = told(road.reference(), run)
+    found = causes_by_id(road.reference(), run)
     assert set(found) == {"height-scale"}
     assert found["height-scale"].text.endswith("too high" if sign > 0 else "too low")
     assert found["height-scale"].explains > 0.7
@@ -49,13 +49,13 @@ def test_a_scale_of_heights_is_named_and_explains_what_is_lost(road, percent, si
 def test_a_limit_of_nothing_is_a_limit_and_no_limit_is_the_usual_one(road) -> None:
     run = road.run(scale=1.0005, gain=1.005, noise=0.02)
     nothing = CertificationLimits(distance_percent=0.0, height_percent=0.0)
-    assert set(told(road.reference(), run, nothing)) == {"distance", "height-scale"}
+    assert set(causes_by_id(road.reference(), run, nothing)) == {"distance", "height-scale"}
     none = CertificationLimits(distance_percent=None, height_percent=None)
-    assert told(road.reference(), run, none) == told(road.reference(), run) == {}
+    assert causes_by_id(road.reference(), run, none) == causes_by_id(road.reference(), run) == {}
 
 
 def test_two_causes_are_told_apart(road) -> None:
-    found = told(road.reference(), road.run(scale=1.01, gain=1.03, noise=0.1))
+    found = causes_by_id(road.reference(), road.run(scale=1.01, gain=1.03, noise=0.1))
     assert set(found) == {"distance", "height-scale"}
     assert found["distance"].text == "distance 1.00 % too long"
     assert found["distance"].explains > found["height-scale"].explains > 0.0
@@ -63,26 +63,26 @@ def test_two_causes_are_told_apart(road) -> None:
 
 
 def test_noise_is_what_is_left(road) -> None:
-    found = told(road.reference(), road.run(noise=0.6))
+    found = causes_by_id(road.reference(), road.run(noise=0.6))
     assert next(iter(found)) == "noise"
     assert found["noise"].explains > 0.9
 
 
 def test_an_offset_beyond_the_search_is_named(road) -> None:
-    found = told(road.reference(), road.run(-2.5, 165.0))
+    found = causes_by_id(road.reference(), road.run(-2.5, 165.0))
     assert set(found) == {"offset"}
     assert found["offset"].text == "2.50 m farther along"
     assert found["offset"].explains > 0.95
 
 
 def test_heights_upside_down_are_named(road, changed) -> None:
-    found = told(road.reference(), changed(road.run(), lambda name, z: (name, -z)))
+    found = causes_by_id(road.reference(), changed(road.run(), lambda name, z: (name, -z)))
     assert set(found) == {"inverted"}
     assert found["inverted"].explains == pytest.approx(1.0, abs=0.02)
 
 
 def test_another_road_is_named(road, roads) -> None:
-    assert list(told(road.reference(), roads(41).run())) == ["not-this-road"]
+    assert list(causes_by_id(road.reference(), roads(41).run())) == ["not-this-road"]
 
 
 @pytest.mark.parametrize("flagged", [True, False])
@@ -93,7 +93,7 @@ def test_a_stretch_that_is_missing_is_named_with_its_length(road, flagged) -> No
     valid[1000:1500] = False
     z[1000:1500] = z[1000:1500] * -3.0 if flagged else np.nan
     spoilt = replace(run, tracks=(ProfileTrack.of("left", z, valid),))
-    found = told(road.reference(), spoilt)
+    found = causes_by_id(road.reference(), spoilt)
     assert found["missing"].text == "20.0 m of 160.9 m missing or not valid"
     assert found["missing"].explains > 0.8
     assert "height-scale" not in found
@@ -103,7 +103,7 @@ def test_flags_that_explain_nothing_are_not_blamed(road) -> None:
     run = road.run(gain=1.05, noise=0.05)
     valid = np.arange(run.tracks[0].elevation.size) >= 1000
     flagged = replace(run, tracks=(ProfileTrack.of("left", run.track("left").elevation, valid),))
-    assert set(told(road.reference(), flagged)) == {"height-scale"}
+    assert set(causes_by_id(road.reference(), flagged)) == {"height-scale"}
 
 
 def test_short_waves_that_a_footprint_takes_are_not_blamed_on_the_heights(road, changed) -> None:
@@ -112,7 +112,7 @@ def test_short_waves_that_a_footprint_takes_are_not_blamed_on_the_heights(road, 
         return name, np.convolve(padded, np.ones(13) / 13.0, "same")[6:-6]
 
     run = changed(road.run(), averaged)
-    found = told(road.reference(), run, STRICT)
+    found = causes_by_id(road.reference(), run, STRICT)
     assert set(found) == {"short-waves"}
     assert found["short-waves"].explains > 0.5
 
@@ -120,4 +120,4 @@ def test_short_waves_that_a_footprint_takes_are_not_blamed_on_the_heights(road, 
 def test_long_waves_that_a_filter_takes_are_named(road, changed) -> None:
     run = road.run()
     cut = changed(run, lambda name, z: (name, high_pass(z, run.interval_m, 12.0)))
-    assert "long-waves" in told(road.reference(), cut)
+    assert "long-waves" in causes_by_id(road.reference(), cut)

@@ -17,7 +17,6 @@ NOISY_M = 3e-3
 
 
 def criterion(sheet, id_, track=""):
-    """Return the one criterion of that name."""
     (found,) = [c for c in sheet.criteria if (c.id, c.track) == (id_, track)]
     return found
 
@@ -110,9 +109,9 @@ def test_of_many_runs_below_the_worst_are_named_and_the_rest_counted(sheet_of, r
     scores = {run.name: t.accuracy for run in sheet.runs for t in run.tracks if t.track == "right"}
     worst = sorted(scores, key=scores.get)
     assert found.judged is Judged.FAIL
-    told = [found.reason.find(f"{name} at {scores[name]:.3f}") for name in worst]
-    assert told[:5] == sorted(told[:5])
-    assert min(told[:5]) > 0
+    places = [found.reason.find(f"{name} at {scores[name]:.3f}") for name in worst]
+    assert places[:5] == sorted(places[:5])
+    assert min(places[:5]) > 0
     assert found.reason.endswith("; and 3 more")
 
 
@@ -219,8 +218,8 @@ def test_the_one_run_with_an_error_of_scale_fails_and_is_named_with_it(
     sheet_of, ten_runs, run_over, numbers, ids, said
 ):
     sheet = sheet_of((*ten_runs[:2], run_over(3, **numbers), ten_runs[3]))
-    told = {cause.text for t in sheet.runs[2].tracks for cause in t.causes}
-    assert any(text.startswith(said) for text in told)
+    named_causes = {cause.text for t in sheet.runs[2].tracks for cause in t.causes}
+    assert any(text.startswith(said) for text in named_causes)
     assert not any(t.causes for k in (0, 1, 3) for t in sheet.runs[k].tracks)
     lines = [c for c in sheet.criteria if c.id in ids]
     assert {c.judged for c in lines} == {Judged.FAIL}

@@ -35,6 +35,7 @@ def check_against_compare(folder, sheet):
             assert track.accuracy == line["cross_correlation"]
             assert track.offset_m == line["offset_m"]
             assert track.iri_m_per_km == line["iri_m_per_km"]
+            assert sheet.reference_iri[track.track] == line["iri_reference_m_per_km"]
             bias = 100 * (line["iri_m_per_km"] / line["iri_reference_m_per_km"] - 1)
             assert track.bias_percent == pytest.approx(bias, abs=1e-12)
     for i, j in combinations(range(len(sheet.runs)), 2):

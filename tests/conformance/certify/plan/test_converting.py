@@ -60,7 +60,6 @@ def found(folder: Path) -> Mapping[str, Converted]:
 
 
 def only(path: Path) -> Converted:
-    """Return what becomes of ``path`` alone."""
     return convert_all([path], Processing(), lambda path: None)[path]
 
 

@@ -60,7 +60,6 @@ def criterion(id_="accuracy", value=0.95, limit=0.90, judged=Judged.PASS, **chan
 
 @pytest.fixture
 def judged():
-    """Return a function that makes a criterion."""
     return criterion
 
 
@@ -72,7 +71,6 @@ def run_of():
 
 @pytest.fixture
 def section_of():
-    """Return a function that makes a section with ``runs``."""
 
     def make(runs, criteria=(), name="A1", tracks=("left", "right"), **changes):
         reference = Profile(

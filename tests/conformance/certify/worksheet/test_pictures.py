@@ -123,8 +123,8 @@ def test_dots_lie_above_their_run_in_the_order_of_their_iri(section):
 
 def test_runs_are_numbered_by_whole_numbers(section):
     svg = iri_by_run(section(3, 0), LIMITS, "x")
-    told = re.search(r'class="numbers along">(.*?)</g>', svg)[1]
-    assert re.findall(r">([^<]+)</text>", told) == ["1", "2", "3"]
+    labels = re.search(r'class="numbers along">(.*?)</g>', svg)[1]
+    assert re.findall(r">([^<]+)</text>", labels) == ["1", "2", "3"]
 
 
 @settings(max_examples=30, deadline=None)
@@ -144,8 +144,8 @@ def test_numbers_stand_in_the_cells_while_there_is_room():
     values = np.full((3, 3), np.nan)
     values[0, 1:], values[1, 2] = (0.987, 1.0), -0.04
     svg = heat_map("x", "pairs", values, 0.92)
-    told = {e.text: e.get("class") for e in parts(svg, "text", "inside")}
-    assert told == {".987": "inside high", "1.000": "inside high", "−.040": "inside low"}
+    labels = {e.text: e.get("class") for e in parts(svg, "text", "inside")}
+    assert labels == {".987": "inside high", "1.000": "inside high", "−.040": "inside low"}
     assert not parts(heat_map("x", "pairs", np.full((60, 60), 0.95), 0.92), "text", "inside")
 
 

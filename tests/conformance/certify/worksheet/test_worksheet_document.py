@@ -68,12 +68,12 @@ def test_the_document_holds_what_the_worksheet_does(worksheet):
     made = as_json(worksheet)
     assert (made["format"], made["class"], made["verdict"]) == (FORMAT, "nominal", "PASS")
     (section,), sheet = made["sections"], worksheet.sections[0]
-    for run, told in zip(sheet.runs, section["runs"], strict=True):
-        assert told["error"] == run.error
-        assert [t["accuracy"] for t in told["tracks"]] == [t.accuracy for t in run.tracks]
+    for run, entry in zip(sheet.runs, section["runs"], strict=True):
+        assert entry["error"] == run.error
+        assert [t["accuracy"] for t in entry["tracks"]] == [t.accuracy for t in run.tracks]
     for name, pairs in sheet.pairs.items():
-        told = section["pairs"][name]
-        assert [told[i][j] for i in range(3) for j in range(i + 1, 3)] == [
+        entry = section["pairs"][name]
+        assert [entry[i][j] for i in range(3) for j in range(i + 1, 3)] == [
             pairs[i, j] for i in range(3) for j in range(i + 1, 3)
         ]
     assert [c["judged"] for c in section["criteria"]] == [c.judged for c in sheet.criteria]

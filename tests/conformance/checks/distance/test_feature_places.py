@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.conformance.checks.benches import OneRecording, taken_of
 
 import floatref
 from floatref.measures import high_pass
@@ -14,32 +15,12 @@ from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.distance.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.checks.distance.feature_places import DISTANCE
 from floatref_conformance.checks.distance.features import Feature, middles, place
-from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
 
 START, SCALE, STEP, REST, LOSS = DISTANCE.limits
-
-
-class Bench:
-    """Hands out one recording, and what ``make`` of it."""
-
-    def __init__(self, taken, make):
-        self.taken, self.make = taken, make
-
-    def simulate(self, scenario):
-        return self.taken
-
-    def run(self, taken, label=""):
-        return self.make(taken)
-
-
-def taken_of(scenario):
-    made = simulate(replace(scenario, imu=False, gnss=False))
-    return Taken(made.recording, made.truth, scenario)
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +42,7 @@ def known(taken, change=lambda z: z, stretched=1.0, start_m=0.0, interval_m=None
 
 def judged(taken, **spoiled):
     case = Case("distance", taken.scenario)
-    return DISTANCE.judge(case, Bench(taken, lambda t: known(t, **spoiled)))
+    return DISTANCE.judge(case, OneRecording(taken, lambda t: known(t, **spoiled)))
 
 
 def read(taken, **spoiled):
@@ -187,10 +168,10 @@ def test_what_the_encoder_tells_wrong_between_wheel_and_laser_is_no_fault_of_a_d
     case = DISTANCE.cases(1, Effort.QUICK)[2]
     scenario = replace(case.scenario, encoder_error_percent=percent, vehicle="pickup")
     taken, best = seen_by_wheels(taken_of(scenario))
-    measured = DISTANCE.judge(case, Bench(taken, lambda _: best))
+    measured = DISTANCE.judge(case, OneRecording(taken, lambda _: best))
     assert all(m.within(DeviceClass.REFERENCE) for m in measured)
     displaced = replace(best, start_m=-taken.recording.setup.vehicle.x_m)
-    forgetful = DISTANCE.judge(case, Bench(taken, lambda _: displaced))
+    forgetful = DISTANCE.judge(case, OneRecording(taken, lambda _: displaced))
     assert {m.quantity for m in forgetful if not m.within(DeviceClass.NOMINAL)} >= {START}
 
 
@@ -240,5 +221,5 @@ def test_cases_follow_the_seed_and_survive_as_parameters():
 def test_the_recommended_pipeline_passes_braking_with_slip():
     case = DISTANCE.cases(0, Effort.QUICK)[2]
     name = "spatial-hpf-timer-distortion-reflection"
-    bench = Bench(taken_of(case.scenario), lambda t: floatref.process(t.recording, name))
+    bench = OneRecording(taken_of(case.scenario), lambda t: floatref.process(t.recording, name))
     assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in DISTANCE.judge(case, bench))

@@ -7,37 +7,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.signal import hilbert
+from tests.conformance.checks.benches import OneRecording, taken_of
 
 import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.distance.waveband import WAVEBAND, waves_of
-from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.roads.sines import WAVELENGTHS_M
-from floatref_conformance.proving_ground.simulate import simulate
 
 GAIN, CUT_OFF, BEYOND, DISPLACEMENT, PHASE = WAVEBAND.limits
-
-
-class Bench:
-    """Hands out one recording, and what ``make`` of it."""
-
-    def __init__(self, taken, make):
-        self.taken, self.make = taken, make
-
-    def simulate(self, scenario):
-        return self.taken
-
-    def run(self, taken, label=""):
-        return self.make(taken)
-
-
-def taken_of(scenario):
-    made = simulate(replace(scenario, imu=False, gnss=False))
-    return Taken(made.recording, made.truth, scenario)
 
 
 @pytest.fixture(scope="module")
@@ -55,15 +36,19 @@ def filtered(taken, wavelength_m=91.44, change=lambda z: z, stretched=1.0):
     return Profile(stretched * interval, tracks)
 
 
+def judged(taken, **spoiled):
+    bench = OneRecording(taken, lambda t: filtered(t, **spoiled))
+    return WAVEBAND.judge(WAVEBAND.simplest, bench)
+
+
 def read(taken, **spoiled):
     """Return the largest of each quantity of both wheel paths."""
-    measured = WAVEBAND.judge(WAVEBAND.simplest, Bench(taken, lambda t: filtered(t, **spoiled)))
+    measured = judged(taken, **spoiled)
     return {name: max(m.value for m in measured if m.quantity == name) for name in WAVEBAND.limits}
 
 
 def failing(taken, device_class=DeviceClass.NOMINAL, **spoiled):
-    measured = WAVEBAND.judge(WAVEBAND.simplest, Bench(taken, lambda t: filtered(t, **spoiled)))
-    return {m.quantity for m in measured if not m.within(device_class)}
+    return {m.quantity for m in judged(taken, **spoiled) if not m.within(device_class)}
 
 
 def gain_at(wavelength_m, minus_3db_m):
@@ -147,7 +132,7 @@ def test_cases_follow_the_seed_and_survive_as_parameters():
 @pytest.mark.slow
 def test_the_basic_pipeline_passes_its_first_case():
     case = WAVEBAND.cases(0, Effort.QUICK)[0]
-    bench = Bench(
+    bench = OneRecording(
         taken_of(case.scenario), lambda t: floatref.process(t.recording, "temporal-basic")
     )
     assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in WAVEBAND.judge(case, bench))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from tests.conformance.checks.benches import OneRecording
 
 import floatref
 from floatref.errors import InputError
@@ -26,19 +27,6 @@ NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 each = pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
 
 
-class Bench:
-    """Hands out one recording, and what ``device`` makes of it."""
-
-    def __init__(self, taken, device):
-        self.taken, self.device = taken, device
-
-    def simulate(self, scenario):
-        return self.taken
-
-    def run(self, taken, label=""):
-        return self.device(taken)
-
-
 @pytest.fixture(scope="module")
 def taken():
     """Return a function from checks to the recording of their simplest case, at 4 kHz."""
@@ -55,7 +43,7 @@ def taken():
 
 
 def failing(check, taken, device, device_class=NOMINAL):
-    measured = check.judge(check.simplest, Bench(taken, device))
+    measured = check.judge(check.simplest, OneRecording(taken, device))
     return {m.quantity for m in measured if not m.within(device_class)}
 
 
@@ -154,7 +142,7 @@ def test_what_a_device_gets_wrong_behind_the_second_stop_counts(taken):
         x = make_perfect(given).distance_m
         return spoilt(lambda z: np.where(np.abs(x - 590.0) < 20.0, 8.0 * z, z))(given)
 
-    measured = STOP.judge(replace(STOP.simplest, scenario=scenario), Bench(two, device))
+    measured = STOP.judge(replace(STOP.simplest, scenario=scenario), OneRecording(two, device))
     wholes = [m for m in measured if m.quantity == "IRI error, 160.9 m"]
     assert len(wholes) == 4
     assert [m.within(NOMINAL) for m in wholes] == [True, False, True, False]
@@ -166,7 +154,7 @@ def test_a_case_whose_numbers_leave_no_room_is_refused_before_anything_is_simula
         scenario=replace(STOP.simplest.scenario, length_m=450.0),
     )
     with pytest.raises(InputError, match="must lie 106 m from its ends"):
-        STOP.judge(case, Bench(None, make_perfect))
+        STOP.judge(case, OneRecording(None, make_perfect))
 
 
 @each

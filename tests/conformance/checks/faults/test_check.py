@@ -221,17 +221,6 @@ def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
     assert needs_of(check.simplest.variation["fault"]) <= set(having)
 
 
-@pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
-def test_every_fault_comes_in_turn_and_the_seed_draws_the_road_alone(effort, times):
-    one, other = (FAULTS.cases(seed, effort) for seed in (1, 2))
-    assert sorted(c.variation["fault"] for c in one) == sorted(list(SENSOR_FAULTS) * times)
-    assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
-    for case, again in zip(one, other, strict=True):
-        assert case.scenario.seed != again.scenario.seed
-        assert replace(case.scenario, seed=0) == replace(again.scenario, seed=0)
-        assert Case.of("faults", case.parameters, case.name) == case
-
-
 @settings(deadline=None, max_examples=60)
 @given(case=FAULTS.strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_fault(case):

@@ -134,17 +134,6 @@ def test_a_point_without_elevation_where_it_counts_is_the_devices_fault(right_be
         INVARIANCE.judge(ALIKE, right_bench(holed))
 
 
-@pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
-def test_every_change_comes_in_turn_and_the_seed_draws_the_road_alone(effort, times):
-    one, other = (INVARIANCE.cases(seed, effort) for seed in (1, 2))
-    assert sorted(c.variation["change"] for c in one) == sorted(list(CHANGES) * times)
-    assert len({case.scenario.seed for case in (*one, *other)}) == 2 * len(one)
-    for case, again in zip(one, other, strict=True):
-        assert case.scenario.seed != again.scenario.seed
-        assert replace(case.scenario, seed=0) == replace(again.scenario, seed=0)
-        assert Case.of("invariance", case.parameters, case.name) == case
-
-
 @pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(case=INVARIANCE.strategy())

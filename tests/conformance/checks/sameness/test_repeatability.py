@@ -1,23 +1,21 @@
 """`repeatability` reads by how much two passes differ, and passes no two that show no road."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.conformance.checks import benches
 
 import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.sameness.repeatability import LABELS, REPEATABILITY, passes_of
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.oracle import confirm
-from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import road_of
 
 BETWEEN, DIFFERENCE, TO_TRUTH = REPEATABILITY.limits
@@ -37,10 +35,7 @@ class Bench:
         return self.make(taken, label)
 
 
-@cache
-def taken_of(scenario):
-    made = simulate(replace(scenario, imu=False, gnss=False))
-    return Taken(made.recording, made.truth, scenario)
+taken_of = cache(benches.taken_of)
 
 
 def spoiled(**changes):

@@ -49,7 +49,6 @@ def bounced():
 
 
 def on_truths_grid(simulated, change):
-    """Return the truth, filtered alike, with ``change`` of it."""
     interval = simulated.truth.interval_m
     tracks = tuple(
         ProfileTrack.of(t.name, change(high_pass(t.elevation, interval), simulated))
@@ -221,8 +220,8 @@ def test_the_search_draws_cases_of_the_check_itself(drawn):
 
 def test_the_simplest_case_is_the_test_of_the_proving_ground_alone():
     for check in (QUIESCENT, BOUNCE):
-        told = check.simplest.parameters
-        assert told == {"scenario": {"manoeuvre": check.id}, "variation": {}}
+        parameters = check.simplest.parameters
+        assert parameters == {"scenario": {"manoeuvre": check.id}, "variation": {}}
 
 
 def test_the_limits_are_those_of_r_57_and_half_of_them_for_class_reference():

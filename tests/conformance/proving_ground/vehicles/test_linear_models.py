@@ -227,10 +227,10 @@ def test_setup_has_the_models_own_name_and_parameters(name: str) -> None:
     assert exact.recording.setup.vehicle == LINEAR_MODELS[name].known()
     wrong, _ = driven(name, sensors=50.0)
     assert wrong.recording.setup.vehicle is not None
-    told = wrong.recording.setup.vehicle.parameters
+    installed = wrong.recording.setup.vehicle.parameters
     for parameter, value in LINEAR_MODELS[name].known().parameters.items():
-        assert (told[parameter] > 0) == (value > 0)
-    assert told != exact.recording.setup.vehicle.parameters
+        assert (installed[parameter] > 0) == (value > 0)
+    assert installed != exact.recording.setup.vehicle.parameters
 
 
 @pytest.mark.cites("Table 1 of Zhu")

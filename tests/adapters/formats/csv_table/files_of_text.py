@@ -1,0 +1,11 @@
+"""What the adapter finds in a file of text."""
+
+from pathlib import Path
+
+from floatref import NativeFile
+from floatref_adapters.formats.csv_table.adapter import CsvTable
+from floatref_adapters.testing.whole_reading import opened
+
+
+def read(folder: Path, text: str | bytes, **options: str) -> NativeFile:
+    return opened(CsvTable(), folder / "run.csv", text, **options)

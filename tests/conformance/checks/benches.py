@@ -1,0 +1,24 @@
+"""A bench with one recording, and recordings for it."""
+
+from dataclasses import replace
+
+from floatref_conformance.checks.interface import Taken
+from floatref_conformance.proving_ground.simulate import simulate
+
+
+class OneRecording:
+    """Hands out one recording, and what ``device`` makes of it."""
+
+    def __init__(self, taken, device):
+        self.taken, self.device = taken, device
+
+    def simulate(self, scenario):
+        return self.taken
+
+    def run(self, taken, label=""):
+        return self.device(taken)
+
+
+def taken_of(scenario):
+    made = simulate(replace(scenario, imu=False, gnss=False))
+    return Taken(made.recording, made.truth, scenario)
