@@ -29,8 +29,6 @@ N0, N1 = 0.1, 0.1
 """Reference and lower cut-off wave number of (14) and (15), in cycles/m."""
 NOISE = 0.05
 """Of each signal's RMS."""
-PER_METRE = 20.0
-"""The estimator's samples per metre (4.3)."""
 INITIAL = 5e-5
 """P of the first state, on the diagonal (4.1)."""
 

@@ -9,6 +9,8 @@ import pytest
 
 import floatref
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 ROWS = tomllib.loads((ROOT / ".ci" / "equations.toml").read_text(encoding="utf-8"))
 GOOD = {
@@ -40,13 +42,11 @@ def generator(monkeypatch):
     return importlib.import_module("equations_page")
 
 
-@pytest.mark.slow
 def test_the_page_is_what_the_script_writes(generator, monkeypatch, capsys):
     monkeypatch.setattr("sys.argv", ["equations_page.py", "--check"])
     assert generator.main() == 0, capsys.readouterr().err
 
 
-@pytest.mark.slow
 def test_a_page_of_yesterday_fails(generator, monkeypatch, capsys, tmp_path):
     page = tmp_path / "equations.md"
     page.write_text("# Yesterday\n", encoding="utf-8")
@@ -55,7 +55,6 @@ def test_a_page_of_yesterday_fails(generator, monkeypatch, capsys, tmp_path):
     assert "is out of date" in capsys.readouterr().err
 
 
-@pytest.mark.slow
 def test_a_complete_row_is_a_line_with_four_columns(generator):
     text = generator.page({"intro": "", "outro": "", "groups": [{"title": "One", "rows": [GOOD]}]})
     row = next(line for line in text.splitlines() if "(2.7)" in line)
@@ -63,7 +62,6 @@ def test_a_complete_row_is_a_line_with_four_columns(generator):
     assert row.count("|") == 5
 
 
-@pytest.mark.slow
 def test_a_row_without_what_it_cites_or_a_title_is_refused(generator):
     assert "cites no equation, table or section" in list(generator.faults(GOOD | {"cites": ""}))
     assert "no title given in what" in list(generator.faults(GOOD | {"what": ""}))

@@ -209,6 +209,7 @@ def test_what_a_page_loads_is_in_the_site(site: Path) -> None:
                 assert (path.parent / unquote(parts.path)).exists(), (path, target)
 
 
+@pytest.mark.slow
 def test_what_a_style_loads_is_in_the_site(site: Path) -> None:
     for path in site.rglob("*.css"):
         for rule in re.findall(r"@font-face\{.*?\}|url\([^)]*\)", path.read_text(encoding="utf-8")):

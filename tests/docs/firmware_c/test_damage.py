@@ -13,6 +13,8 @@ from floatref_conformance.checks.faults.fault_numbers import NUMBERS
 from floatref_conformance.checks.faults.faulty_drives import ROLLING
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 
+pytestmark = pytest.mark.slow
+
 STOP = {"manoeuvre": "stop", "length_m": 300.0, "event_at_m": 150.0, "speed_kmh": 50.0}
 FAULTS = [name for name in SENSOR_FAULTS if not name.startswith(("gnss", "imu", "response"))]
 REPAIRED = (ROLLING, "encoder-counts-back")
@@ -32,7 +34,6 @@ def sound(start, whole, tmp_path_factory):
     return {key: start().profile_of(r, folder / str(key)) for key, r in whole.items()}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("fault", "n"), CASES)
 def test_damage_is_repaired_or_flagged_and_the_road_far_before_it_is_as_it_was(
     start, whole, sound, fault, n, tmp_path
@@ -66,7 +67,6 @@ def with_values(recording, name, change, clock=None):
     return Recording(channels, recording.setup)
 
 
-@pytest.mark.slow
 def test_nothing_is_damaged_in_coarse_and_slow_sensors(start, whole, sound, tmp_path):
     coarse = with_values(
         whole[True], "height", lambda x: np.round(x[::40], 3), UniformClock.of(100)
@@ -80,7 +80,6 @@ def test_nothing_is_damaged_in_coarse_and_slow_sensors(start, whole, sound, tmp_
         assert changed * found.interval_m < 20.0
 
 
-@pytest.mark.slow
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_holds_steps_and_holes_anywhere_in_the_encoder_give_a_whole_profile(

@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from floatref.files import read_profile, write_recording
 
+pytestmark = pytest.mark.slow
+
 SANITIZED = (
     "-std=c99 -g -O1 -Wall -Wextra -Wpedantic -Wconversion -Werror"
     " -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
@@ -30,7 +32,6 @@ def sanitized(start, simulated, tmp_path_factory):
     return start(*([f"CFLAGS={SANITIZED}"] if able else [])), folder
 
 
-@pytest.mark.slow
 def test_a_run_stays_within_its_memory(sanitized):
     firmware, folder = sanitized
     answer, profile = firmware.run(folder)
@@ -38,7 +39,6 @@ def test_a_run_stays_within_its_memory(sanitized):
     assert len(read_profile(profile).tracks) == 2
 
 
-@pytest.mark.slow
 @settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_a_spoilt_recording_gets_an_answer(sanitized, tmp_path, data):
@@ -97,7 +97,6 @@ SPOILT = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("reason", SPOILT)
 def test_samples_that_cannot_be_used_are_refused_by_name(sanitized, reason, tmp_path):
     firmware, folder = sanitized
@@ -165,7 +164,6 @@ def test_the_device_says_what_it_is(sanitized):
     assert (device["architecture"], device["capabilities"]) == ("temporal", [])
 
 
-@pytest.mark.slow
 def test_the_least_device_leaves_everything_out(build):
     requests = '{"seq": 1, "cmd": "start", "version": 1}\n{"seq": 2, "cmd": "run", "recording": "a"'
     found = subprocess.run(

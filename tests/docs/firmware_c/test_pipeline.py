@@ -9,6 +9,8 @@ from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.devices.executable import make
 
+pytestmark = pytest.mark.slow
+
 STOP = {"manoeuvre": "stop", "length_m": 450.0, "event_at_m": 230.0, "deceleration_g": 0.3}
 
 
@@ -79,7 +81,6 @@ def starting_late(name, x, clock):
     return (x[100:], UniformClock.of(4000, 0.025)) if name == "height" else (x, clock)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "drive",
     [
@@ -92,7 +93,6 @@ def test_a_profile_is_that_of_the_pipeline(start, drives, drive, expected, asser
     assert_same(found, expected(drives[drive]))
 
 
-@pytest.mark.slow
 def test_the_judge_gets_that_profile_too(build, drives, expected, assert_same, tmp_path):
     write_recording(drives["stop"], tmp_path / "run")
     device = make(str(build("firmware")))
@@ -116,7 +116,6 @@ def test_gaps_and_clocks_are_taken_as_the_pipeline_takes_them(
     assert_same(start().profile_of(recording, tmp_path / "run"), expected(recording))
 
 
-@pytest.mark.slow
 def test_single_precision_is_within_a_fifth_of_a_millimetre(
     start, drives, expected, assert_same, tmp_path
 ):
@@ -124,7 +123,6 @@ def test_single_precision_is_within_a_fifth_of_a_millimetre(
     assert_same(found, expected(drives["stop"]), within_m=2e-4)
 
 
-@pytest.mark.slow
 def test_each_fault_shows_where_it_must_and_only_there(start, drives, expected, tmp_path):
     made = {
         (fault, drive): start(f"BROKEN={fault}").profile_of(
@@ -146,7 +144,6 @@ def test_each_fault_shows_where_it_must_and_only_there(start, drives, expected, 
         assert not track.valid.all()
 
 
-@pytest.mark.slow
 def test_a_run_takes_memory_once_however_long_it_is(counted, simulated, tmp_path):
     taken = []
     for length_m in (150.0, 300.0):

@@ -14,7 +14,7 @@ from floatref.errors import InputError
 HOLDER = """
 import sys
 from pathlib import Path
-from floatref.batch.results.folder import prepared, working
+from floatref.batch.results.folder import mark_working, prepare_folder
 with {context}:
     print("held", flush=True)
     sys.stdin.read()
@@ -90,7 +90,7 @@ def test_a_file_and_a_missing_parent_are_said(tmp_path: Path) -> None:
 
 
 def test_two_commands_never_share_a_folder(tmp_path: Path) -> None:
-    other = holder(f"prepared(Path({str(tmp_path)!r}), resume=False)")
+    other = holder(f"prepare_folder(Path({str(tmp_path)!r}), resume=False)")
     try:
         with pytest.raises(InputError, match="another batch works there"):
             prepare_folder(tmp_path, resume=True).__enter__()
@@ -105,7 +105,7 @@ def test_two_commands_never_share_a_folder(tmp_path: Path) -> None:
 def test_tasks_of_a_killed_command_are_waited_for(tmp_path: Path) -> None:
     with ExitStack() as stack:
         stack.enter_context(mark_working(tmp_path))
-        other = holder(f"working(Path({str(tmp_path)!r}))")
+        other = holder(f"mark_working(Path({str(tmp_path)!r}))")
         with pytest.raises(InputError, match="workers still process files there"):
             prepare_folder(tmp_path, resume=True, patience_s=0.0).__enter__()
         other.kill()

@@ -101,6 +101,7 @@ def test_a_profile_made_with_them_agrees_better_with_the_road(
         assert scores[0] < 0.9 < 0.95 < scores[1], run
 
 
+@pytest.mark.slow
 def test_tables_tell_values_scores_and_sensitivity(made: Path) -> None:
     text = (made / "out.txt").read_text(encoding="utf-8")
     assert "\x1b" not in text
@@ -120,12 +121,14 @@ def test_tables_tell_values_scores_and_sensitivity(made: Path) -> None:
     assert after < 0.3 * before
 
 
+@pytest.mark.slow
 def test_missing_kinds_are_a_warning(made: Path) -> None:
     text = (made / "err.txt").read_text(encoding="utf-8")
     assert "Warning: recommended, and not among the runs: constant speed of 8 km/h" in text
     assert "72 km/h" not in text
 
 
+@pytest.mark.slow
 def test_the_plot_is_a_picture(made: Path) -> None:
     assert imread(made / "p.png").shape[0] > 500
 
@@ -157,6 +160,7 @@ def test_json_holds_runs_values_and_sensitivity(made: Path, tmp_path: Path, ran)
     assert len(report["missing_runs"]) == 5
 
 
+@pytest.mark.slow
 def test_what_is_there_is_kept(made: Path, refused) -> None:
     before = (made / "tuned.json").read_bytes()
     arguments = (made / "fast", "--reference", made / "road", "--out", made / "tuned.json")

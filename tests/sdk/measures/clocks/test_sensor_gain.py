@@ -1,42 +1,18 @@
 """A height of a wrong unit, scale or sign is found where the vehicle stands and swings."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.sdk.measures.clocks.drives import driven, parts
 
 from floatref.measures.clocks.sensor_gain import gain_warning, sensor_gain
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
-from floatref_conformance.proving_ground import Scenario, simulate
 
 VEHICLES = ["loaded-van", "minivan", "pickup", "trailer", "soft-van"]
-
-
-@cache
-def driven(manoeuvre: str, vehicle: str, seed: int) -> tuple[Channel, Channel, Channel]:
-    recording = simulate(
-        Scenario(
-            seed=seed,
-            manoeuvre=manoeuvre,
-            vehicle=vehicle,
-            speed_kmh=4.0 if manoeuvre == "creeping" else 50.0,
-            final_speed_kmh=40.0,
-            dwell_s=3.0,
-            event_at_m=100.0,
-            length_m=200.0,
-            rate_hz=4000.0,
-            tracks=("left",),
-            imu=False,
-            gnss=False,
-        )
-    ).recording
-    names = ("vertical_specific_force", "height", "distance")
-    force, height, distance = (recording.channel(name, "left") for name in names)
-    return force, height, distance
 
 
 def times(channel: Channel, scale: float) -> Channel:
@@ -53,7 +29,7 @@ def times(channel: Channel, scale: float) -> Channel:
     ),
 )
 def test_a_stop_tells_scale_and_sign(vehicle: str, seed: int, scale: float) -> None:
-    force, height, distance = driven("stop", vehicle, seed)
+    force, height, distance = parts(driven("stop", vehicle, seed))
     gain = sensor_gain(force, times(height, scale), distance)
     assert gain == pytest.approx(scale, rel=0.02)
     line = gain_warning(gain, height)
@@ -69,7 +45,7 @@ def test_a_stop_tells_scale_and_sign(vehicle: str, seed: int, scale: float) -> N
 @pytest.mark.parametrize("vehicle", VEHICLES)
 @pytest.mark.parametrize("manoeuvre", ["near-stop", "creeping"])
 def test_a_vehicle_that_goes_on_tells_nothing(manoeuvre: str, vehicle: str) -> None:
-    force, height, distance = driven(manoeuvre, vehicle, 2)
+    force, height, distance = parts(driven(manoeuvre, vehicle, 2))
     for scale in (1.0, -1.0, 10.0):
         gain = sensor_gain(force, times(height, scale), distance)
         assert np.isnan(gain)
@@ -77,7 +53,7 @@ def test_a_vehicle_that_goes_on_tells_nothing(manoeuvre: str, vehicle: str) -> N
 
 
 def test_short_and_slow_channels_and_noise_tell_nothing() -> None:
-    force, height, distance = driven("stop", "minivan", 1)
+    force, height, distance = parts(driven("stop", "minivan", 1))
     slow = Channel.of("height", height.values[::80], UniformClock.of(50.0), "left")
     assert np.isnan(sensor_gain(force, slow, distance))
     short = replace(force, values=force.values[:100])
@@ -87,7 +63,7 @@ def test_short_and_slow_channels_and_noise_tell_nothing() -> None:
 
 
 def test_lasers_that_are_late_do_not_look_inverted() -> None:
-    force, height, distance = driven("stop", "pickup", 1)
+    force, height, distance = parts(driven("stop", "pickup", 1))
     assert isinstance(height.clock, UniformClock)
     for late in (-0.3, -0.04, 0.005, 0.04, 0.3):
         shifted = replace(height, clock=replace(height.clock, start_s=late))

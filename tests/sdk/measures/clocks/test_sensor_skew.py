@@ -1,50 +1,21 @@
 """The skew of a height sensor: put into drives and bounces, found again or left open."""
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.sdk.measures.clocks.drives import driven, parts
 
 from floatref.measures.clocks.sensor_skew import Skew, sensor_skew, skew_warning
 from floatref.measures.clocks.skew_series import RATE_HZ, on_grid
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording
-from floatref_conformance.proving_ground import Scenario, simulate
+from floatref.values.recording import Channel
 
 HOLD_S = 0.5 / 3240.0
 """A laser of 3.24 kHz that is held shows what it saw half a hold ago."""
 SHIFTS_MS = (-3.0, -1.0, 0.0, 0.3, 1.0, 3.0)
-
-
-@cache
-def driven(manoeuvre: str, vehicle: str, seed: int, stops: int = 1) -> Recording:
-    return simulate(
-        Scenario(
-            seed=seed,
-            manoeuvre=manoeuvre,
-            vehicle=vehicle,
-            speed_kmh=4.0 if manoeuvre == "creeping" else 50.0,
-            final_speed_kmh=40.0,
-            dwell_s=2.0,
-            event_at_m=100.0,
-            stops=stops,
-            stop_spacing_m=120.0,
-            length_m=200.0 + 120.0 * (stops - 1),
-            rate_hz=4000.0,
-            tracks=("left",),
-            imu=False,
-            gnss=False,
-        )
-    ).recording
-
-
-def parts(recording: Recording) -> tuple[Channel, Channel, Channel]:
-    names = ("vertical_specific_force", "height", "distance")
-    force, height, distance = (recording.channel(name, "left") for name in names)
-    return force, height, distance
 
 
 def later(channel: Channel, by_s: float) -> Channel:

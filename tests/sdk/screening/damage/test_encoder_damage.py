@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.sdk.screening.damage.encoders import COUNT, RATE, damage, laws, travel
 
 from floatref.intake.blocks import Source
 from floatref.screening.damage.encoder_damage import encoder_damage
@@ -13,20 +14,7 @@ from floatref.values.channels import ChannelId
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
-RATE, COUNT = 1000.0, 20_000
-CLOCK = UniformClock.of(RATE)
 DISTANCE = ChannelId("distance")
-laws = settings(
-    deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-
-
-def travel(speed=20.0, count_m=0.0003, rate=RATE):
-    return count_m * np.floor(speed * np.arange(COUNT) / rate / count_m)
-
-
-def damage(values, clock=CLOCK):
-    return encoder_damage(Channel.of("distance", values, clock))
 
 
 def taken(steady, values, size=4096):

@@ -2,27 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.sdk.screening.damage.encoders import CLOCK, COUNT, RATE, damage, laws, travel
 
 import floatref
 from floatref.screening.damage.encoder_damage import encoder_damage
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
-
-RATE, COUNT = 1000.0, 20_000
-CLOCK = UniformClock.of(RATE)
-laws = settings(
-    deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-
-
-def travel(speed=20.0, count_m=0.0003, rate=RATE):
-    return count_m * np.floor(speed * np.arange(COUNT) / rate / count_m)
-
-
-def damage(values, clock=CLOCK):
-    return encoder_damage(Channel.of("distance", values, clock))
 
 
 @laws
