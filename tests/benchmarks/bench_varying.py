@@ -19,8 +19,9 @@ import scipy.signal
 from timing import in_turns
 
 from floatref.intake.blocks import BLOCK
+from floatref.kernels.memories import VARYING
 from floatref.kernels.schedule import frequencies, tangents
-from floatref.kernels.varying import SECTION, high_pass_12, high_pass_21
+from floatref.kernels.varying import high_pass_12, high_pass_21
 from floatref.stages.filters.schedule import ScheduleCutOff
 from floatref.stages.filters.varying import VaryingHighPassB3, VaryingHighPassB3R
 from floatref.values.arrays import new_record
@@ -45,13 +46,13 @@ def drive(samples: int) -> np.ndarray:
 def on_arrays(x: np.ndarray, speed: np.ndarray) -> np.ndarray:
     """Return ``x`` after both passes: what the filter costs without blocks, flags and states."""
     y, c, cutoff = np.empty(x.size), np.empty(x.size), np.empty(PIECE)
-    first, second = new_record(SECTION), new_record(SECTION)
+    first, second = new_record(VARYING), new_record(VARYING)
     pieces = [slice(at, at + PIECE) for at in range(0, x.size, PIECE)]
     for part in pieces:
         frequencies(speed[part], cutoff, *CONSTANTS)
         tangents(cutoff[: c[part].size], 1.0 / RATE_HZ, c[part])
         high_pass_12(x[part], y[part], c[part], first, second, False)
-    first, second = new_record(SECTION), new_record(SECTION)
+    first, second = new_record(VARYING), new_record(VARYING)
     for part in reversed(pieces):
         high_pass_21(y[part], y[part], c[part], second, first, True)
     return y

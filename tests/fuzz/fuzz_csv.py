@@ -1,13 +1,7 @@
 """Fuzz the CSV reader: any bytes are a table, or one `InputError` of one line.
 
-atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
-floatref in it. Then, with a folder for the inputs that are found (it may be empty):
-
-    python tests/fuzz/fuzz_csv.py -max_total_time=600 CORPUS
-
-A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
-again. The first byte chooses what a channel map would state of the table. A table that is read
-has as many rows as it was counted to have, in every column, read twice the same.
+Run it as `harness` says. The first byte chooses what a channel map would state of the table. A
+table that is read has as many rows as it was counted to have, in every column, read twice the same.
 """
 
 import tempfile

@@ -1,13 +1,8 @@
 """Fuzz the ERD reader: any bytes are a profile, or one `InputError` of one line.
 
-atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
-floatref in it. Then, with a folder for the inputs that are found (it may be empty):
-
-    python tests/fuzz/fuzz_erd.py -max_total_time=600 CORPUS
-
-A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
-again. Numbers behind a byte 255 go to the `.bin` file beside the header, so that real numbers are
-reached too. A profile that is read is written and read again, and has to be the same then.
+Run it as `harness` says. Numbers behind a byte 255 go to the `.bin` file beside the header, so that
+real numbers are reached too. A profile that is read is written and read again, and has to be the
+same then.
 """
 
 import tempfile

@@ -1,13 +1,8 @@
 """Fuzz channel maps: any bytes are a map, or one `InputError` of one line; so is what it maps.
 
-atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
-floatref in it. Then, with a folder for the inputs that are found (it may be empty):
-
-    python tests/fuzz/fuzz_map.py -max_total_time=600 -rss_limit_mb=700 CORPUS
-
-A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
-again. What stands behind a byte 255, which no UTF-8 has, are the samples and the ticks of the file
-that is mapped. Mutations put in whole lines of maps, so that more than the TOML parser is reached.
+Run it as `harness` says, with -rss_limit_mb=700. What stands behind a byte 255, which no UTF-8 has,
+are the samples and the ticks of the file that is mapped. Mutations put in whole lines of maps, so
+that more than the TOML parser is reached.
 """
 
 import random

@@ -1,13 +1,7 @@
 """Fuzz the example of a vendor's adapter: any bytes are streams, or one `InputError` of one line.
 
-atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
-floatref in it. Then, with a folder for the inputs that are found (it may be empty):
-
-    python tests/fuzz/fuzz_vendor_logger.py -max_total_time=600 CORPUS
-
-A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
-again. No fuzzer guesses a CRC-32: after the first byte of an input, the checks of the header and
-of the blocks are put right, so that what lies behind them is reached.
+Run it as `harness` says. No fuzzer guesses a CRC-32: after the first byte of an input, the checks
+of the header and of the blocks are put right, so that what lies behind them is reached.
 """
 
 import sys

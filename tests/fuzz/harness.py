@@ -1,4 +1,13 @@
-"""What the fuzzers share: seeds where there is a corpus folder, and refusals of one line."""
+"""What the fuzzers share: seeds where there is a corpus folder, and refusals of one line.
+
+atheris is no dependency of floatref: `pip install atheris` into an environment of its own, with
+floatref in it. Then, with a folder for the inputs that are found (it may be empty):
+
+    python tests/fuzz/fuzz_csv.py -max_total_time=600 CORPUS
+
+A crash is written as `crash-…` beside where it ran; give that file in place of CORPUS to see it
+again.
+"""
 
 import sys
 from collections.abc import Callable, Iterable

@@ -5,15 +5,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-CONTROLLER = np.dtype(
-    [
-        ("active", np.bool_),
-        *((name, np.float64) for name in ("held", "moving", "last", "area", "offset")),
-    ],
-    align=True,
-)
-"""The memory: whether it acts, the last d, speed and v, the integral, the offset."""
-
 
 @compiled
 def hold_at_zero(

@@ -5,16 +5,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-OBSERVER = np.dtype(
-    [
-        ("started", np.bool_),
-        *((name, np.float64) for name in ("pushed", "held", "c")),
-        *((name, np.float64) for name in ("e", "v", "b", "r")),
-    ],
-    align=True,
-)
-"""The memory: whether it has begun, the last a (in metres), h and c, then the states."""
-
 
 @compiled
 def observe(

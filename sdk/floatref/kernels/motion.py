@@ -5,16 +5,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FlagArray, FloatArray, IndexArray
 
-INTEGRATOR = np.dtype(
-    [("started", np.bool_), *((name, np.float64) for name in ("last", "total", "height"))],
-    align=True,
-)
-"""The memory of an integrator: whether it has begun, the last input, the integral and, where it
-reflects the height, the last height."""
-
-SUM = np.dtype([("total", np.float64), ("rest", np.float64), ("count", np.int64)], align=True)
-"""A compensated sum, which is ``total`` and ``rest`` together, and of how many samples it is."""
-
 TIE = 1e-6
 """A distance within this fraction of the interval of a point counts as having reached it.
 

@@ -20,12 +20,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-SECTION = np.dtype(
-    [("started", np.bool_), *((name, np.float64) for name in ("held", "s1", "s2"))], align=True
-)
-"""The memory of one stage: whether it has begun, the last input, and the states, of which a
-first-order stage has one."""
-
 
 @compiled
 def _missing_lead(x: FloatArray, backward: bool) -> int:

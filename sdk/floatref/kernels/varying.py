@@ -26,16 +26,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-SECTION = np.dtype(
-    [
-        *((name, np.bool_) for name in ("has_x", "has_c")),
-        *((name, np.float64) for name in ("x", "c", "r", "t", "g", "y1", "y2", "a")),
-    ],
-    align=True,
-)
-"""The memory of one stage: whether an input and a c have occurred, the last of each, the states,
-and the last outputs."""
-
 
 @compiled
 def _lead(x: FloatArray, c: FloatArray, memory: np.record, backward: bool) -> int:

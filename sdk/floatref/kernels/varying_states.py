@@ -16,12 +16,6 @@ import numpy as np
 from floatref.kernels.compiling import compiled
 from floatref.values.arrays import FloatArray
 
-SECTION = np.dtype(
-    [("started", np.bool_), *((name, np.float64) for name in ("held", "c", "s1", "s2"))],
-    align=True,
-)
-"""The memory of one stage: whether it has begun, the last input, the last c, and the states."""
-
 
 @compiled
 def high_pass_1(

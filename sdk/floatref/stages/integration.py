@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from floatref.kernels.memories import INTEGRATOR, SUM
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import ELEVATION, HEIGHT, REFERENCE_HEIGHT, TIME_STEP
@@ -33,15 +34,13 @@ class Integrate(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the source, and for the time step on the distance axis."""
-        from floatref.kernels import motion
-
         self._over_distance = header.axis is Axis.DISTANCE
         self._half_step = header.step / 2.0
         if self._over_distance:
             header.require(self.name, ChannelId(TIME_STEP))
         for name in filter(None, (self.source, self.starts_at)):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
-        self.memory = {track: new_record(motion.INTEGRATOR) for track in header.tracks}
+        self.memory = {track: new_record(INTEGRATOR) for track in header.tracks}
         if self.keeps_source:
             return header.adding(*(ChannelId(self.target, track) for track in header.tracks))
         return header.replacing(self.source, self.target)
@@ -116,10 +115,8 @@ class RemoveMean(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the channel of every track."""
-        from floatref.kernels import motion
-
         header.require(self.name, *(ChannelId(self.channel, t) for t in header.tracks))
-        self.memory = {track: new_record(motion.SUM) for track in header.tracks}
+        self.memory = {track: new_record(SUM) for track in header.tracks}
         return header
 
     def survey(self, block: Block) -> None:

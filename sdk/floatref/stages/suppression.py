@@ -3,6 +3,7 @@
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.memories import CONTROLLER
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import TRAVEL_SPEED, VELOCITY
@@ -39,14 +40,12 @@ class SuppressLocally(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for the channel and the speed, in time."""
-        from floatref.kernels import local_suppression
-
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         channels = [ChannelId(self.channel, track) for track in header.tracks]
         header.require(self.name, *channels, ChannelId(TRAVEL_SPEED))
         self._step = header.step
-        self.memory = {track: new_record(local_suppression.CONTROLLER) for track in header.tracks}
+        self.memory = {track: new_record(CONTROLLER) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.memories import INTEGRATOR
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import (
@@ -97,14 +98,12 @@ class IntegrateReflecting(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for both signals of every track and both time steps."""
-        from floatref.kernels import motion
-
         if header.axis is not Axis.DISTANCE:
             raise InputError(f"stage {self.name}: the stream is not on the distance axis")
         header.require(self.name, ChannelId(TIME_STEP), ChannelId(TRUE_TIME_STEP))
         for name in (self.source, self.height):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
-        self.memory = {track: new_record(motion.INTEGRATOR) for track in header.tracks}
+        self.memory = {track: new_record(INTEGRATOR) for track in header.tracks}
         return header.replacing(self.source, self.target)
 
     def advance(self, block: Block) -> Block:

@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import local_suppression as kernel
+from floatref.kernels.memories import CONTROLLER
 from floatref.values.arrays import new_record
 
 LIMIT, K_P, K_I_DT = 4.0, 0.001, 0.834e-3
@@ -14,7 +15,7 @@ FEW = settings(deadline=None, max_examples=15)
 
 def held(d, speed):
     y = np.empty(d.size)
-    kernel.hold_at_zero(d, speed, y, new_record(kernel.CONTROLLER), LIMIT, K_P, K_I_DT)
+    kernel.hold_at_zero(d, speed, y, new_record(CONTROLLER), LIMIT, K_P, K_I_DT)
     return y
 
 

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import matched_high_pass, state_variable
+from floatref.kernels.memories import OBSERVER, STATE_VARIABLE
 from floatref.values.arrays import new_record
 
 STEP = 1e-3
@@ -20,7 +21,7 @@ def integral(x):
 
 def observed(a, h, c):
     r = np.empty(a.size)
-    matched_high_pass.observe(a, h, c, r, new_record(matched_high_pass.OBSERVER), STEP)
+    matched_high_pass.observe(a, h, c, r, new_record(OBSERVER), STEP)
     return r
 
 
@@ -46,8 +47,8 @@ def test_a_constant_cut_off_is_the_filter_of_the_profile(seed, hertz):
     c = np.tan(np.pi * STEP * hertz)
     expected = np.empty(2000)
     # The profile begins at zero, so either start leaves the stages at rest.
-    state_variable.high_pass_1(profile, expected, new_record(state_variable.SECTION), c, False)
-    state_variable.high_pass_2(expected, expected, new_record(state_variable.SECTION), c, False)
+    state_variable.high_pass_1(profile, expected, new_record(STATE_VARIABLE), c, False)
+    state_variable.high_pass_2(expected, expected, new_record(STATE_VARIABLE), c, False)
     assert np.abs(observed(a, h, np.full(2000, c)) - h - expected).max() <= 1e-11
 
 

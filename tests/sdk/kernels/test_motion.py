@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from floatref.kernels import motion
+from floatref.kernels.memories import INTEGRATOR, SUM
 from floatref.values.arrays import new_record
 from floatref_reference.chapter_5 import section_5_3, section_5_8
 
@@ -18,7 +19,7 @@ SIGNALS = hnp.arrays(np.float64, st.integers(1, 60), elements=st.floats(-1e3, 1e
 @settings(deadline=None, max_examples=40)
 @given(x=SIGNALS, rate=st.floats(10.0, 2e4), start=st.floats(-10, 10))
 def test_integration_in_time_is_the_trapezoidal_rule(x, rate, start):
-    y, memory = np.empty(x.size), new_record(motion.INTEGRATOR)
+    y, memory = np.empty(x.size), new_record(INTEGRATOR)
     memory.total = start
     motion.integrate(x, y, memory, 0.5 / rate)
     expected = section_5_3.trapezoidal_rule(x, 1.0 / rate, start)
@@ -31,7 +32,7 @@ def test_integration_in_time_is_the_trapezoidal_rule(x, rate, start):
 def test_integration_over_triggers_is_5_5(x, data):
     steps = data.draw(hnp.arrays(np.float64, x.size, elements=st.floats(0.0, 20.0)))
     y = np.empty(x.size)
-    motion.integrate_steps(x, y, new_record(motion.INTEGRATOR), steps)
+    motion.integrate_steps(x, y, new_record(INTEGRATOR), steps)
     expected = section_5_8.velocity(x, steps)
     assert np.abs(y - expected).max() <= 1e-12 * (1.0 + np.abs(expected).max())
 
@@ -42,10 +43,10 @@ def test_the_example_of_section_5_8():
     acceleration = np.array([-0.01865 * g, 0.00910 * g])
     steps = np.array([0.0, 10.7643])
     velocity, height = np.empty(2), np.empty(2)
-    start = new_record(motion.INTEGRATOR)
+    start = new_record(INTEGRATOR)
     start.total = -0.00319
     motion.integrate_steps(acceleration, velocity, start, steps)
-    motion.integrate_steps(velocity, height, new_record(motion.INTEGRATOR), steps)
+    motion.integrate_steps(velocity, height, new_record(INTEGRATOR), steps)
     assert velocity[1] == pytest.approx(-0.50744, abs=2e-4)
     assert height[1] == pytest.approx(-2.748, abs=1e-3)
 
@@ -54,7 +55,7 @@ def test_the_example_of_section_5_8():
 @given(x=hnp.arrays(np.float64, st.integers(0, 40), elements=st.floats(-1e12, 1e12)))
 @example(x=np.array([2**39 + 0.125, 2**39 + 0.125, 2**-13, 1e-245]))
 def test_a_sum_and_its_rest_are_exact_to_thirty_digits(x):
-    memory = new_record(motion.SUM)
+    memory = new_record(SUM)
     motion.add_up(x, memory)
     exact = sum((Fraction(float(value)) for value in x), Fraction(0))
     size = sum((abs(Fraction(float(value))) for value in x), Fraction(0))

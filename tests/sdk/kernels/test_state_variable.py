@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import state_variable
+from floatref.kernels.memories import STATE_VARIABLE
 from floatref.values.arrays import new_record
 from floatref_reference.appendix_a import filters
 
@@ -27,7 +28,7 @@ PAIRS = {
 
 def filtered(name, x, cutoff, backward):
     y = np.empty(x.size)
-    memory = new_record(state_variable.SECTION)
+    memory = new_record(STATE_VARIABLE)
     getattr(state_variable, name)(x, y, memory, math.tan(math.pi * cutoff), backward)
     return y
 
@@ -59,7 +60,7 @@ def test_the_fused_kernel_is_its_two_parts(cutoff, seed, backward, lost):
     x[list(lost)] = np.nan
     c = math.tan(math.pi * cutoff)
     y = np.empty(x.size)
-    second, first = new_record(state_variable.SECTION), new_record(state_variable.SECTION)
+    second, first = new_record(STATE_VARIABLE), new_record(STATE_VARIABLE)
     state_variable.high_pass_21(x, y, second, first, c, backward)
     apart = filtered("high_pass_1", filtered("high_pass_2", x, cutoff, backward), cutoff, backward)
     assert np.abs(y - apart).max() <= 1e-12

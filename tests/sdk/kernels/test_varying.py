@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.kernels import varying
+from floatref.kernels.memories import VARYING
 from floatref.values.arrays import new_record
 from floatref_reference.appendix_a import varying as literal
 
@@ -28,13 +29,13 @@ def drawn(seed, size, highest=0.2):
 
 def filtered(name, x, c, backward):
     y = np.empty(x.size)
-    getattr(varying, name)(x, y, c, new_record(varying.SECTION), backward)
+    getattr(varying, name)(x, y, c, new_record(VARYING), backward)
     return y
 
 
 def fused(name, x, c, backward):
     y = np.empty(x.size)
-    memories = new_record(varying.SECTION), new_record(varying.SECTION)
+    memories = new_record(VARYING), new_record(VARYING)
     getattr(varying, name)(x, y, c, *memories, backward)
     return y
 
@@ -106,7 +107,7 @@ def test_nothing_comes_out_until_input_and_cut_off_are_there(name, backward, lea
 def test_output_may_take_the_place_of_the_input(name, backward):
     x, c = drawn(3, 50)
     expected = filtered(name, x, c, backward)
-    getattr(varying, name)(x, x, c, new_record(varying.SECTION), backward)
+    getattr(varying, name)(x, x, c, new_record(VARYING), backward)
     np.testing.assert_array_equal(x, expected)
 
 

@@ -5,6 +5,7 @@ import pytest
 
 import floatref
 from floatref.kernels import motion
+from floatref.kernels.memories import INTEGRATOR
 from floatref.values.arrays import new_record
 
 G, RATE, INTERVAL = 9.80665, 2000.0, 0.025
@@ -14,9 +15,9 @@ def summed(x, step):
     """Trapezoidal integral from zero, by the kernel of the pipelines."""
     y = np.empty(x.size)
     if np.ndim(step):
-        motion.integrate_steps(x, y, new_record(motion.INTEGRATOR), step)
+        motion.integrate_steps(x, y, new_record(INTEGRATOR), step)
     else:
-        motion.integrate(x, y, new_record(motion.INTEGRATOR), 0.5 * step)
+        motion.integrate(x, y, new_record(INTEGRATOR), 0.5 * step)
     return y
 
 

@@ -181,15 +181,6 @@ def test_a_chunk_refused_for_its_speed_counts_for_nothing(signal):
     np.testing.assert_array_equal(stage.reverse(X, SPEED), other.reverse(X, SPEED))
 
 
-def test_a_chunk_refused_by_the_observer_for_its_speed_counts_for_nothing():
-    stage, other = MatchedHighPass(100.0), MatchedHighPass(100.0)
-    with pytest.raises(InputError, match=NAMED % "MatchedHighPass.reference_height"):
-        stage.reference_height(X, X, FAST)
-    found = stage.reference_height(X, X, SPEED)
-    np.testing.assert_array_equal(found, other.reference_height(X, X, SPEED))
-    np.testing.assert_array_equal(stage.reverse(X, SPEED), other.reverse(X, SPEED))
-
-
 @pytest.mark.parametrize("make", [AdaptiveHighPass, MatchedHighPass])
 def test_a_backward_pass_refused_for_its_arrays_does_not_end_the_run(make):
     stage, nothing = at_speed(make), np.full(10, np.nan)

@@ -2,51 +2,27 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.sdk.screening.drives import (
+    LAT,
+    LONG,
+    PITCH,
+    ROLL,
+    YAW,
+    Change,
+    driven,
+    each,
+    warnings_of,
+)
 
 from floatref.errors import InputError
-from floatref.screening.gnss_height import gnss_faults
-from floatref.screening.imu_and_gnss import ImuUse, check_kinematics
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
-from floatref_conformance.proving_ground import Scenario, simulate
-
-LONG, LAT = "longitudinal_specific_force", "lateral_specific_force"
-ROLL, PITCH, YAW = "roll_rate", "pitch_rate", "yaw_rate"
-Change = Callable[[Recording], Recording]
-DRIVES: dict[str, dict[str, Any]] = {
-    "curve": {"length_m": 220.0, "speed_kmh": 60.0, "curvature_per_km": 16.0},
-    "hill": {"length_m": 220.0, "speed_kmh": 60.0, "grade_percent": 8.0, "vehicle": "trailer"},
-    "banked": {"length_m": 150.0, "speed_kmh": 30.0, "curvature_per_km": 20.0,
-               "cross_slope_percent": -15.0, "vehicle": "pickup"},
-    "level, perfect": {"length_m": 150.0, "road": "flat", "sensors": 0.0},
-}  # fmt: skip
-
-
-@cache
-def driven(drive: str) -> Recording:
-    scenario = Scenario.from_dict({**DRIVES[drive], "rate_hz": 1000.0})
-    return simulate(scenario).recording
-
-
-def warnings_of(
-    recording: Recording, *tracks: str, gnss: bool = True, attitude: bool = True
-) -> tuple[str, ...]:
-    return check_kinematics(recording, ImuUse(tracks, gnss, attitude), gnss_faults(recording))
-
-
-def each(name: str, change: Callable[[Channel], Channel]) -> Change:
-    def changed(recording: Recording) -> Recording:
-        channels = (change(c) if c.id.name == name else c for c in recording.channels)
-        return replace(recording, channels=tuple(channels))
-
-    return changed
 
 
 def without(*names: str) -> Change:
@@ -68,11 +44,11 @@ def test_all_channels_that_are_missing_are_named_at_once(
     gone: tuple[str, ...], gnss: bool, attitude: bool, text: str
 ) -> None:
     with pytest.raises(InputError, match=rf"^{text}"):
-        warnings_of(without(*gone)(driven("hill")), "left", gnss=gnss, attitude=attitude)
+        warnings_of(without(*gone)(driven("hill at speed")), "left", gnss=gnss, attitude=attitude)
 
 
 def test_what_a_pipeline_does_not_read_may_be_missing() -> None:
-    recording = driven("hill")
+    recording = driven("hill at speed")
     assert warnings_of(without("gnss_roll")(recording), "left", attitude=False) == ()
     assert warnings_of(without("gnss_height")(recording), "left", gnss=False, attitude=False) == ()
     (line,) = warnings_of(without("gnss_quality")(recording), "left")
@@ -102,7 +78,7 @@ def test_a_silent_gyro_is_told_and_survived(name: str, at: int, length: int, sta
         values[lost] = np.nan
         return replace(channel, values=values)
 
-    recording = driven("curve")
+    recording = driven("curve at speed")
     size = next(c.values.size for c in recording.channels if c.id.name == name)
     (line,) = warnings_of(each(name, silenced)(recording), "left")
     seconds = min(length, size - at) / 100
@@ -120,7 +96,7 @@ def test_a_wild_rate_is_refused(value: float) -> None:
         return replace(channel, values=values)
 
     with pytest.raises(InputError, match=rf"^channel yaw_rate: sample 77 is {value:.4g} rad/s"):
-        warnings_of(each(YAW, wild)(driven("hill")), "left")
+        warnings_of(each(YAW, wild)(driven("hill at speed")), "left")
 
 
 @pytest.mark.parametrize("change", [lambda c: 0.0 * c.values + np.nan, lambda c: c.values])

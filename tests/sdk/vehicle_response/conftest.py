@@ -8,7 +8,8 @@ import pytest
 from scipy.linalg import expm
 
 from floatref.engine.run import run
-from floatref.kernels.state_variable import SECTION, high_pass_1, high_pass_2
+from floatref.kernels.memories import STATE_VARIABLE
+from floatref.kernels.state_variable import high_pass_1, high_pass_2
 from floatref.stages.filters.schedule import AdaptiveCutOff
 from floatref.values.arrays import new_record
 from floatref.values.clock import UniformClock
@@ -126,7 +127,7 @@ def high_passed(z: np.ndarray, mps: float, interval_m: float) -> np.ndarray:
     tangent = np.tan(np.pi * wave_number * interval_m)
     for kernel, backward in SECTIONS:
         out = np.empty_like(z)
-        kernel(z, out, new_record(SECTION), tangent, backward)
+        kernel(z, out, new_record(STATE_VARIABLE), tangent, backward)
         z = out
     return z
 

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from floatref.kernels.memories import STATE_VARIABLE
 from floatref.kernels.state_variable import (
-    SECTION,
     high_pass_1,
     high_pass_2,
     high_pass_21,
@@ -27,9 +27,9 @@ def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> 
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size)
-    high_pass_1(x, y, new_record(SECTION), c, False)
-    high_pass_21(y, y, new_record(SECTION), new_record(SECTION), c, True)
-    high_pass_2(y, y, new_record(SECTION), c, False)
+    high_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
+    high_pass_21(y, y, new_record(STATE_VARIABLE), new_record(STATE_VARIABLE), c, True)
+    high_pass_2(y, y, new_record(STATE_VARIABLE), c, False)
     return y
 
 
@@ -41,8 +41,8 @@ def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> F
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size)
-    low_pass_1(x, y, new_record(SECTION), c, False)
-    low_pass_2(y, y, new_record(SECTION), c, True)
-    low_pass_1(y, y, new_record(SECTION), c, True)
-    low_pass_2(y, y, new_record(SECTION), c, False)
+    low_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
+    low_pass_2(y, y, new_record(STATE_VARIABLE), c, True)
+    low_pass_1(y, y, new_record(STATE_VARIABLE), c, True)
+    low_pass_2(y, y, new_record(STATE_VARIABLE), c, False)
     return y

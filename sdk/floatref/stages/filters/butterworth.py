@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_setting as high_pass_setting
 from floatref.kernels.cut_off import high_pass_wavelength_setting as high_pass_wavelength_setting
 from floatref.kernels.cut_off import low_pass_setting as low_pass_setting
+from floatref.kernels.memories import STATE_VARIABLE
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Direction, Stage
 from floatref.values.arrays import FloatArray, new_record
@@ -36,8 +37,6 @@ class ButterworthStage(Stage):
 
     def open(self, header: Header) -> Header:
         """Refuse a cut-off outside (0, half the sampling rate)."""
-        from floatref.kernels.state_variable import SECTION
-
         header.require(self.name, *self._channels(header.tracks))
         if not 0.0 < self.cutoff * header.step < 0.5:
             raise InputError(
@@ -45,7 +44,7 @@ class ButterworthStage(Stage):
                 f"{header.axis.value} is outside 0 to {0.5 / header.step:g}, half the sampling rate"
             )
         self._c = math.tan(math.pi * self.cutoff * header.step)
-        self.memory = {track: new_record(SECTION) for track in header.tracks}
+        self.memory = {track: new_record(STATE_VARIABLE) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels.memories import OBSERVER
 from floatref.stages.filters.varying import tangents
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
@@ -33,15 +34,13 @@ class MatchedHighPass(Stage):
 
     def open(self, header: Header) -> Header:
         """Ask for both sensors of every track and the cut-off, in time."""
-        from floatref.kernels import matched_high_pass
-
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
         header.require(self.name, ChannelId(CUTOFF))
         for name in (ACCELERATION, HEIGHT):
             header.require(self.name, *(ChannelId(name, t) for t in header.tracks))
         self._step = header.step
-        self.memory = {track: new_record(matched_high_pass.OBSERVER) for track in header.tracks}
+        self.memory = {track: new_record(OBSERVER) for track in header.tracks}
         return header.replacing(ACCELERATION, REFERENCE_HEIGHT)
 
     def advance(self, block: Block) -> Block:

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.kernels import memories
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Direction, Stage
 from floatref.stages.signals import CUTOFF
@@ -26,6 +27,7 @@ class VaryingHighPass(Stage):
 
     orders: ClassVar[str]
     """The order of each section that is passed, first to last, as its kernel is named."""
+    _section: ClassVar[np.dtype[np.void]] = memories.VARYING
 
     def __init__(self, channel: str) -> None:
         """Filter ``channel`` of every track."""
@@ -38,8 +40,8 @@ class VaryingHighPass(Stage):
         channels = [ChannelId(self.channel, track) for track in header.tracks]
         header.require(self.name, *channels, ChannelId(CUTOFF))
         self._step = header.step
-        section, count = self._kernels().SECTION, len(self.orders)
-        self.memory = {track: new_records(count, section) for track in header.tracks}
+        count = len(self.orders)
+        self.memory = {track: new_records(count, self._section) for track in header.tracks}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -130,6 +132,7 @@ class StateHighPassB3S1R(VaryingHighPass):
 
     orders = "1"
     direction = Direction.BACKWARD
+    _section = memories.VARYING_STATES
 
     @staticmethod
     def _kernels() -> ModuleType:

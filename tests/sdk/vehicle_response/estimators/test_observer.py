@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import expm
+from tests.sdk.vehicle_response.estimators.observers import readings
 
 from floatref.errors import InputError
 from floatref.vehicle_response import (
@@ -30,14 +31,6 @@ MODELS = {"quarter car": QUARTER_CAR, "half car": ZHU_HALF_CAR.model()} | {
         IMINE_TRAILER, left_tyre_ns_per_m=0.0, right_tyre_ns_per_m=0.0
     ).model(),
 }
-
-
-def readings(model, *without):
-    return [
-        Reading(Kind.DISPLACEMENT, freedom.name, 1e-4)
-        for freedom in model.freedoms
-        if freedom.name not in without
-    ]
 
 
 def observer(model, *without, **how):

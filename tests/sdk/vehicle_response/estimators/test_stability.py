@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.sdk.vehicle_response.estimators.observers import readings
 
 from floatref.errors import InputError
 from floatref.vehicle_response import (
     IMINE_TRAILER,
     ZHU_HALF_CAR,
-    Kind,
     QuarterCar,
-    Reading,
     UnknownInputObserver,
     default_gains,
 )
@@ -26,14 +25,6 @@ MODELS = {
     "trailer": IMINE_TRAILER.model(),
 }
 NAMES = st.sampled_from(sorted(MODELS))
-
-
-def readings(model, *without):
-    return [
-        Reading(Kind.DISPLACEMENT, freedom.name, 1e-4)
-        for freedom in model.freedoms
-        if freedom.name not in without
-    ]
 
 
 def observer(model, gains, *without):
