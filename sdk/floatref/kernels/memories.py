@@ -35,7 +35,7 @@ OBSERVER = np.dtype(
     ],
     align=True,
 )
-"""Of `matched_high_pass`: whether it has begun, the last a (in metres), h and c, then the states."""
+"""Of `matched_high_pass`: whether it has begun, the last a (in m), h and c, and the states."""
 
 CONTROLLER = np.dtype(
     [
