@@ -1,6 +1,7 @@
 """What each package may import from outside: nothing that is not listed here."""
 
 import ast
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -66,3 +67,23 @@ def test_a_package_imports_what_it_may(room: str) -> None:
         allowed = OURS | set(sys.stdlib_module_names)
         allowed |= set().union(*(v for k, v in ALLOWED.items() if name.startswith(f"{k}/")))
         assert set(imported(path)) <= allowed, name
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "import sdk.floatref",
+        "from adapters.floatref_adapters import stamps",
+        "from reference_impl import floatref_reference",
+        "import conformance.floatref_conformance.cli",
+    ],
+)
+def test_an_import_through_a_top_folder_is_refused(statement: str) -> None:
+    command = [sys.executable, "-m", "ruff", "check", "--no-cache", "--select", "TID251"]
+    found = subprocess.run(
+        [*command, "--stdin-filename", "tests/test_any.py", "-"],
+        input=f"{statement}\n",
+        capture_output=True,
+        text=True,
+    )
+    assert "TID251" in found.stdout

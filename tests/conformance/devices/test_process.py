@@ -8,9 +8,12 @@ import sys
 import time
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from floatref_conformance.devices import process
 from floatref_conformance.devices.pipes import TAIL_BYTES
+from floatref_conformance.devices.process import readable
 from floatref_conformance.errors import DeviceError, DeviceHung
 
 LONG_S = 600.0
@@ -233,3 +236,17 @@ def test_a_judge_that_forgets_its_device_ends_it_when_it_ends_itself(written, tm
     judge = [sys.executable, "-c", forgetful, *argv]
     done = subprocess.run(judge, capture_output=True, text=True, check=True, timeout=LONG_S)
     assert not is_there(int(done.stdout))
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.one_of(st.text(max_size=300), st.binary(max_size=300)), st.integers(1, 50))
+def test_what_is_shown_is_one_short_line_that_prints(text, longest):
+    shown = readable(text, longest)
+    assert shown.isprintable()
+    assert len(shown) <= longest
+    assert shown == shown.strip()
+
+
+@given(st.text(st.characters(min_codepoint=33, max_codepoint=126), max_size=50))
+def test_a_plain_word_is_shown_as_it_is(word):
+    assert readable(word) == readable(word.encode()) == word

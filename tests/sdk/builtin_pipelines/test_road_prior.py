@@ -10,6 +10,7 @@ from floatref.builtin_pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.engine.run import run
 from floatref.errors import InputError
 from floatref.estimators.road_prior import RoadPrior
+from floatref.measures import iri
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, simulate
@@ -86,3 +87,34 @@ def test_all_points_have_elevation_and_sigma_whatever_is_missing(assert_all_know
 def test_a_memory_of_less_than_one_second_difference_is_refused() -> None:
     with pytest.raises(InputError, match="setting road_memory_m: 31 m; give 32 m or more"):
         profile(road_memory_m=31.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("speed_kmh", "road", "iri_m_per_km"),
+    [(97.0, "measured", 1.2), (50.0, "sayers-asphalt-long-waves", 1.5), (20.0, "iso-B", 1.8)],
+)
+def test_its_iri_is_that_of_the_basic_profiler_and_it_vouches_for_it(
+    speed_kmh: float, road: str, iri_m_per_km: float
+) -> None:
+    """Over 240 m, within a thousandth."""
+    scenario = Scenario(
+        seed=5,
+        road=road,
+        iri_m_per_km=iri_m_per_km,
+        speed_kmh=speed_kmh,
+        length_m=480.0,
+        tracks=("left",),
+        rate_hz=2000.0,
+        profile_interval_m=0.05,
+        imu=False,
+        gnss=False,
+    )
+    recording, found = simulate(scenario).recording, []
+    for pipeline in ("temporal-basic", "road-prior-smoother"):
+        (track,) = run(recording, pipeline).profile.tracks
+        inside = slice(2400, 7200)
+        assert np.mean(track.valid[inside]) == 1.0
+        found.append(iri(track.elevation[inside], 0.05))
+    basic, ours = found
+    assert ours == pytest.approx(basic, rel=1e-3)

@@ -75,7 +75,13 @@ def test_a_task_done_twice_gives_the_same_but_for_its_effort(jobs: dict[str, Job
 
 
 STEPS = {
-    task: ("make_profile", "measure_segments", "write_profile", "fingerprint_native", "write_record"),
+    task: (
+        "make_profile",
+        "measure_segments",
+        "write_profile",
+        "fingerprint_native",
+        "write_record",
+    ),
     profile_files: ("write_samples", "write_flags", "write_document"),
 }
 

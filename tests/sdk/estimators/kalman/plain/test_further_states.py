@@ -1,5 +1,9 @@
-"""Lean, drift of the GNSS height and the height where a stop began are states like the others."""
+"""Lean, drift of the GNSS height and the height where a stop began are states like the others.
 
+Constants stand in for GNSS that is lost, or was never there.
+"""
+
+import numpy as np
 import pytest
 from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
@@ -52,3 +56,28 @@ def test_a_constant_attitude_comes_with_every_reading(drive, assert_same, seed, 
 @given(seed=SEEDS, every_s=st.sampled_from([0.01, 0.02, 0.1, 0.2]))
 def test_readings_that_crowd_count_for_less(drive, assert_same, seed, every_s):
     assert_same(drive(seed, 2.0, 400, STOP, every_s=every_s), Noise(), Plan())
+
+
+@pytest.mark.cites("(6.65)", "(6.66)")
+@laws
+@given(seed=SEEDS, plan=st.sampled_from([Plan(gnss=False), Plan(), Plan(reflects=False)]))
+def test_without_any_gnss_constants_are_observed(drive, assert_same, seed, plan):
+    """A plan with GNSS waits half a second for it."""
+    drawn = drive(seed, 2.5, 400, STOP)
+    drawn = drawn.without(slice(None)) if plan.gnss else drawn
+    assert_same(drawn, Noise(), plan)
+
+
+@laws
+@given(
+    seed=SEEDS,
+    outages=st.lists(
+        st.tuples(st.sampled_from([0, 2, 15, 33, 55]), st.integers(3, 20)), min_size=1, max_size=3
+    ),
+    plan=st.builds(Plan, attitude=st.booleans(), reflects=st.booleans()),
+)
+def test_constants_stand_in_for_gnss_that_is_lost(drive, assert_same, seed, outages, plan):
+    """Heights are held where each outage begins; afterwards GNSS may be told from another datum."""
+    drawn = drive(seed, 4.0, 400, STOP)
+    lost = np.concatenate([np.arange(a, min(a + n, drawn.at.size)) for a, n in outages])
+    assert_same(drawn.without(np.unique(lost)), Noise(), plan)
