@@ -9,6 +9,8 @@ import floatref
 from floatref.measures import agreement, high_pass, iri
 from floatref_conformance.proving_ground import scenario_of_run, simulate
 
+pytestmark = pytest.mark.slow
+
 SECTION_M = (220.0, 380.9)
 """Where the dissertation's averages are taken, 100 m of run-in before its section."""
 
@@ -35,7 +37,6 @@ def scored() -> Callable[[str, str], list[tuple[float, float]]]:
     return score
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "run", ["sg_2.1s_0.33g", "sg_10.7s_0.20g", "ns_72-11_0.20g", "brk_49-34_0.84g", "const_16"]
 )

@@ -8,6 +8,8 @@ from floatref.measures import high_pass, iri_trace
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 
+pytestmark = pytest.mark.slow
+
 NOMINAL = [name for name in floatref.pipelines() if not floatref.pipeline_capabilities(name)]
 RUNS = (
     *("sg_1.1s_0.20g", "sg_2.1s_0.33g", "sg_5.8s_0.17g", "sg_10.7s_0.20g"),
@@ -55,7 +57,6 @@ def flagged_m(driven: Simulation, profile: floatref.Profile, track: int) -> floa
     return float(np.count_nonzero(inner & ~profile.tracks[track].valid) * profile.interval_m)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", NOMINAL)
 def test_the_iri_of_valid_points_is_that_of_the_road(driven: Simulation, pipeline: str) -> None:
     profile = floatref.process(driven.recording, pipeline)

@@ -17,6 +17,8 @@ from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.proving_ground import scenario_of_run, simulate
 from floatref_reference.chapter_5.section_5_8 import captured
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
 G = 9.80665
 RATE_HZ, SPACING_M, PULSE_M = 4000.0, 0.024, 0.0003
@@ -128,7 +130,6 @@ def test_the_stop_ruins_the_temporal_engine_as_it_is(engine, stop):
     assert peak(in_time(engine("temporal_engine"), stop)) > 100.0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("heading", changes("temporal_engine"))
 def test_one_stage_saves_the_temporal_engine(engine, stop, heading):
     assert peak(in_time(engine("temporal_engine", heading), stop)) < 5.0
@@ -138,7 +139,6 @@ def test_the_stop_ruins_the_spatial_engine_as_it_is(engine, stop):
     assert peak(over_distance(engine("spatial_engine"), stop)) > 100.0
 
 
-@pytest.mark.slow
 def test_the_time_step_saves_the_spatial_engine_and_the_reflection_more(engine, stop):
     limited = engine("spatial_engine", "Our time step in its integrals")
     reflecting = engine("spatial_engine", "Our reflection in its second integral")
@@ -147,7 +147,6 @@ def test_the_time_step_saves_the_spatial_engine_and_the_reflection_more(engine, 
     assert peak(over_distance(reflecting, stop)) < min(10.0, 0.5 * worst)
 
 
-@pytest.mark.slow
 def test_the_limit_of_its_own_needs_the_reflection(engine, stop):
     module = engine("spatial_engine", "Our reflection in its second integral")
     reflected = peak(over_distance(module, stop))
@@ -163,7 +162,6 @@ def test_the_limit_of_its_own_needs_the_reflection(engine, stop):
     assert peak(over_distance(module, stop)) > 2.0 * reflected
 
 
-@pytest.mark.slow
 def test_the_temporal_engine_with_our_high_pass_is_our_pipeline(engine, stop):
     heading = "Our high-pass before its integrals"
     profile = in_time(engine("temporal_engine", heading), stop)
@@ -177,7 +175,6 @@ def test_the_spatial_engine_with_all_three_is_our_pipeline(engine, slow_part):
     np.testing.assert_allclose(profile, expected, rtol=0, atol=1e-6)
 
 
-@pytest.mark.slow
 def test_the_engines_run_as_programs(engine, slow_part, tmp_path):
     module = engine("temporal_engine")
     (tmp_path / "run.bin").write_bytes(temporal_record(module, slow_part).tobytes())

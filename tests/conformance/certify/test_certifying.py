@@ -27,6 +27,8 @@ from floatref_conformance.classes import DeviceClass
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
+pytestmark = pytest.mark.slow
+
 CORRELATIONS = CertificationLimits(runs=2, distance_percent=None, height_percent=None)
 
 
@@ -60,7 +62,6 @@ def test_the_reference_is_no_run(written: Path, tmp_path: Path) -> None:
         certified(section(written, "run-1", tmp_path / "link"))
 
 
-@pytest.mark.slow
 def test_a_run_that_starts_elsewhere_is_moved_and_said(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:
@@ -70,7 +71,6 @@ def test_a_run_that_starts_elsewhere_is_moved_and_said(
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
-@pytest.mark.slow
 def test_what_was_said_of_a_reference_is_in_its_section(
     written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -94,7 +94,6 @@ def test_a_run_over_the_section_alone_is_taken_as_it_is(
     assert max(track.missing_m for track in run.tracks) == 0.0
 
 
-@pytest.mark.slow
 def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:
@@ -107,7 +106,6 @@ def test_a_run_the_other_way_in_millimetres_is_turned_and_said(
     assert min(track.accuracy for track in run.tracks) > 0.98
 
 
-@pytest.mark.slow
 def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None:
     one = section(written, "run-1", "run-2").sections[0]
     plan = Plan((one, replace(one, name="part", stretch_m=(50.0, 150.0))))
@@ -121,7 +119,6 @@ def test_sections_share_what_is_read_and_progress_is_told(written: Path) -> None
     assert sum(doing.startswith("read run-1") for doing, _ in warnings) == 1
 
 
-@pytest.mark.slow
 def test_tests_at_rest_and_readings_are_judged_with_the_rest(
     written: Path, ten_runs: tuple[Profile, ...], tmp_path: Path
 ) -> None:
@@ -144,7 +141,6 @@ def test_tests_at_rest_and_readings_are_judged_with_the_rest(
     assert certified(longer, limits).verdict is Verdict.FAIL
 
 
-@pytest.mark.slow
 def test_recordings_are_processed_on_the_way(tmp_path: Path) -> None:
     drive = Scenario(road_seed=4, length_m=420.0, rate_hz=2000.0, imu=False, gnss=False)
     drive = replace(drive, response=False, profile_interval_m=0.05, sensors=0.3)

@@ -17,6 +17,8 @@ from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary, truth_of
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, TrackMotion
 
+pytestmark = pytest.mark.slow
+
 SHORT = Scenario(seed=1, length_m=70.0, event_at_m=30.0, rate_hz=2000.0)
 
 
@@ -53,7 +55,6 @@ def test_channels_left_out_leave_the_others_alone() -> None:
     assert {"pitch_rate", "gnss_height", "left.longitudinal_specific_force"} <= whole.keys()
 
 
-@pytest.mark.slow
 def test_flat_road_at_constant_speed_with_a_bias_is_known_exactly() -> None:
     """Nothing moves: g plus the bias, the range at rest, the distance speed times time."""
     bias_only = replace(SensorSuite.ideal(), force_bias=0.005)
@@ -74,7 +75,6 @@ def test_flat_road_at_constant_speed_with_a_bias_is_known_exactly() -> None:
     assert distance.values == pytest.approx(20.0 * distance.times_s, abs=1e-12)
 
 
-@pytest.mark.slow
 def test_truth_takes_the_first_sample_at_or_beyond_each_point() -> None:
     simulation = simulate(
         replace(SHORT, manoeuvre="stop", rate_hz=16000.0, speed_kmh=30.0, final_speed_kmh=20.0)
@@ -123,7 +123,6 @@ def test_truth_is_the_road_behind_the_vehicle_point() -> None:
     assert middle == pytest.approx(25.0 + 2.91, abs=0.02)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("rate_hz", [1000.0, 1600.0, 2700.0, 3000.0, 3900.0, 16000.0])
 def test_acceleration_is_in_step_with_height_at_any_rate(rate_hz: float) -> None:
     """Its double integral is the height; a lag of half a model step leaves 3 µm."""
@@ -153,7 +152,6 @@ def test_own_road_has_to_fit_the_scenario() -> None:
         simulate(SHORT, flat_road(10.0))
 
 
-@pytest.mark.slow
 def test_velocity_error_at_the_stop_is_tilt_bias_and_misalignment(stopped: Simulation) -> None:
     """All but a fifth is the integral of a_x·sin θ and bias; the axis' own tilt adds to θ."""
     motion, rate = stopped.motion, 16000.0
@@ -172,7 +170,6 @@ def test_the_artificial_encoder_counts_72_km_h_without_a_scale_error(kind: str) 
     assert np.abs(distance.values - 20.0 * distance.times_s).max() < 0.3e-3 + 1e-9
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["quiescent", "bounce"])
 def test_ideal_sensors_see_the_parked_body_move(kind: str) -> None:
     """Twice integrated force follows the range, which shrinks by the plate where it lies."""
@@ -188,7 +185,6 @@ def test_ideal_sensors_see_the_parked_body_move(kind: str) -> None:
     assert fallen == pytest.approx(motion.road_m, abs=1e-12)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "limit"), [("quiescent", 0.047), ("bounce", 0.126)])
 def test_stationary_tests_pass_the_standards_limits(kind: str, limit: float) -> None:
     """AASHTO R 57-14, with all sensor errors on, away from the plate."""

@@ -20,6 +20,8 @@ from floatref.values.profile import Profile
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.proving_ground import Scenario, simulate
 
+pytestmark = pytest.mark.slow
+
 PIPELINES = {pipeline.name: pipeline for pipeline in KALMAN}
 GNSS_SIGMAS = {name for name in SETTINGS if name.startswith("gnss_")}
 ATTITUDE_SIGMAS = {"gnss_pitch_sigma_rad", "gnss_roll_sigma_rad"}
@@ -103,7 +105,6 @@ def same(one: Profile, other: Profile) -> bool:
     )
 
 
-@pytest.mark.slow
 @every_pipeline
 @pytest.mark.parametrize("setting", SETTINGS)
 def test_every_setting_changes_the_profile_where_it_is_of_any_use(name: str, setting: str) -> None:
@@ -154,7 +155,6 @@ def test_a_channel_that_is_not_there_is_refused_by_name(name: str, channel: str)
         profile(without(channel), name)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "channels"),
     [

@@ -13,6 +13,8 @@ from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import Scenario, Simulation, simulate
 
+pytestmark = pytest.mark.slow
+
 (PIPELINE,) = ROAD_PRIOR_SPATIAL
 IN_TIME = "road-prior-smoother"
 STOP_M = 150.0
@@ -74,7 +76,6 @@ def usual() -> Profile:
     return profile(damaged())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("setting", PIPELINE.settings)
 def test_every_setting_changes_the_profile(setting: str, assert_other) -> None:
     # What is vouched for is set above; there is less of it with less.
@@ -90,7 +91,6 @@ def test_all_points_have_elevation_and_sigma_whatever_is_missing(assert_all_know
     assert np.count_nonzero(track.valid != beside.valid) <= 5
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("speed_kmh", [30.0, 90.0])
 def test_at_a_constant_speed_it_is_the_profile_from_all_samples(speed_kmh: float) -> None:
     """Triggers come every 0.8 to 2.4 ms; tenths of a millimetre of the road's centimetres."""
@@ -105,7 +105,6 @@ def test_at_a_constant_speed_it_is_the_profile_from_all_samples(speed_kmh: float
     )
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("dwell_s", [0.0, 0.5, 3.0, 45.0])
 def test_the_elevation_goes_on_whatever_the_stop_lasts(dwell_s: float) -> None:
     simulation = driven(dwell_s=dwell_s)
@@ -124,7 +123,6 @@ def test_the_elevation_goes_on_whatever_the_stop_lasts(dwell_s: float) -> None:
     assert np.mean(np.abs(ours - expected)[inside] < 2.0 * track.sigma[inside]) > 0.9
 
 
-@pytest.mark.slow
 def test_a_stop_makes_less_known_around_it_and_so_does_creeping() -> None:
     (stopped,) = profile(driven(dwell_s=3.0).recording).tracks
     (passing,) = profile(driven("constant").recording).tracks

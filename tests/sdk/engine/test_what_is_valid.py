@@ -7,6 +7,8 @@ import floatref
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 
+pytestmark = pytest.mark.slow
+
 NOMINAL = [name for name in floatref.pipelines() if not floatref.pipeline_capabilities(name)]
 SUPPRESSING = [name for name in NOMINAL if not name.startswith("road-prior-")]
 """Pipelines that do not measure in hard brakes and at stops."""

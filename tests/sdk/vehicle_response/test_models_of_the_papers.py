@@ -56,6 +56,7 @@ def test_a_model_in_the_middle_tells_the_road_there(vehicle, pipeline):
     assert agreement(track, true, profile.interval_m) > 0.99
 
 
+@pytest.mark.slow
 @PIPELINES
 def test_the_trailer_tells_the_road_under_both_wheels(pipeline):
     drive = driven("imine-trailer")
@@ -110,6 +111,7 @@ def test_a_trailer_needs_the_wheel_paths_of_its_tyres():
 INTERVAL_M = 0.025
 
 
+@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("seed", [0, 3])
 def test_a_van_tells_the_road_within_its_sigma(high_passed_road, pipeline, seed):

@@ -12,6 +12,8 @@ from floatref.errors import InputError
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup, TrackSetup
 
+pytestmark = pytest.mark.slow
+
 JOINT, OBSERVER = "response-joint-input-state", "response-observer"
 PIPELINES = pytest.mark.parametrize("pipeline", [JOINT, OBSERVER])
 NOISE = {
@@ -25,7 +27,6 @@ laws = settings(
 )
 
 
-@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("mps", [12.0, 25.0])
 def test_the_road_is_recovered_from_ideal_sensors(drive, pipeline, mps):
@@ -35,7 +36,6 @@ def test_the_road_is_recovered_from_ideal_sensors(drive, pipeline, mps):
     assert np.sqrt(np.mean(error**2)) < 0.03 * road[track.valid].std()
 
 
-@pytest.mark.slow
 @PIPELINES
 @laws
 @given(wheel_m=st.floats(-3.0, 3.0), laser_m=st.floats(-3.0, 3.0))
@@ -48,7 +48,6 @@ def test_a_bump_lies_where_a_laser_would_see_it(drive, pipeline, wheel_m, laser_
     assert np.nanmax(track.elevation) == pytest.approx(0.02, rel=0.1)
 
 
-@pytest.mark.slow
 @PIPELINES
 def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
     ahead = drive(wheel_m=2.0, length_m=200.0)
@@ -62,7 +61,6 @@ def test_what_no_wheel_saw_is_no_elevation(drive, pipeline):
     assert not profile.tracks[0].valid[unseen].any()
 
 
-@pytest.mark.slow
 @PIPELINES
 @pytest.mark.parametrize("seed", range(3))
 def test_the_error_is_within_two_sigma(drive, quarter_car, pipeline, seed):
@@ -76,7 +74,6 @@ def test_the_error_is_within_two_sigma(drive, quarter_car, pipeline, seed):
     assert np.median(sigma) < 4.0 * np.sqrt(np.mean(error**2))
 
 
-@pytest.mark.slow
 @PIPELINES
 def test_a_long_gap_of_an_accelerometer_spoils_what_is_around(drive, pipeline):
     known = drive(length_m=400.0).recording()
@@ -102,7 +99,6 @@ def test_the_flags_of_a_missing_deflection_come_out(drive):
     assert not np.any((np.abs(invalid - 150.0) > 1.0) & (np.abs(invalid - 150.0) < 60.0))
 
 
-@pytest.mark.slow
 @PIPELINES
 def test_denoising_keeps_what_its_components_hold(drive, pipeline):
     short = drive(length_m=150.0, interval_m=0.25)
