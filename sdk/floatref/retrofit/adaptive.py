@@ -64,8 +64,8 @@ class FollowingHighPass:
         """Return the backward pass in time over the whole run's elevation, HPF_B3S2R, HPF_B3S1R.
 
         Args:
-            profile: the floating reference height minus the height, as each call returns them, in
-                m, shape (N,).
+            profile: elevation in m before this pass, shape (N,): the floating reference height
+                minus the height, or the second integral minus the filtered height.
             speed: the speed of all forward calls in m/s, shape (N,).
 
         Raises:

@@ -69,10 +69,10 @@ def join_at_speed(
     speed_m_per_s: float,
     step_s: float,
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the same as `joined`, for samples ``step_s`` apart at constant ``speed_m_per_s``.
+    """Return the same as `join_roads`, for samples ``step_s`` apart at constant ``speed_m_per_s``.
 
     The delay of (8) of Zhu, the wheelbase over the speed, can be any number of samples.
-    Raises InputError as `joined`, and for a speed or a step that is not above zero.
+    Raises InputError as `join_roads`, and for a speed or a step that is not above zero.
     """
     for name, value, unit in (("speed", speed_m_per_s, "m/s"), ("time step", step_s, "s")):
         if not (isfinite(value) and value > 0):
