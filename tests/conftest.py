@@ -7,11 +7,7 @@ from hypothesis import HealthCheck, settings
 
 # Timing never decides a test: a loaded machine takes as long as it takes. Every run draws anew.
 settings.register_profile(
-    "floatref",
-    settings(),
-    max_examples=50,
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow],
+    "floatref", settings(), deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("floatref")
 

@@ -6,7 +6,7 @@ from floatref_adapters.testing.fixes import Fixes
 
 
 def draw_fixes(draw: st.DrawFn, start_ms: int, steps_ms: list[int], decimals: int) -> Fixes:
-    """Draw fixes anywhere on earth, the geoid's separation rounded to so many ``decimals``."""
+    """Draw fixes anywhere on earth, the geoid's separation rounded to ``decimals``."""
     rows = draw(st.integers(1, 12))
     step = draw(st.sampled_from(steps_ms))
 

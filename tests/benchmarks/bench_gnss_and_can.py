@@ -104,7 +104,7 @@ def bare_asc(path: Path) -> Iterator[float]:
 
 def _number(field: object) -> float:
     try:
-        return float(field)  # type: ignore[arg-type]
+        return float(field)  # type: ignore[arg-type]  # What is no number is 0.
     except (TypeError, ValueError):
         return 0.0
 

@@ -77,7 +77,7 @@ def main(count: int) -> None:
     print(f"  forces differ by at most {error:.1e} N from those of steps (a)-(c) in numpy")
     peers = {"numpy, steps (a)-(c)": lambda: plain(rule, samples)}
     try:
-        import filterpy  # noqa: F401
+        import filterpy  # noqa: F401  # To see whether it is there.
 
         peers["filterpy, forces as states"] = lambda: augmented(rule, samples)
     except ImportError:

@@ -23,7 +23,7 @@ def in_turns(
     rounds: int = ROUNDS,
     clock: Callable[[], float] = time.process_time,
 ) -> list[list[float]]:
-    """Seconds of every call, of the processor unless told else, in turns after one warm-up."""
+    """Seconds of every call by ``clock``, in turns after one warm-up."""
     for call in calls:
         call()
     times: list[list[float]] = [[] for _ in calls]

@@ -55,7 +55,7 @@ def assert_sound(text):
 
 
 def assert_accessible(found):
-    """Assert that who hears a page that was read is told the same."""
+    """Assert that a page reads the same aloud as on the screen."""
     assert found.all("html") == [{"lang": "en"}]
     assert all(a.get("scope") in ("col", "row") for a in found.all("th"))
     assert all(a.get("role") == "img" for a in found.all("svg"))

@@ -20,7 +20,7 @@ class Spool:
     """
 
     def __init__(self) -> None:
-        self._file = TemporaryFile()  # noqa: SIM115
+        self._file = TemporaryFile()  # noqa: SIM115  # It lives as long as the spool.
         self._held: defaultdict[Hashable, bytearray] = defaultdict(bytearray)
         self._size = 0
         self._parts: defaultdict[Hashable, list[tuple[int, int]]] = defaultdict(list)

@@ -27,6 +27,7 @@ def open_outputs() -> None:
     for number, name in enumerate(STREAMS):
         if getattr(sys, name) is None:
             mode = "w" if number else "r"
+            # It stays open as long as the process.
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
 
 

@@ -112,7 +112,7 @@ def sheet_of(reference: Profile) -> Iterator[SheetMaker]:
 
     def make(
         runs: tuple[Profile | Run, ...],
-        limits: CertificationLimits = CertificationLimits(),  # noqa: B008
+        limits: CertificationLimits = CertificationLimits(),  # noqa: B008  # It is frozen.
         stretch_m: tuple[float, float] | None = None,
         reference: Profile = reference,
     ) -> SectionSheet:

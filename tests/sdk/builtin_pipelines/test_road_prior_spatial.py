@@ -67,8 +67,8 @@ def damaged() -> Recording:
 
 def profile(recording: Recording, pipeline: str = PIPELINE.name, **settings: float) -> Profile:
     # So short a run is unsure all the way; what else makes it invalid shall be seen.
-    vouched = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
-    return run(recording, pipeline, {**vouched, **settings}).profile
+    lenient = {"most_sigma_share": 2.0} if pipeline.startswith("road-prior") else {}
+    return run(recording, pipeline, {**lenient, **settings}).profile
 
 
 @cache

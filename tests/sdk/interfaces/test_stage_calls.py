@@ -73,8 +73,7 @@ def test_a_class_that_makes_no_stage_is_named(kind, message):
 
 def test_a_function_may_mix_stages_and_calls():
     ours = floatref.make_stage("Combine")
-    answer = lambda context: [StageCall("Seams"), ours]  # noqa: E731
-    first, second = asked(temporal_finish=answer)
+    first, second = asked(temporal_finish=lambda context: [StageCall("Seams"), ours])
     assert first.name == "Seams"
     assert second is ours
 

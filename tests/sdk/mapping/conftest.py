@@ -57,7 +57,7 @@ def stream(
             yield Rows({n: values[n][rows] for n in names}, part)
 
     named = tuple(Column(key, (units or {}).get(key, "")) for key in values)
-    made = NativeClock(**clock)  # type: ignore[arg-type]
+    made = NativeClock(**clock)  # type: ignore[arg-type]  # Of any field.
     return Stream(title, named, size if count is None else count, made, read)
 
 
@@ -119,7 +119,7 @@ def put(logger: Logger, tmp_path: Path) -> Callable[..., Path]:
     """Make a file of the logger that holds the given streams."""
 
     def make(*streams: Stream, name: str = "run.log", **more: object) -> Path:
-        logger.content[name] = NativeFile(streams, **more)  # type: ignore[arg-type]
+        logger.content[name] = NativeFile(streams, **more)  # type: ignore[arg-type]  # Any field.
         (tmp_path / name).write_bytes(b"native")
         return tmp_path / name
 
@@ -231,7 +231,7 @@ def refused() -> Callable[..., str]:
 
     def of(kind: type[FloatrefError], *args: object) -> str:
         with pytest.raises(FloatrefError) as caught:
-            read_native(*args)  # type: ignore[arg-type]
+            read_native(*args)  # type: ignore[arg-type]  # Wrong ones as well.
         assert isinstance(caught.value, kind)
         assert str(caught.value).isprintable()
         return str(caught.value)

@@ -32,7 +32,7 @@ def test_parameters_are_a_copy_that_cannot_be_changed() -> None:
     given_ones["sprung_kg"] = 1.0
     assert vehicle.parameters["sprung_kg"] == 400.0
     with pytest.raises(TypeError):
-        vehicle.parameters["sprung_kg"] = 2.0  # type: ignore[index]
+        vehicle.parameters["sprung_kg"] = 2.0  # type: ignore[index]  # It is refused.
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, True, "400", None, [1.0]])
@@ -41,10 +41,10 @@ def test_what_is_no_finite_number_is_told_by_name_and_value(name: str, value: ob
     given_ones = {"unsprung_kg": 40.0, "sprung_kg": 400.0}
     x_m = value if name == "x_m" else 0.0
     if name == "sprung_kg":
-        given_ones[name] = value  # type: ignore[assignment]
+        given_ones[name] = value  # type: ignore[assignment]  # Wrong on purpose.
     said = re.escape(f"setup.vehicle: {name} is {value!r}; give a finite number")
     with pytest.raises(InputError, match=said):
-        VehicleSetup("quarter-car", given_ones, x_m)  # type: ignore[arg-type]
+        VehicleSetup("quarter-car", given_ones, x_m)  # type: ignore[arg-type]  # Wrong on purpose.
 
 
 def test_a_vehicle_without_a_model_is_refused() -> None:

@@ -115,7 +115,7 @@ INTERVAL_M = 0.025
 @PIPELINES
 @pytest.mark.parametrize("seed", [0, 3])
 def test_a_van_tells_the_road_within_its_sigma(high_passed_road, pipeline, seed):
-    """Seven freedoms, told by a quarter car with parameters 3 % off."""
+    """Seven freedoms, estimated by a quarter car with parameters 3 % off."""
     numbers = {"imu": False, "gnss": False, "tracks": ("left",), "rate_hz": 1000.0}
     drive = simulate(Scenario(seed=seed, profile_interval_m=INTERVAL_M, **numbers))
     track = run(drive.recording, pipeline).profile.tracks[0]

@@ -193,7 +193,7 @@ def returned_records(out: Path) -> Iterator[Returned]:
     Raises InputError if it cannot be made.
     """
     with _space(out):
-        stream = TemporaryFile(prefix=".floatref-", dir=out)  # noqa: SIM115
+        stream = TemporaryFile(prefix=".floatref-", dir=out)  # noqa: SIM115  # Closed by `Returned`.
     try:
         yield Returned(stream, out)
     finally:

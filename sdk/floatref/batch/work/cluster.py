@@ -42,7 +42,7 @@ LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 def check_installed() -> None:
     """Raise InputError now if a package for a batch is missing."""
     try:
-        import dask  # noqa: F401
+        import dask  # noqa: F401  # Imported to see whether it is there, as the next two.
         import distributed  # noqa: F401
         import pyarrow  # noqa: F401
     except ImportError as error:

@@ -44,7 +44,7 @@ class Drive:
         return found.take()
 
     def literally(self, c, inputs, a_x, priors):
-        """Return drive and constants as the reference takes them; heights are told from the first.
+        """Return drive and constants as the reference takes them; heights count from the first.
 
         ``inputs`` are those that the coefficients with ``priors`` multiply.
         """

@@ -137,6 +137,26 @@ def test_each_set_is_the_printed_one(fast, literal, wavelength, seed):
     assert np.abs(fast(x, 1.0, wavelength) - expected).max() <= 1e-11
 
 
+def gain_in_the_middle(wavelength, cutoff):
+    """Gain of HPF_B3x2 at ``wavelength``, read in the middle of a long sine."""
+    points = round(12 * max(wavelength, cutoff) / 0.25)
+    x = np.cos(2 * np.pi * (np.arange(points) - points // 2) * 0.25 / wavelength)
+    return high_pass_b3x2(x, 0.25, cutoff)[points // 2]
+
+
+@pytest.mark.parametrize(
+    ("wavelength", "printed", "digits"),
+    [(42.9, 0.996, 3), (65.6, 0.947, 3), (91.44, 0.5**0.5, 4)],
+)
+def test_the_gains_printed_in_section_5_3(wavelength, printed, digits):
+    assert round(gain_in_the_middle(wavelength, 105.91), digits) == round(printed, digits)
+
+
+def test_the_cut_off_setting_puts_3_db_where_it_is_asked_for():
+    setting = (2.0**0.5 - 1.0) ** (1.0 / 6.0)
+    assert gain_in_the_middle(40.0, 40.0 / setting) == pytest.approx(0.5**0.5, abs=1e-4)
+
+
 @settings(deadline=None, max_examples=10)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_the_middle_of_a_long_signal_has_no_phase(seed):

@@ -136,8 +136,8 @@ def test_slow_signals_keep_their_times(rate: int) -> None:
 def test_a_shift_by_whole_points_moves_them(points: int) -> None:
     channel = ChannelId(UNDER, "left")
     x = np.random.default_rng(0).standard_normal(100)
-    stage = lambda: ShiftAlong({channel: points * STEP_S})  # noqa: E731
-    out = Stream(stage, {channel: x}, ("left",), Axis.DISTANCE).run([30, 31])
+    make = partial(ShiftAlong, {channel: points * STEP_S})
+    out = Stream(make, {channel: x}, ("left",), Axis.DISTANCE).run([30, 31])
     assert len(out) == 100
     moved = np.full(100, np.nan)
     moved[max(0, points) : 100 + min(0, points)] = x[max(0, -points) : 100 - max(0, points)]

@@ -77,7 +77,7 @@ def test_without_any_gnss_constants_are_observed(drive, assert_same, seed, plan)
     plan=st.builds(Plan, attitude=st.booleans(), reflects=st.booleans()),
 )
 def test_constants_stand_in_for_gnss_that_is_lost(drive, assert_same, seed, outages, plan):
-    """Heights are held where each outage begins; afterwards GNSS may be told from another datum."""
+    """Heights are held where each outage begins; afterwards GNSS may have another datum."""
     drawn = drive(seed, 4.0, 400, STOP)
     lost = np.concatenate([np.arange(a, min(a + n, drawn.at.size)) for a, n in outages])
     assert_same(drawn.without(np.unique(lost)), Noise(), plan)
