@@ -12,12 +12,20 @@ if TYPE_CHECKING:
     from floatref_conformance.checks.interface import Check as Check
     from floatref_conformance.devices.interface import DeviceKind as DeviceKind
     from floatref_conformance.hookspecs import hookimpl as hookimpl
+    from floatref_conformance.table import TableSettings as TableSettings
+    from floatref_conformance.table import make_table as make_table
 
 EDITION = "2026.1"
 """Edition of the checks: it fixes the manoeuvres and the limits; the seed draws the rest."""
 
 # Imported on first use: a module that wants the edition alone loads no check.
-_PUBLIC = {"Check": "checks.interface", "DeviceKind": "devices.interface", "hookimpl": "hookspecs"}
+_PUBLIC = {
+    "Check": "checks.interface",
+    "DeviceKind": "devices.interface",
+    "TableSettings": "table",
+    "hookimpl": "hookspecs",
+    "make_table": "table",
+}
 __all__ = ["EDITION", *_PUBLIC]
 
 

@@ -20,7 +20,7 @@ def verify_check(check: Check) -> Check:
     what = f"check {_text(check, 'id', 'a check')}"
     for name in ("title", "clause", "derivation", "floor"):
         _text(check, name, what)
-    for name in ("cases", "strategy", "scored", "judge"):
+    for name in ("cases", "strategy", "list_scored", "judge"):
         _function(check, name, what)
     if not isinstance(_member(check, "simplest", what), Case):
         raise TypeError(f"{what}: simplest is {check.simplest!r}, not a Case")

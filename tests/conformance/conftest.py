@@ -97,7 +97,7 @@ class ToyCheck:
 
         return st.builds(self._drawn, st.integers(0, 2**31), st.integers(10, 60))
 
-    def scored(self, case):
+    def list_scored(self, case):
         return ((10.0, 50.0),)
 
     def judge(self, case, bench):

@@ -128,7 +128,7 @@ def test_a_check_without_a_member_is_left_out_and_the_member_named():
     ("name", "value", "words"),
     [
         ("strategy", None, "check toy: strategy cannot be called"),
-        ("scored", None, "check toy: scored cannot be called"),
+        ("list_scored", None, "check toy: list_scored cannot be called"),
         ("judge", "by eye", "check toy: judge cannot be called"),
         ("simplest", Scenario(), "check toy: simplest is Scenario("),
         ("simplest", None, "check toy: simplest is None, not a Case"),

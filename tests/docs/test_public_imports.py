@@ -16,7 +16,6 @@ CODE = sorted([*(ROOT / "docs" / "examples").rglob("*.py"), *(ROOT / "adapters")
 OF_THE_JUDGE = {
     "floatref_conformance",
     "floatref_conformance.golden",
-    "floatref_conformance.table",
     "floatref_conformance.testing",
 }
 

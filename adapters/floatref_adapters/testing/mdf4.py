@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording
+from floatref_adapters.testing.file_writing import check_quanta, replace_file
 from floatref_adapters.testing.grouping import ClockGroup, by_clock, count_quanta
 
 VALUE, MASTER, VIRTUAL_MASTER = 0, 2, 3
@@ -184,7 +185,9 @@ def write_mdf4(recording: Recording, path: Path, quanta: Mapping[str, float] | N
     the start; any other is a master of float64 seconds. A channel of ``quanta`` is stored in
     integers with a linear conversion, its missing samples with a bit that marks them.
     """
-    write([_group(group, quanta) for group in by_clock(recording)], path)
+    check_quanta(recording, quanta)
+    with replace_file(path) as beside:
+        write([_group(group, quanta) for group in by_clock(recording)], beside)
 
 
 def _group(group: ClockGroup, quanta: Mapping[str, float] | None) -> StoredGroup:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording
+from floatref_adapters.testing.file_writing import check_quanta, replace_file
 from floatref_adapters.testing.grouping import ClockGroup, by_clock, count_quanta
 
 ROWS = 1 << 16
@@ -24,7 +25,8 @@ def write_tdms(recording: Recording, path: Path, quanta: Mapping[str, float] | N
     """
     from nptdms import TdmsWriter
 
-    with TdmsWriter(str(path)) as writer:
+    check_quanta(recording, quanta)
+    with replace_file(path) as beside, TdmsWriter(str(beside)) as writer:
         for group in by_clock(recording):
             for objects in _segments(group, quanta):
                 writer.write_segment(objects)

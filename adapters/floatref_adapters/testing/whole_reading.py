@@ -80,12 +80,12 @@ def refusal(opener: Opener, source: Path) -> str:
     try:
         read_whole(opener, source)
     except InputError as error:
-        said = str(error)
+        line = str(error)
     else:
         raise AssertionError(f"{source.name} is read")
-    if "\n" in said or source.name not in said:
-        raise AssertionError(f"not one line that names {source.name}: {said}")
-    return said
+    if "\n" in line or source.name not in line:
+        raise AssertionError(f"not one line that names {source.name}: {line}")
+    return line
 
 
 def read_or_refused(opener: Opener, source: Path, options: Mapping[str, str]) -> bool:

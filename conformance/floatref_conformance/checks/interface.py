@@ -86,7 +86,7 @@ class Check(Protocol):
     def strategy(self) -> "SearchStrategy[Case]":
         """Return the Hypothesis strategy of all possible cases of the check."""
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the scored stretches of ``case``, which are shown in pictures.
 
         Raises InputError for numbers that make no drive.
@@ -100,10 +100,10 @@ class Check(Protocol):
 class Fitting(Protocol):
     """A check with cases that do not apply to a device without some sensor."""
 
-    def fitted(self, meets: Iterable[str]) -> Check:
+    def fit(self, meets: Iterable[str]) -> Check:
         """Return the check without such cases, for a device that ``meets`` these `NEEDS`."""
 
 
 def fit_check(check: Check, meets: Iterable[str]) -> Check:
     """Return ``check`` for a device that ``meets`` these `NEEDS`; most checks do not change."""
-    return check.fitted(meets) if isinstance(check, Fitting) else check
+    return check.fit(meets) if isinstance(check, Fitting) else check

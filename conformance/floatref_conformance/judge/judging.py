@@ -59,7 +59,7 @@ def find_scored(check: Check, case: Case) -> Stretches:
     They are only for pictures and do not affect the verdict.
     """
     try:
-        return tuple((float(start), float(end)) for start, end in check.scored(case))
+        return tuple((float(start), float(end)) for start, end in check.list_scored(case))
     except (Exception, SystemExit):
         return ()
 

@@ -24,11 +24,11 @@ from floatref_conformance.mutants.mutation import (
 )
 
 
-def _unchanged(signals: Signals) -> Signals:
+def _keep(signals: Signals) -> Signals:
     return signals
 
 
-def _use_engine(elevations: Elevations, change: Callable[[Signals], Signals] = _unchanged) -> After:
+def _use_engine(elevations: Elevations, change: Callable[[Signals], Signals] = _keep) -> After:
     """Return a mutation with the engine's elevations of signals that ``change`` has changed."""
 
     def mutate(profile: Profile, recording: Recording) -> Profile:

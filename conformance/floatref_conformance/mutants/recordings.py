@@ -118,13 +118,13 @@ def bridge_missing(recording: Recording) -> Recording:
 def round_times(recording: Recording) -> Recording:
     """Return ``recording`` with the samples at times that are rounded to 24 bits, in s."""
 
-    def rounded(channel: Channel) -> Channel:
+    def round_each(channel: Channel) -> Channel:
         times = channel.times_s
         known = times.astype(np.float32).astype(np.float64)
         nearest = np.rint(np.interp(known, times, np.arange(times.size)))
         return _replace_values(channel, channel.values[nearest.astype(np.intp)])
 
-    return _each(recording, rounded)
+    return _each(recording, round_each)
 
 
 def _each(recording: Recording, change: Callable[[Channel], Channel]) -> Recording:

@@ -61,7 +61,7 @@ def simulate(
     vehicle = find_vehicle(scenario.vehicle)
     road = road_of(scenario, drive.length_m) if road is None else road
     _check_road(scenario, road, drive.length_m)
-    known = as_installed(vehicle.known(), suite.vehicle_error, scenario.seed)
+    known = as_installed(vehicle.make_setup(), suite.vehicle_error, scenario.seed)
     setup = replace(setup_of(scenario, vehicle, road.lateral_m), vehicle=known)
     kept = suite.response_rate_hz if scenario.response else None
     motion = drive_over(

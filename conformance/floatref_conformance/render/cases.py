@@ -4,7 +4,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref_conformance.case_files import FOLDER, document, name_of
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import CheckResult, RunResult
@@ -37,6 +37,6 @@ class CaseFiles:
         spec = str(result.device["spec"])
         kept = document(case, result.device_class, spec, found["reason"])
         text = json.dumps(kept, indent=2, ensure_ascii=False) + "\n"
-        with replacing_file(self.folder / name_of(case), overwrite=True) as beside:
+        with replace_file(self.folder / name_of(case), overwrite=True) as beside:
             # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.
             beside.write_bytes(text.encode("utf-8", "backslashreplace"))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.judge.events import Event, RunFinished, RunStarted
@@ -42,7 +42,7 @@ class HtmlReport:
         if isinstance(event, RunStarted):
             self._checks = event.checks
         elif isinstance(event, RunFinished):
-            with replacing_file(self.folder / NAME, overwrite=True) as beside:
+            with replace_file(self.folder / NAME, overwrite=True) as beside:
                 beside.write_text(as_html(event.result, self._checks), encoding="utf-8")
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref_conformance import EDITION
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass
@@ -76,7 +76,7 @@ class JUnitReport:
         root = as_xml(result, self._seconds, self._begun or self.now())
         ElementTree.indent(root)
         tree = ElementTree.ElementTree(root)
-        with replacing_file(self.folder / NAME, overwrite=True) as beside:
+        with replace_file(self.folder / NAME, overwrite=True) as beside:
             tree.write(beside, encoding="utf-8", xml_declaration=True)
 
 
@@ -191,7 +191,7 @@ def _output(result: RunResult) -> str:
 
 def _worst(check: CheckResult, worst: Measurement, device_class: DeviceClass) -> str:
     """Return what the worst value is, and its share of the limit if it has one."""
-    said = wording.describe_worst(check, device_class)
+    words = wording.describe_worst(check, device_class)
     if wording.why_unlimited(check, device_class):
-        return said
-    return f"{said}: {wording.share_in_words(worst, device_class)}"
+        return words
+    return f"{words}: {wording.share_in_words(worst, device_class)}"

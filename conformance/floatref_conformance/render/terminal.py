@@ -74,9 +74,9 @@ class TerminalRenderer:
             self._progress = None
 
     def _start(self, event: RunStarted) -> None:
-        said = event.description
-        sensors = wording.sensors(said.architecture, said.capabilities)
-        self._print(f"device {event.spec}: {said.architecture}, {sensors}")
+        device = event.description
+        sensors = wording.sensors(device.architecture, device.capabilities)
+        self._print(f"device {event.spec}: {device.architecture}, {sensors}")
         if self.console.is_terminal:
             self._progress = Progress(
                 console=self.console, transient=True, redirect_stdout=False, redirect_stderr=False
@@ -124,8 +124,8 @@ def result_lines(result: RunResult) -> list[str]:
 
 
 def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
-    said = [part for part in (check.reason, wording.describe_worst(check, device_class)) if part]
-    lines = [f"{check.id}: {'; '.join(said)} [{check.clause}]"]
+    parts = [part for part in (check.reason, wording.describe_worst(check, device_class)) if part]
+    lines = [f"{check.id}: {'; '.join(parts)} [{check.clause}]"]
     if check.flagged_m:
         lines.append(f"{check.id}: {wording.describe_flagged(check)}")
     if check.counterexample is not None:
@@ -146,8 +146,8 @@ def _what_to_do(result: RunResult) -> list[str]:
 
 
 def _in_words(result: CheckResult) -> str:
-    said = wording.outcome_in_words(result)
-    return said + (f" ({result.reason})" if result.reason else "")
+    words = wording.outcome_in_words(result)
+    return words + (f" ({result.reason})" if result.reason else "")
 
 
 def _table(result: RunResult) -> Table:

@@ -106,7 +106,7 @@ def make_rougher(
     It multiplies the elevations, weighted by ``where``, by the required factor.
     """
 
-    def raised(profile: Profile, taken: Taken, label: str) -> Profile:
+    def roughen(profile: Profile, taken: Taken, label: str) -> Profile:
         x = profile.distance_m[:-1]
         inside = (x >= start_m) & (x <= end_m)
         track = profile.tracks[0]
@@ -114,7 +114,7 @@ def make_rougher(
         share = m_per_km / float(np.mean((rectified * where(x))[inside]))
         return make_higher(share, where)(profile, taken, label)
 
-    return raised
+    return roughen
 
 
 def change_locally(m_per_km: float, at_m: float, base_m: float) -> AddError:
@@ -148,7 +148,7 @@ def mix_in_road(loss: float, start_m: float, end_m: float) -> AddError:
         other = where(x) * (road - road[int(np.argmax(where(x) > 0.0))])
         inside = (x[:-1] >= start_m) & (x[:-1] <= end_m)
 
-        def changed(track: ProfileTrack) -> ProfileTrack:
+        def mix_track(track: ProfileTrack) -> ProfileTrack:
             z = track.elevation
             true, strange = (_deviation(v, profile.interval_m, inside) for v in (z, other))
             along = float(true @ strange / (true @ true))
@@ -159,7 +159,7 @@ def mix_in_road(loss: float, start_m: float, end_m: float) -> AddError:
                 track.name, z * (1.0 + (rest - 1.0) * where(x)) + share * other, track.valid
             )
 
-        return _each(profile, changed)
+        return _each(profile, mix_track)
 
     return mix
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.files.atomic import check_target, replacing_file
+from floatref.files.atomic import check_target, replace_file
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.published import PRINTED_FLOOR, published_table
 from floatref_conformance.table.scores import Scores
@@ -112,7 +112,7 @@ def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
         ax.set_xticks(range(columns), _columns(table), rotation=60, ha="right", fontsize="small")
     for ax in axes[:, 0]:
         ax.set_yticks(range(rows), table.settings.runs, fontsize="small")
-    with replacing_file(path, overwrite=True) as beside:
+    with replace_file(path, overwrite=True) as beside:
         figure.savefig(beside, dpi=DOTS_PER_INCH, format="png")
 
 

@@ -71,12 +71,12 @@ class Processing:
     def __init__(self, pipelines: Sequence[str]) -> None:
         """Make the devices; InputError if floatref has no such pipeline."""
         self._devices = {name: builtin.make(name) for name in pipelines}
-        self._said = {name: describe(device) for name, device in self._devices.items()}
+        self._about = {name: describe(device) for name, device in self._devices.items()}
 
     @property
     def capabilities(self) -> frozenset[str]:
         """What any of the pipelines needs beside the nominal channels."""
-        return frozenset(c for said in self._said.values() for c in said.capabilities)
+        return frozenset(c for each in self._about.values() for c in each.capabilities)
 
     def profiles(self, scenario: Scenario, road: Road) -> Mapping[str, Profile]:
         """Return the profile that every pipeline makes of ``scenario`` driven on ``road``.
@@ -95,16 +95,16 @@ class Processing:
         encoder_m = _encoder_m(simulation)
         # The motion takes more memory than all that follows.
         del simulation
-        kinds = list({said.channels for said in self._said.values()})
+        kinds = list({each.channels for each in self._about.values()})
         with TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
             folder = Path(temporary)
             for number, channels in enumerate(kinds):
                 write_recording(visible(recording, channels), folder / str(number))
             del recording
-            given = [folder / str(kinds.index(said.channels)) for said in self._said.values()]
+            given = [folder / str(kinds.index(each.channels)) for each in self._about.values()]
             with ThreadPoolExecutor(os.cpu_count()) as workers:
-                made = workers.map(partial(self._process, name), self._said, given)
-                return Driven(truth, encoder_m, dict(zip(self._said, made, strict=True)))
+                made = workers.map(partial(self._process, name), self._about, given)
+                return Driven(truth, encoder_m, dict(zip(self._about, made, strict=True)))
 
     def _process(self, name: str, pipeline: str, given: Path) -> Profile:
         target = given.with_name(f"profile-{pipeline}")

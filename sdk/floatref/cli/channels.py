@@ -199,9 +199,9 @@ def _describe_clock(clock: NativeClock) -> str:
 
     if clock.name == UNKNOWN:
         return "none"
-    said = "time stamps" if clock.rate is None else _describe_rate(clock.rate)
+    rate = "time stamps" if clock.rate is None else _describe_rate(clock.rate)
     named = f", clock {clock.name}" if clock.name else ""
-    return f"{said}, {clock.epoch.value}{named}"
+    return f"{rate}, {clock.epoch.value}{named}"
 
 
 def _describe_rate(rate: Any) -> str:

@@ -12,7 +12,7 @@ from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
 from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
-from floatref.files.atomic import check_target, replacing_file
+from floatref.files.atomic import check_target, replace_file
 from floatref.files.settings_file import read_settings
 from floatref.mapping.sources import make_profile, recording_of
 from floatref.values.profile import Profile, ProfileTrack
@@ -93,7 +93,7 @@ def _draw(result: "Result", plot: Path | None) -> Iterator[None]:
         return
     from floatref.plots import draw_profile
 
-    with replacing_file(plot, overwrite=True) as beside:
+    with replace_file(plot, overwrite=True) as beside:
         draw_profile(result.profile, beside, result.screening.travel)
         yield
 

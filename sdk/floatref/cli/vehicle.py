@@ -10,7 +10,7 @@ import click
 from floatref.cli.printing import print_json, print_table
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
-from floatref.files.atomic import check_target, replacing_file
+from floatref.files.atomic import check_target, replace_file
 from floatref.files.document import write_document
 
 PAIRS = (("lean_expected_rad", "lean_sigma_rad"), ("tilt_expected", "tilt_sigma"))
@@ -42,7 +42,7 @@ def vehicle(profiles: tuple[Path, ...], out: Path, overwrite: bool, as_json: boo
         raise InputError("a profile is given twice; give every run once")
     pipeline, learned = _read_estimates(profiles)
     settings = combine_estimates(learned)
-    with replacing_file(out, overwrite) as beside:
+    with replace_file(out, overwrite) as beside:
         write_document(settings, beside)
     report = {"file": str(out), "pipeline": pipeline, "runs": len(learned), "settings": settings}
     print_json(report) if as_json else _print_table(out, profiles, learned, settings)

@@ -49,7 +49,7 @@ def fill_gaps(asked: DropOut, estimate: Profile) -> tuple[Profile, tuple[str, ..
         if track.name in known and len(asked.gaps.get(track.name, ())):
             inside = _inside(profile, asked.gaps[track.name])
             gap = _Gap(profile, track, inside, *_on_points(profile, estimate, known[track.name]))
-            track, length_m = gap.bridged()
+            track, length_m = gap.bridge()
             lines += _describe(track.name, estimate.pipeline, length_m)
         tracks.append(track)
     return replace(profile, tracks=tuple(tracks)), tuple(lines)
@@ -97,7 +97,7 @@ class _Gap:
     other: FloatArray
     spread: FloatArray
 
-    def bridged(self) -> tuple[ProfileTrack, float]:
+    def bridge(self) -> tuple[ProfileTrack, float]:
         """Return the track with its gaps filled, and the length of these in m."""
         line, misfit = self._meet()
         correction = self.other + line - self.track.elevation

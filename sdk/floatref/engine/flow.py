@@ -158,7 +158,7 @@ def collect_warnings(stages: Sequence[Stage]) -> tuple[str, ...]:
 
 def collect_estimates(stages: Sequence[Stage]) -> dict[str, float]:
     """Return the settings that ``stages`` have estimated from a run."""
-    return {k: v for stage in stages for k, v in _guard(stage, stage.learned).items()}
+    return {k: v for stage in stages for k, v in _guard(stage, stage.list_learned).items()}
 
 
 def _kind(stage: Stage) -> str:

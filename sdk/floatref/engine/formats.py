@@ -10,7 +10,7 @@ from typing import Any, TypeVar, cast
 from floatref.engine.plugins import plugins
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.files.sources import name_errors
 from floatref.interfaces.adapter import (
     Adapter,
@@ -108,9 +108,9 @@ def guard(name: str, source: Path) -> Iterator[None]:
         raise PluginError(_failure(name, source, error)) from cause
 
 
-def _check(found: Any, reader: Adapter, source: Path, kind: type[T], said: str) -> T:
+def _check(found: Any, reader: Adapter, source: Path, kind: type[T], what: str) -> T:
     if not isinstance(found, kind):
-        raise PluginError(f"adapter {reader.name}: {source}: gave no {said}")
+        raise PluginError(f"adapter {reader.name}: {source}: gave no {what}")
     return found
 
 
@@ -218,7 +218,7 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
     if isinstance(form, ProfileDirectory):
         write_profile(profile, out, overwrite)
         return
-    with replacing_file(out, overwrite) as beside:
+    with replace_file(out, overwrite) as beside:
         try:
             form.write(profile, beside)
         except InputError as error:

@@ -109,7 +109,7 @@ class Plugins:
                 self.add(plugin, point.name)
         self._loading = False
 
-    def registered(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
+    def collect(self, hook: str, check: Callable[..., str]) -> dict[str, Any]:
         """Return what all plug-ins registered through ``hook``, by name.
 
         A plug-in that calls this while it registers gets the items registered before. Raises
@@ -125,20 +125,20 @@ class Plugins:
 
     def pipelines(self) -> dict[str, Pipeline]:
         """Return every pipeline by name, each with an answer for every point."""
-        found = self.registered("floatref_register_pipelines", check_pipeline)
+        found = self.collect("floatref_register_pipelines", check_pipeline)
         return {name: complete_pipeline(pipeline) for name, pipeline in found.items()}
 
     def stages(self) -> dict[str, Callable[..., Stage]]:
         """Return every stage's class by name."""
-        return self.registered("floatref_register_stages", check_stage)
+        return self.collect("floatref_register_stages", check_stage)
 
     def adapters(self) -> dict[str, Adapter]:
         """Return every adapter by name."""
-        return self.registered("floatref_register_adapters", check_adapter)
+        return self.collect("floatref_register_adapters", check_adapter)
 
     def profile_formats(self) -> dict[str, ProfileFormat]:
         """Return every format of profile files by name."""
-        return self.registered("floatref_register_profile_formats", check_profile_format)
+        return self.collect("floatref_register_profile_formats", check_profile_format)
 
     def pipeline(self, name: str) -> Pipeline:
         """Return the pipeline called ``name``; InputError if it is unknown."""

@@ -73,7 +73,7 @@ def pipeline_capabilities(name: str) -> tuple[str, ...]:
     return plugins().pipeline(name).capabilities
 
 
-def resolved_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
+def resolve_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
     """Return the settings of pipeline ``name``, with the ``given`` ones replaced.
 
     Raises InputError for a pipeline or a setting that `process` does not know.

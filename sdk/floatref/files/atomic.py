@@ -14,7 +14,7 @@ SAMPLE_SUFFIXES = (".f64", ".u8")
 
 
 @contextmanager
-def replacing_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
+def replace_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
     """Yield a path beside ``path``, with its suffix, to write to; rename it at the end.
 
     After any exception, KeyboardInterrupt included, the new file is gone and ``path`` is as

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.files.document import show
 from floatref.files.sources import name_errors, open_bytes
 from floatref.values.arrays import FloatArray
@@ -105,7 +105,7 @@ def write_profile_csv(profile: Profile, path: Path, overwrite: bool = False) -> 
     is false, or cannot be written.
     """
     with (
-        replacing_file(path, overwrite) as beside,
+        replace_file(path, overwrite) as beside,
         beside.open("w", encoding="utf-8", newline="") as stream,
     ):
         names = [(f"{t.name}{ELEVATION}", f"{t.name}{VALID}") for t in profile.tracks]

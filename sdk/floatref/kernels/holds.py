@@ -15,12 +15,12 @@ RUN = np.dtype([("first", np.int64), ("length", np.int64), ("value", np.float64)
 COUNT = np.dtype(
     [
         *((name, np.float64) for name in ("value", "quantum")),
-        *((name, np.int64) for name in ("length", "longest")),
+        *((name, np.int64) for name in ("length", "in_long")),
     ],
     align=True,
 )
 """The memory of `count_runs`: value and length of the run that is open, the smallest step between
-different samples, and the samples in runs of `LONGEST` and above."""
+different samples, and the samples in runs of `LONGEST` and above (in_long)."""
 
 
 def new_count() -> np.record:
@@ -59,9 +59,9 @@ def find_runs(
 ) -> tuple[int, int]:
     """Find the runs of ``least``, 2 or more, identical samples in ``x``.
 
-    ``first`` is the index of ``x[0]`` in the channel. One of ``runs`` becomes a run that
-    is at most ``outside[0]`` or at least ``outside[1]``. Returns how many
-    there are and how many samples are done with: the rest of ``x`` is to be given again, with what
+    Runs whose value is at most ``outside[0]`` or at least ``outside[1]`` are written into ``runs``;
+    ``first`` is the index of ``x[0]`` in the channel. Returns the number of runs written, and the
+    number of samples that are done with: the caller gives the rest of ``x`` again, with what
     follows. A run up to the end of ``x`` is left open in ``memory``. Samples that cannot be part of
     a run of ``least`` are skipped.
     """
@@ -114,5 +114,5 @@ def count_runs(x: FloatArray, over: float, memory: np.record, held: IndexArray) 
             memory.quantum = min(memory.quantum, step)
             if step > over:
                 held[min(length, held.size - 1)] += 1
-                memory.longest += length if length >= held.size - 1 else 0
+                memory.in_long += length if length >= held.size - 1 else 0
         memory.length, memory.value = (1 if value == value else 0), value

@@ -14,7 +14,7 @@ from floatref.mapping.channel_map.conversion import Conversion
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap
 from floatref.mapping.channel_map.map_document import read_map
 from floatref.mapping.channel_map.unit_limits import TOLERANCES, check_limits
-from floatref.mapping.clocks.aligning import Places, Token, aligned_clocks, auxiliaries
+from floatref.mapping.clocks.aligning import Places, Token, align_clocks, auxiliaries
 from floatref.mapping.clocks.clock_keys import Key
 from floatref.mapping.clocks.columns import Convert, Shown, Taken, Wanted, as_they_are, take
 from floatref.mapping.clocks.sensor_skews import skews_of
@@ -48,12 +48,12 @@ class Reading:
     skews: tuple[Mapping[str, Any], ...]
     warnings: tuple[str, ...]
 
-    def named_natively(self, line: str) -> str:
+    def name_natively(self, line: str) -> str:
         """Return ``line``, a warning about a channel, with the channel's native name."""
         for channel, origin in zip(self.recording.channels, self.origins, strict=True):
-            said = f"channel {channel.id}:"
-            if line.startswith(said) and origin != str(channel.id):
-                return f"channel {channel.id} ({origin}):{line.removeprefix(said)}"
+            prefix = f"channel {channel.id}:"
+            if line.startswith(prefix) and origin != str(channel.id):
+                return f"channel {channel.id} ({origin}):{line.removeprefix(prefix)}"
         return line
 
 
@@ -111,8 +111,8 @@ class _Mapping:
             self._opened.check_clock(entry)
         base = next((p for name in BASES for p in plan if p.entry.channel == name), plan[0])
         extra = list(auxiliaries(self._chart.clocks, base.key[0], self._opened.file))
-        taken, places = self._taken(plan, extra)
-        clocks = aligned_clocks(taken, places, self._chart.clocks, base.key, self._spool)
+        taken, places = self._take_all(plan, extra)
+        clocks = align_clocks(taken, places, self._chart.clocks, base.key, self._spool)
         whole = [self._channel(p, taken, places, clocks) for p in plan]
         with name_errors(self._opened.paths[SOURCE]):
             of = [clocks[p.key].alignment for p in plan]
@@ -146,7 +146,7 @@ class _Mapping:
                 conversion = Conversion(entry, column)
         return _Planned(entry, (entry.file, stream.name), stream, column.name, name, conversion)
 
-    def _taken(
+    def _take_all(
         self, plan: Sequence[_Planned], extra: Sequence[tuple[Key, Stream, str]]
     ) -> tuple[dict[Key, Taken], Places]:
         """Read every stream once; also return the column of each conversion's samples in it."""

@@ -18,9 +18,9 @@ def inspect_reading(reading: Reading) -> dict[str, Any]:
     channels = reading.recording.channels
     warnings = list(reading.warnings)
     try:
-        warnings += map(reading.named_natively, examine(reading.recording))
+        warnings += map(reading.name_natively, examine(reading.recording))
     except InputError as error:
-        warnings.append(f"cannot be processed yet: {reading.named_natively(str(error))}")
+        warnings.append(f"cannot be processed yet: {reading.name_natively(str(error))}")
     return {
         "channels": [_look(c, o) for c, o in zip(channels, reading.origins, strict=True)],
         "clocks": [dict(clock) for clock in reading.clocks],

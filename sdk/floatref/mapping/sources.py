@@ -33,17 +33,17 @@ class Source:
     warnings: tuple[str, ...] = ()
     reading: "Reading | None" = None
 
-    def said(self, line: str) -> str:
+    def name_natively(self, line: str) -> str:
         """Return ``line`` with the native name of the channel that it is about."""
-        return line if self.reading is None else self.reading.named_natively(line)
+        return line if self.reading is None else self.reading.name_natively(line)
 
     @contextmanager
-    def named(self) -> Iterator[None]:
+    def name_errors_natively(self) -> Iterator[None]:
         """Add the native name of the channel to any InputError raised inside."""
         try:
             yield
         except InputError as error:
-            raise InputError(self.said(str(error))) from error
+            raise InputError(self.name_natively(str(error))) from error
 
 
 def recording_of(
@@ -142,9 +142,9 @@ def make_profile(
     """
     from floatref.engine.run import run
 
-    with name_errors(read.path), read.named():
+    with name_errors(read.path), read.name_errors_natively():
         result = run(read.recording, pipeline, settings, progress)
     provenance = {**result.profile.provenance, **read.origin}
-    warnings = (*read.warnings, *map(read.said, result.warnings))
+    warnings = (*read.warnings, *map(read.name_natively, result.warnings))
     profile = replace(result.profile, provenance=provenance)
     return replace(result, profile=profile, warnings=warnings)

@@ -57,7 +57,7 @@ class Spool:
         self._columns.append(SpooledColumn(self._folder / f"{len(self._columns)}.f64"))
         return self._columns[-1]
 
-    def thinned(self, values: FloatArray, kept: BoolArray) -> FloatArray:
+    def thin(self, values: FloatArray, kept: BoolArray) -> FloatArray:
         """Return the ``kept`` ones of ``values``, shape (N,), on disk."""
         column = self.column()
         for first, part in chunks(values):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.measures import iri, short_interval_roughness
 from floatref.values.arrays import BoolArray, FloatArray
 
@@ -89,7 +89,7 @@ def title(ax: Axes, text: str) -> None:
 def save(figure: Figure, path: Path) -> None:
     """Write ``figure`` to ``path``, replacing a file; InputError where that cannot be written."""
     check_suffix(path)
-    with replacing_file(path, overwrite=True) as beside, warnings.catch_warnings():
+    with replace_file(path, overwrite=True) as beside, warnings.catch_warnings():
         # A name in letters that are missing in the font is drawn as boxes.
         warnings.filterwarnings("ignore", "Glyph .* missing", UserWarning)
         figure.savefig(beside, dpi=DOTS_PER_INCH, format=path.suffix.lower()[1:])

@@ -56,7 +56,7 @@ class Readings:
         """
         return _average(self.group, np.interp(self.stamps - late_s, self.motion.times, row))
 
-    def delayed(self, row: FloatArray) -> dict[str, FloatArray]:
+    def delay(self, row: FloatArray) -> dict[str, FloatArray]:
         """Return the same for readings late or early by up to half a swing of the body."""
         return {f"late {late_s:g} s": self.beside(row, late_s) for late_s in DELAYS_S}
 

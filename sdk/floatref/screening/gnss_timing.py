@@ -103,7 +103,7 @@ def check_velocity(recording: Recording, motion: Motion) -> Iterator[str]:
     """
     readings = Readings.of(recording.channel("gnss_vertical_velocity"), motion)
     rising = readings.beside(integrate(motion.lift))
-    explained = {RIGHT: rising, "sign": -rising, **readings.delayed(integrate(motion.lift))}
+    explained = {RIGHT: rising, "sign": -rising, **readings.delay(integrate(motion.lift))}
     evidence = weigh(readings.times, readings.values, explained, HEAVE)
     yield from report_fault(
         evidence,

@@ -83,7 +83,7 @@ def weigh_witnesses(
     level = (
         [attitude_readings[a.angle].on_grid() for a in AXES] if both else list(np.nan_to_num(tilts))
     )
-    angles = motion.turned(np.clip(level, -UPRIGHT, UPRIGHT))
+    angles = motion.turn(np.clip(level, -UPRIGHT, UPRIGHT))
     slow = [smooth(angle, TILT_SMOOTH_S) for angle in angles]
     calm = [smooth(row, TILT_SMOOTH_S) for row in level]
     roll, pitch = (
@@ -102,7 +102,7 @@ def _attitude(readings: Readings | None, angles: FloatArray, row: int) -> Eviden
         return Evidence()
     own, other, yaw = (readings.beside(angles[k]) for k in (row, 1 - row, 2))
     explained = {**axes(own, other, yaw), "deg": DEGREES * own, "-deg": -DEGREES * own}
-    explained |= readings.delayed(angles[row])
+    explained |= readings.delay(angles[row])
     apart = float(np.median(np.diff(readings.times))) if readings.times.size > 1 else 0.0
     look = Look(max(ATTITUDE.span_s, READINGS * apart), ATTITUDE.floor)
     return weigh(readings.times, readings.values, explained, look)

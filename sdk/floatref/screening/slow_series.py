@@ -98,7 +98,7 @@ class Motion:
         pitch = self.acceleration - self.forces[0]
         return np.stack([roll, pitch]) / STANDARD_GRAVITY
 
-    def turned(self, tilts: FloatArray) -> FloatArray:
+    def turn(self, tilts: FloatArray) -> FloatArray:
         """Return the angles that the rates integrate to, shape (3, n), in rad: roll, pitch, yaw.
 
         ``tilts``, shape (2, n), give the part of a turn of the course that is roll and pitch,
@@ -111,7 +111,7 @@ class Motion:
     @cached_property
     def swing(self) -> FloatArray:
         """Roll and pitch against their means over some seconds, shape (2, n), in rad."""
-        angles = self.turned(np.zeros((2, self.grid.count)))[:2]
+        angles = self.turn(np.zeros((2, self.grid.count)))[:2]
         return np.stack([angle - smooth(angle, SWING_S) for angle in angles])
 
     @cached_property

@@ -122,7 +122,7 @@ class Stage(ABC):
         """Return the warnings of the run so far, one line each."""
         return ()
 
-    def learned(self) -> Mapping[str, float]:
+    def list_learned(self) -> Mapping[str, float]:
         """Return settings estimated from the run, for the next run of the same vehicle."""
         return {}
 

@@ -52,7 +52,7 @@ class Trials:
     workers: ThreadPoolExecutor | None = None
 
     @contextmanager
-    def working(self) -> Iterator["Trials"]:
+    def open_workers(self) -> Iterator["Trials"]:
         """Process as many runs at a time as there are processors."""
         with ThreadPoolExecutor(os.cpu_count()) as workers:
             self.workers = workers

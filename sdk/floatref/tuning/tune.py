@@ -80,7 +80,7 @@ def tune(
     usual = check_pipeline(pipeline, {})
     levels = Levels.of(numbers, usual)
     trials = Trials(pipeline, given, levels, prepared.runs, done)
-    with trials.working():
+    with trials.open_workers():
         procedure = _procedure(prepared, levels, trials, first_point(given, levels), tell)
         found = procedure.search()
         tell("Sensitivity")

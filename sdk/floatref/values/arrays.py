@@ -12,7 +12,7 @@ IndexArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 FlagArray = NDArray[np.uint8]
 Records = NDArray[np.record]
-"""Elements that have fields with names, read and written in place."""
+"""Elements that have fields: `records[k].name` in compiled code, `records["name"]` elsewhere."""
 
 
 class Flag(IntFlag):

@@ -201,7 +201,7 @@ def test_a_long_channel_comes_in_pieces_of_bounded_size(tmp_path: Path, suffix: 
                 assert np.isnan(whole[70_000:]).all()
 
 
-@pytest.mark.parametrize("suffix", [*DESCRIBED, ".csv"])
+@pytest.mark.parametrize("suffix", list(WRITERS))
 def test_what_cannot_be_written_leaves_the_file_as_it_was(tmp_path: Path, suffix: str) -> None:
     channel = Channel.of("height", np.arange(3.0), UniformClock.of(10.0))
     path = tmp_path / f"run{suffix}"

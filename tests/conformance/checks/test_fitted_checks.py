@@ -30,7 +30,7 @@ def test_a_check_is_fitted_to_what_the_device_declares(
 ):
     # A class of its own: `isinstance` would remember of the toy check itself that it can be fitted.
     class Fewer(toy_check):
-        def fitted(self, meets):
+        def fit(self, meets):
             return replace(self, count=2 + len({"gnss", "height"} & meets))
 
     device = fake_device(architecture=architecture, capabilities=capabilities)

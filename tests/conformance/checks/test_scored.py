@@ -25,7 +25,7 @@ WHOLE = [id_ for id_ in load_registry().checks if id_ not in (*STATIONARY, "faul
 
 def edges(check, case):
     """Return distances within each end of what is scored, and without, where no bump lies."""
-    scored = join_stretches(check.scored(case))
+    scored = join_stretches(check.list_scored(case))
     within = [x for a, b in scored for x in (a + INSIDE_M, b - INSIDE_M)]
     return within, [x for a, b in scored for x in (a - OUTSIDE_M, b + OUTSIDE_M)]
 
@@ -66,7 +66,7 @@ def test_a_point_without_elevation_counts_within_what_is_scored_alone(right_benc
 
 def test_every_stop_of_several_has_its_stretch(right_bench):
     case = slow(STOP.cases(1, Effort.QUICK)[3])
-    assert case.scenario.stops == len(STOP.scored(case)) == 3
+    assert case.scenario.stops == len(STOP.list_scored(case)) == 3
     within, without = edges(STOP, case)
     assert all(asked_for(STOP, case, right_bench, x) for x in within)
     assert not any(asked_for(STOP, case, right_bench, x) for x in without)
@@ -75,7 +75,7 @@ def test_every_stop_of_several_has_its_stretch(right_bench):
 def test_of_a_recording_that_begins_later_what_counts_begins_later(right_bench):
     constant = slow(INVARIANCE.simplest)
     later = replace(constant, variation={"change": "later-start", "samples": 1500})
-    ((start, end),), ((first, last),) = INVARIANCE.scored(later), INVARIANCE.scored(constant)
+    ((start, end),), ((first, last),) = map(INVARIANCE.list_scored, (later, constant))
     assert (start, end) == pytest.approx((first + 1.5 * 20.0, last))
     assert asked_for(INVARIANCE, later, right_bench, start + INSIDE_M)
     assert not asked_for(INVARIANCE, later, right_bench, start - OUTSIDE_M)
@@ -93,7 +93,7 @@ def test_a_stop_that_is_compared_has_both_its_stretches(right_bench):
 
 def test_of_a_fault_every_point_of_the_drive_counts_that_is_vouched_for(right_bench):
     case = slow(FAULTS.simplest)
-    ((start, end),) = FAULTS.scored(case)
+    ((start, end),) = FAULTS.list_scored(case)
 
     def lifted(at_m):
         """Return what is measured of a device that is wrong at one place."""
@@ -114,6 +114,6 @@ def test_of_a_fault_every_point_of_the_drive_counts_that_is_vouched_for(right_be
 
 def test_numbers_that_leave_no_room_are_refused():
     with pytest.raises(InputError, match="must lie 106 m from its ends"):
-        STOP.scored(Case("stop", Scenario(manoeuvre="stop", length_m=400.0)))
+        STOP.list_scored(Case("stop", Scenario(manoeuvre="stop", length_m=400.0)))
     with pytest.raises(InputError, match="variation samples is None"):
-        INVARIANCE.scored(Case("invariance", Scenario(), {"change": "later-start"}))
+        INVARIANCE.list_scored(Case("invariance", Scenario(), {"change": "later-start"}))

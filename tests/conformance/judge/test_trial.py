@@ -99,7 +99,7 @@ def test_a_failure_keeps_what_the_check_scores_of_its_simplest_case(
     plan, result_of, halving, toy_check, stretches
 ):
     class Telling(toy_check):
-        def scored(self, case):
+        def list_scored(self, case):
             return stretches if case.scenario.seed == 0 else ((1.0, 2.0),)
 
     assert result_of(plan(halving, Telling())).checks[0].scored_m == stretches
@@ -115,7 +115,7 @@ def test_a_check_that_fails_to_say_what_it_scores_ends_no_run(
     plan, result_of, halving, toy_check, answer
 ):
     class Silent(toy_check):
-        def scored(self, case):
+        def list_scored(self, case):
             if isinstance(answer, BaseException):
                 raise answer
             return answer

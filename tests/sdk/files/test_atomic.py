@@ -16,7 +16,7 @@ from floatref.files import (
     write_profile_csv,
     write_recording,
 )
-from floatref.files.atomic import check_target, replace_directory, replacing_file
+from floatref.files.atomic import check_target, replace_directory, replace_file
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 
@@ -48,7 +48,7 @@ def test_a_failure_in_the_middle_leaves_everything_as_it_was(
             raise failure
 
     def fill_file() -> None:
-        with replacing_file(tmp_path / "f.csv", True) as beside:
+        with replace_file(tmp_path / "f.csv", True) as beside:
             beside.write_text("half")
             raise failure
 
@@ -191,7 +191,7 @@ def test_a_folder_that_may_not_be_written_is_named(
 
 
 def test_the_temporary_name_keeps_the_suffix_and_the_folder(tmp_path: Path) -> None:
-    with replacing_file(tmp_path / "plot.png") as beside:
+    with replace_file(tmp_path / "plot.png") as beside:
         assert (beside.parent, beside.suffix) == (tmp_path, ".png")
         assert not (tmp_path / "plot.png").exists()
         beside.write_bytes(b"x")
@@ -200,7 +200,7 @@ def test_the_temporary_name_keeps_the_suffix_and_the_folder(tmp_path: Path) -> N
 
 def test_a_target_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
     def fill() -> None:
-        with replacing_file(tmp_path / "f") as beside:
+        with replace_file(tmp_path / "f") as beside:
             beside.write_text("ours")
             (tmp_path / "f").write_text("theirs")
 

@@ -27,7 +27,7 @@ def test_samples_come_back_bit_for_bit(pieces: list[np.ndarray]) -> None:
         found = column.finish()
         assert found.tobytes() == b"".join(piece.tobytes() for piece in pieces)
         kept = np.arange(found.size) % 3 == 1
-        assert spool.thinned(found, kept).tobytes() == found[kept].tobytes()
+        assert spool.thin(found, kept).tobytes() == found[kept].tobytes()
 
 
 def test_nothing_stays_behind_and_arrays_outlive_the_folder(temporary: Path) -> None:

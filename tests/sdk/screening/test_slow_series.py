@@ -153,7 +153,7 @@ def test_a_turn_on_a_slope_is_no_pitch_and_no_roll(pitch: float, roll: float, tu
     motion = Motion.of(recorded(sensed), "main")
     assert motion is not None
     tilts = np.broadcast_to([[roll], [pitch]], (2, motion.times.size))
-    rolled, pitched, yawed = motion.turned(tilts)
+    rolled, pitched, yawed = motion.turn(tilts)
     assert np.ptp(rolled) <= 0.02 * abs(np.ptp(yawed) * pitch) + 1e-12
     assert np.ptp(pitched) <= 0.02 * abs(np.ptp(yawed) * roll) + 1e-12
     assert abs(yawed[-1]) == pytest.approx(

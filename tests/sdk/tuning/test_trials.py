@@ -38,7 +38,7 @@ def test_every_profile_is_made_once_and_told(trials: Callable[[], Trials]) -> No
 @pytest.mark.slow
 def test_workers_change_nothing(trials: Callable[[], Trials]) -> None:
     point = (0, -8, 0, 0)
-    with trials().working() as several:
+    with trials().open_workers() as several:
         found = several.losses(point, ["stop", "fast"])
     assert list(found) == ["stop", "fast"]
     assert found == trials().losses(point, ["stop", "fast"])

@@ -60,7 +60,7 @@ def find_tables(
     )
     if stated is not None:
         default, warnings = None, ()
-    times = {f.index for f in fields if f.column.name in _named_times(fields)}
+    times = {f.index for f in fields if f.column.name in _list_time_columns(fields)}
     groups: dict[tuple[NativeClock | None, int | None, int], list[Field]] = {}
     for field in fields:
         if field.index in times or field.index == default:
@@ -136,7 +136,7 @@ def _default_time(
     return (stamps[0] if stamps else None), ()
 
 
-def _named_times(fields: Sequence[Field]) -> set[str]:
+def _list_time_columns(fields: Sequence[Field]) -> set[str]:
     return {field.stated["time_column"] for field in fields if "time_column" in field.stated}
 
 

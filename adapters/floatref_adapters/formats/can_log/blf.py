@@ -34,7 +34,7 @@ class SoundBlf:
 
     def __init__(self, source: Path, faults: Counter[str]) -> None:
         self._faults = faults
-        self._pieces = self._rewritten(source)
+        self._pieces = self._rewrite(source)
         self._kept = b""
 
     def read(self, size: int) -> bytes:
@@ -51,7 +51,7 @@ class SoundBlf:
         """Close the log."""
         self._pieces.close()
 
-    def _rewritten(self, source: Path) -> Generator[bytes, None, None]:
+    def _rewrite(self, source: Path) -> Generator[bytes, None, None]:
         try:
             with source.open("rb") as stream:
                 yield _header(source, stream)

@@ -24,10 +24,10 @@ class Message:
         self._message = message
         self.multiplexed = bool(message.is_multiplexed())
         signals = {signal.name: signal for signal in message.signals}
-        sound = self.multiplexed or self.decoded(bytes(self.size)) is not None
+        sound = self.multiplexed or self.decode(bytes(self.size)) is not None
         self.columns = tuple(_column(signal) for signal in signals.values()) if sound else ()
 
-    def decoded(self, data: bytes) -> Mapping[str, Any] | None:
+    def decode(self, data: bytes) -> Mapping[str, Any] | None:
         """Return the values by signal, None if ``data`` is not of this message."""
         try:
             decoded = self._message.decode(data, decode_choices=False, decode_containers=False)
@@ -40,11 +40,11 @@ class Message:
         """Tell whether ``data`` can be decoded."""
         if len(data) < self.size:
             return False
-        return not self.multiplexed or self.decoded(data) is not None
+        return not self.multiplexed or self.decode(data) is not None
 
     def values(self, data: bytes, names: Sequence[str]) -> list[float]:
         """Return the values of the signals ``names``; NaN where the message now lacks one."""
-        found = self.decoded(data) if names else None
+        found = self.decode(data) if names else None
         return [found.get(name, NAN) for name in names] if found else [NAN] * len(names)
 
 

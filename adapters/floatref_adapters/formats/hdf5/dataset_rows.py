@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from floatref import InputError, NativeFile, Rows, Stream
 from floatref_adapters.formats.hdf5.clock_tables import Table, find_tables
 from floatref_adapters.formats.hdf5.object_tree import decode_text, open_hdf5, read_tree
-from floatref_adapters.formats.hdf5.series import MOST_HELD, Held, Series, chosen
+from floatref_adapters.formats.hdf5.series import MOST_HELD, Held, Series, choose
 from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows, keep_freed_memory
 
 
@@ -88,7 +88,7 @@ def _open_datasets(file: Any, wanted: Sequence[Series]) -> dict[str, Held]:
 
 
 def _samples(series: Series, held: Held, first: int, stop: int) -> NDArray[np.float64]:
-    values = series.samples(chosen(series, held.rows(first, stop)))
+    values = series.samples(choose(series, held.rows(first, stop)))
     absent = held.absent(first, stop)
     if absent is not None:
         values[absent] = np.nan
@@ -108,7 +108,7 @@ def _ticks(
         )
     if not time.integral:
         return values
-    raw = chosen(time, held.rows(first, stop))
+    raw = choose(time, held.rows(first, stop))
     if raw.size and int(raw.max()) > np.iinfo(np.int64).max:
         raise InputError(f"{time.dataset.path}: time {int(raw.max())}; it is beyond 64 bits")
     ticks: NDArray[np.int64] = raw.astype(np.int64)

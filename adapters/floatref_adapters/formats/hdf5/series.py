@@ -140,7 +140,7 @@ class Held:
         self.step = max(rows // chunk, 1) * chunk
         self._first = 0
         self._block: NDArray[Any] | None = None
-        self._written = _written(item, self._across)
+        self._written = _find_written(item, self._across)
 
     @property
     def bytes(self) -> int:
@@ -178,7 +178,7 @@ class Held:
         return ~np.isin(np.arange(first, stop) // high, written)
 
 
-def _written(item: Any, across: bool) -> tuple[int, NDArray[np.int64]] | None:
+def _find_written(item: Any, across: bool) -> tuple[int, NDArray[np.int64]] | None:
     """Return the rows in a chunk, and the numbers of the written ones; None if all were."""
     if not item.chunks:
         return None
@@ -192,7 +192,7 @@ def _written(item: Any, across: bool) -> tuple[int, NDArray[np.int64]] | None:
     return high, np.array([k for k, count in there.items() if count == beside], np.int64)
 
 
-def chosen(series: Series, rows: NDArray[Any]) -> NDArray[Any]:
+def choose(series: Series, rows: NDArray[Any]) -> NDArray[Any]:
     """Return the numbers of ``series`` in ``rows`` of its dataset, shape (n,)."""
     if series.part is not None:
         rows = rows[series.part]

@@ -62,7 +62,7 @@ def _native(source: Path, mdf: Any) -> NativeFile:
     streams = []
     for number, (origin, name) in enumerate(zip(mdf.groups, names, strict=True)):
         group = Group(source, mdf, number, origin, name)
-        left_out = _left_out(group)
+        left_out = _explain_omission(group)
         if left_out:
             warnings.append(f"{name}: {left_out}")
         elif not origin.channel_group.flags & LENGTHS:
@@ -76,7 +76,7 @@ def _name(origin: Any, number: int) -> str:
     return (made.acq_name or source or f"group {number}").strip() or f"group {number}"
 
 
-def _left_out(group: Group) -> str:
+def _explain_omission(group: Group) -> str:
     """Return why the records of ``group`` are not delivered; "" if they are."""
     made, channels = group.origin.channel_group, len(group.origin.channels)
     if made.flags & LENGTHS:
@@ -126,12 +126,12 @@ def _count_undecoded(group: Group, faults: list[str]) -> Iterator[str]:
 
 def _count(group: Group, warnings: list[str]) -> int:
     """Return how many records are delivered: what the file says, if it holds as many."""
-    said, held = int(group.origin.channel_group.cycles_nr), group.count_stored()
-    if said > held:
+    stated, held = int(group.origin.channel_group.cycles_nr), group.count_stored()
+    if stated > held:
         warnings.append(
-            f"{group.name}: {said - held} of {said} rows are missing; the file is cut off"
+            f"{group.name}: {stated - held} of {stated} rows are missing; the file is cut off"
         )
-    return min(said, held)
+    return min(stated, held)
 
 
 @dataclass(frozen=True, eq=False)

@@ -129,7 +129,7 @@ class Survey:
             self._seen.add((key, layout))
             columns.update({c.name: c for c in layout.columns if c.name not in columns})
         if LATENCY in layout.values:
-            late = layout.values[LATENCY](self._decoder.decoded(log.content))
+            late = layout.values[LATENCY](self._decoder.decode(log.content))
             # NaN is not later.
             self._late[key[0]] = max(self._late.get(key[0], 0.0), late)
         content = log.content if layout.columns else b""
@@ -151,7 +151,7 @@ class Survey:
     def _rows(self, key: Key, names: Sequence[str]) -> Iterator[tuple[int, Sequence[float]]]:
         getters = [[layout.values.get(name, _absent) for name in names] for layout in self._layouts]
         for gps_ms, kept in self._spool.records(key):
-            message = self._decoder.decoded(kept[PLACE.size :]) if names else None
+            message = self._decoder.decode(kept[PLACE.size :]) if names else None
             yield gps_ms, [value(message) for value in getters[PLACE.unpack_from(kept)[0]]]
 
     def list_warnings(self) -> tuple[str, ...]:

@@ -56,7 +56,7 @@ class Decoder:
         # A binary log of the right size always decodes; text may hold anything.
         return None if log.binary or self._holds(log.content) else "unfit"
 
-    def decoded(self, content: bytes) -> Any:
+    def decode(self, content: bytes) -> Any:
         """Return the decoded log; ``content`` has no fault."""
         return self._decode(content + PADDING if content[0] == BINARY else content)
 

@@ -110,12 +110,12 @@ class Frames:
                 self._waste(end - at)
                 at = start.end()
                 continue
-            _left(data[done:at], self._faults)
+            _count_left(data[done:at], self._faults)
             yield log
             at = done = end
         else:
             at = max(at, len(data) if last else _whole_lines(data, at))
-        _left(data[done:at], self._faults)
+        _count_left(data[done:at], self._faults)
         return at
 
     def _waste(self, size: int) -> None:
@@ -157,7 +157,7 @@ def is_sound(data: bytes, at: int) -> bool:
     return _log(data[at : at + size], size) is not None
 
 
-def _left(data: bytes, faults: Counter[str]) -> None:
+def _count_left(data: bytes, faults: Counter[str]) -> None:
     rest = data.strip(b"\r\n \0")
     if rest:
         faults["nmea"] += len(NMEA.findall(rest))

@@ -49,7 +49,7 @@ class Tdms:
 
 
 def _native(source: Source) -> NativeFile:
-    warnings = list(_cut_off(source))
+    warnings = list(_describe_cut_off(source))
     found: list[tuple[str, Timed]] = []
     for number, (stated, (properties, objects)) in enumerate(source.contents.groups().items()):
         name = stated.strip() or f"group {number}"
@@ -68,7 +68,7 @@ def _native(source: Source) -> NativeFile:
     return NativeFile(tuple(streams), tuple(warnings))
 
 
-def _cut_off(source: Source) -> Iterator[str]:
+def _describe_cut_off(source: Source) -> Iterator[str]:
     lost = sum(source.lost.values())
     if lost or source.contents.cut_off:
         channels = len(source.lost)

@@ -47,7 +47,7 @@ class Run:
     def of(cls, segment: Any) -> "Run":
         """Return the whole chunks of ``segment``."""
         total = sum(item.data_size for item in _objects(segment))
-        if _interleaved(segment):
+        if _is_interleaved(segment):
             total = sum(item.data_type.size * item.number_values for item in _objects(segment))
         whole = segment.num_chunks - (segment.final_chunk_lengths_override is not None)
         return cls(segment, segment.data_position, total, total, whole)
@@ -57,7 +57,7 @@ class Run:
         last = self.segment.final_chunk_lengths_override, segment.final_chunk_lengths_override
         stride = segment.data_position - self.base if self.chunks == 1 else self.stride
         even = segment.data_position == self.base + self.chunks * stride and stride >= self.total
-        split = segment.num_chunks > 1 or _interleaved(segment)
+        split = segment.num_chunks > 1 or _is_interleaved(segment)
         if last != (None, None) or not even or (split and stride != self.total):
             return False
         if not _alike(self.segment, segment):
@@ -67,19 +67,19 @@ class Run:
 
     def extents(self) -> Iterator[tuple[str, Extent]]:
         """Yield the extents of its channels, by their paths."""
-        lay = self._interleaved if _interleaved(self.segment) else self._contiguous
+        lay = self._lay_interleaved if _is_interleaved(self.segment) else self._lay_contiguous
         yield from lay(_objects(self.segment))
-        if self.segment.final_chunk_lengths_override and not _interleaved(self.segment):
-            yield from _cut_off(self.segment, self.base + self.chunks * self.stride)
+        if self.segment.final_chunk_lengths_override and not _is_interleaved(self.segment):
+            yield from _lay_cut_off(self.segment, self.base + self.chunks * self.stride)
 
-    def _contiguous(self, objects: Sequence[Any]) -> Iterator[tuple[str, Extent]]:
+    def _lay_contiguous(self, objects: Sequence[Any]) -> Iterator[tuple[str, Extent]]:
         offsets = [0, *accumulate(item.data_size for item in objects)]
         for item, offset in zip(objects, offsets, strict=False):
             if item.data_type.size and item.number_values and self.chunks:
                 place = (self.base, offset, self.total, self.stride, self.chunks)
                 yield item.path, Extent(*place, item.number_values, _dtype(item, self.segment))
 
-    def _interleaved(self, objects: Sequence[Any]) -> Iterator[tuple[str, Extent]]:
+    def _lay_interleaved(self, objects: Sequence[Any]) -> Iterator[tuple[str, Extent]]:
         width = sum(item.data_type.size for item in objects)
         last = self.segment.final_chunk_lengths_override or {}
         offset = 0
@@ -117,7 +117,7 @@ def _objects(segment: Any) -> list[Any]:
     return [item for item in segment.ordered_objects if item.has_data]
 
 
-def _interleaved(segment: Any) -> bool:
+def _is_interleaved(segment: Any) -> bool:
     return bool(segment.toc_mask & INTERLEAVED) and len(_objects(segment)) > 1
 
 
@@ -133,7 +133,7 @@ def _place(item: Any) -> tuple[Any, ...]:
     return item.path, item.number_values, item.data_size, item.data_type
 
 
-def _cut_off(segment: Any, base: int) -> Iterator[tuple[str, Extent]]:
+def _lay_cut_off(segment: Any, base: int) -> Iterator[tuple[str, Extent]]:
     offset = 0
     for item in _objects(segment):
         count = segment.final_chunk_lengths_override.get(item.path, 0)

@@ -118,7 +118,7 @@ class Reader:
             and channel.origin.data_type.nptype.kind in "iu"
         ):
             return lambda raw: raw.astype(np.int64, copy=False)
-        return channel.scaled()
+        return channel.make_scale()
 
     def _read_buffered(self, channels: list[TdmsChannel]) -> Iterator[list[Numbers]]:
         """Yield the values of ``channels``, some of which npTDMS has to find in buffers.

@@ -94,7 +94,7 @@ class TdmsChannel:
         if self.daqmx:
             return self.kind != RAW_BUFFERS or self.scaling() is not None
         try:
-            self.scaled()(np.arange(2).astype(self.origin.data_type.nptype))
+            self.make_scale()(np.arange(2).astype(self.origin.data_type.nptype))
         except Exception:
             return False
         return True
@@ -105,7 +105,7 @@ class TdmsChannel:
 
         return get_scaling(self.origin.properties, *self.inherited)
 
-    def scaled(self) -> Callable[[NDArray[Any]], NDArray[np.float64]]:
+    def make_scale(self) -> Callable[[NDArray[Any]], NDArray[np.float64]]:
         """Return what makes values of raw numbers, as npTDMS does."""
         from nptdms.base_segment import RawChannelDataChunk
 

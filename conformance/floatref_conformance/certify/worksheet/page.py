@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import (
     Criterion,
@@ -219,7 +219,7 @@ def write_page(worksheet: Worksheet, path: Path) -> None:
     cannot be written.
     """
     needs_jinja(NAME)
-    with replacing_file(path, overwrite=True) as beside:
+    with replace_file(path, overwrite=True) as beside:
         beside.write_text(as_html(worksheet), encoding="utf-8")
 
 

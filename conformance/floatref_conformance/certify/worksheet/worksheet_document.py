@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, cast
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.files.document import plain
 from floatref_conformance.certify.judging.contents import (
     Criterion,
@@ -50,7 +50,7 @@ def write_worksheet(worksheet: Worksheet, path: Path) -> None:
     Raises InputError if it cannot be written.
     """
     text = json.dumps(as_json(worksheet), indent=1, ensure_ascii=False, allow_nan=False)
-    with replacing_file(path, overwrite=True) as beside:
+    with replace_file(path, overwrite=True) as beside:
         beside.write_text(text + "\n", encoding="utf-8")
 
 

@@ -147,7 +147,7 @@ class DistanceCheck:
         numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
         return numbers.map(lambda given: Case(self.id, scenario_of(given)))
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the stretches in which features lie, ahead of an event and behind it.
 
         Raises InputError for a drive that is too short for them.
@@ -158,10 +158,10 @@ class DistanceCheck:
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the displacements of the features of every wheel path.
 
-        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        Raises InputError for what `list_scored` refuses, DeviceError for a point without elevation
         in one of them.
         """
-        self.scored(case)
+        self.list_scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         axis, true_event_m = EncoderAxis.of(taken), event_of(case.scenario)

@@ -150,7 +150,7 @@ class WavebandCheck:
             st.sampled_from(RATES_HZ),
         )
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the stretch over which the waves are fitted.
 
         Raises InputError for a drive that is too short, or over a road of another kind.
@@ -163,10 +163,10 @@ class WavebandCheck:
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the errors of gain and phase of every wheel path.
 
-        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        Raises InputError for what `list_scored` refuses, DeviceError for a point without elevation
         in the stretch that is fitted.
         """
-        self.scored(case)
+        self.list_scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         axis = EncoderAxis.of(taken)

@@ -7,7 +7,7 @@ from floatref_conformance.checks import scoring
 from floatref_conformance.checks.driving.edition import Table
 from floatref_conformance.checks.evidence import Pair
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Limits
+from floatref_conformance.classes import DeviceClass, Limits, write_limits
 
 LOSS, ERROR = "correlation loss", "IRI error"
 
@@ -50,7 +50,7 @@ def limits_of(table: Table) -> Limits:
 
 def loss(limits: Limits) -> Requirement:
     """Return the requirement on one minus (2.16), the agreement of the IRI filter's outputs."""
-    words = {c: f"{limit:g}" for c, limit in limits.items()}
+    words = write_limits(limits)
     return Requirement(LOSS, words, lambda pair, track: scoring.correlation(pair, track, limits))
 
 
@@ -60,7 +60,7 @@ def percent(limits: Limits, quantity: str = ERROR) -> Requirement:
     def measure(pair: Pair, track: str) -> Measurement:
         return replace(scoring.roughness_percent(pair, track, limits), quantity=quantity)
 
-    return Requirement(quantity, {c: f"{limit:g} %" for c, limit in limits.items()}, measure)
+    return Requirement(quantity, write_limits(limits, "%"), measure)
 
 
 def either(device_class: DeviceClass, loss_limit: float, error_percent: float) -> Requirement:

@@ -78,7 +78,7 @@ class DrivingCheck:
         """Return the strategy of all cases, with the `drives` of this check."""
         return drives(self.id).map(lambda scenario: Case(self.id, scenario))
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the stretches over which every point counts.
 
         Raises InputError for a drive that is too short for them.

@@ -124,7 +124,7 @@ class FaultsCheck:
         """Return any fault of any length, size and place in any drive."""
         return faulty_drives.case_strategy(self._faults)
 
-    def fitted(self, meets: Iterable[str]) -> "FaultsCheck":
+    def fit(self, meets: Iterable[str]) -> "FaultsCheck":
         """Return the check without the faults of sensors that are not among ``meets``."""
         return replace(self, meets=frozenset(meets))
 
@@ -132,7 +132,7 @@ class FaultsCheck:
     def _faults(self) -> tuple[str, ...]:
         return tuple(f for f in SENSOR_FAULTS if needs_of(f) <= self.meets)
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the whole drive: every point counts that the device marks valid."""
         return ((0.0, case.scenario.length_m),)
 

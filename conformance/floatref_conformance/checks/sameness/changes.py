@@ -36,13 +36,13 @@ def thin_readings(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with one of ``every`` readings of its receiver."""
     step = int(number(numbers, "every"))
 
-    def thinned(channel: Channel) -> Channel:
+    def thin(channel: Channel) -> Channel:
         if channel.id.name not in CAPABILITIES["gnss"]:
             return channel
         clock = StampedClock.of(channel.times_s[::step])
         return replace(channel, values=channel.values[::step], clock=clock)
 
-    return change_each(recording, thinned)
+    return change_each(recording, thin)
 
 
 def add_unit_bias(recording: Recording, numbers: Numbers) -> Recording:
@@ -52,12 +52,12 @@ def add_unit_bias(recording: Recording, numbers: Numbers) -> Recording:
     """
     offsets = {"force": number(numbers, "bias"), "rate": number(numbers, "rate_bias")}
 
-    def biased(channel: Channel) -> Channel:
+    def shift(channel: Channel) -> Channel:
         if channel.id.name not in CAPABILITIES["imu"]:
             return channel
         return add_offset(channel, offsets[channel.id.name.rpartition("_")[2]])
 
-    return change_each(recording, biased)
+    return change_each(recording, shift)
 
 
 def change_gyro_rate(scenario: Scenario, numbers: Numbers) -> Scenario:
@@ -112,12 +112,12 @@ def change_storage(recording: Recording, numbers: Numbers) -> Recording:
 def add_bias(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``bias`` in m/s² added to the vertical accelerometers."""
 
-    def biased(channel: Channel) -> Channel:
+    def shift(channel: Channel) -> Channel:
         if channel.id.name not in VERTICAL_FORCES:
             return channel
         return add_offset(channel, number(numbers, "bias"))
 
-    return change_each(recording, biased)
+    return change_each(recording, shift)
 
 
 def shift_time(recording: Recording, numbers: Numbers) -> Recording:
@@ -129,12 +129,12 @@ def shift_time(recording: Recording, numbers: Numbers) -> Recording:
 def shift_distance(recording: Recording, numbers: Numbers) -> Recording:
     """Return ``recording`` with ``shift_m`` added to its distance."""
 
-    def moved(channel: Channel) -> Channel:
+    def move(channel: Channel) -> Channel:
         if channel.id.name != "distance":
             return channel
         return add_offset(channel, number(numbers, "shift_m"))
 
-    return change_each(recording, moved)
+    return change_each(recording, move)
 
 
 def shift_truth(truth: Profile, numbers: Numbers) -> Profile:

@@ -119,7 +119,7 @@ class InvarianceCheck:
         """Return any change of any drive."""
         return changed_drives.case_strategy(self._changes)
 
-    def fitted(self, meets: Iterable[str]) -> "InvarianceCheck":
+    def fit(self, meets: Iterable[str]) -> "InvarianceCheck":
         """Return the check without changes whose needs are not among ``meets``."""
         return replace(self, meets=frozenset(meets))
 
@@ -127,7 +127,7 @@ class InvarianceCheck:
     def _changes(self) -> tuple[str, ...]:
         return tuple(name for name, c in CHANGES.items() if c.needs <= self.meets)
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the compared stretch; for a stop also the one that shows the road.
 
         Raises InputError for a variation without the number that gives the begin.
@@ -146,10 +146,10 @@ class InvarianceCheck:
 
         The changed recording comes first: data that the device stores of it must serve both.
         Raises InputError for a variation without a change or without a number of it, for a
-        change of sensors that the device does not have, and for a case that `scored` refuses.
+        change of sensors that the device does not have, and for a case that `list_scored` refuses.
         """
         change = change_of(case.variation)
-        self.scored(case)
+        self.list_scored(case)
         before = bench.simulate(case.scenario)
         check_equipped(before.recording, change.needs, f"change {case.variation['change']}")
         after = _change(case, change, before, bench)

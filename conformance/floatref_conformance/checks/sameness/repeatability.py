@@ -166,7 +166,7 @@ class RepeatabilityCheck:
             lambda scenario, changes: Case(self.id, scenario, changes), scenarios, second
         )
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the stretch that is compared; InputError for a drive that is too short."""
         return verify_stretches(((START_M, END_M),), drive_of(case.scenario).length_m)
 
@@ -176,7 +176,7 @@ class RepeatabilityCheck:
         Raises InputError for numbers that make no second pass, DeviceError for a point without
         elevation in the stretch that is compared.
         """
-        self.scored(case)
+        self.list_scored(case)
         measured: list[Measurement] = []
         profiles: list[Profile] = []
         losses: dict[str, list[Measurement]] = {}

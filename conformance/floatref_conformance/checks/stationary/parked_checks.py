@@ -102,7 +102,7 @@ class StationaryCheck:
         )
         return scenarios.map(lambda scenario: Case(self.id, scenario))
 
-    def scored(self, case: Case) -> Stretches:
+    def list_scored(self, case: Case) -> Stretches:
         """Return the stretch whose IRI is limited.
 
         Raises InputError for a vehicle that drives, or an artificial drive that is too short.
@@ -115,10 +115,10 @@ class StationaryCheck:
     def judge(self, case: Case, bench: Bench) -> tuple[Measurement, ...]:
         """Return the IRI and the plate's errors of every wheel path.
 
-        Raises InputError for what `scored` refuses, DeviceError for a point without elevation
+        Raises InputError for what `list_scored` refuses, DeviceError for a point without elevation
         more than `END_M` from both ends.
         """
-        self.scored(case)
+        self.list_scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
         measured: list[Measurement] = []

@@ -206,7 +206,7 @@ class Vehicle:
         """Return nothing: all of this vehicle's response channels belong to a wheel path."""
         return Gauges()
 
-    def known(self) -> VehicleSetup:
+    def make_setup(self) -> VehicleSetup:
         """Return the quarter car of a measured corner: its share of the body on its own wheel."""
         axle = self.axles[self.response_axle]
         parameters = {

@@ -171,7 +171,7 @@ class PlainModel:
         shared = [c for c in self.coordinates if c.y_m is None]
         return _gauges(self._rows(shared), NEITHER)
 
-    def known(self) -> VehicleSetup:
+    def make_setup(self) -> VehicleSetup:
         """Return the model's name and parameters."""
         return self.setup
 

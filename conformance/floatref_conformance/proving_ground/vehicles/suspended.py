@@ -103,6 +103,6 @@ class Suspended(Protocol):
         """Return what is measured once, whatever the wheel paths."""
         ...
 
-    def known(self) -> VehicleSetup:
+    def make_setup(self) -> VehicleSetup:
         """Return the true parameters of the model that an estimator of the road uses."""
         ...

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref_conformance.table.comparison_picture import DOTS_PER_INCH, new_figure
 from floatref_conformance.table.stops.stop_settings import STOP_ROADS
 from floatref_conformance.table.stops.stop_table import StopTable, summary
@@ -46,7 +46,7 @@ def draw_stops(table: StopTable, path: Path) -> None:
     ax.set_axisbelow(True)
     ax.set_xlabel("Cross correlation with the truth around the stop")
     _draw_legend(ax, table)
-    with replacing_file(path, overwrite=True) as beside:
+    with replace_file(path, overwrite=True) as beside:
         figure.savefig(beside, dpi=DOTS_PER_INCH, format="png")
 
 

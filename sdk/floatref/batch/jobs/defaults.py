@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.engine.formats import get_reader, is_native
-from floatref.engine.run import resolved_settings
+from floatref.engine.run import resolve_settings
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ChannelMap
 from floatref.mapping.channel_map.map_document import read_map
@@ -31,7 +31,7 @@ def read_given_map(options: Defaults) -> ChannelMap | None:
     Raises InputError for a pipeline, adapter, setting, map or segment that no file can be
     processed with.
     """
-    resolved_settings(options.pipeline, options.settings)
+    resolve_settings(options.pipeline, options.settings)
     native = options.adapter is None or is_native(get_reader(options.adapter))
     length = options.segment_m
     if length is not None and not (isfinite(length) and length > 0):

@@ -69,7 +69,7 @@ def find_jobs(given: Sequence[str], out: Path, defaults: Defaults) -> Found:
     search = _Search(Path(out).absolute(), defaults)
     for text in given:
         search.take(text)
-    return search.found()
+    return search.list_found()
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class _Search:
         else:
             raise InputError(f"{text or repr(text)}: not found; check the name")
 
-    def found(self) -> Found:
+    def list_found(self) -> Found:
         sources = self._sources.values()
         if not sources:
             raise InputError("no recording was found; name recordings, native files or folders")

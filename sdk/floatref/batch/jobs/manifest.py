@@ -88,10 +88,10 @@ class _Reading:
     def _options_of(self, row: Mapping[str, str]) -> Defaults:
         given = tuple(row.get(name, "") for name in COLUMNS[1:])
         if given not in self._known:
-            self._known[given] = self._chosen(*given)
+            self._known[given] = self._choose(*given)
         return self._known[given]
 
-    def _chosen(self, adapter: str, channel_map: str, pipeline: str, settings: str) -> Defaults:
+    def _choose(self, adapter: str, channel_map: str, pipeline: str, settings: str) -> Defaults:
         chosen = replace(
             self._options,
             adapter=adapter or self._options.adapter,

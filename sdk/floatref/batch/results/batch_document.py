@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.batch.results.totals import Tally
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.files.document import plain, write_document
 from floatref.files.schema import enforce
 from floatref.version import __version__
@@ -63,7 +63,7 @@ def batch_document(command: Command, tally: Tally, finished: Finished) -> dict[s
 def write_batch_document(document: Mapping[str, Any], out: Path) -> Path:
     """Write ``document`` as batch.json in ``out``, complete or not at all, and return where."""
     enforce(document, SCHEMA, out / FILE)
-    with replacing_file(out / FILE, overwrite=True) as beside:
+    with replace_file(out / FILE, overwrite=True) as beside:
         write_document(document, beside)
     return out / FILE
 

@@ -13,7 +13,7 @@ from typing import IO, Any
 
 from floatref.batch.jobs.job import Job
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.schema import enforce
 
@@ -126,7 +126,7 @@ def write_record(record: Record, path: Path) -> None:
     """
     document = as_document(record)
     make_folder_of(path)
-    with replacing_file(path, overwrite=True) as beside:
+    with replace_file(path, overwrite=True) as beside:
         write_document(document, beside)
 
 

@@ -13,7 +13,7 @@ from typing import Any
 from floatref.batch.jobs.job import PROFILES
 from floatref.batch.results.record import Record
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 
 CSV, PARQUET = "summary.csv", "summary.parquet"
 """Names of the two files; they hold the same values."""
@@ -57,8 +57,7 @@ def write_summary(records: Iterable[Record], out: Path) -> None:
     lines = (line for record in records for line in _lines(record))
     with ExitStack() as stack:
         text, table = (
-            stack.enter_context(replacing_file(out / name, overwrite=True))
-            for name in (CSV, PARQUET)
+            stack.enter_context(replace_file(out / name, overwrite=True)) for name in (CSV, PARQUET)
         )
         stream = stack.enter_context(text.open("w", encoding="utf-8", newline=""))
         # csv quotes a line feed by itself, a carriage return only if it ends lines.

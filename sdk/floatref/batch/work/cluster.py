@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from floatref.errors import InputError
-from floatref.files.atomic import replacing_file
+from floatref.files.atomic import replace_file
 from floatref.version import __version__
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ def _check_workers(client: "Client", out: Path) -> None:
         client.wait_for_workers(1, timeout=WORKERS_S)
     except TimeoutError as error:
         raise InputError(f"cluster {address}: has no workers; start some") from error
-    with replacing_file(out / ".cluster", overwrite=True) as token:
+    with replace_file(out / ".cluster", overwrite=True) as token:
         token.touch()
         _check_answer(f"scheduler {address}", _answer_of_scheduler(client), out, False)
         for worker, answer in client.run(_hello, str(token), on_error="return").items():

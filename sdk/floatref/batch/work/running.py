@@ -36,14 +36,14 @@ def run_jobs(
     chosen = task or _run_job
     ordered = sorted(jobs, key=lambda job: -job.size_bytes)
     suspects = []
-    for job, future in _done(client, ordered, resume, chosen):
+    for job, future in _yield_done(client, ordered, resume, chosen):
         if _worker_died(future):
             suspects.append(job)
         else:
             yield job, _record(job, future, resume)
         future.release()
     for suspect in suspects:
-        for job, future in _done(client, [suspect], resume, chosen):
+        for job, future in _yield_done(client, [suspect], resume, chosen):
             yield job, _record(job, future, resume)
 
 
@@ -59,7 +59,7 @@ def _mark(job: Job, resume: bool, task: Task) -> Record:
         return task(job, resume)
 
 
-def _done(
+def _yield_done(
     client: "Client", jobs: Sequence[Job], resume: bool, task: Task
 ) -> Iterator[tuple[Job, "Future[Record]"]]:
     """Yield every job with its future, in the order in which they are done."""

@@ -15,7 +15,7 @@ from floatref.cli.allan.allan_report import (
 from floatref.cli.allan.allan_tables import print_tables
 from floatref.cli.printing import print_json
 from floatref.errors import InputError
-from floatref.files.atomic import check_target, replacing_file
+from floatref.files.atomic import check_target, replace_file
 from floatref.files.document import write_document
 from floatref.files.sources import name_errors
 from floatref.mapping.sources import recording_of
@@ -64,7 +64,7 @@ def allan(
             raise InputError("gives no setting; record accelerometers and gyros, for longer")
     with _draw(found, plot):
         if settings is not None:
-            with replacing_file(settings) as beside:
+            with replace_file(settings) as beside:
                 write_document(report["settings"], beside)
     print_json(report) if as_json else print_tables(found, warnings)
 
@@ -138,6 +138,6 @@ def _draw(found: list[ChannelNoise], plot: Path | None) -> Iterator[None]:
         return
     from floatref.plots import draw_allan
 
-    with replacing_file(plot, overwrite=True) as beside:
+    with replace_file(plot, overwrite=True) as beside:
         draw_allan(found, beside)
         yield

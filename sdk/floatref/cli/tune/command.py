@@ -11,7 +11,7 @@ from floatref.cli.printing import print_json
 from floatref.cli.tune.tune_report import loss_curves, print_tables, tune_report
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
-from floatref.files.atomic import check_target, replacing_file
+from floatref.files.atomic import check_target, replace_file
 from floatref.files.document import write_document
 from floatref.files.settings_file import read_settings
 from floatref.mapping.sources import recording_of
@@ -87,7 +87,7 @@ def tune(
     expected = profile_of(reference)
     runs = _read(recordings, adapter)
     tuning = _tune(runs, expected, pipeline, given, max_offset_m, quiet=as_json)
-    with _draw(tuning, plot), replacing_file(out, overwrite) as beside:
+    with _draw(tuning, plot), replace_file(out, overwrite) as beside:
         write_document(tuning.settings, beside)
     print_json(tune_report(tuning, out)) if as_json else print_tables(tuning, out)
 
@@ -171,6 +171,6 @@ def _draw(tuning: "Tuning", plot: Path | None) -> Iterator[None]:
         return
     from floatref.plots import draw_sensitivity
 
-    with replacing_file(plot, overwrite=True) as beside:
+    with replace_file(plot, overwrite=True) as beside:
         draw_sensitivity(loss_curves(tuning), beside)
         yield

@@ -35,7 +35,7 @@ from floatref.values.recording import ORIGIN
 UNITS = ("m", "m/s", "rad", "rad")
 
 
-def left_out(memories: Sequence[np.record], origin_s: float, step: float) -> Iterator[str]:
+def describe_left_out(memories: Sequence[np.record], origin_s: float, step: float) -> Iterator[str]:
     """Yield a line for each channel of GNSS with readings that were left out.
 
     ``memories`` are those of the filters of all wheel paths, which read the same; sample 0 was at
@@ -110,7 +110,7 @@ class KalmanStage(Stage):
         filters: dict[str, TrackFilter] = self.memory["filters"]
         memories = [each.state.memory for each in filters.values()]
         assert self._header is not None
-        return tuple(left_out(memories, self._header.origin, self._header.step))
+        return tuple(describe_left_out(memories, self._header.origin, self._header.step))
 
     def ending(self) -> dict[str, tuple[Nodes, FloatArray | None]]:
         """Return of every track the node at the last sample, and lambda behind it."""

@@ -6,7 +6,10 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, new_record
+
+RESPONSE = np.dtype([(name, np.float64) for name in ("value", "rate", "latest")], align=True)
+"""Response in m/s², its rate per second, and the latest acceleration."""
 
 
 @compiled
@@ -21,14 +24,14 @@ def curvature(values: FloatArray, weights: FloatArray, found: FloatArray) -> Non
 
 @compiled
 def respond(
-    a: FloatArray, by: FloatArray, fade: float, memory: FloatArray, found: FloatArray
+    a: FloatArray, by: FloatArray, fade: float, memory: np.record, found: FloatArray
 ) -> None:
     """Write the response of an oscillator to ``a``; NaN there are made the latest, times ``fade``.
 
-    ``memory`` holds response, its rate and the latest of ``a``; ``by``, shape (2, 4), what the next
-    response and rate are made of: those three and the next of ``a``.
+    ``memory`` is of `RESPONSE`; ``by``, shape (2, 4), holds what the next response and rate are
+    made of: those three and the next of ``a``.
     """
-    value, rate, latest = memory[0], memory[1], memory[2]
+    value, rate, latest = memory.value, memory.rate, memory.latest
     for k in range(a.size):
         if a[k] != a[k]:
             a[k] = fade * latest
@@ -36,7 +39,7 @@ def respond(
         rate = by[1, 0] * value + by[1, 1] * rate + by[1, 2] * latest + by[1, 3] * a[k]
         value, latest = new, a[k]
         found[k] = value
-    memory[0], memory[1], memory[2] = value, rate, latest
+    memory.value, memory.rate, memory.latest = value, rate, latest
 
 
 SPREAD_S = 0.03
@@ -94,7 +97,7 @@ class Excitation:
         distances: at the nodes from the first that the next acceleration needs, in m.
         begun: whether the distances have been continued before the first.
         fade: where the encoder gives no travel, a brake goes on, less by this from node to node.
-        memory: response, its rate and the latest acceleration.
+        memory: of `RESPONSE`.
     """
 
     weights: FloatArray
@@ -102,7 +105,7 @@ class Excitation:
     fade: float
     distances: FloatArray = field(default_factory=lambda: np.empty(0))
     begun: bool = False
-    memory: FloatArray = field(default_factory=lambda: np.zeros(3))
+    memory: np.record = field(default_factory=lambda: new_record(RESPONSE))
 
     @classmethod
     def of(cls, interval_s: float, hz: float, damping: float) -> "Excitation":

@@ -134,7 +134,7 @@ class RoadPriorSmoother(Stage):
         backlog.finish(ending)
         return tuple(map(self._flag_uncertain, backlog.come_out()))
 
-    def learned(self) -> Mapping[str, float]:
+    def list_learned(self) -> Mapping[str, float]:
         """Return the estimate of lean and tilt from all wheel paths, see `pool`."""
         filters: dict[str, RoadTrack] = self.memory["filters"]
         return pool([b for each in filters.values() for b in each.all_brakes()], self.constants)

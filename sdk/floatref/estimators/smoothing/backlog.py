@@ -119,7 +119,7 @@ class Backlog:
         waited_s = (change.size + 1) * self.length * lines[0].rule.step
         if waited_s >= STANDING * self.longest_s:
             return most
-        half, passed = ceil(change.size / 2), min(most, *(line.passed() for line in lines))
+        half, passed = ceil(change.size / 2), min(most, *(line.count_passed() for line in lines))
         if waited_s < self.longest_s or passed <= half:
             return ready
         # Little is still to come away from stops, so that the joint bends nothing.

@@ -47,7 +47,7 @@ def changes(segments: Sequence[Segment], behind: Settled | None, wavelength_m: f
         marks = marks.behind(behind)
     latest = segments[-1].marks.latest
     standing = marks.distance_m[-2:-1] == marks.distance_m[-1]
-    seen = segments[-1].nodes.seen(bool(standing.any()))
+    seen = segments[-1].nodes.select_seen(bool(standing.any()))
     return influence(marks, latest, seen, ends[:-1], wavelength_m)
 
 

@@ -76,7 +76,7 @@ class Line:
         """Return by how much what is to come can change the end of each segment but the last."""
         return changes(self.segments, self.behind, self.rule.wavelength_m)
 
-    def passed(self) -> int:
+    def count_passed(self) -> int:
         """Return how many segments lie so far behind that their 1-σ needs nothing to come."""
         places = np.fmax.accumulate([s.marks.distance_m[-1] for s in self.segments])
         reach = REACH * self.rule.wavelength_m

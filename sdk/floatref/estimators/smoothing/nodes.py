@@ -151,7 +151,7 @@ class Nodes:
         found[upper] = found.T[upper] = self.rows["covariance"][-1]
         return found
 
-    def seen(self, standing: bool) -> FloatArray:
+    def select_seen(self, standing: bool) -> FloatArray:
         """Return what later readings can show of a state, shape (m, states)."""
         return self.kind.standing if standing else self.kind.seen
 

@@ -108,18 +108,18 @@ def _file(entry: Mapping[str, Any], place: Path) -> FileEntry:
 
 def _resolve_inside(name: str, place: Path) -> Path:
     """Return the file ``name`` beside the map ``place``; InputError if it leaves that folder."""
-    said = f"path {show(name)}"
+    prefix = f"path {show(name)}"
     # A map has the same meaning and the same errors on every system.
     if "\\" in name or re.match(r"/|[A-Za-z]:", name):
-        raise InputError(f"{said}: give it relative to the map's folder, with / in between")
+        raise InputError(f"{prefix}: give it relative to the map's folder, with / in between")
     try:
         folder = place.resolve().parent
         target = (folder / name).resolve()
         target.is_file()
     except (OSError, ValueError, RuntimeError) as error:
-        raise InputError(f"{said}: no possible file name; correct it") from error
+        raise InputError(f"{prefix}: no possible file name; correct it") from error
     if not target.is_relative_to(folder):
-        raise InputError(f"{said}: leads out of the map's folder; copy the file there")
+        raise InputError(f"{prefix}: leads out of the map's folder; copy the file there")
     return target
 
 

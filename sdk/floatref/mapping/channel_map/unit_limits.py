@@ -39,7 +39,7 @@ def check_gravity(channel: str, mean: float) -> None:
     """
     if not abs(mean - STANDARD_GRAVITY) > TOLERANCES.get(channel, float("inf")):
         return
-    likely = [said for level, near, said in MEANINGS if abs(mean - level) <= near]
+    likely = [remedy for level, near, remedy in MEANINGS if abs(mean - level) <= near]
     advice = likely[0] if likely else "check unit, axis and offset"
     raise InputError(f"mean is {mean:.4g}, expected about 9.8 m/s^2 of a specific force; {advice}")
 
@@ -125,8 +125,8 @@ def check_limits(channel: Channel) -> None:
 
 
 def _describe(what: str, size: float, unit: str, limit: Limit) -> str:
-    said = "" if unit == "1" else f" {unit}"
-    line = f"{what} is {size:.4g}{said}, which no vehicle reaches"
+    unit_text = "" if unit == "1" else f" {unit}"
+    line = f"{what} is {size:.4g}{unit_text}, which no vehicle reaches"
     if limit.per_unit == 1:
         return f"{line}; it is from {limit.other}, so map one that is in NMEA's"
     return f"{line}; if the file has {limit.other}, state unit = {limit.other!r}, or {limit.cure}"

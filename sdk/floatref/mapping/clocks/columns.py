@@ -145,7 +145,7 @@ class _Taking:
         warnings.append(
             f"{repeated} rows repeat the time of another; only the first of each is used"
         )
-        thin = [self._spool.thinned(values, kept) for values in (times, *columns)]
+        thin = [self._spool.thin(values, kept) for values in (times, *columns)]
         return None, 0.0, thin[0], thin[1:]
 
 

@@ -66,13 +66,13 @@ def since_zero(
     if epoch is Epoch.GPS:
         return readings + _turns(zero_s - first, WEEK_S) - zero_s, ()
     if first <= DAY_S:
-        said = "base_time is read as s of the day in UTC, like the receiver's own time"
-        return readings + _turns(zero_s - first, DAY_S) - zero_s, (said,)
+        line = "base_time is read as s of the day in UTC, like the receiver's own time"
+        return readings + _turns(zero_s - first, DAY_S) - zero_s, (line,)
     leaps = gps_minus_utc_s(zero_s if epoch is Epoch.UTC else RECENT_UNIX_S)
     in_utc = readings + GPS_EPOCH_UNIX_S - leaps
-    said = f"base_time is read as GPS time, {leaps} s ahead of the receiver's own, which is UTC"
+    line = f"base_time is read as GPS time, {leaps} s ahead of the receiver's own, which is UTC"
     period = DAY_S if epoch is Epoch.DAY else WEEK_S
-    return in_utc + _turns(zero_s - float(in_utc[0]), period) - zero_s, (said,)
+    return in_utc + _turns(zero_s - float(in_utc[0]), period) - zero_s, (line,)
 
 
 def _turns(apart_s: float, period_s: int) -> float:

@@ -115,8 +115,8 @@ def _velocity(clues: _Clues) -> Response | None:
 
 
 def _deflection(clues: _Clues) -> Response | None:
-    said = clues.say(SPRING) or (re.search(SPRING, clues.stream) and clues.say(PATH))
-    return Response("suspension_deflection") if said else None
+    named = clues.say(SPRING) or (re.search(SPRING, clues.stream) and clues.say(PATH))
+    return Response("suspension_deflection") if named else None
 
 
 def _displacement(clues: _Clues) -> Response | None:

@@ -99,8 +99,8 @@ def fit_noise(allan: AllanDeviation, confidence: float = CONFIDENCE) -> NoiseFit
     if not (np.isfinite(allan.deviation).all() and (allan.deviation > 0).all()):
         raise InputError("an Allan deviation is not above zero; give a signal that has noise")
     curve = _Curve(allan)
-    terms = curve.supported(confidence)
-    squares = curve.fitted(terms)
+    terms = curve.list_supported(confidence)
+    squares = curve.fit_terms(terms)
     spread = curve.uncertainties(squares, terms)
     found = np.sqrt(squares)
     uncertainties = np.divide(spread, 2.0 * found, out=np.zeros(5), where=found > 0)
@@ -128,19 +128,19 @@ class _Curve:
         # What (6.53) misses, neighbours miss together.
         self.alike = np.minimum.outer(time, time) / np.maximum.outer(time, time)
 
-    def supported(self, confidence: float) -> list[int]:
+    def list_supported(self, confidence: float) -> list[int]:
         """Return the terms that the data support."""
-        terms = np.flatnonzero(self.fitted([0, 1, 2, 3, 4])).tolist()
+        terms = np.flatnonzero(self.fit_terms([0, 1, 2, 3, 4])).tolist()
         while len(terms) > 1:
             tests = [self._without(term, terms) for term in terms]
             least = min(range(len(terms)), key=tests.__getitem__)
             if tests[least] >= confidence:
                 break
             del terms[least]
-            terms = np.flatnonzero(self.fitted(terms)).tolist()
+            terms = np.flatnonzero(self.fit_terms(terms)).tolist()
         return terms
 
-    def fitted(self, terms: list[int]) -> FloatArray:
+    def fit_terms(self, terms: list[int]) -> FloatArray:
         """Return the squared coefficients, shape (5,), with ``terms`` alone above zero.
 
         Weights are those of the curve that is found, so that the fit is one of greatest
@@ -175,7 +175,7 @@ class _Curve:
     def _without(self, term: int, terms: list[int]) -> float:
         """Return by how many standard deviations the data contradict a curve without ``term``."""
         rest = [t for t in terms if t != term]
-        estimate, spread = self._add_term(self.fitted(rest), rest, term)
+        estimate, spread = self._add_term(self.fit_terms(rest), rest, term)
         return estimate / spread
 
     def _add_term(self, squares: FloatArray, terms: list[int], term: int) -> tuple[float, float]:

@@ -69,7 +69,7 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
     if alike < LEAST_ALIKE:
         return None
     for _ in range(ROUNDS):
-        (gain, late), z, v = body.fitted(y, skew_s)
+        (gain, late), z, v = body.fit(y, skew_s)
         if not gain > 0:
             return None
         skew_s = float(np.clip(skew_s + late / gain, -LARGEST * STEP_S, LARGEST * STEP_S))
@@ -113,7 +113,7 @@ class _Body:
         # The first of them begins earliest: the place that comes latest.
         return STEP_S * (LARGEST - best), float(alike[best])
 
-    def fitted(
+    def fit(
         self, y: FloatArray, skew_s: float
     ) -> tuple[tuple[float, float], FloatArray, FloatArray]:
         """Return gain and gain·(further skew in s) of ``y``, with place and velocity by then."""

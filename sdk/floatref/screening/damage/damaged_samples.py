@@ -83,12 +83,12 @@ class Usual:
 
     Attributes:
         held: number of runs of each length, shape (n,); longer ones count as the longest.
-        longest: samples in these.
+        in_long: samples in these.
         quantum: smallest step between different samples.
     """
 
     held: IndexArray
-    longest: int
+    in_long: int
     quantum: float
 
     @classmethod
@@ -100,7 +100,7 @@ class Usual:
         for _, chunk in chunks(values):
             holds.count_runs(chunk, over, memory, held)
         holds.count_runs(np.array([np.nan]), over, memory, held)
-        return cls(held, int(memory.longest), float(memory.quantum))
+        return cls(held, int(memory.in_long), float(memory.quantum))
 
     @property
     def samples(self) -> int:
@@ -123,7 +123,7 @@ class Usual:
 
     def _count_lying(self) -> IndexArray:
         """Number of samples in runs of each length."""
-        return np.append(self.held[:-1] * np.arange(self.held.size - 1), self.longest)
+        return np.append(self.held[:-1] * np.arange(self.held.size - 1), self.in_long)
 
     @staticmethod
     def _middle(counts: IndexArray) -> float:

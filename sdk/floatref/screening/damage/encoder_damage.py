@@ -106,14 +106,14 @@ def encoder_damage(channel: Channel) -> Damage:
     lost = merge_stretches(stalled, path.up_to(kinds == SLOW))
     deep = merge_stretches(path.behind[path.depths > ONE_COUNT * path.usual_m])
     void = merge_stretches(leapt, fast, lost)
-    said = (
+    faults = (
         (deep, "goes back"),
         (silent, "silent and caught up"),
         (leapt, "leaps"),
         (merge_stretches(fast), "counts too much"),
         (lost, "loses counts"),
     )
-    lines = tuple(describe_damage(channel, spans, what) for spans, what in said if spans.size)
+    lines = tuple(describe_damage(channel, spans, what) for spans, what in faults if spans.size)
     return Damage(merge_stretches(path.behind, silent), void, void, lines)
 
 

@@ -97,7 +97,7 @@ def times_at(channel: Channel, index: IndexArray) -> FloatArray:
 
 
 def _follow(channel: Channel) -> tuple[Records, float, IndexArray, FloatArray]:
-    """Return the knots, the distance at each, the stretches behind, and how far behind they are."""
+    """Return the knots, the farthest distance, the stretches behind, and their depths in m."""
     from floatref.screening.damage import encoder_progress
 
     clock, values = channel.clock, channel.values

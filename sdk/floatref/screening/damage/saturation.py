@@ -36,7 +36,7 @@ def find_saturation(channel: Channel) -> Damage:
     high = greatest if greatest >= STANDARD_GRAVITY + OUTERMOST else np.inf
     if low == -high:
         return Damage()
-    spans = _cut_off(channel.values, Runs.of(channel.values, SHORTEST, (low, high)).spans)
+    spans = _find_cut_off(channel.values, Runs.of(channel.values, SHORTEST, (low, high)).spans)
     if not spans.size:
         return Damage()
     return Damage(
@@ -44,7 +44,7 @@ def find_saturation(channel: Channel) -> Damage:
     )
 
 
-def _cut_off(values: FloatArray, spans: IndexArray) -> IndexArray:
+def _find_cut_off(values: FloatArray, spans: IndexArray) -> IndexArray:
     """Return those of ``spans``, of identical samples, that cut off a swing."""
     if not spans.size:
         return spans

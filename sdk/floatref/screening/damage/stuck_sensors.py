@@ -61,7 +61,7 @@ def find_stuck_height(channel: Channel, force: Channel, distance: Channel) -> Da
     if not runs.first.size:
         return Damage()
     found = _Repeated(channel, runs, Usual.of(channel.values))
-    stuck, open_to_doubt = found.stuck(force, distance)
+    stuck, open_to_doubt = found.find_stuck(force, distance)
     chosen = stuck | found.out_of_range()
     warnings = []
     if chosen.any():
@@ -88,7 +88,7 @@ class _Repeated:
         pinned: BoolArray = extreme & (self.runs.length >= PINNED * self._beside())
         return pinned & (self._step() >= LEAP_M)
 
-    def stuck(self, force: Channel, distance: Channel) -> tuple[BoolArray, BoolArray]:
+    def find_stuck(self, force: Channel, distance: Channel) -> tuple[BoolArray, BoolArray]:
         """Return which runs only a stuck sensor gives, and which a coarse one may give."""
         length, rate = self.runs.length, self.channel.mean_rate_hz
         shortest = max(STUCK_S * rate, min(STUCK * self.usual.hold, LASTING_S * rate))

@@ -18,7 +18,9 @@ from floatref.vehicle_response.estimators.gains import (
 )
 from floatref.vehicle_response.estimators.unknown_inputs import (
     ObserverEquations,
+    ObserverMemory,
     damped_tyres,
+    observe,
     observer_equations,
     wheel_equations,
 )
@@ -96,12 +98,9 @@ class UnknownInputObserver:
             _sigma=_sigmas(closed, steps[0], noise, 2 * len(model.freedoms)),
         )
 
-    def begin(self) -> FloatArray:
+    def begin(self) -> ObserverMemory:
         """Return the memory of a stream that has not begun."""
-        from floatref.vehicle_response.estimators import unknown_inputs as kernel
-
-        _, held, size, inputs = self._steps[1].shape
-        return np.zeros(kernel.HELD + held * inputs + size)
+        return ObserverMemory.of(self._steps[1])
 
     def estimate(self, displacements: FloatArray, wheel_accelerations: FloatArray) -> Estimate:
         """Return road and states of N samples: y, shape (N, k), and z'', shape (N, p), in m/s².
@@ -112,25 +111,23 @@ class UnknownInputObserver:
         return self.advance(self.begin(), displacements, wheel_accelerations)
 
     def advance(
-        self, memory: FloatArray, displacements: FloatArray, wheel_accelerations: FloatArray
+        self, memory: ObserverMemory, displacements: FloatArray, wheel_accelerations: FloatArray
     ) -> Estimate:
         """Return what `estimate` does for the next samples of a stream; changes ``memory``."""
-        from floatref.vehicle_response.estimators import unknown_inputs as kernel
-
         inputs = self._inputs(displacements, wheel_accelerations)
         n, p = len(self.model.freedoms), len(self.model.tyres)
         states = np.empty((inputs.shape[0], self._steps[0].shape[1]))
         road, settled = np.empty((inputs.shape[0], p)), np.empty(inputs.shape[0], dtype=np.bool_)
         settling = ceil(self.settling_s / self.step_s)
-        kernel.observe(
+        observe(
             *self._steps, self._start, *self._road, settling, inputs, memory, states, road, settled
         )
-        warnings = settled[:, None]
+        known = settled[:, None]
         return Estimate(
-            road=np.where(warnings, road, np.nan),
-            road_sigma=np.where(warnings, self._sigma[1], np.nan),
+            road=np.where(known, road, np.nan),
+            road_sigma=np.where(known, self._sigma[1], np.nan),
             states=states[:, : 2 * n],
-            states_sigma=np.where(warnings, self._sigma[0], np.nan),
+            states_sigma=np.where(known, self._sigma[0], np.nan),
         )
 
     def _inputs(self, displacements: FloatArray, wheel_accelerations: FloatArray) -> FloatArray:

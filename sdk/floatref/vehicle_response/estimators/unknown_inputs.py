@@ -11,7 +11,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, new_record
 from floatref.vehicle_response.models.model import VehicleModel
 from floatref.vehicle_response.models.state_space import state_space
 
@@ -93,9 +93,29 @@ def _road(
     return of_state, of_input
 
 
-STARTED, BROKEN, LEFT, HELD = 0, 1, 2, 3
-"""Places in the memory: begun, samples until the newest inputs are whole, samples until the error
-has decayed; the newest inputs, the last sample first, begin at `HELD`, then the state."""
+COURSE = np.dtype([("started", np.bool_), ("broken", np.int64), ("settling", np.int64)], align=True)
+"""Whether the estimate has begun, in how many samples the newest inputs are whole, and in how many
+the error has decayed."""
+
+
+class ObserverMemory(NamedTuple):
+    """What `observe` remembers between blocks.
+
+    Attributes:
+        course: of `COURSE`.
+        held: the newest inputs, the last sample first, shape (d, m).
+        state: the last one, shape (s,).
+    """
+
+    course: np.record
+    held: FloatArray
+    state: FloatArray
+
+    @classmethod
+    def of(cls, taps: FloatArray) -> "ObserverMemory":
+        """Return that of a stream that has not begun, for the ``taps`` of `observe`."""
+        _, samples, states, inputs = taps.shape
+        return cls(new_record(COURSE), np.zeros((samples, inputs)), np.zeros(states))
 
 
 @compiled
@@ -107,7 +127,7 @@ def observe(
     road_of_input: FloatArray,
     settling: int,
     inputs: FloatArray,
-    memory: FloatArray,
+    memory: ObserverMemory,
     states: FloatArray,
     road: FloatArray,
     settled: BoolArray,
@@ -121,32 +141,30 @@ def observe(
     row without absent values make an estimate settled. ``inputs`` has the shape (N, m), NaN is
     absent; ``states`` (N, s), ``road`` (N, p).
     """
-    d, m, s = taps.shape[1], inputs.shape[1], states.shape[1]
-    held, state = memory[HELD : HELD + d * m], memory[HELD + d * m : HELD + d * m + s]
+    course, held, state = memory
     for i in range(inputs.shape[0]):
         absent = _is_absent(inputs[i])
-        if memory[STARTED] == 0.0 and absent:
+        if not course.started and absent:
             states[i] = road[i] = float("nan")
             settled[i] = False
             continue
-        memory[BROKEN] = d if absent else max(memory[BROKEN] - 1.0, 0.0)
-        memory[LEFT] = settling if absent else max(memory[LEFT] - 1.0, 0.0)
-        if memory[STARTED] == 0.0:
-            memory[STARTED], memory[LEFT] = 1.0, settling
-            for j in range(d):
-                held[j * m : (j + 1) * m] = inputs[i]
-            _multiply(start, held[:m], states[i], False)
+        course.broken = held.shape[0] if absent else max(course.broken - 1, 0)
+        course.settling = settling if absent else max(course.settling - 1, 0)
+        if not course.started:
+            course.started, course.settling = True, settling
+            held[:] = inputs[i]
+            _multiply(start, held[0], states[i], False)
         else:
-            which = 0 if memory[BROKEN] == 0.0 else 1
-            held[m:] = held[:-m].copy()
-            _hold(inputs[i], held[:m])
+            which = 0 if course.broken == 0 else 1
+            held[1:] = held[:-1].copy()
+            _hold(inputs[i], held[0])
             _multiply(transition[which], state, states[i], False)
-            for j in range(d):
-                _multiply(taps[which, j], held[j * m : (j + 1) * m], states[i], True)
+            for j in range(held.shape[0]):
+                _multiply(taps[which, j], held[j], states[i], True)
         state[:] = states[i]
         _multiply(road_of_state, state, road[i], False)
-        _multiply(road_of_input, held[:m], road[i], True)
-        settled[i] = memory[LEFT] == 0.0
+        _multiply(road_of_input, held[0], road[i], True)
+        settled[i] = course.settling == 0
 
 
 @compiled

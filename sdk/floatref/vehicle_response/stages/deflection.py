@@ -1,6 +1,6 @@
 """Whether a suspension's deflection agrees with the heights of body and wheel."""
 
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,22 @@ LOUD = 3.0
 """Least size of a bend that counts, as a multiple of the deflection's noise."""
 FEWEST = 200
 """Least number of bends."""
+
+
+class Sums(NamedTuple):
+    """Sums over bends: x are those expected, y those measured, both in m."""
+
+    bends: int = 0
+    xx: float = 0.0
+    xy: float = 0.0
+    yy: float = 0.0
+
+    def add(self, x: FloatArray, y: FloatArray) -> "Sums":
+        """Return the sums with these bends, each of shape (n,)."""
+        return Sums(
+            self.bends + x.size,
+            *(float(s) for s in (self.xx + x @ x, self.xy + x @ y, self.yy + y @ y)),
+        )
 
 
 class CompareTravel(Stage):
@@ -47,9 +63,8 @@ class CompareTravel(Stage):
             header.require(self.name, *(ChannelId(name, track) for track in header.tracks))
         step_s = header.step if header.axis is Axis.TIME else LAG_S
         self._lag = max(1, round(LAG_S / step_s))
-        self.memory = {
-            track: (np.full((2, 2 * self._lag), np.nan), np.zeros(4)) for track in self._tracks
-        }
+        nothing = np.full((2, 2 * self._lag), np.nan)
+        self.memory = {track: (nothing, Sums()) for track in self._tracks}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -60,14 +75,13 @@ class CompareTravel(Stage):
             middle = wide[:, self._lag : -self._lag]
             measured, expected = wide[:, 2 * self._lag :] - 2.0 * middle + wide[:, : -2 * self._lag]
             known = np.isfinite(measured + expected)
-            x, y = expected[known], measured[known]
-            sums += [x.size, x @ x, x @ y, y @ y]
-            self.memory[track] = wide[:, wide.shape[1] - 2 * self._lag :].copy(), sums
+            last = wide[:, wide.shape[1] - 2 * self._lag :].copy()
+            self.memory[track] = last, sums.add(expected[known], measured[known])
         return block
 
     def warnings(self) -> tuple[str, ...]:
         """Return a warning for every wheel path whose sensors do not agree."""
-        lines = (self._warn(track, *sums) for track, (_, sums) in self.memory.items())
+        lines = (self._warn(track, sums) for track, (_, sums) in self.memory.items())
         return tuple(line for line in lines if line)
 
     def _sides(self, block: Block, track: str) -> FloatArray:
@@ -77,11 +91,11 @@ class CompareTravel(Stage):
         marks = flags_of(block, deflection, body, wheel)
         return sides if marks is None else np.where(marks != 0, np.nan, sides)
 
-    def _warn(self, track: str, count: float, xx: float, xy: float, yy: float) -> str:
-        loud = (LOUD * self.sigma_m) ** 2 * count
-        if count < FEWEST or xx == 0.0 or yy < loud:
+    def _warn(self, track: str, sums: Sums) -> str:
+        loud = (LOUD * self.sigma_m) ** 2 * sums.bends
+        if sums.bends < FEWEST or sums.xx == 0.0 or sums.yy < loud:
             return ""
-        r, slope = xy / np.sqrt(xx * yy), xy / xx
+        r, slope = sums.xy / np.sqrt(sums.xx * sums.yy), sums.xy / sums.xx
         if r >= LEAST_R and LEAST_SLOPE <= slope <= MOST_SLOPE:
             return ""
         return (

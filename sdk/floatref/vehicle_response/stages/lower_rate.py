@@ -110,7 +110,7 @@ class Resampling:
         width = np.pi * (STOPPED - FLAT)
         return float((ATTENUATION_DB - 7.95) / (2 * 2.285 * width) / self.to_hz)
 
-    def resampled(self, samples: ArrayLike) -> FloatArray:
+    def resample(self, samples: ArrayLike) -> FloatArray:
         """Return all of ``samples`` at the new rate: from the first to the last sample within it.
 
         Raises InputError unless ``samples`` has one dimension.

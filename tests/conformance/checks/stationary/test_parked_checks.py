@@ -133,7 +133,7 @@ def test_a_point_without_elevation_is_an_error_wherever_the_filter_has_run_in(bo
 
 
 def test_the_iri_is_that_of_what_is_scored(bounced):
-    ((start, end),) = BOUNCE.scored(bounced[0])
+    ((start, end),) = BOUNCE.list_scored(bounced[0])
 
     def iri_with_a_dip(at_m):
         def dipped(z, simulated):

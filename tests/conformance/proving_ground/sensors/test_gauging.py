@@ -187,7 +187,7 @@ def test_the_deflection_is_noisy_coarse_and_off_in_scale() -> None:
 @settings(deadline=None, max_examples=30)
 @given(seed=st.integers(0, 2**63 - 1), error=st.floats(0.0, 0.2))
 def test_an_installer_knows_each_parameter_but_for_an_error(seed: int, error: float) -> None:
-    true, warnings = LOADED_VAN.known(), as_installed(LOADED_VAN.known(), error, seed)
+    true, warnings = LOADED_VAN.make_setup(), as_installed(LOADED_VAN.make_setup(), error, seed)
     assert (warnings.model, warnings.x_m) == (true.model, true.x_m)
     off = [warnings.parameters[n] / v - 1 for n, v in true.parameters.items() if v]
     assert np.abs(off).max() <= error * (1 + 1e-9)
@@ -196,7 +196,7 @@ def test_an_installer_knows_each_parameter_but_for_an_error(seed: int, error: fl
 
 
 def test_a_trailers_corner_is_of_its_own_axle() -> None:
-    warnings, axle = TRAILER.known(), TRAILER.rear
+    warnings, axle = TRAILER.make_setup(), TRAILER.rear
     assert warnings.x_m == axle.x_m
     assert warnings.parameters["unsprung_kg"] == axle.wheel_kg
     assert warnings.parameters["suspension_n_per_m"] == axle.spring
@@ -207,7 +207,7 @@ def test_a_trailers_corner_is_of_its_own_axle() -> None:
 def test_the_vehicle_of_a_recording_is_a_front_corner() -> None:
     exact = simulate(replace(SHORT, sensors=0.0)).recording.setup.vehicle
     assert exact is not None
-    assert exact == LOADED_VAN.known()
+    assert exact == LOADED_VAN.make_setup()
     assert exact.x_m == LOADED_VAN.front.x_m
     shares = LOADED_VAN.load_shares()
     assert 2 * exact.parameters["sprung_kg"] == pytest.approx(shares[0] * LOADED_VAN.sprung_kg)

@@ -224,11 +224,11 @@ def test_a_test_rig_is_noisy_as_the_suite_says() -> None:
 @every_model
 def test_setup_has_the_models_own_name_and_parameters(name: str) -> None:
     exact, _ = driven(name)
-    assert exact.recording.setup.vehicle == LINEAR_MODELS[name].known()
+    assert exact.recording.setup.vehicle == LINEAR_MODELS[name].make_setup()
     wrong, _ = driven(name, sensors=50.0)
     assert wrong.recording.setup.vehicle is not None
     installed = wrong.recording.setup.vehicle.parameters
-    for parameter, value in LINEAR_MODELS[name].known().parameters.items():
+    for parameter, value in LINEAR_MODELS[name].make_setup().parameters.items():
         assert (installed[parameter] > 0) == (value > 0)
     assert installed != exact.recording.setup.vehicle.parameters
 

@@ -66,7 +66,7 @@ def test_without_brakes_nothing_is_told(drive, through):
     assert pool([], C) == {}
     stage = RoadPriorSmoother()
     through(stage, drive(1, 10.0, 100))
-    assert stage.learned() == {}
+    assert stage.list_learned() == {}
 
 
 def leaning(drive, seed, lean, tilt, rate=200):
@@ -84,7 +84,7 @@ def test_a_run_learns_the_lean_and_the_tilt_that_it_had(drive, through, seed, le
     stage = RoadPriorSmoother()
     drawn = leaning(drive, seed, lean, tilt)
     through(stage, drawn, range(500, drawn.a.size, 500))
-    found = stage.learned()
+    found = stage.list_learned()
     assert abs(found["lean_expected_rad"] - lean) < 4 * found["lean_sigma_rad"] < 0.02
     assert abs(found["tilt_expected"] - tilt) < 4 * found["tilt_sigma"] < 0.01
 
@@ -96,7 +96,7 @@ def test_what_is_learned_does_not_depend_on_the_blocks(drive, through, seed, cut
     for cut in (cuts, ()):
         stage = RoadPriorSmoother()
         through(stage, drawn, cut)
-        found.append(stage.learned())
+        found.append(stage.list_learned())
     assert found[0] == found[1]
 
 
@@ -130,7 +130,7 @@ def test_brakes_of_a_run_are_kept_one_after_the_other(drive, through):
     through(stage, one.followed_by(other))
     brakes = stage.memory["filters"]["left"].all_brakes()
     assert [round(brake.estimate[0], 3) for brake in brakes] == [0.015, 0.005]
-    found = stage.learned()
+    found = stage.list_learned()
     assert found["lean_expected_rad"] == pytest.approx(0.010, abs=1e-3)
     assert found["lean_sigma_rad"] == pytest.approx(0.005, abs=1e-3)
 

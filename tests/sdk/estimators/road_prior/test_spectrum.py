@@ -43,7 +43,7 @@ def test_of_a_long_road_it_is_the_spectrum(q, g):
     found = spectrum.road()
     expected = np.maximum((q, g), spectrum.least)
     squares = np.array([[2 * lag, 2 / 3 * lag**3] for lag in LAGS])
-    kept = spectrum.memory[[SHORT, LONG]]
+    kept = spectrum.squares
     np.testing.assert_allclose(kept, squares @ (q, g), rtol=0.15)
     assert (np.abs(found - expected) < 0.35 * expected + (0.0, 2e-8)).all()
 
@@ -65,7 +65,7 @@ def test_it_is_the_plain_mean_and_pieces_make_no_difference(seed, cuts):
     for place, lag in zip((SHORT, LONG), LAGS, strict=True):
         start = 2 * lag * 4e-6 + 2 / 3 * lag**3 * 2e-7
         expected = mean_squares(points, lag, start, 1 / 300)
-        assert spectrum.memory[place] == pytest.approx(expected, rel=1e-9)
+        assert spectrum.squares[place] == pytest.approx(expected, rel=1e-9)
 
 
 @laws
@@ -84,10 +84,10 @@ def test_what_is_missing_tells_nothing(seed, begin):
 def test_what_takes_longer_than_four_seconds_tells_nothing(speed, tell):
     """Second differences over 2 and over 16 m take 4 and 32 m: the accelerometer drifts."""
     spectrum = RoadSpectrum.of(RoadPrior(), INTERVAL_S)
-    start = spectrum.memory.copy()
+    start = spectrum.squares.copy()
     spectrum.add(*drawn(4, 1e-4, 1e-5, 60.0, speed))
     for place in (SHORT, LONG):
-        assert (spectrum.memory[place] != start[place]) == (place in tell)
+        assert (spectrum.squares[place] != start[place]) == (place in tell)
 
 
 @laws
@@ -106,7 +106,7 @@ def test_nothing_is_compared_across_a_hole(seed, begin, gone_m, jump):
     for step in (0.0, jump):
         spectrum = RoadSpectrum.of(RoadPrior(), INTERVAL_S)
         spectrum.add(elevation + step * (np.arange(elevation.size) >= end), travel, nothing)
-        roads.append(spectrum.memory[[SHORT, LONG]])
+        roads.append(spectrum.squares)
     np.testing.assert_allclose(*roads, rtol=1e-6)
 
 
@@ -193,8 +193,8 @@ def test_what_readings_change_in_the_height_is_no_road(seed, cuts):
     for piece in np.split(np.arange(10000), sorted(cuts)):
         filtered = (elevation + of_changes(changed))[piece]
         ours.add(filtered, travel[piece], changed[:, piece])
-    expected = plain.memory[[SHORT, LONG]]
-    np.testing.assert_allclose(ours.memory[[SHORT, LONG]], expected, rtol=1e-6)
+    expected = plain.squares
+    np.testing.assert_allclose(ours.squares, expected, rtol=1e-6)
 
 
 @laws
@@ -208,8 +208,8 @@ def test_a_velocity_that_was_turned_before_is_the_one_to_believe(seed, turned):
     changed = nothing.copy()
     changed[1, 0] = turned
     ours.add(elevation, travel, changed)
-    expected = plain.memory[[SHORT, LONG]]
-    np.testing.assert_allclose(ours.memory[[SHORT, LONG]], expected, rtol=1e-6)
+    expected = plain.squares
+    np.testing.assert_allclose(ours.squares, expected, rtol=1e-6)
 
 
 def test_in_a_brake_the_tilt_is_not_taken_for_road():
@@ -222,7 +222,7 @@ def test_in_a_brake_the_tilt_is_not_taken_for_road():
     nothing = np.zeros((2, times.size))
     spectrum.add(error, speed * INTERVAL_S, nothing)
     flat.add(np.zeros(times.size), speed * INTERVAL_S, nothing)
-    assert spectrum.memory[LONG] < 1.1 * flat.memory[LONG]
+    assert spectrum.squares[LONG] < 1.1 * flat.squares[LONG]
 
 
 def driven(seed, q, g, kilometres):
@@ -246,5 +246,5 @@ def test_a_run_learns_the_spectrum_of_its_road_and_goes_on_believing_it(drive, t
     through(stage, drawn_run, range(500, drawn_run.a.size, 500))
     spectrum = stage.memory["filters"]["left"].spectrum
     squares = np.array([[2 * lag, 2 / 3 * lag**3] for lag in LAGS]) @ (q, g)
-    found = spectrum.memory[[SHORT, LONG]]
+    found = spectrum.squares
     assert (np.abs(np.sqrt(found / squares) - 1.0) < (0.2, 0.4)).all()

@@ -48,7 +48,7 @@ def test_the_loop_is_the_recursion(seed, lost, settling):
     for place in lost:
         inputs[place] = np.nan
     states, road, settled = np.empty((50, SIZE)), np.empty((50, ROADS)), np.empty(50, dtype=bool)
-    memory = np.zeros(kernel.HELD + TAPS * WIDTH + SIZE)
+    memory = kernel.ObserverMemory.of(taps)
     arguments = (transition, taps, start, *roads, settling, inputs)
     kernel.observe(*arguments, memory, states, road, settled)
     for found, expected in zip((states, road, settled), plainly(*arguments), strict=True):
