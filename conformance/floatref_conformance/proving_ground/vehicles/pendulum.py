@@ -99,11 +99,6 @@ class Pendulum:
         return float(np.sqrt(square) / (2 * np.pi))
 
     @property
-    def damping_ratio(self) -> float:
-        """Share of critical damping of small pitch motion."""
-        return self.damping / (2 * self.inertia * 2 * np.pi * self.natural_frequency_hz)
-
-    @property
     def pitch_gain(self) -> float:
         """Steady pitch per deceleration for small angles, in rad per g."""
         tilting = self.mass_kg * STANDARD_GRAVITY * self.arm_m

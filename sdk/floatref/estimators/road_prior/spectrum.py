@@ -12,11 +12,7 @@ from floatref.values.arrays import FloatArray, Records, new_record, new_records
 SHORT, LONG = range(2)
 """Of the mean squares: over the shorter and over the longer distance."""
 SINCE = np.dtype(
-    [
-        *((name, np.float64) for name in ("travel_m", "time_s", "moved_m", "turned")),
-        ("points", np.int64),
-    ],
-    align=True,
+    [(name, np.float64) for name in ("travel_m", "time_s", "moved_m", "turned", "points")],
 )
 """Since the latest point: travel and time; by how much readings have moved the height, and turned
 the velocity in m/s, since the start; and how many points there are behind one another."""
@@ -59,12 +55,12 @@ def gather(
         if gone < spacing or elevation[k] != elevation[k]:
             continue
         if gone >= 2.0 * spacing:
-            count = 0
+            count = 0.0
         for j in range(points.size - 1, 0, -1):
             points[j] = points[j - 1]
         newest = points[0]
         newest.elevation_m, newest.after_s, newest.turned = elevation[k] - height, ago, velocity
-        count = min(count + 1, points.size)
+        count = min(count + 1.0, float(points.size))
         gone, ago = gone % spacing, 0.0
         for which in range(2):
             if count > 2 * lags[which]:
