@@ -113,6 +113,7 @@ def test_flagging_everything_fails_unless_all_of_it_is_slow(check, taken):
     assert {quantity.split()[0] for quantity in found} <= {"flagged"}
 
 
+@pytest.mark.slow
 @each
 def test_a_wheel_path_without_elevations_is_the_devices_fault_unless_all_of_it_is_slow(
     check, taken

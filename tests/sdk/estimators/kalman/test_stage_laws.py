@@ -13,6 +13,8 @@ from floatref.estimators.kalman.inputs import IMU
 from floatref.values.block import Axis, join_blocks
 from floatref_conformance.testing import StageLaws
 
+pytestmark = pytest.mark.slow
+
 laws = settings(deadline=None, max_examples=4)
 SEEDS = st.integers(0, 2**32 - 1)
 RATE = 100
@@ -47,7 +49,6 @@ def lacking(drive, seed):
     return drawn
 
 
-@pytest.mark.slow
 @every_stage
 @laws
 @given(seed=SEEDS, plan=PLANS, cuts=CUTS, every=st.sampled_from([1, 7, SEGMENT, 1300, LENGTH]))
@@ -59,7 +60,6 @@ def test_1_any_split_gives_the_same_bits(drive, through, name, seed, plan, cuts,
     assert_same(through(STAGES[name](plan), drawn, range(every, LENGTH, every)), whole)
 
 
-@pytest.mark.slow
 @every_stage
 @laws
 @given(seed=SEEDS, plan=PLANS, at=st.integers(1, 5))

@@ -10,6 +10,8 @@ from floatref.estimators.road_prior import RoadPriorSmoother
 from floatref.values.channels import ChannelId
 from floatref_conformance.testing import StageLaws
 
+pytestmark = pytest.mark.slow
+
 RATE, LENGTH = 100, 2100
 HEIGHT, SIGMA = (ChannelId(n, "left") for n in ("floating_reference_height", "elevation_sigma"))
 laws = settings(deadline=None, max_examples=5)
@@ -28,7 +30,6 @@ def lacking(drive, seed):
     return drawn
 
 
-@pytest.mark.slow
 @laws
 @given(
     seed=SEEDS,
@@ -57,7 +58,6 @@ def test_blocks_between_two_nodes_give_the_same_bits(drive, through):
         np.testing.assert_array_equal(found[channel], samples, err_msg=str(channel))
 
 
-@pytest.mark.slow
 @laws
 @given(seed=SEEDS)
 def test_segments_come_out_before_the_run_ends(drive, seed):

@@ -104,6 +104,7 @@ def test_without_what_tells_the_force_there_is_no_road_and_no_claim(columns):
     assert found.states_sigma[150, 0] > 10 * found.states_sigma[90, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hold", Hold)
 def test_equipment_that_carries_no_sensor_is_told(hold):
     """5 % of noise on the readings of all else: its height within 8 %, its acceleration 15 %."""
