@@ -39,6 +39,16 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "iri_m_per_km": (0.0, 30.0),
         "bump_mm": (-100.0, 100.0),
         "bump_at_m": (0.0, 1e5),
+        "crown_mm": (-300.0, 300.0),
+        "crown_length_m": (1.0, 1000.0),
+        "crown_at_m": (0.0, 1e5),
+        "break_percent": (-15.0, 15.0),
+        "break_length_m": (1.0, 1000.0),
+        "break_at_m": (0.0, 1e5),
+        "joint_mm": (0.0, 30.0),
+        "joint_spacing_m": (1.0, 1000.0),
+        "patch_mm": (0.0, 100.0),
+        "patches_per_km": (0.0, 200.0),
         "speed_kmh": (0.0, 150.0),
         "event_speed_kmh": (0.0, 150.0),
         "deceleration_g": (0.01, 1.0),
@@ -54,6 +64,10 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "sensors": (0.0, 100.0),
         "encoder_error_percent": (-50.0, 50.0),
         "slip_percent_per_g": (0.0, 100.0),
+        "radius_percent": (-5.0, 5.0),
+        "warming_percent": (-5.0, 5.0),
+        "laser_ahead_m": (-2.0, 2.0),
+        "latency_ms": (0.0, 100.0),
         "rate_hz": (1000.0, 64000.0),
         "gyro_rate_hz": (10.0, 10000.0),
         "profile_interval_m": (0.001, 1.0),
@@ -73,6 +87,13 @@ class Scenario:
             ISO 8608 class.
         iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
         bump_mm, bump_at_m: height of a 3-m bump, 0 for no bump, and where its middle lies.
+        crown_mm, crown_length_m, crown_at_m: height (negative: a dip or a gutter), length and
+            middle of a raised cosine that the whole road climbs over, as at crossings; 0: none.
+        break_percent, break_length_m, break_at_m: change of the road's grade, the length of the
+            parabola in which it changes, and its middle.
+        joint_mm, joint_spacing_m: standard deviation of the step at every joint of a concrete
+            road, and the length of its slabs.
+        patch_mm, patches_per_km: standard deviation of the height of patches, and how many.
         vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
         manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
         speed_kmh: initial speed; simulated speed of a stationary test.
@@ -90,6 +111,11 @@ class Scenario:
         sensors: factor on all errors of `SensorSuite`; 0 is ideal.
         encoder_error_percent: scale error of the encoder beside the one that is drawn.
         slip_percent_per_g: of the encoder's wheel, at the factor ``sensors`` of 1.
+        radius_percent: by how much the rolling radius of the encoder's wheel grows from 16 to 97
+            km/h; its calibration holds at 72 km/h.
+        warming_percent: by how much it grows as the tyre warms up during a long drive.
+        laser_ahead_m: the laser's beam ahead of the accelerometer.
+        latency_ms: age of a reading of the laser when it is recorded.
         imu, gnss, response: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
@@ -103,6 +129,16 @@ class Scenario:
     iri_m_per_km: float = 1.8
     bump_mm: float = 0.0
     bump_at_m: float = 0.0
+    crown_mm: float = 0.0
+    crown_length_m: float = 20.0
+    crown_at_m: float = 316.0
+    break_percent: float = 0.0
+    break_length_m: float = 30.0
+    break_at_m: float = 316.0
+    joint_mm: float = 0.0
+    joint_spacing_m: float = 4.6
+    patch_mm: float = 0.0
+    patches_per_km: float = 0.0
     vehicle: str = "loaded-van"
     manoeuvre: str = "constant"
     speed_kmh: float = 72.0
@@ -120,6 +156,10 @@ class Scenario:
     sensors: float = 1.0
     encoder_error_percent: float = 0.0
     slip_percent_per_g: float = 0.3
+    radius_percent: float = 0.0
+    warming_percent: float = 0.0
+    laser_ahead_m: float = 0.0
+    latency_ms: float = 0.0
     imu: bool = True
     gnss: bool = True
     response: bool = True

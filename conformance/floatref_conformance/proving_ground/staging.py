@@ -12,6 +12,13 @@ from floatref.values.recording import Setup, TrackSetup
 from floatref_conformance.proving_ground.drives import manoeuvres
 from floatref_conformance.proving_ground.drives.drive import Drive
 from floatref_conformance.proving_ground.drives.runs import KMH, RUNS, run_drive
+from floatref_conformance.proving_ground.roads.alignment import (
+    Alignment,
+    Crown,
+    Feature,
+    GradeBreak,
+)
+from floatref_conformance.proving_ground.roads.distress import with_joints, with_patches
 from floatref_conformance.proving_ground.roads.measured import (
     SHIPPED_INTERVAL_M,
     measured_road,
@@ -19,7 +26,7 @@ from floatref_conformance.proving_ground.roads.measured import (
 )
 from floatref_conformance.proving_ground.roads.random_roads import iso8608_road, sayers_road
 from floatref_conformance.proving_ground.roads.road import FULL_FROM_M, Road, flat_road
-from floatref_conformance.proving_ground.roads.shaping import scale_to, with_bump
+from floatref_conformance.proving_ground.roads.shaping import scale_to, with_alignment, with_bump
 from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
@@ -55,6 +62,27 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
         road = scale_to(road, scenario.iri_m_per_km)
     if scenario.bump_mm:
         road = with_bump(road, scenario.bump_at_m, BUMP_LENGTH_M, scenario.bump_mm / 1000)
+    road = _with_distress(scenario, road, seed)
+    alignment = alignment_of(scenario)
+    return with_alignment(road, alignment) if alignment.features else road
+
+
+def alignment_of(scenario: Scenario) -> Alignment:
+    """Return the crown and the break of grade of the scenario's road."""
+    s = scenario
+    features: list[Feature] = []
+    if s.crown_mm:
+        features.append(Crown(s.crown_at_m, s.crown_length_m, s.crown_mm / 1000))
+    if s.break_percent:
+        features.append(GradeBreak(s.break_at_m, s.break_length_m, s.break_percent / 100))
+    return Alignment(tuple(features))
+
+
+def _with_distress(s: Scenario, road: Road, seed: int) -> Road:
+    if s.joint_mm:
+        road = with_joints(road, s.joint_spacing_m, s.joint_mm / 1000, seed)
+    if s.patch_mm and s.patches_per_km:
+        road = with_patches(road, s.patches_per_km, s.patch_mm / 1000, seed)
     return road
 
 
@@ -90,6 +118,9 @@ def suite_of(scenario: Scenario) -> SensorSuite:
         suite.scale(scenario.sensors),
         slip_per_g=scenario.sensors * scenario.slip_percent_per_g / 100,
         encoder_error=scenario.encoder_error_percent / 100,
+        radius_growth=scenario.sensors * scenario.radius_percent / 100,
+        radius_warming=scenario.sensors * scenario.warming_percent / 100,
+        range_latency_s=scenario.latency_ms / 1000,
         gyro_rate_hz=scenario.gyro_rate_hz,
     )
 
@@ -97,7 +128,10 @@ def suite_of(scenario: Scenario) -> SensorSuite:
 def setup_of(scenario: Scenario, vehicle: Suspended, lateral_m: Mapping[str, float]) -> Setup:
     """Return where the sensors sit: above the wheel paths, from the point below the CG."""
     tracks = {
-        name: TrackSetup((vehicle.sensor_x_m, lateral_m[name], vehicle.sensor_z_m))
+        name: TrackSetup(
+            (vehicle.sensor_x_m, lateral_m[name], vehicle.sensor_z_m),
+            (scenario.laser_ahead_m, 0.0, 0.0),
+        )
         for name in scenario.tracks
     }
     return Setup(scenario.profile_interval_m, vehicle.antenna_m, tracks)

@@ -6,13 +6,14 @@ every laser of a vehicle stands on it. A made road is level (elevation 0) up to
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
+from floatref_conformance.proving_ground.roads.alignment import LEVEL, Alignment
 
 START_M = -20.0
 """Where the grid of a made road starts, in m."""
@@ -36,12 +37,15 @@ class Road:
         spacing_m: distance between points, in m.
         elevation: one array of shape (n,) in m per wheel path, up positive.
         lateral_m: lateral position in m of each wheel path, left positive.
+        alignment: the part of the elevation that all wheel paths share as their alignment: a
+            vehicle leans on its grade as on that of a `Course`.
     """
 
     start_m: float
     spacing_m: float
     elevation: Mapping[str, FloatArray]
     lateral_m: Mapping[str, float]
+    alignment: Alignment = LEVEL
 
     def __post_init__(self) -> None:
         """Refuse a grid, elevations or lateral positions that do not fit together."""
@@ -114,7 +118,7 @@ class Road:
 
     def with_elevation(self, elevation: Mapping[str, FloatArray]) -> "Road":
         """Return the same grid and wheel paths with other elevations."""
-        return Road(self.start_m, self.spacing_m, elevation, self.lateral_m)
+        return replace(self, elevation=elevation)
 
 
 def points_of(length_m: float, spacing_m: float = SPACING_M, start_m: float = START_M) -> int:

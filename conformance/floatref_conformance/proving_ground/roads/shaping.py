@@ -1,12 +1,14 @@
 """Changes made to a road: a level start, a known bump, a wanted IRI."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from floatref import measures
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
+from floatref_conformance.proving_ground.roads.alignment import Alignment
 from floatref_conformance.proving_ground.roads.road import (
     FULL_FROM_M,
     LEVEL_UNTIL_M,
@@ -73,6 +75,14 @@ def with_bump(
     return road.with_elevation(
         {name: z + bump if name in chosen else z for name, z in road.elevation.items()}
     )
+
+
+def with_alignment(road: Road, alignment: Alignment) -> Road:
+    """Return the road with every wheel path raised by ``alignment``, which it then has."""
+    features = (*road.alignment.features, *alignment.features)
+    height = alignment.height(road.distance_m)
+    raised = road.with_elevation({name: z + height for name, z in road.elevation.items()})
+    return replace(raised, alignment=Alignment(features))
 
 
 def scale_to(

@@ -18,6 +18,10 @@ from floatref_conformance.proving_ground.sensors.noise import (
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion
 
+SLOWEST_MPS, CALIBRATED_MPS, FASTEST_MPS = 16 / 3.6, 72 / 3.6, 97 / 3.6
+"""The speeds between which `radius_growth` is given, and that of the calibration."""
+WARM_S = 600.0
+"""Time constant in s in which a tyre warms up; no source: ours."""
 RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 
 
@@ -108,14 +112,20 @@ class Chain:
         return quantize(force, suite.force_resolution), bias + scale * STANDARD_GRAVITY
 
     def height(self, track: str) -> Channel:
-        """Return the laser of ``track``: its latest sample, held at the accelerometers' rate."""
+        """Return the laser of ``track``: its latest sample, held at the accelerometers' rate.
+
+        A sample is as old as the latency when it is recorded; before the start nothing moves.
+        """
         suite, true = self.suite, self.motion.tracks[track].range_m
         rng = stream(self.seed, f"{track}.height")
         scale = 1.0 + suite.range_scale * rng.uniform(-1.0, 1.0)
-        if suite.range_rate_hz == 0:
+        late = suite.range_latency_s * self.rate_hz
+        if suite.range_rate_hz == 0 and late == 0:
             return self.channel("height", true * scale, track)
-        ratio = suite.range_rate_hz / self.rate_hz
+        ratio = suite.range_rate_hz / self.rate_hz if suite.range_rate_hz else 1.0
         taken = np.arange(int((self.count - 1) * ratio) + 1) / ratio
+        if late > 0:
+            taken = np.maximum(taken - late, 0.0)
         before = np.minimum(taken.astype(np.intp), self.count - 1)
         after = np.minimum(before + 1, self.count - 1)
         fresh = true[before] + (taken - before) * (true[after] - true[before])
@@ -140,7 +150,23 @@ class Chain:
             gain -= gain[0]
             gain *= suite.slip_per_g / (2 * STANDARD_GRAVITY)
             travel += gain
+        if suite.radius_growth or suite.radius_warming:
+            travel -= self._radius_error()
         return self.channel("distance", count_steps(travel, suite.encoder_step_m))
+
+    def _radius_error(self) -> FloatArray:
+        """Return by how much a wheel whose radius has grown counts too little, shape (n,), in m.
+
+        The radius of a free-rolling tyre grows with its speed of rotation (3.3.9), like the
+        centrifugal force: by v². It is calibrated cold, at `CALIBRATED_MPS`.
+        """
+        suite, motion = self.suite, self.motion
+        grown = suite.radius_growth * (motion.speed**2 - CALIBRATED_MPS**2)
+        grown /= FASTEST_MPS**2 - SLOWEST_MPS**2
+        grown += suite.radius_warming * -np.expm1(-motion.times_s / WARM_S)
+        lost = grown * motion.speed
+        total = np.cumsum(lost)
+        return np.asarray((total - (lost + lost[0]) / 2) / self.rate_hz)
 
     def gyros(self) -> tuple[Channel, ...]:
         """Return roll, pitch and yaw rate on the gyros' own clock."""

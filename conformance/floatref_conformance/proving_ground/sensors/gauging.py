@@ -78,13 +78,15 @@ class ResponseSensors:
     def _force(self, name: str, row: FloatArray, rng: np.random.Generator) -> FloatArray:
         """Return what an accelerometer reads that moves by ``row`` of the freedoms, (2.17).
 
-        One on the body tilts with it; a wheel carrier stays normal to the lane but for its
-        brake, which winds it up.
+        One on the body tilts with it; a wheel carrier stays normal to the road's alignment but
+        for its brake, which winds it up.
         """
         along, across, normal = self.motion.lane
         on_carrier = "unsprung" in name
         if on_carrier:
-            pitch = -self.suite.carrier_windup / STANDARD_GRAVITY * along
+            slope = np.arctan(self.motion.grade)
+            braking = along / STANDARD_GRAVITY + np.sin(slope)
+            pitch = -self.suite.carrier_windup * braking - slope
             roll = np.zeros(1)
         else:
             pitch, roll = self.tilt

@@ -20,7 +20,7 @@ from math import radians
 from floatref.values.channels import STANDARD_GRAVITY
 
 RATES = frozenset({"range_rate_hz", "gyro_rate_hz", "gnss_rate_hz", "response_rate_hz"})
-UNSCALED = RATES | {"gnss_drift_s", "idle_hz", "revving_hz_per_mps"}
+UNSCALED = RATES | {"gnss_drift_s", "idle_hz", "revving_hz_per_mps", "range_latency_s"}
 """Fields that are rates and times, not errors."""
 
 
@@ -42,10 +42,14 @@ class SensorSuite:
         range_resolution_m: in m.
         range_scale: scale error, relative; drawn as the accelerometers' is.
         range_rate_hz: of the laser; samples are held in between. 0: as the accelerometers'.
+        range_latency_s: age of a laser sample when it is recorded, in s.
         encoder_step_m: travel per count, in m.
         encoder_scale: scale error, relative; drawn up to it.
         encoder_error: scale error beside the one that is drawn, relative.
         slip_per_g: relative error of the encoder's speed per g of longitudinal acceleration.
+        radius_growth: relative growth of the wheel's rolling radius from 16 to 97 km/h; up to 1 %
+            in sections 3.3.1.1 and 3.3.9.
+        radius_warming: its relative growth as the tyre warms up.
         gyro_noise: in rad/s/√Hz.
         gyro_bias: in rad/s; drawn as the accelerometers' is.
         gyro_walk: in rad/s/√s.
@@ -84,10 +88,13 @@ class SensorSuite:
     range_resolution_m: float = 0.004e-3
     range_scale: float = 5e-4
     range_rate_hz: float = 3240.0
+    range_latency_s: float = 0.0
     encoder_step_m: float = 0.3e-3
     encoder_scale: float = 3e-4
     encoder_error: float = 0.0
     slip_per_g: float = 3e-3
+    radius_growth: float = 0.0
+    radius_warming: float = 0.0
     gyro_noise: float = radians(7.7e-3) / 100**0.5
     gyro_bias: float = radians(0.01)
     gyro_walk: float = radians(1.38e-6)
@@ -131,4 +138,11 @@ class SensorSuite:
 
     def idling(self) -> "SensorSuite":
         """Return the suite of a parked vehicle whose encoder is a signal generator."""
-        return replace(self, revving_hz_per_mps=0.0, encoder_scale=0.0, slip_per_g=0.0)
+        return replace(
+            self,
+            revving_hz_per_mps=0.0,
+            encoder_scale=0.0,
+            slip_per_g=0.0,
+            radius_growth=0.0,
+            radius_warming=0.0,
+        )

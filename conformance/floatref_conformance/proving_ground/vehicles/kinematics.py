@@ -38,10 +38,16 @@ class Course:
         pitch, roll = -self.grade_rad, self.cross_slope_rad
         return -sin(pitch), cos(pitch) * sin(roll), cos(pitch) * cos(roll)
 
-    def ground_force(self, speed: FloatArray, acceleration: FloatArray) -> FloatArray:
-        """Return what the ground exerts along and across the lane, shape (2, n), in m/s²."""
+    def ground_force(
+        self, speed: FloatArray, acceleration: FloatArray, grade: FloatArray | float = 0.0
+    ) -> FloatArray:
+        """Return what the ground exerts along and across the lane, shape (2, n), in m/s².
+
+        ``grade`` is the slope of the road's alignment against the lane: gravity pulls the vehicle
+        down it, and the ground holds it.
+        """
         up = self.up
-        along = acceleration + STANDARD_GRAVITY * up[0]
+        along = acceleration + STANDARD_GRAVITY * (up[0] + up[2] * np.sin(np.arctan(grade)))
         return np.stack([along, self.curvature_per_m * up[2] * speed**2 + STANDARD_GRAVITY * up[1]])
 
     def lane_force(self, speed: FloatArray, acceleration: FloatArray) -> FloatArray:

@@ -119,14 +119,16 @@ def drive_over(
     count = int(duration_s * rate_hz) * every + 1
     travel, shared, tracks = empty_rows(len(setup.tracks), count)
     start = drive.motion(np.zeros(1))
-    ground = course.ground_force(start.speed, start.acceleration)[:, 0]
+    grade = road.alignment.grade(start.distance)
+    ground = course.ground_force(start.speed, start.acceleration, grade)[:, 0]
     response = Response.of(vehicle, road, 1.0 / float(inner.rate), ground)
     watch = Watch(response_rate_hz, inner, count) if response_rate_hz else None
     for first, last in stretches(count):
         part = slice(first, last)
         motion = drive.motion(inner.times(last - first, first))
         travel[:, part] = motion.distance, motion.speed, motion.acceleration
-        ground = course.ground_force(motion.speed, motion.acceleration)
+        grade = road.alignment.grade(motion.distance)
+        ground = course.ground_force(motion.speed, motion.acceleration, grade)
         wanted = watch.within(first, last) if watch else ()
         body = response.advance(motion.distance, ground, *wanted)
         seen.carry(body, travel[:, part], tracks[:, :, part], shared[:, part])
@@ -134,7 +136,7 @@ def drive_over(
         tracks = _decimate(tracks, every)
         travel, shared = travel[:, ::every].copy(), shared[:, ::every].copy()
     named = dict(zip(setup.tracks, tracks, strict=True))
-    suspension = watch.motion(vehicle, course, drive) if watch else None
+    suspension = watch.motion(vehicle, course, drive, road.alignment) if watch else None
     return BodyMotion.of(clock, travel, shared, named, suspension)
 
 

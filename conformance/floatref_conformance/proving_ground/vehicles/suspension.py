@@ -12,6 +12,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import UniformClock
 from floatref_conformance.proving_ground.drives.drive import Longitudinal
+from floatref_conformance.proving_ground.roads.alignment import LEVEL, Alignment
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
 from floatref_conformance.proving_ground.vehicles.response import INPUTS, STATES, step_response
 from floatref_conformance.proving_ground.vehicles.suspended import TYRES, Suspended
@@ -31,6 +32,7 @@ class SuspensionMotion:
         road: as each tyre feels it, shape (4, m), in m.
         lane: specific force along, across and normal to the lane that the vehicle feels without
             its own motion on its springs, shape (3, m), in m/s².
+        grade: of the road's alignment against the lane, shape (m,), uphill positive.
     """
 
     clock: UniformClock
@@ -40,6 +42,7 @@ class SuspensionMotion:
     acceleration: FloatArray
     road: FloatArray
     lane: FloatArray
+    grade: FloatArray
 
     def tilt(self) -> tuple[FloatArray, FloatArray]:
         """Return pitch and roll of the body against the lane, shapes (m,), in rad."""
@@ -72,7 +75,9 @@ class Watch:
         part = slice(*np.searchsorted(self.steps, (first, last)))
         return self.steps[part] - first, self.states[part]
 
-    def motion(self, vehicle: Suspended, course: Course, drive: Longitudinal) -> SuspensionMotion:
+    def motion(
+        self, vehicle: Suspended, course: Course, drive: Longitudinal, alignment: Alignment = LEVEL
+    ) -> SuspensionMotion:
         """Return what was seen, once the whole drive is done."""
         size = vehicle.masses().size
         rows = self._rows()
@@ -80,7 +85,8 @@ class Watch:
         velocity = rows[size : 2 * size] + step_response(vehicle) @ road
         span = self.times_s[2::2] - self.times_s[:-2:2]
         gain = velocity[:, 2::2] - velocity[:, :-2:2]
-        speed = drive.motion(self.times_s[::2]).speed
+        at_ends = drive.motion(self.times_s[::2])
+        speed, distance = at_ends.speed, at_ends.distance
         along = np.diff(speed) / span
         return SuspensionMotion(
             self.clock,
@@ -90,6 +96,7 @@ class Watch:
             gain / span,
             road[:, 1::2],
             course.lane_force((speed[1:] + speed[:-1]) / 2, along),
+            alignment.grade((distance[1:] + distance[:-1]) / 2),
         )
 
     def _rows(self) -> FloatArray:
