@@ -40,7 +40,7 @@ CHANNELS: Mapping[str, ChannelSpec] = MappingProxyType(
         "vertical_specific_force": ChannelSpec("m/s^2", "accelerometer along body Z, +9.8 at rest"),
         "longitudinal_specific_force": ChannelSpec("m/s^2", "accelerometer along body X"),
         "lateral_specific_force": ChannelSpec("m/s^2", "accelerometer along body Y"),
-        "height": ChannelSpec("m", "range from the reference point to the road, positive"),
+        "height": ChannelSpec("m", "range from the laser to the road, positive"),
         "distance": ChannelSpec("m", "encoder distance, non-decreasing"),
         "roll_rate": ChannelSpec("rad/s", "angular rate about body X"),
         "pitch_rate": ChannelSpec("rad/s", "angular rate about body Y"),

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.measures import high_pass
+from floatref.measures import high_pass, iri_trace
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks import scoring
 from floatref_conformance.classes import DeviceClass
@@ -133,3 +133,21 @@ def test_the_reference_implementation_finds_the_same_and_a_wrong_value_is_the_su
         object.__setattr__(found, "value", 1.05 * found.value)
         with pytest.raises(SuiteError, match="by the reference"):
             oracle.confirm("toy", found)
+
+
+@QUICK
+@given(st.floats(0.01, 0.1))
+def test_the_car_of_the_iri_still_swings_from_what_lies_before_the_stretch(height):
+    """A bump 22 to 30 m ahead of it counts as for a car that has been running since the start."""
+    x = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
+    inside = np.clip((x - 120.0) / 8.0, 0.0, 1.0)
+    bump = height * (1.0 - np.cos(2 * np.pi * inside)) / 2
+    plain = high_pass(road(), INTERVAL)
+    counted = (x >= 150.0)[:-1] & (x <= 300.0)[:-1]
+    present, wrong = (
+        np.mean(np.abs(iri_trace(z, INTERVAL)[: counted.size][counted]))
+        for z in (plain, plain + bump)
+    )
+    pair = compared(lambda z: z + bump).whole(150.0, 300.0)
+    found = scoring.roughness_percent(pair, "left", ONE).value
+    assert found == pytest.approx(100 * abs(wrong / present - 1), abs=0.05)

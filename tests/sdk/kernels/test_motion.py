@@ -98,3 +98,23 @@ def test_reading_between_samples_is_linear():
     sample, part = np.array([0, 1, 2]), np.array([1.0, 0.5, 0.25])
     motion.read_at(np.array([1.0, 3.0, 7.0]), sample, part, y)
     assert y.tolist() == [1.0, 2.0, 4.0]
+
+
+@settings(deadline=None, max_examples=60)
+@given(seed=st.integers(0, 2**32 - 1), size=st.integers(2, 40), pending=st.integers(0, 31))
+def test_a_point_has_the_flags_of_its_samples_and_what_lasts_of_those_between(seed, size, pending):
+    rng, lasting = np.random.default_rng(seed), 0b01110
+    flags = rng.integers(0, 32, size).astype(np.uint8)
+    samples = np.sort(rng.integers(1, size, rng.integers(0, size)))
+    part = rng.choice([0.25, 1.0], samples.size)
+    gathered = np.empty(samples.size, np.uint8)
+    left = motion.gather_flags(flags, samples, part, lasting, pending & lasting, gathered)
+    waiting, before = pending & lasting, 0
+    for at, share, found in zip(samples, part, gathered, strict=True):
+        waiting |= int(np.bitwise_or.reduce(flags[before + 1 : at + 1], initial=0)) & lasting
+        # Between two samples the point is interpolated, and has the flags of both.
+        own = flags[at] if share == 1.0 else flags[at] | flags[at - 1]
+        assert found == own | waiting
+        waiting, before = 0, at
+    waiting |= int(np.bitwise_or.reduce(flags[before + 1 :], initial=0)) & lasting
+    assert left == waiting

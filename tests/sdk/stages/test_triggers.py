@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.stages.resampling import ToDistance
-from floatref.stages.triggers import JOLT_M_S, LONGEST_S, ToTime
+from floatref.stages.triggers import LONGEST_S, ToTime
 from floatref.values.arrays import Flag
 from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
@@ -75,10 +75,11 @@ def test_the_missing_share_is_that_of_the_interval(interval_s, unknown_s):
 @laws
 @given(before_s=st.floats(0.01, 0.2), factor=st.floats(1.0, 20.0))
 def test_a_jolt_makes_more_of_it_missing(before_s, factor):
+    """At 2 mm·s nothing is left of a line."""
     interval_s = before_s * factor
     _, samples = through(ToTime(1.0), header(), triggers([before_s, interval_s]))
     lost = INTERVAL / before_s - INTERVAL / interval_s
-    jolt = lost * (lost * before_s / INTERVAL) * interval_s**2 / JOLT_M_S
+    jolt = lost * (lost * before_s / INTERVAL) * interval_s**2 / 2e-3
     expected = min((interval_s**2 + jolt) ** 2, 1.0)
     np.testing.assert_allclose(samples[SHARE][-2], expected, rtol=1e-6)
 

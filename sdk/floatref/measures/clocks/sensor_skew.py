@@ -84,7 +84,7 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
     stands = np.zeros(grid.size, dtype=np.bool_)
     if distance is not None:
         stands = find_standing(distance, grid, STANDS_M, STANDS_S)
-    return _combine([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
+    return combine_stretches([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 
 def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
@@ -100,7 +100,7 @@ def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
 
 
 @dataclass(frozen=True)
-class _Stretch:
+class Stretch:
     """Windows that follow one another, and the gain of the sensors in them."""
 
     windows: Sequence[SkewWindow]
@@ -119,18 +119,18 @@ class _Stretch:
         return skew, float(np.hypot(weights @ sigmas / weights.sum(), spread**0.5))
 
 
-def _at_stops(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[_Stretch]:
+def _at_stops(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[Stretch]:
     """Return the usable stretches of a stationary vehicle."""
     found = []
     for first, end in stretches(stands):
         windows = _windows(force, height, first, end)
         kept = [w for w in windows if w is not None and _is_one(w, LEAST_COHERENCE, GAIN_OFF)]
         if kept:
-            found.append(_Stretch(kept, 1.0))
+            found.append(Stretch(kept, 1.0))
     return found
 
 
-def _in_bounces(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[_Stretch]:
+def _in_bounces(force: FloatArray, height: FloatArray, stands: BoolArray) -> list[Stretch]:
     """Return the stretches that agree as well as a bounce test alone does, wherever they are."""
     found = []
     for first, end in stretches(~stands):
@@ -140,7 +140,7 @@ def _in_bounces(force: FloatArray, height: FloatArray, stands: BoolArray) -> lis
                 run.append(window)
                 continue
             if len(run) >= FEWEST_BOUNCES:
-                found.append(_Stretch(run, float(np.median([w.gain for w in run]))))
+                found.append(Stretch(run, float(np.median([w.gain for w in run]))))
             run = []
     return found
 
@@ -161,8 +161,8 @@ def _is_one(window: SkewWindow, coherence: float, off: float) -> bool:
     return agrees and window.motion_m >= LEAST_MOTION_M
 
 
-def _combine(found: list[_Stretch]) -> Skew:
-    """Return the skew estimated from all stretches together."""
+def combine_stretches(found: list[Stretch]) -> Skew:
+    """Return the skew estimated from all stretches together, or the reason why it is open."""
     if not found:
         return Skew.none(
             "no moment in which the body alone moves: neither a stop after which it still swings "

@@ -73,3 +73,11 @@ def test_a_brake_fades_within_seconds_where_the_encoder_is_silent(a, interval_s)
     assert 2.8 < times[latest] < 3.0
     np.testing.assert_allclose(found[latest:], -a * np.exp(-silent), rtol=1e-4)
     assert np.abs(response[-round(1.0 / interval_s) :]).max() < 0.01 * a
+
+
+def test_half_of_a_wave_of_6_hz_is_left() -> None:
+    """That is far above the pitching of a body and far below what an encoder's counts make."""
+    times = np.arange(1500) * 0.002
+    omega = 2 * np.pi * 6.0
+    found, _ = excited(np.sin(omega * times), 0.002)
+    assert np.abs(found[200:-200]).max() == pytest.approx(0.5 * omega**2, rel=0.1)

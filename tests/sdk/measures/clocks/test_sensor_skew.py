@@ -8,8 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.sdk.measures.clocks.drives import driven, parts
 
-from floatref.measures.clocks.sensor_skew import Skew, sensor_skew, skew_warning
+from floatref.measures.clocks.sensor_skew import (
+    Skew,
+    Stretch,
+    combine_stretches,
+    sensor_skew,
+    skew_warning,
+)
 from floatref.measures.clocks.skew_series import RATE_HZ, on_grid
+from floatref.measures.clocks.skew_windows import SkewWindow
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
@@ -194,3 +201,23 @@ def test_a_warning_needs_half_a_millisecond_and_three_sigma() -> None:
         "channel left.vertical_specific_force: 1.20 ± 0.10 ms later than left.height, by 5 s in "
         "which the body alone moved; add 0.00120 to its delay_s"
     )
+
+
+@pytest.mark.slow
+def test_stops_that_disagree_know_less_than_each_alone() -> None:
+    """A height that is 3 ms later from the second of three stops on: no skew is that of all."""
+    force, height, distance = parts(driven("stop", "pickup", 38, stops=3))
+    times = height.times_s
+    moved = times + 3e-3 * (times > times[times.size // 2])
+    broken = Channel.of("height", height.values, StampedClock.of(moved))
+    assert not sensor_skew(force, broken, distance).known
+
+
+@given(sigma_ms=st.floats(0.01, 2.0), skew_ms=st.floats(-5.0, 5.0))
+def test_a_skew_is_open_where_it_is_known_to_half_a_millisecond_only(sigma_ms, skew_ms) -> None:
+    """The page says so: a profile at 20 m/s errs by 10 mm of its place then."""
+    omega = 10.0
+    window = SkewWindow(0, skew_ms / 1e3, 1.0, sigma_ms / 1e3 * omega, 1e-3, omega)
+    found = combine_stretches([Stretch([window], 1.0)])
+    assert found.known == (sigma_ms <= 0.5)
+    assert found.sigma_s == pytest.approx(sigma_ms / 1e3)
