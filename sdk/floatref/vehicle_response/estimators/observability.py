@@ -119,8 +119,8 @@ def unfelt_tyres(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str,
     """Return the freedoms whose tyre's force is unknown: those that lower the rank of J."""
     _, direct = output_matrices(model, readings)
     largest = np.abs(null_space(direct)).max(axis=1, initial=0.0)
-    untold = np.flatnonzero(largest > SHARE * largest.max())
-    return tuple(model.tyres[at].freedom for at in untold)
+    unfelt = np.flatnonzero(largest > SHARE * largest.max())
+    return tuple(model.tyres[at].freedom for at in unfelt)
 
 
 def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:

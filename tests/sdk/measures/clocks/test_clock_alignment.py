@@ -245,12 +245,12 @@ def test_far_beyond_the_pulses_it_is_told() -> None:
     line = found.beyond(0.0, 3600.0)
     assert line is not None
     assert "100 s before and" in line
-    assert Alignment.state(3.0).beyond(-1e9, 1e9) is None
+    assert Alignment.from_offset(3.0).beyond(-1e9, 1e9) is None
 
 
 def test_a_stated_offset_is_taken_as_it_is() -> None:
-    stated = Alignment.state(-3.25, 1e-4)
+    stated = Alignment.from_offset(-3.25, 1e-4)
     assert stated.to_base(np.array([0.0, 10_000.0])) == pytest.approx([-3.25, 9997.75])
     assert stated.inverse().to_base(stated.to_base(np.array([5.0]))) == pytest.approx([5.0])
     with pytest.raises(InputError, match="state finite ones"):
-        Alignment.state(float("nan"))
+        Alignment.from_offset(float("nan"))
