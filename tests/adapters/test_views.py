@@ -15,12 +15,7 @@ from floatref import (
     StampedClock,
     UniformClock,
 )
-from floatref_adapters.views import (
-    recording_to_pandas,
-    recording_to_xarray,
-    to_pandas,
-    to_xarray,
-)
+from floatref_adapters.views import recording_to_pandas, recording_to_xarray, to_pandas, to_xarray
 
 pytest.importorskip("pandas")
 pytest.importorskip("xarray")

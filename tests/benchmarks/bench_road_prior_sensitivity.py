@@ -77,11 +77,11 @@ class Row:
             "within_percent": float(np.median([f.within_percent for f in found])),
             "fewest_percent": min(fewest.values()),
         }
-        warnings: dict[str, Any] = {"constant": self.constant, "value": self.value}
-        warnings |= {"factor": self.factor, "of": case}
-        warnings["fewest_of"] = min(fewest, key=lambda name: fewest[name])
-        warnings |= {name: round(figure, 4) for name, figure in figures.items()}
-        return warnings | {"cases": {name: round(each, 4) for name, each in lowest.items()}}
+        row: dict[str, Any] = {"constant": self.constant, "value": self.value}
+        row |= {"factor": self.factor, "of": case}
+        row["fewest_of"] = min(fewest, key=lambda name: fewest[name])
+        row |= {name: round(figure, 4) for name, figure in figures.items()}
+        return row | {"cases": {name: round(each, 4) for name, each in lowest.items()}}
 
 
 def of_run(name: str) -> Adversity:
@@ -139,15 +139,15 @@ def measured(
     return Row(name, value, factor, found)
 
 
-def cells(warnings: Mapping[str, Any]) -> list[str]:
-    line = [f"`{warnings['constant']}`", f"{warnings['value']:.3g} ({warnings['factor']:.2g} ×)"]
-    if warnings["constant"] == USUAL:
+def cells(row: Mapping[str, Any]) -> list[str]:
+    line = [f"`{row['constant']}`", f"{row['value']:.3g} ({row['factor']:.2g} ×)"]
+    if row["constant"] == USUAL:
         line = [USUAL, ""]
-    line += [f"{warnings[name]:.3f}" for name in ("lowest", "median")]
-    loss = warnings["largest_loss"]
-    line += [f"{loss:.3f}", warnings["of"]] if round(loss, 3) > 0 else ["0.000", ""]
-    line.append(f"{warnings['iri_error_percent']:+.1f}")
-    return [*line, *(f"{warnings[f'{name}_percent']:.1f}" for name in ("within", "fewest"))]
+    line += [f"{row[name]:.3f}" for name in ("lowest", "median")]
+    loss = row["largest_loss"]
+    line += [f"{loss:.3f}", row["of"]] if round(loss, 3) > 0 else ["0.000", ""]
+    line.append(f"{row['iri_error_percent']:+.1f}")
+    return [*line, *(f"{row[f'{name}_percent']:.1f}" for name in ("within", "fewest"))]
 
 
 def arguments() -> argparse.Namespace:

@@ -15,13 +15,7 @@ from floatref.screening.findings import Screening
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.filters.butterworth import low_pass_b3
 from floatref.stages.protocol import Stage
-from floatref.stages.signals import (
-    ACCELERATION,
-    DISTANCE,
-    HEIGHT,
-    REFERENCE_HEIGHT,
-    SIGMA,
-)
+from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA
 from floatref.stages.speed import TravelSpeed
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId

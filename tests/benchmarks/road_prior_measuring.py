@@ -56,12 +56,12 @@ class Row:
 
     def summary(self) -> dict[str, Any]:
         """Return means and extremes as plain values; no figures if the pipeline refused."""
-        warnings: dict[str, Any] = {n: getattr(self, n) for n in ("kind", "severity", "pipeline")}
+        row: dict[str, Any] = {n: getattr(self, n) for n in ("kind", "severity", "pipeline")}
         if self.found:
             means = {n: round(self.mean(n), 4) for n in vars(self.found[0])}
-            warnings |= {n: mean for n, mean in means.items() if np.isfinite(mean)}
-            warnings["lowest"] = round(self.lowest, 4)
-        return warnings
+            row |= {n: mean for n, mean in means.items() if np.isfinite(mean)}
+            row["lowest"] = round(self.lowest, 4)
+        return row
 
     @property
     def lowest(self) -> float:
@@ -97,14 +97,14 @@ def from_the_lane(made: Simulation, road: Road, grade_rad: float) -> Simulation:
 def truth(made: Simulation, name: str, points: FloatArray) -> FloatArray:
     """Return the road under the laser ``name`` at ``points`` of the encoder's distance."""
     encoder, motion = made.recording.channel("distance"), made.motion
-    warnings = np.interp(motion.times_s, encoder.times_s, np.nan_to_num(encoder.values))
-    return np.interp(points, warnings - warnings[0], motion.tracks[name].road_m)
+    counted = np.interp(motion.times_s, encoder.times_s, np.nan_to_num(encoder.values))
+    return np.interp(points, counted - counted[0], motion.tracks[name].road_m)
 
 
 def stretch(made: Simulation, where_m: float, interval_m: float) -> slice:
     """Return the points of a profile within `HALF_M` of ``where_m`` of true distance."""
-    warnings = made.recording.channel("distance").values
-    middle = warnings[np.argmax(made.motion.distance >= where_m)] - warnings[0]
+    counted = made.recording.channel("distance").values
+    middle = counted[np.argmax(made.motion.distance >= where_m)] - counted[0]
     return slice(round((middle - HALF_M) / interval_m), round((middle + HALF_M) / interval_m))
 
 
@@ -131,7 +131,7 @@ def compared(made: Simulation, profile: floatref.Profile, where_m: float) -> lis
 def quietly(
     recording: floatref.Recording, pipeline: str, settings: Mapping[str, float]
 ) -> floatref.Profile:
-    """Process without warnings: most faults are warnings, as they should be."""
+    """Process without warnings: most faults are reported, as they should be."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         return floatref.process(recording, pipeline, settings)

@@ -27,12 +27,12 @@ def named(cell: str, pipelines: list[str]) -> set[str]:
 
 def test_every_setting_of_every_pipeline_is_on_the_page_with_its_default() -> None:
     pipelines = plugins().pipelines()
-    warnings: dict[str, dict[str, float | None]] = {name: {} for name in pipelines}
+    stated: dict[str, dict[str, float | None]] = {name: {} for name in pipelines}
     for setting, default, cell in SETTING.findall(PAGE):
         for name in named(cell, list(pipelines)):
-            assert setting not in warnings[name], (name, setting)
-            warnings[name][setting] = None if default in UNDECIDED else float(default)
-    assert warnings == {name: dict(pipeline.settings) for name, pipeline in pipelines.items()}
+            assert setting not in stated[name], (name, setting)
+            stated[name][setting] = None if default in UNDECIDED else float(default)
+    assert stated == {name: dict(pipeline.settings) for name, pipeline in pipelines.items()}
 
 
 @pytest.mark.slow

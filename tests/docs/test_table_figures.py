@@ -21,10 +21,7 @@ from floatref_reference.beyond.state_variable import (
     hpf_b3s1r_state_variable,
     hpf_b3s2r_state_variable,
 )
-from floatref_reference.chapter_5.section_5_7 import (
-    backward_passes_varying,
-    cut_off_wave_number,
-)
+from floatref_reference.chapter_5.section_5_7 import backward_passes_varying, cut_off_wave_number
 
 TABLE = json.loads((Path(__file__).parent / "data" / "table.json").read_text(encoding="utf-8"))
 CELLS = {(cell["run"], cell["pipeline"]): cell for cell in TABLE["cells"]}

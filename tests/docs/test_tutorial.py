@@ -8,7 +8,8 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "vendor_tests"
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "docs" / "examples" / "vendor_tests"
 
 
 def test_the_example_passes_under_plain_pytest(tmp_path):
@@ -28,9 +29,6 @@ def test_the_page_shows_the_example_as_it_is():
     assert len(shown) == 2
     for block in shown:
         assert block.split("```")[0].strip() in (EXAMPLE / "test_our_profiler.py").read_text()
-
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("page", ["tutorial", "allan", "batch"])

@@ -12,13 +12,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files import read_recording
 from floatref_conformance.devices.interface import DeviceKind
-from floatref_conformance.devices.protocol import (
-    RUN_PER_LENGTH,
-    RUN_S,
-    START_S,
-    STOP_S,
-    Session,
-)
+from floatref_conformance.devices.protocol import RUN_PER_LENGTH, RUN_S, START_S, STOP_S, Session
 from floatref_conformance.errors import DeviceError
 
 

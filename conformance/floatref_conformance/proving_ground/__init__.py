@@ -5,11 +5,7 @@ the laser's path, and the true motion. Nothing here imports a compiler until it 
 """
 
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
-from floatref_conformance.proving_ground.scenario import (
-    Scenario,
-    read_scenario,
-    scenario_of_run,
-)
+from floatref_conformance.proving_ground.scenario import Scenario, read_scenario, scenario_of_run
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, TrackMotion

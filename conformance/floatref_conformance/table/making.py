@@ -20,7 +20,7 @@ REFERENCE_PIPELINE = "temporal-basic"
 """What the reference pass is processed by, as in the dissertation."""
 
 Watch = Callable[[str], None]
-"""ScaleError of every pass before it is driven."""
+"""Called with the name of every pass before it is driven."""
 PipelineScores = tuple[str, str, tuple[Scores, ...]]
 """Pipeline, run, and the scores of each wheel path of one pass."""
 

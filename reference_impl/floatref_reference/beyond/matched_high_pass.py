@@ -18,12 +18,7 @@ from floatref_reference.beyond.state_variable import (
     hpf_b3s1r_state_variable,
     hpf_b3s2r_state_variable,
 )
-from floatref_reference.chapter_5.section_5_3 import (
-    anti_alias,
-    capture,
-    temporal_profile,
-    trigger,
-)
+from floatref_reference.chapter_5.section_5_3 import anti_alias, capture, temporal_profile, trigger
 from floatref_reference.chapter_5.section_5_6 import travel_speed
 from floatref_reference.chapter_5.section_5_7 import (
     SCHEDULE,

@@ -4,19 +4,8 @@ import numpy as np
 import numpy.typing as npt
 
 from floatref_reference.appendix_a.cut_off import high_pass_cut_off
-from floatref_reference.appendix_a.filters import (
-    hpf_b3,
-    hpf_b3s1,
-    hpf_b3s1r,
-    hpf_b3s2,
-    hpf_b3s2r,
-)
-from floatref_reference.chapter_5.section_5_3 import (
-    anti_alias,
-    capture,
-    trapezoidal_rule,
-    trigger,
-)
+from floatref_reference.appendix_a.filters import hpf_b3, hpf_b3s1, hpf_b3s1r, hpf_b3s2, hpf_b3s2r
+from floatref_reference.chapter_5.section_5_3 import anti_alias, capture, trapezoidal_rule, trigger
 from floatref_reference.signals import Real, Signal, samples, signal
 
 F_3DB = 0.0489

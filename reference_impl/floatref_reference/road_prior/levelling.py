@@ -146,17 +146,18 @@ def attitude(unit: Unit, smoothing: Smoothing) -> tuple[Matrix, list[bool]]:
         θ and φ, rad, shape (2, N), and of every bin whether gravity gives them.
     """
     every, h = smoothing.every, smoothing.every * unit.dt
-    said = gravity(unit, every)
-    always, n = np.zeros(len(said[0])), len(said[0])
+    gravities = gravity(unit, every)
+    always, n = np.zeros(len(gravities[0])), len(gravities[0])
     lines = [
-        [local_line(y, b, smoothing.near_s / h, always, math.inf) for b in range(n)] for y in said
+        [local_line(y, b, smoothing.near_s / h, always, math.inf) for b in range(n)]
+        for y in gravities
     ]
     slow = [slow_angles(p_l, q_l) for p_l, q_l in zip(*lines, strict=True)]
     fast = integrated(unit, slow, every)
-    told_rates = np.sum([bins(row, every) for row in unit.omega], axis=0)
-    silent: Vector = np.isnan(told_rates).astype(np.float64)
-    angles, warnings = np.empty_like(fast), [True] * n
-    for i, y in enumerate(said):
+    known_rates = np.sum([bins(row, every) for row in unit.omega], axis=0)
+    silent: Vector = np.isnan(known_rates).astype(np.float64)
+    angles, known = np.empty_like(fast), [True] * n
+    for i, y in enumerate(gravities):
         mean = whole_bins(fast[i], every)
         off = np.empty(n)
         for b, (theta, phi) in enumerate(slow):
@@ -166,11 +167,11 @@ def attitude(unit: Unit, smoothing: Smoothing) -> tuple[Matrix, list[bool]]:
         back = []
         for b in range(n):
             value = local_line(off, b, smoothing.far_s / h, silent, smoothing.patience)
-            warnings[b] = warnings[b] and not math.isnan(value)
+            known[b] = known[b] and not math.isnan(value)
             back.append(-mean[b] if math.isnan(value) else value)
         for k in range(fast.shape[1]):
             angles[i, k] = fast[i, k] + between(back, k, every)
-    return angles, warnings
+    return angles, known
 
 
 def level(unit: Unit, smoothing: Smoothing) -> Vector:

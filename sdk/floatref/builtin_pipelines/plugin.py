@@ -13,11 +13,7 @@ from floatref.interfaces.adapter import Adapter, RecordingDirectory
 from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import hookimpl
 from floatref.interfaces.pipeline import Answer, Context, Pipeline, stages_of
-from floatref.interfaces.profile_format import (
-    ProfileDirectory,
-    ProfileFormat,
-    ProfileTable,
-)
+from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat, ProfileTable
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile

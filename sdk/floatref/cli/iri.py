@@ -9,13 +9,7 @@ import numpy as np
 from floatref.cli.printing import number, print_json, print_settings, print_table
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
-from floatref.measures import (
-    IriSettings,
-    Segment,
-    in_per_mi,
-    iri_segments,
-    mean_roughness_index,
-)
+from floatref.measures import IriSettings, Segment, in_per_mi, iri_segments, mean_roughness_index
 from floatref.measures import iri as whole_iri
 from floatref.values.profile import Profile, ProfileTrack
 

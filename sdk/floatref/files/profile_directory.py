@@ -8,13 +8,7 @@ from floatref.errors import InputError
 from floatref.files.atomic import replace_directory
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.profile_csv import read_profile_csv
-from floatref.files.samples import (
-    free_name,
-    read_flags,
-    read_samples,
-    write_flags,
-    write_samples,
-)
+from floatref.files.samples import free_name, read_flags, read_samples, write_flags, write_samples
 from floatref.files.schema import enforce
 from floatref.files.sources import document_path, name_errors
 from floatref.values.profile import Profile, ProfileTrack

@@ -16,7 +16,7 @@ RIGHT = "right"
 """Name of the explanation that a correct recording follows."""
 FEWEST = 12
 """Fewest values in a window."""
-HEARD, LOUDEST = 0.3, 3.0
+LEAST_EVIDENCE, MOST_EVIDENCE = 0.3, 3.0
 """Smallest and largest evidence of a window: the logarithm of the ratio of squared residuals."""
 CERTAIN, OUTWEIGHED = 3.0, 4.0
 """Sum of evidence above which an explanation is accepted, and its smallest ratio to the sum against
@@ -83,13 +83,13 @@ def weigh(
     """
     table = np.stack([signal, *explanations.values()], axis=1)
     known: BoolArray = np.logical_not(np.isnan(table).any(axis=1))
-    heard = np.zeros(len(explanations))
+    evidence = np.zeros(len(explanations))
     for part in windows(times, look.span_s):
         rows = table[part][known[part]]
         if rows.shape[0] >= max(FEWEST, 0.9 * (part.stop - part.start)):
             left = detrend(times[part][known[part]], rows, look.degree)
-            heard += _score_window(left, look.floor)
-    found = dict(zip(explanations, heard.tolist(), strict=True))
+            evidence += _score_window(left, look.floor)
+    found = dict(zip(explanations, evidence.tolist(), strict=True))
     right = found.pop(RIGHT)
     name = max(found, key=found.__getitem__)
     return Evidence(right, found[name], name)
@@ -101,9 +101,9 @@ def _score_window(rows: FloatArray, floor: float) -> FloatArray:
     squares = np.sum(left**2, axis=0) + rows.shape[0] * floor**2
     best, second = np.argsort(squares)[:2]
     lead = float(np.log(squares[second] / squares[best]))
-    heard = np.zeros(squares.size)
-    heard[best] = min(lead, LOUDEST) if lead >= HEARD else 0.0
-    return heard[1:]
+    evidence = np.zeros(squares.size)
+    evidence[best] = min(lead, MOST_EVIDENCE) if lead >= LEAST_EVIDENCE else 0.0
+    return evidence[1:]
 
 
 def detrend(times: FloatArray, rows: FloatArray, degree: int) -> FloatArray:

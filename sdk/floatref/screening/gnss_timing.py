@@ -9,13 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.screening.explanations import RIGHT, Look, report_fault, weigh
 from floatref.screening.gnss_readings import Readings
-from floatref.screening.slow_series import (
-    STEP_S,
-    Motion,
-    integrate,
-    means,
-    smooth,
-)
+from floatref.screening.slow_series import STEP_S, Motion, integrate, means, smooth
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording

@@ -6,13 +6,7 @@ from floatref.errors import InputError
 from floatref.kernels.memories import INTEGRATOR
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
-from floatref.stages.signals import (
-    HEIGHT,
-    REFERENCE_HEIGHT,
-    TIME_STEP,
-    TRUE_TIME_STEP,
-    VELOCITY,
-)
+from floatref.stages.signals import HEIGHT, REFERENCE_HEIGHT, TIME_STEP, TRUE_TIME_STEP, VELOCITY
 from floatref.values.arrays import FloatArray, new_record
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId

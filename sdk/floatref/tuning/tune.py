@@ -86,7 +86,7 @@ def tune(
         tell("Sensitivity")
         chosen = levels.settings(found.point)
         varied = _find_varied(pipeline, numbers)
-        warnings = sensitivities(trials, varied, chosen, list(prepared.runs))
+        sensitivity = sensitivities(trials, varied, chosen, list(prepared.runs))
     return Tuning(
         pipeline=pipeline,
         settings={**given, **chosen},
@@ -98,7 +98,7 @@ def tune(
         after=trials.scores(chosen, list(prepared.runs)),
         loss_before=procedure.collective(START),
         loss_after=procedure.collective(found.point),
-        sensitivity=tuple(warnings),
+        sensitivity=tuple(sensitivity),
         rounds=found.rounds,
         harmless=found.harmless,
         combinations=trials.combinations,

@@ -10,11 +10,7 @@ import numpy as np
 import pytest
 
 from floatref_conformance.proving_ground import cache
-from floatref_conformance.proving_ground.cache import (
-    cache_folder,
-    simulate_cached,
-    source_digest,
-)
+from floatref_conformance.proving_ground.cache import cache_folder, simulate_cached, source_digest
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 

@@ -7,13 +7,7 @@ import pytest
 
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.verdict import (
-    CheckResult,
-    Measurement,
-    Outcome,
-    Pass,
-    RunResult,
-)
+from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, Pass, RunResult
 from floatref_conformance.classes import DeviceClass, same_limit
 from floatref_conformance.proving_ground.scenario import Scenario
 

@@ -13,11 +13,7 @@ from floatref_reference.imine.section_4_b_convergence import (
     printed_conditions,
     slowest_rate,
 )
-from floatref_reference.imine.section_4_state_form import (
-    input_matrices,
-    output_matrix,
-    state_form,
-)
+from floatref_reference.imine.section_4_state_form import input_matrices, output_matrix, state_form
 
 Matrix = npt.NDArray[np.float64]
 TRAILERS = st.tuples(*[st.floats(0.3, 3.0)] * 16).map(

@@ -58,8 +58,8 @@ def test_a_banked_curve_is_level(v: float, yaw: float, phi: float) -> None:
     omega = yaw * np.stack([np.zeros(N), np.full(N, np.sin(phi)), np.full(N, np.cos(phi))])
     # In body axes V ω_z is all of the lateral acceleration along Y; of the rest some is along Z.
     unit = Unit(f, omega, v * T, 1 / RATE)
-    angles, warnings = attitude(unit, HOW)
-    assert all(warnings)
+    angles, known = attitude(unit, HOW)
+    assert all(known)
     assert angles[0] == pytest.approx(np.zeros(N), abs=1e-9)
     assert angles[1] == pytest.approx(np.full(N, phi), abs=1e-9)
     assert level(unit, HOW) == pytest.approx(np.zeros(N), abs=1e-7)

@@ -1,4 +1,4 @@
-"""Channels that are missing, silent, wild or cut: named, told and survived, or refused."""
+"""Channels that are missing, silent, wild or cut: named, reported and survived, or refused."""
 
 from collections.abc import Callable
 from dataclasses import replace

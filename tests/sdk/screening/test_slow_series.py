@@ -9,15 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from floatref.screening import slow_series
-from floatref.screening.slow_series import (
-    STEP_S,
-    Grid,
-    Motion,
-    bridge,
-    integrate,
-    means,
-    smooth,
-)
+from floatref.screening.slow_series import STEP_S, Grid, Motion, bridge, integrate, means, smooth
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 

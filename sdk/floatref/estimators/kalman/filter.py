@@ -20,13 +20,7 @@ from floatref.estimators.kalman.track import FLOORS, TrackFilter
 from floatref.estimators.smoothing.nodes import Filtered, Nodes
 from floatref.stages.marks import flags_of, long_gaps
 from floatref.stages.protocol import Declared, Stage
-from floatref.stages.signals import (
-    ACCELERATION,
-    DISTANCE,
-    HEIGHT,
-    REFERENCE_HEIGHT,
-    TRAVEL_SPEED,
-)
+from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HEIGHT, TRAVEL_SPEED
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId

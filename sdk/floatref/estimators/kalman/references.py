@@ -96,7 +96,7 @@ class References:
         start_m: the filter's first height.
         arm_m: how far the antenna is above the reference point.
         datum: height from which GNSS heights are measured, in m; the first reading sets it.
-        latest, heard: sample of the latest reading, and of the latest whose height was observed.
+        latest, observed: sample of the latest reading, and of the latest whose height was observed.
         constant: whether constants have been observed since then.
         origin: what the height sensor read where the stop began, in m; NaN while moving.
         last: sample and mark of the latest observation.
@@ -110,7 +110,7 @@ class References:
     arm_m: float
     datum: float = np.nan
     latest: int = 0
-    heard: int = 0
+    observed: int = 0
     constant: bool = False
     origin: float = np.nan
     last: tuple[int, int] = (0, 0)
@@ -192,9 +192,9 @@ class References:
         if not self.plan.attitude:
             y[:, PITCH:] = 0.0
             variance[:, PITCH:] = self.noise.constants(USUAL_S)[PITCH:] * crowded[:, None]
-        moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.heard) * self.step
+        moved = self.noise.gnss_height_walk**2 * np.diff(at, prepend=self.observed) * self.step
         moved[again] = DATUM_M**2
-        self.heard = int(at[-1]) if heights else self.heard
+        self.observed = int(at[-1]) if heights else self.observed
         return observations_of(at, 0, y, variance, moved)
 
     def _constants(self, begin: int, end: int) -> Observations:

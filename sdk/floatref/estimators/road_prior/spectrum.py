@@ -129,8 +129,6 @@ APART_M = 0.005, 0.03
 """Nodes this far apart show the texture, which differs at each of them."""
 SOONER = 15.0
 """Times by which the travel of texture's memory is shorter than that of the spectrum."""
-FIVE = 5
-"""Nodes of a second difference over two."""
 LEAST = 0.125
 """No road is taken for smoother than this share of what it was taken for at the start."""
 
@@ -159,7 +157,7 @@ class RoadSpectrum:
     texture: FloatArray
     since: np.record = field(default_factory=partial(new_record, SINCE))
     points: Records = field(default_factory=partial(new_records, 2 * LAGS[LONG] + 1, POINT))
-    latest: FloatArray = field(default_factory=partial(np.full, FIVE, np.nan))
+    latest: FloatArray = field(default_factory=partial(np.full, 5, np.nan))
 
     @classmethod
     def of(cls, constants: RoadPrior, interval_s: float) -> "RoadSpectrum":

@@ -133,7 +133,7 @@ class _Aligning:
 
     def _by_entry(self, key: Key, entry: ClockEntry, clock: ClockKey, base: ClockKey) -> Alignment:
         if entry.align == "offset":
-            return Alignment.state(entry.offset_s, 1e-6 * entry.drift_ppm)
+            return Alignment.from_offset(entry.offset_s, 1e-6 * entry.drift_ppm)
         if entry.align == "pulses":
             own = self._signal(key[0], entry.pulses, key)
             common = self._signal(self._base[0], entry.base_pulses)
@@ -167,7 +167,7 @@ class _Aligning:
         offset, warnings = between_epochs(
             (self._zeros[clock], clock[2]), (self._zeros[base], base[2])
         )
-        return replace(Alignment.state(float(offset)), warnings=warnings)
+        return replace(Alignment.from_offset(float(offset)), warnings=warnings)
 
     def _signal(self, label: str, name: str | None, of: Key | None = None) -> Timed:
         """Return the channel ``name`` of a file, on the clock of stream ``of`` or the base."""

@@ -55,7 +55,7 @@ class Alignment:
     knots_s: tuple[FloatArray, FloatArray] | None = None
 
     @classmethod
-    def state(cls, offset_s: float, drift: float = 0.0) -> "Alignment":
+    def from_offset(cls, offset_s: float, drift: float = 0.0) -> "Alignment":
         """Return the alignment stated by the user; InputError unless it is finite."""
         if not (np.isfinite(offset_s) and abs(drift) < 0.1):
             raise InputError(f"offset {offset_s} s with a drift of {drift}; state finite ones")

@@ -12,6 +12,7 @@ states. Elevation is finite, in m, with at least two points; ``per_step`` is 1/i
 import numpy as np
 
 from floatref.kernels.compiling import compiled
+from floatref.measures.roughness.quarter_car import Modes
 from floatref.values.arrays import FloatArray
 
 
@@ -21,12 +22,11 @@ def car_response(
     window: int,
     start_slope: float,
     per_step: float,
-    modes: FloatArray,
+    modes: Modes,
     response: FloatArray,
 ) -> None:
     """Write the output after each of the ``elevation.size - 1`` intervals to ``response``."""
-    a_re, a_im, a_gain_re, a_gain_im = modes[0], modes[1], modes[2], modes[3]
-    b_re, b_im, b_gain_re, b_gain_im = modes[4], modes[5], modes[6], modes[7]
+    (a_re, a_im, a_gain_re, a_gain_im), (b_re, b_im, b_gain_re, b_gain_im) = modes
     a_x = a_y = b_x = b_y = 0.0
     last = elevation.size - 1
     per_window = per_step / window
@@ -51,7 +51,7 @@ def rectified_sums(
     window: int,
     start_slope: float,
     per_step: float,
-    modes: FloatArray,
+    modes: Modes,
     edges: np.ndarray[tuple[int], np.dtype[np.int64]],
     sums: FloatArray,
 ) -> None:
@@ -59,8 +59,7 @@ def rectified_sums(
 
     The car runs once from the first interval to the last edge and is not started again.
     """
-    a_re, a_im, a_gain_re, a_gain_im = modes[0], modes[1], modes[2], modes[3]
-    b_re, b_im, b_gain_re, b_gain_im = modes[4], modes[5], modes[6], modes[7]
+    (a_re, a_im, a_gain_re, a_gain_im), (b_re, b_im, b_gain_re, b_gain_im) = modes
     a_x = a_y = b_x = b_y = 0.0
     last = elevation.size - 1
     per_window = per_step / window

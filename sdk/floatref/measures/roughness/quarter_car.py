@@ -6,6 +6,7 @@ stroke per distance, z_s' − z_u', both in m/m.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +14,18 @@ from floatref.values.arrays import FloatArray
 
 KMH = 1000.0 / 3600.0
 """One km/h in m/s."""
+
+
+class Mode(NamedTuple):
+    """Pole and input gain of one mode, real and imaginary parts."""
+
+    pole_re: float
+    pole_im: float
+    gain_re: float
+    gain_im: float
+
+
+Modes = tuple[Mode, Mode]
 
 
 @dataclass(frozen=True)
@@ -35,18 +48,18 @@ class QuarterCar:
         damped = c * angular_frequency * (k1 - w2 * (1 + mu))
         return np.asarray(k1 * w2 / (stiff + 1j * damped))
 
-    def modes(self, step_s: float, scale: float = 1.0) -> FloatArray:
+    def modes(self, step_s: float, scale: float = 1.0) -> Modes:
         """Return pole and input gain of both modes for a slope held over ``step_s`` seconds.
 
         With eigenvalue λ and residue r of the transfer function the pole is exp(λΔt) and the
-        gain 2r(exp(λΔt) − 1)/λ, times ``scale``. Shape (8,): for each mode the real and
-        imaginary part of the pole, then of the gain; the output is the sum of the modes' real
-        parts. Needs an underdamped car, as the Golden Car is.
+        gain 2r(exp(λΔt) − 1)/λ, times ``scale``; the output is the sum of the modes' real parts.
+        Needs an underdamped car, as the Golden Car is.
         """
         poles, residues = self._poles_and_residues()
         gains = 2.0 * scale * residues * np.expm1(poles * step_s) / poles
         steps = np.exp(poles * step_s)
-        return np.stack([steps.real, steps.imag, gains.real, gains.imag], axis=1).ravel()
+        rows = np.stack([steps.real, steps.imag, gains.real, gains.imag], axis=1).tolist()
+        return Mode(*rows[0]), Mode(*rows[1])
 
     def _poles_and_residues(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the poles with positive imaginary part and their residues, (2,) each."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
-from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH
+from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes
 from floatref.values.arrays import FloatArray
 
 M_PER_KM = 1000.0
@@ -108,7 +108,7 @@ class _Run:
     interval_m: float
     window: int
     start_slope: float
-    modes: FloatArray
+    modes: Modes
 
     @classmethod
     def of(cls, elevation: FloatArray, interval_m: float, settings: IriSettings) -> "_Run":

@@ -119,8 +119,8 @@ def unfelt_tyres(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str,
     """Return the freedoms whose tyre's force is unknown: those that lower the rank of J."""
     _, direct = output_matrices(model, readings)
     largest = np.abs(null_space(direct)).max(axis=1, initial=0.0)
-    untold = np.flatnonzero(largest > SHARE * largest.max())
-    return tuple(model.tyres[at].freedom for at in untold)
+    unfelt = np.flatnonzero(largest > SHARE * largest.max())
+    return tuple(model.tyres[at].freedom for at in unfelt)
 
 
 def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> tuple[str, ...]:
@@ -132,13 +132,13 @@ def missing_displacements(model: VehicleModel, readings: Sequence[Reading]) -> t
     """
     wheels = [tyre.freedom for tyre in model.tyres]
     others = sorted((f for f in model.freedoms if f.name not in wheels), key=lambda f: f.angular)
-    warnings = [r for r in readings if r.kind is Kind.DISPLACEMENT]
-    unseen, missing = _resting_unseen(model, warnings), []
+    measured = [r for r in readings if r.kind is Kind.DISPLACEMENT]
+    unseen, missing = _resting_unseen(model, measured), []
     for name in (*wheels, *(f.name for f in others)):
-        tried = [*warnings, Reading(Kind.DISPLACEMENT, name, sigma=1.0)]
+        tried = [*measured, Reading(Kind.DISPLACEMENT, name, sigma=1.0)]
         left = _resting_unseen(model, tried)
         if left < unseen:
-            warnings, unseen = tried, left
+            measured, unseen = tried, left
             missing.append(name)
     return tuple(missing)
 
@@ -166,8 +166,8 @@ def _moving(model: VehicleModel, motions: Sequence[Matrix]) -> tuple[str, ...]:
 def _resting_unseen(model: VehicleModel, displacements: Sequence[Reading]) -> int:
     """Return how many directions of (q, F) with K·q = S·F the readings leave at zero."""
     balance = np.hstack([model.stiffness, -model.selection])
-    warnings = selection(model, displacements)
-    rows = np.hstack([warnings, np.zeros((len(warnings), len(model.tyres)))])
+    shown = selection(model, displacements)
+    rows = np.hstack([shown, np.zeros((len(shown), len(model.tyres)))])
     return int(null_space(np.vstack([balance, rows])).shape[1])
 
 

@@ -28,13 +28,13 @@ def profiles(draw):
         valid = draw(st.lists(st.booleans(), min_size=count, max_size=count))
         known = draw(st.booleans())
         tracks.append(ProfileTrack.of(name, z, valid, np.abs(sigma) if known else None))
-    warnings = {"cutoff": draw(numbers | st.none()), "names": ["a", 1], "deep": {"b": True}}
+    chosen = {"cutoff": draw(numbers | st.none()), "names": ["a", 1], "deep": {"b": True}}
     return Profile(
         draw(st.floats(1e-5, 1000.0)),
         tuple(tracks),
         draw(st.floats(-1e10, 1e10)),
         draw(st.text(max_size=5)),
-        warnings,
+        chosen,
         {"sha256": {"x": "00"}},
     )
 
@@ -83,10 +83,10 @@ def test_other_readers_find_columns_and_metadata(tmp_path, profile):
     assert table["left_elevation_m"].null_count == 1
     assert table["distance_m"][2].as_py() == 12.5 + 2 * 0.00508
     assert table["left_valid"].to_pylist()[:9] == [False] * 4 + [True] * 3 + [False, True]
-    warnings = {key.decode(): value.decode() for key, value in table.schema.metadata.items()}
-    assert warnings["format"] == "floatref-profile/1"
-    assert (warnings["interval_m"], warnings["start_m"]) == ("0.00508", "12.5")
-    assert json.loads(warnings["settings"]) == {"cutoff": 1.0}
+    metadata = {key.decode(): value.decode() for key, value in table.schema.metadata.items()}
+    assert metadata["format"] == "floatref-profile/1"
+    assert (metadata["interval_m"], metadata["start_m"]) == ("0.00508", "12.5")
+    assert json.loads(metadata["settings"]) == {"cutoff": 1.0}
     groups = pq.ParquetFile(path).metadata
     assert [groups.row_group(k).num_rows for k in range(groups.num_row_groups)] == [
         131_072,
@@ -121,10 +121,10 @@ METADATA = {
 }
 
 
-def made(path, columns, warnings):
+def made(path, columns, metadata):
     names, arrays = zip(*columns, strict=True)
     schema = pa.schema(
-        [pa.field(n, a.type) for n, a in zip(names, arrays, strict=True)], metadata=warnings
+        [pa.field(n, a.type) for n, a in zip(names, arrays, strict=True)], metadata=metadata
     )
     pq.write_table(pa.Table.from_arrays(list(arrays), schema=schema), path)
     return path
@@ -160,9 +160,9 @@ BAD = {
 
 @pytest.mark.parametrize("message", BAD)
 def test_one_clear_line_for_what_is_wrong(tmp_path, message):
-    columns, warnings = BAD[message]
-    warnings = {key: value for key, value in {**METADATA, **warnings}.items() if value is not None}
-    path = made(tmp_path / "a.parquet", {**GOOD, **columns}.items(), warnings)
+    columns, metadata = BAD[message]
+    metadata = {key: value for key, value in {**METADATA, **metadata}.items() if value is not None}
+    path = made(tmp_path / "a.parquet", {**GOOD, **columns}.items(), metadata)
     with pytest.raises(InputError, match=message) as caught:
         ParquetProfile().read(path)
     assert str(caught.value).startswith(f"{path}: ")

@@ -12,12 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floatref.files import (
-    fingerprint_native,
-    write_profile,
-    write_profile_csv,
-    write_recording,
-)
+from floatref.files import fingerprint_native, write_profile, write_profile_csv, write_recording
 from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup

@@ -18,9 +18,7 @@ from floatref_conformance.certify.judging.contents import (
     Worksheet,
 )
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.checks.verdict import (
-    Verdict,
-)
+from floatref_conformance.checks.verdict import Verdict
 from floatref_conformance.classes import DeviceClass
 
 

@@ -70,9 +70,9 @@ def test_a_receiver_without_a_fix_or_with_a_worse_one_says_so(before, length_s, 
     assert lost.sum() == pytest.approx(20.0 * length_s, abs=1.0)
     assert out.extent_m == pytest.approx(SPEED * length_s, abs=0.05)
     for hurt, quality in ((out, 0.0), (wrong, 1.0), (free, 5.0)):
-        warnings = hurt.recording.channel("gnss_quality").values
-        assert set(warnings[lost]) == {quality}
-        assert set(warnings[~lost]) == {4.0}
+        read = hurt.recording.channel("gnss_quality").values
+        assert set(read[lost]) == {quality}
+        assert set(read[~lost]) == {4.0}
     np.testing.assert_allclose(change(before, wrong, "gnss_height")[1][lost], size_m)
     wander = change(before, free, "gnss_height")[1]
     assert wander.max() == pytest.approx(size_m, rel=0.05)
@@ -94,9 +94,9 @@ def test_a_jump_stays_and_the_quality_knows_nothing(before, size_m):
 @given(length_s=st.floats(1.0, 6.0))
 def test_a_stuck_height_repeats_itself_as_if_it_were_measured(before, length_s):
     hurt = faulty(before, "gnss-stuck", length_s=length_s)
-    times, _, warnings = change(before, hurt, "gnss_height")
+    times, _, heights = change(before, hurt, "gnss_height")
     during = (times > AT_M / SPEED + 0.06) & (times < AT_M / SPEED + length_s - 0.06)
-    assert np.ptp(warnings[during]) == 0.0
+    assert np.ptp(heights[during]) == 0.0
     assert during.sum() > 10
 
 

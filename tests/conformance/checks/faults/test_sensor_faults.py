@@ -156,11 +156,11 @@ def test_counts_go_back_and_are_right_again(right_bench):
 def test_a_vehicle_rolls_back_where_it_stands(right_bench):
     before = recording_of(right_bench, STOP)
     hurt = faulty(before, "encoder-rolling-back", size_m=0.3)
-    true, warnings = (samples(r, DISTANCE) for r in (before, hurt.recording))
-    rolled = warnings != true
+    true, counted = (samples(r, DISTANCE) for r in (before, hurt.recording))
+    rolled = counted != true
     assert np.ptp(true[rolled]) == pytest.approx(0.0, abs=1e-6)
-    assert (true - warnings).max() == pytest.approx(0.3, rel=1e-3)
-    assert np.abs(np.diff(warnings)).max() < 0.03
+    assert (true - counted).max() == pytest.approx(0.3, rel=1e-3)
+    assert np.abs(np.diff(counted)).max() < 0.03
     assert hurt.at_m == pytest.approx(320.0)
 
 
@@ -183,8 +183,8 @@ def test_a_stuck_wheel_repeats_itself_and_the_other_one_goes_on(right_bench, len
     name = INJURED["response-wheel"]
     before = recording_of(right_bench, augmented=True)
     hurt = faulty(before, "response-wheel-stuck", length_s=length_s).recording
-    warnings = samples(hurt, name, "left")
-    changed = np.flatnonzero(warnings != samples(before, name, "left"))
-    assert set(warnings[changed]) == {warnings[changed[0] - 1]}
+    read = samples(hurt, name, "left")
+    changed = np.flatnonzero(read != samples(before, name, "left"))
+    assert set(read[changed]) == {read[changed[0] - 1]}
     assert changed.size == pytest.approx(RATE * length_s, abs=2)
     np.testing.assert_array_equal(samples(hurt, name, "right"), samples(before, name, "right"))

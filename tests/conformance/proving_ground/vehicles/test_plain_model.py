@@ -10,10 +10,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.roads.road import flat_road
 from floatref_conformance.proving_ground.vehicles.linear_models import QUARTER_CAR, ZHU_HALF_CAR
-from floatref_conformance.proving_ground.vehicles.parameter_sets import (
-    LINEAR_MODELS,
-    find_vehicle,
-)
+from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, find_vehicle
 from floatref_conformance.proving_ground.vehicles.plain_model import PlainModel
 from floatref_conformance.proving_ground.vehicles.response import Response, equilibrium
 

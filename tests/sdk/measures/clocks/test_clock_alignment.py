@@ -6,11 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.measures.clocks.clock_alignment import (
-    Alignment,
-    align_by_pps,
-    align_by_pulses,
-)
+from floatref.measures.clocks.clock_alignment import Alignment, align_by_pps, align_by_pulses
+from floatref.measures.clocks.clock_line import CURVED_S
 from floatref_reference.chapter_4 import section_4_4_clocks as reference
 
 FEW = settings(deadline=None, max_examples=40)
@@ -55,7 +52,15 @@ def test_irregular_pulses_tell_any_offset(seed, offset, drift, jitter) -> None:
     assert abs(found.drift - drift) <= 5 * found.drift_sigma + 1e-11
     assert found.residual_s <= 1.2 * jitter + 1e-8
     assert found.pairs + found.dropped == trains.own.size
-    assert found.warnings == ()
+    # More jitter than a curve's least residual may look like a curve: one time in thousands.
+    assert jitter > CURVED_S or found.warnings == ()
+
+
+@pytest.mark.slow
+def test_jitter_alone_is_seldom_taken_for_a_curve() -> None:
+    rngs = map(np.random.default_rng, range(400))
+    trains = [Trains(rng, irregular(rng, 80), 0.0, 0.0, 5e-4) for rng in rngs]
+    assert sum(align_by_pulses(t.own, t.base).warnings != () for t in trains) <= 4
 
 
 @FEW
@@ -240,12 +245,12 @@ def test_far_beyond_the_pulses_it_is_told() -> None:
     line = found.beyond(0.0, 3600.0)
     assert line is not None
     assert "100 s before and" in line
-    assert Alignment.state(3.0).beyond(-1e9, 1e9) is None
+    assert Alignment.from_offset(3.0).beyond(-1e9, 1e9) is None
 
 
 def test_a_stated_offset_is_taken_as_it_is() -> None:
-    stated = Alignment.state(-3.25, 1e-4)
+    stated = Alignment.from_offset(-3.25, 1e-4)
     assert stated.to_base(np.array([0.0, 10_000.0])) == pytest.approx([-3.25, 9997.75])
     assert stated.inverse().to_base(stated.to_base(np.array([5.0]))) == pytest.approx([5.0])
     with pytest.raises(InputError, match="state finite ones"):
-        Alignment.state(float("nan"))
+        Alignment.from_offset(float("nan"))

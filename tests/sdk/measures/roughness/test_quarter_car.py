@@ -7,13 +7,14 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 
 from floatref.measures import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
+from floatref.measures.roughness.quarter_car import Modes
 
 CARS = [GOLDEN_CAR, RIDE_NUMBER_CAR]
 
 
-def unpacked(modes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    poles, gains = modes.reshape(2, 2, 2).transpose(1, 0, 2) @ np.array([1.0, 1j])
-    return poles, gains
+def unpacked(modes: Modes) -> tuple[np.ndarray, np.ndarray]:
+    poles = np.array([mode.pole_re + 1j * mode.pole_im for mode in modes])
+    return poles, np.array([mode.gain_re + 1j * mode.gain_im for mode in modes])
 
 
 @pytest.mark.parametrize("car", CARS)

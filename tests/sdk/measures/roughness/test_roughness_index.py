@@ -8,13 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref.measures import (
-    GOLDEN_CAR,
-    IriSettings,
-    iri,
-    iri_segments,
-    iri_trace,
-)
+from floatref.measures import GOLDEN_CAR, IriSettings, iri, iri_segments, iri_trace
 from floatref.measures.roughness.quarter_car import moving_average_response
 
 MEASURED_ROAD = files("floatref_conformance.proving_ground") / "data/sroubek/profile_1.txt"
