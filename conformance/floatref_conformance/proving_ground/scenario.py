@@ -54,6 +54,8 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "sensors": (0.0, 100.0),
         "encoder_error_percent": (-50.0, 50.0),
         "slip_percent_per_g": (0.0, 100.0),
+        "friction_nm": (0.0, 10000.0),
+        "progression_per_m2": (0.0, 1000.0),
         "rate_hz": (1000.0, 64000.0),
         "gyro_rate_hz": (10.0, 10000.0),
         "profile_interval_m": (0.001, 1.0),
@@ -90,6 +92,8 @@ class Scenario:
         sensors: factor on all errors of `SensorSuite`; 0 is ideal.
         encoder_error_percent: scale error of the encoder beside the one that is drawn.
         slip_percent_per_g: of the encoder's wheel, at the factor ``sensors`` of 1.
+        friction_nm: moment about pitch at which the suspension's leaf springs slide, in N·m.
+        progression_per_m2: of progressive springs, in 1/m²; see `parameter_sets.with_springs`.
         imu, gnss, response: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
@@ -120,6 +124,8 @@ class Scenario:
     sensors: float = 1.0
     encoder_error_percent: float = 0.0
     slip_percent_per_g: float = 0.3
+    friction_nm: float = 0.0
+    progression_per_m2: float = 0.0
     imu: bool = True
     gnss: bool = True
     response: bool = True
@@ -135,7 +141,7 @@ class Scenario:
             object.__setattr__(self, field.name, value)
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
-        find_vehicle(self.vehicle)
+        find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
 
