@@ -115,9 +115,7 @@ LINEAR_MODELS: Mapping[str, PlainModel] = MappingProxyType(
 """The models of papers by name: they answer to the road alone, and neither brake nor corner."""
 
 
-def find_vehicle(
-    name: str, friction_nm: float = 0.0, progression_per_m2: float = 0.0
-) -> Suspended:
+def find_vehicle(name: str, friction_nm: float = 0.0, progression_per_m2: float = 0.0) -> Suspended:
     """Return the parameter set ``name``, a vehicle's or a model's, with `with_springs` applied.
 
     Raises InputError if it is unknown, or for friction or progression in a model of a paper.
