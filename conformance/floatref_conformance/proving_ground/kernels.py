@@ -1,19 +1,15 @@
-"""Compiled kernels: the vehicle's state update and the kinematics of its sensors."""
+"""Compiled kernels: the kinematics of a vehicle's sensors."""
 
 from math import asin, atan2, cos, sin
 
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray
 
 Vector = tuple[float, float, float]
 Frame = tuple[Vector, Vector, Vector]
 
-STATES, INPUTS = 16, 6
-"""Of seven freedoms, padded to whole vector lanes; four wheels' roads and two accelerations."""
-BODY_ROWS = 9
-"""Heave, pitch, roll; their first derivatives; their second derivatives."""
 F_X, F_Y, F_Z, RANGE, R_Z, V_Z, A_Z, ROAD = range(8)
 RATE_X, RATE_Y, RATE_Z, PITCH_ANGLE, ROLL_ANGLE = range(5)
 TRACK_ROWS, SHARED_ROWS = 8, 5
@@ -29,74 +25,6 @@ def elevation_at(row: FloatArray, position: float) -> float:
         return float(row[row.size - 1])
     below = row[index]
     return float(below + (position - index) * (row[index + 1] - below))
-
-
-@compiled
-def combine(matrix: FloatArray, vector: FloatArray, result: FloatArray) -> None:
-    """Write Σⱼ ``matrix[j]``·``vector[j]`` to ``result``, four sums in one vector lane."""
-    for i in range(0, result.size, 4):
-        a = b = c = d = 0.0
-        for j in range(STATES + INPUTS):
-            a += matrix[j, i] * vector[j]
-            b += matrix[j, i + 1] * vector[j]
-            c += matrix[j, i + 2] * vector[j]
-            d += matrix[j, i + 3] * vector[j]
-        result[i], result[i + 1], result[i + 2], result[i + 3] = a, b, c, d
-
-
-@compiled
-def respond(
-    update: FloatArray,
-    outputs: FloatArray,
-    vector: FloatArray,
-    lanes: FloatArray,
-    grid: FloatArray,
-    wheel_x: FloatArray,
-    distance: FloatArray,
-    ground: FloatArray,
-    pose: IndexArray,
-    body: FloatArray,
-    steps: IndexArray,
-    states: FloatArray,
-) -> None:
-    """Advance the vehicle over a stretch and write the motion of its body.
-
-    Args:
-        update: next state from states and sums of old and new inputs, shape (22, 16).
-        outputs: second derivatives of the body from states and inputs, shape (22, 4).
-        vector: 16 states and 6 inputs of the sample before; left at those of the last.
-        lanes: enveloped road under each wheel, shape (4, m), in m.
-        grid: start in m and points per m of ``lanes``, shape (2,).
-        wheel_x: position of each wheel ahead of the vehicle point, shape (4,), in m.
-        distance: true distance, shape (n,), in m.
-        ground: its longitudinal and lateral specific force, shape (2, n), in m/s².
-        pose: places of heave, pitch, roll and their rates in ``vector``, shape (6,).
-        body: written, shape (9, n), in m, rad and s.
-        steps: rising samples after which ``vector`` is kept, shape (m,).
-        states: written, shape (m, 22).
-    """
-    sums, fresh, second = np.empty(STATES + INPUTS), np.empty(STATES), np.empty(4)
-    kept = 0
-    for k in range(distance.size):
-        for i in range(STATES):
-            sums[i] = vector[i]
-        for w in range(INPUTS):
-            now = ground[max(w - 4, 0), k]
-            if w < 4:
-                now = elevation_at(lanes[w], (distance[k] + wheel_x[w] - grid[0]) * grid[1])
-            sums[STATES + w] = vector[STATES + w] + now
-            vector[STATES + w] = now
-        combine(update, sums, fresh)
-        for i in range(STATES):
-            vector[i] = fresh[i]
-        combine(outputs, vector, second)
-        for i in range(3):
-            body[i, k] = vector[pose[i]]
-            body[3 + i, k] = vector[pose[3 + i]]
-            body[6 + i, k] = second[i]
-        if kept < steps.size and steps[kept] == k:
-            states[kept, :] = vector
-            kept += 1
 
 
 @compiled

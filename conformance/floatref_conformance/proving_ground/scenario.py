@@ -68,6 +68,8 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "warming_percent": (-5.0, 5.0),
         "laser_ahead_m": (-2.0, 2.0),
         "latency_ms": (0.0, 100.0),
+        "friction_nm": (0.0, 10000.0),
+        "progression_per_m2": (0.0, 1000.0),
         "rate_hz": (1000.0, 64000.0),
         "gyro_rate_hz": (10.0, 10000.0),
         "profile_interval_m": (0.001, 1.0),
@@ -116,6 +118,8 @@ class Scenario:
         warming_percent: by how much it grows as the tyre warms up during a long drive.
         laser_ahead_m: the laser's beam ahead of the accelerometer.
         latency_ms: age of a reading of the laser when it is recorded.
+        friction_nm: moment about pitch at which the suspension's leaf springs slide, in N·m.
+        progression_per_m2: of progressive springs, in 1/m²; see `parameter_sets.with_springs`.
         imu, gnss, response: whether those channels are recorded.
         tracks: wheel paths.
         rate_hz: of the accelerometers.
@@ -160,6 +164,8 @@ class Scenario:
     warming_percent: float = 0.0
     laser_ahead_m: float = 0.0
     latency_ms: float = 0.0
+    friction_nm: float = 0.0
+    progression_per_m2: float = 0.0
     imu: bool = True
     gnss: bool = True
     response: bool = True
@@ -175,7 +181,7 @@ class Scenario:
             object.__setattr__(self, field.name, value)
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
-        find_vehicle(self.vehicle)
+        find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
 

@@ -22,9 +22,9 @@ from floatref_conformance.proving_ground.staging import (
     road_of,
     setup_of,
     suite_of,
+    vehicle_of,
 )
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, drive_over
-from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ def simulate(
         motion, setup = park(scenario)
         return _record(scenario, suite.idling(), motion, setup)
     drive, course = drive_of(scenario), course_of(scenario)
-    vehicle = find_vehicle(scenario.vehicle)
+    vehicle = vehicle_of(scenario)
     road = road_of(scenario, drive.length_m) if road is None else road
     _check_road(scenario, road, drive.length_m)
     known = as_installed(vehicle.make_setup(), suite.vehicle_error, scenario.seed)

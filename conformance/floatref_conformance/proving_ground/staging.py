@@ -31,6 +31,7 @@ from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
+from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 from floatref_conformance.proving_ground.vehicles.response import count_steps
 from floatref_conformance.proving_ground.vehicles.suspended import Suspended
 
@@ -109,6 +110,11 @@ def course_of(scenario: Scenario) -> Course:
         atan(scenario.cross_slope_percent / 100),
         scenario.curvature_per_km / 1000,
     )
+
+
+def vehicle_of(scenario: Scenario) -> Suspended:
+    """Return the scenario's vehicle, with friction and progressive springs if it has them."""
+    return find_vehicle(scenario.vehicle, scenario.friction_nm, scenario.progression_per_m2)
 
 
 def suite_of(scenario: Scenario) -> SensorSuite:

@@ -1,6 +1,7 @@
 """A vehicle of seven degrees of freedom: heave, pitch and roll of the body, and four wheels.
 
-Linear springs, dampers, anti-roll bars and tyres. Longitudinal and lateral acceleration act at
+Linear springs, dampers, anti-roll bars and tyres; the springs may also rub and stiffen
+(`vehicles.corner_forces`). Longitudinal and lateral acceleration act at
 the centre of gravity, above the ground that resists them, and so pitch and roll the body; the
 suspension links carry a share of that load past the springs (anti-dive, roll centre). Axes as
 in `floatref`: nose down and left side up are positive. The springs' coordinates are
@@ -16,6 +17,8 @@ from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Vector
 from floatref.values.vehicle_setup import VehicleSetup
+from floatref_conformance.proving_ground.vehicles.axle import Axle
+from floatref_conformance.proving_ground.vehicles.corner_forces import CornerForces
 from floatref_conformance.proving_ground.vehicles.suspended import TYRES, Gauges
 
 HEAVE, PITCH, ROLL = 0, 1, 2
@@ -24,28 +27,6 @@ FREEDOMS = 7
 BAR_SHARE = 1 / 3
 """Of the anti-roll bar in one corner's spring: over the roads of the proving ground, the travels
 of the two front corners correlate at 0.5 to 0.7, so a bar acts on a third of a corner's travel."""
-
-
-@dataclass(frozen=True)
-class Axle:
-    """One axle; stiffness, damping and mass are of one of its two wheels.
-
-    Attributes:
-        x_m: position ahead of the body's centre of gravity, in m.
-        half_track_m: lateral position of the left wheel, in m.
-        wheel_kg: unsprung mass, in kg.
-        spring, tyre: stiffness at the wheel, in N/m.
-        damper: in N·s/m.
-        anti_roll: of the bar, in N per m of difference between the sides' travel.
-    """
-
-    x_m: float
-    half_track_m: float
-    wheel_kg: float
-    spring: float
-    damper: float
-    tyre: float
-    anti_roll: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -87,12 +68,19 @@ class Vehicle:
         for where, axle in zip(("front", "rear"), self.axles, strict=True):
             for name in ("half_track_m", "wheel_kg", "spring", "damper", "tyre"):
                 self._check_positive(f"{where}.{name}", getattr(axle, name))
+            for name in ("friction", "progression"):
+                self._check_option(f"{where}.{name}", getattr(axle, name))
         self._check_loads()
 
     def _check_positive(self, name: str, value: float) -> None:
         """Raise InputError unless a parameter is a finite number above zero."""
         if not (np.isfinite(value) and value > 0):
             raise InputError(f"vehicle {self.name}: {name} is {value}; it must be above zero")
+
+    def _check_option(self, name: str, value: float) -> None:
+        """Raise InputError unless a parameter is a finite number, 0 or above."""
+        if not (np.isfinite(value) and value >= 0):
+            raise InputError(f"vehicle {self.name}: {name} is {value}; it must be 0 or above")
 
     def _check_loads(self) -> None:
         """Raise InputError unless the springs can bear the body and the links their share."""
@@ -183,7 +171,19 @@ class Vehicle:
 
     def at_rest(self, force: FloatArray) -> FloatArray:
         """Return the freedoms under a constant force, shapes (7,)."""
+        corners = self.corner_forces()
+        if corners is not None:
+            return corners.at_rest(self.stiffness(), force)
         return np.asarray(np.linalg.solve(self.stiffness(), force))
+
+    def corner_forces(self) -> CornerForces | None:
+        """Return what friction and progression add; None where every axle's are 0."""
+        axles = [axle for axle, _ in self.wheels()]
+        cubic = np.array([axle.spring * axle.progression for axle in axles])
+        limit = np.array([axle.friction for axle in axles])
+        if not (cubic.any() or limit.any()):
+            return None
+        return CornerForces(self._travel(), cubic, limit)
 
     def gauges(self, lateral_m: float) -> Gauges:
         """Return what is measured at the wheel of ``response_axle`` nearest to ``lateral_m``.

@@ -14,6 +14,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Vector
 from floatref.values.vehicle_setup import VehicleSetup
+from floatref_conformance.proving_ground.vehicles.corner_forces import CornerForces
 from floatref_conformance.proving_ground.vehicles.suspended import LARGEST, TYRES, Gauges
 
 ANGULAR = ("pitch", "roll")
@@ -158,6 +159,10 @@ class PlainModel:
         root = np.sqrt(self.masses())
         scaled = self.stiffness() / np.outer(root, root)
         return np.asarray(np.linalg.pinv(scaled, NO_SPRING, hermitian=True) @ (force / root) / root)
+
+    def corner_forces(self) -> CornerForces | None:
+        """Return None: the model is linear."""
+        return None
 
     def gauges(self, lateral_m: float) -> Gauges:
         """Return what is measured nearest to a lateral position in m; the left of two alike."""

@@ -4,7 +4,8 @@ M·q'' + C·q' + K·q = F·u + D·u', with the inputs u of `Suspended.forcing`. 
 w = q' − M⁻¹·D·u: they need no derivative of the road, and w is q' where no tyre has a damper. For a
 constant linear system the trapezoidal rule is the bilinear transform
 x⁺ = (I − hA/2)⁻¹((I + hA/2)·x + (h/2)·B·(u + u⁺)); position, velocity and acceleration then obey
-the rule exactly, sample by sample.
+the rule exactly, sample by sample. What the corners add to the linear forces, if anything, enters
+as further inputs.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.roads.road import Road
+from floatref_conformance.proving_ground.vehicles.corner_forces import SLIDE_M, Corners
 from floatref_conformance.proving_ground.vehicles.suspended import TYRES, Suspended
 
 LOWEST_RATE_HZ = 8000.0
@@ -41,6 +43,7 @@ class Response:
         grid: start of ``lanes`` in m and their points per m.
         wheel_x: wheels ahead of the vehicle point, shape (4,), in m.
         pose: places of heave, pitch, roll and their rates in ``vector``, shape (6,).
+        corners: what is not linear there; None: the vehicle is linear.
     """
 
     update: FloatArray
@@ -50,6 +53,7 @@ class Response:
     grid: FloatArray
     wheel_x: FloatArray
     pose: IndexArray
+    corners: Corners | None = None
 
     @classmethod
     def of(cls, vehicle: Suspended, road: Road, step_s: float, ground: FloatArray) -> "Response":
@@ -71,7 +75,9 @@ class Response:
         vector[: at_rest.size] = at_rest
         vector[at_rest.size : 2 * at_rest.size] = -step_response(vehicle) @ inputs[:TYRES]
         vector[STATES:] = inputs
-        return cls(update, outputs, vector, lanes, grid_of(road), wheel_x, places(vehicle))
+        corners = corners_of(vehicle, step_s, at_rest)
+        grid, pose = grid_of(road), places(vehicle)
+        return cls(update, outputs, vector, lanes, grid, wheel_x, pose, corners)
 
     def advance(
         self,
@@ -91,23 +97,19 @@ class Response:
         Returns:
             Heave, pitch, roll and their first and second derivatives, shape (9, n).
         """
-        from floatref_conformance.proving_ground.kernels import BODY_ROWS, respond
+        from floatref_conformance.proving_ground.vehicles.response_kernels import (
+            BODY_ROWS,
+            respond,
+            respond_with_corners,
+        )
 
         body = np.empty((BODY_ROWS, distance.size))
-        respond(
-            self.update,
-            self.outputs,
-            self.vector,
-            self.lanes,
-            self.grid,
-            self.wheel_x,
-            distance,
-            ground,
-            self.pose,
-            body,
-            steps,
-            states,
-        )
+        own = self.update, self.outputs, self.vector, self.lanes, self.grid, self.wheel_x
+        stretch = distance, ground, self.pose, body, steps, states
+        if self.corners is None:
+            respond(*own, *stretch)
+        else:
+            respond_with_corners(*own, *stretch, self.corners)
         return body
 
 
@@ -161,6 +163,39 @@ def bilinear(vehicle: Suspended, step_s: float) -> tuple[FloatArray, FloatArray]
             outputs[:size, column] = a[size // 2 + freedom]
             outputs[STATES:, column] = b[size // 2 + freedom]
     return update, outputs
+
+
+def corners_of(vehicle: Suspended, step_s: float, at_rest: FloatArray) -> Corners | None:
+    """Return the kernel's corners for a step, at rest at ``at_rest``; None: all is linear.
+
+    A force g at the corners adds −M⁻¹·Rᵀ·g to w'; the rule then makes it
+    (I − hA/2)⁻¹·(h/2)·B·(g + g⁺) of the states. Friction begins at 0.
+    """
+    found = vehicle.corner_forces()
+    if found is None:
+        return None
+    a, _ = state_space(vehicle)
+    size, wheels = at_rest.size, len(found.rows)
+    pull = -found.rows.T / vehicle.masses()[:, None]
+    enters = np.linalg.solve(
+        np.eye(2 * size) - step_s / 2 * a, step_s / 2 * np.vstack([0 * pull, pull])
+    )
+    lift = np.array([np.zeros(wheels) if p is None else pull[p] for p in vehicle.pose])
+    entry = np.zeros((STATES, wheels))
+    entry[: 2 * size] = enters
+    travel = found.rows @ at_rest
+    return Corners(
+        found.rows,
+        found.cubic,
+        found.limit,
+        SLIDE_M,
+        entry,
+        found.rows @ enters[:size],
+        lift,
+        travel,
+        np.zeros(wheels),
+        found.cubic * travel**3,
+    )
 
 
 def under_wheels(vehicle: Suspended, road: Road) -> FloatArray:

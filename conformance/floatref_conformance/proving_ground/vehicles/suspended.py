@@ -1,7 +1,8 @@
-"""What the proving ground asks of a vehicle: a linear model on four tyres or fewer.
+"""What the proving ground asks of a vehicle: a model on four tyres or fewer.
 
-A model of n freedoms obeys M·q'' + C·q' + K·q = F·u + D·u'. Among its freedoms are the heave
-and, if it has them, the pitch and the roll of the body, in the axes of `floatref`.
+A linear model of n freedoms obeys M·q'' + C·q' + K·q = F·u + D·u'. Among its freedoms are the heave
+and, if it has them, the pitch and the roll of the body, in the axes of `floatref`. A model may add
+forces at its corners that are not linear.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,6 +12,7 @@ from typing import Protocol
 from floatref.values.arrays import FloatArray
 from floatref.values.recording import Vector
 from floatref.values.vehicle_setup import VehicleSetup
+from floatref_conformance.proving_ground.vehicles.corner_forces import CornerForces
 
 LARGEST = 7
 """Most freedoms of a model: the kernel's states have room for no more."""
@@ -93,6 +95,10 @@ class Suspended(Protocol):
 
     def at_rest(self, force: FloatArray) -> FloatArray:
         """Return the freedoms under a constant force of shape (n,), shape (n,)."""
+        ...
+
+    def corner_forces(self) -> CornerForces | None:
+        """Return what is not linear at the corners; None where everything is."""
         ...
 
     def gauges(self, lateral_m: float) -> Gauges:

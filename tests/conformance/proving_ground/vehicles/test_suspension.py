@@ -10,10 +10,15 @@ from floatref.values.recording import Setup, TrackSetup
 from floatref_conformance.proving_ground.drives.drive import Drive, Segment
 from floatref_conformance.proving_ground.roads.road import Road, flat_road
 from floatref_conformance.proving_ground.roads.sines import sines_road
+from floatref_conformance.proving_ground.vehicles.corner_forces import SLIDE_M
 from floatref_conformance.proving_ground.vehicles.full_car import ROLL, Vehicle
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
 from floatref_conformance.proving_ground.vehicles.motion import drive_over
-from floatref_conformance.proving_ground.vehicles.parameter_sets import LOADED_VAN, VEHICLES
+from floatref_conformance.proving_ground.vehicles.parameter_sets import (
+    LOADED_VAN,
+    VEHICLES,
+    with_springs,
+)
 from floatref_conformance.proving_ground.vehicles.suspended import Suspended
 from floatref_conformance.proving_ground.vehicles.suspension import SuspensionMotion
 
@@ -87,6 +92,27 @@ def test_each_front_wheel_obeys_its_own_equation_of_motion(name: str) -> None:
         assert np.abs(inertia).max() > 20.0
         error = np.abs(force - inertia)[1:-1]
         assert error.max() < 1e-3 * np.abs(inertia).max()
+
+
+def test_a_wheel_feels_the_friction_and_the_stiffening_of_its_spring() -> None:
+    """m·z'' has k·p·d³ and the force that rubs, followed along the travel by a plain loop."""
+    vehicle = with_springs(LOADED_VAN, 2500.0, 1000.0)
+    drive = Drive(20.0, (Segment(2.5),))
+    motion, front = seen(vehicle=vehicle, drive=drive), vehicle.front
+    own, other = (vehicle.gauges(y).deflections["suspension_deflection"] for y in (0.8, -0.8))
+    travel = own @ motion.position
+    rubbing, rubs = np.zeros(travel.size), 0.0
+    for k, moved in enumerate(np.diff(travel), 1):
+        limit = front.friction * np.sign(moved)
+        rubs = limit + (rubs - limit) * np.exp(-abs(moved) / SLIDE_M)
+        rubbing[k] = rubs
+    force = front.spring * travel * (1 + 1000.0 * travel**2) + front.damper * own @ motion.velocity
+    force += front.anti_roll * (own - other) @ motion.position
+    force += front.tyre * (motion.road[0] - motion.position[3])
+    inertia = front.wheel_kg * motion.acceleration[3]
+    off = np.abs(force + rubbing - inertia)[1:-1].max()
+    assert off < 1e-2 * np.abs(inertia).max()
+    assert np.abs(force - inertia)[1:-1].max() > 10 * off
 
 
 def test_wheels_meet_the_road_one_after_the_other() -> None:
