@@ -18,14 +18,42 @@ if TYPE_CHECKING:
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="Recording directory.")
 @click.option("--seed", type=click.IntRange(min=0), help="Draws road and errors [default: 0].")
 @click.option("--truth", type=click.Path(path_type=Path), help="Profile directory of the truth.")
-def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
+@click.option(
+    "--runs",
+    type=click.IntRange(1, 1000),
+    help="Repeat passes of one road: OUT and the truth get a folder run_001, … for each.",
+)
+def simulate(
+    run: str, out: Path, seed: int | None, truth: Path | None, runs: int | None
+) -> None:
     """Simulate RUN and write a recording directory.
 
     RUN is a published run (sg_10.7s_0.20g, …), ref_72 for the reference pass at 72 km/h, or a
-    scenario file in JSON. The truth is the unfiltered elevation along the laser's path.
+    scenario file in JSON (`conformance scenario` lists its keys). The truth is the unfiltered
+    elevation along the laser's path.
     """
+    from floatref_conformance.proving_ground.scenario import repeat_passes
+
     scenario = _scenario(run, seed)
     _check_targets(out, truth)
+    made: list[Path] = []
+    try:
+        if runs is None:
+            _write(run, scenario, out, truth, made)
+            return
+        for number, each in enumerate(repeat_passes(scenario, runs), start=1):
+            name = f"run_{number:03d}"
+            _write(run, each, out / name, None if truth is None else truth / name, made)
+    except BaseException:
+        for folder in {*made, *((out, truth) if runs else ())} - {None}:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
+
+
+def _write(
+    run: str, scenario: "Scenario", out: Path, truth: Path | None, made: list[Path]
+) -> None:
+    """Simulate one pass; what was written is added to ``made``."""
     from floatref.files import write_profile, write_recording
     from floatref.files.sources import name_errors
     from floatref_conformance.proving_ground.simulate import simulate as simulated
@@ -34,13 +62,14 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
     with name_errors(run):
         simulation = simulated(scenario)
     click.echo("writing …", err=True)
+    for target in (out, truth):
+        if target is not None:
+            target.parent.mkdir(exist_ok=True)
     write_recording(simulation.recording, out)
+    made.append(out)
     if truth is not None:
-        try:
-            write_profile(simulation.truth, truth)
-        except BaseException:
-            shutil.rmtree(out, ignore_errors=True)
-            raise
+        write_profile(simulation.truth, truth)
+        made.append(truth)
     drive = simulation.motion
     click.echo(f"{out}: {drive.times_s[-1]:.1f} s, {drive.distance[-1]:.1f} m, tracks ", nl=False)
     click.echo(", ".join(scenario.tracks))
@@ -49,7 +78,8 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None) -> None:
 def _scenario(run: str, seed: int | None) -> "Scenario":
     """Return the scenario of a run's name or of a file, with its seed replaced if given."""
     from floatref_conformance.proving_ground.drives.runs import RUNS
-    from floatref_conformance.proving_ground.scenario import read_scenario, scenario_of_run
+    from floatref_conformance.proving_ground.scenario import scenario_of_run
+    from floatref_conformance.proving_ground.scenario_file import read_scenario
 
     is_file = run not in RUNS and (run.endswith(".json") or Path(run).is_file())
     scenario = read_scenario(Path(run)) if is_file else scenario_of_run(run)

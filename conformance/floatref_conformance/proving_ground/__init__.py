@@ -5,7 +5,8 @@ the laser's path, and the true motion. Nothing here imports a compiler until it 
 """
 
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
-from floatref_conformance.proving_ground.scenario import Scenario, read_scenario, scenario_of_run
+from floatref_conformance.proving_ground.scenario import Scenario, repeat_passes, scenario_of_run
+from floatref_conformance.proving_ground.scenario_file import read_scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.simulate import Simulation, simulate, stationary
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, TrackMotion
@@ -18,6 +19,7 @@ __all__ = [
     "Simulation",
     "TrackMotion",
     "read_scenario",
+    "repeat_passes",
     "scenario_of_run",
     "simulate",
     "simulate_cached",

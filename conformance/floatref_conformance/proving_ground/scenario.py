@@ -4,13 +4,12 @@ import hashlib
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from difflib import get_close_matches
 from functools import cache
-from pathlib import Path
 from reprlib import repr as shortened
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeVar
 
 from floatref.errors import InputError
 from floatref.files import read_schema
@@ -19,6 +18,8 @@ from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSE
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FORMAT = "floatref-scenario/1"
+NOT_NUMBERS = ("format", "$schema")
+"""Keys of a file that are no field."""
 STATIONARY = ("quiescent", "bounce")
 MANOEUVRES = (
     *("constant", "coasting", "throttle", "braking", "near-stop", "stop", "dead-start"),
@@ -32,153 +33,135 @@ ROADS = (
     *(f"sayers-{name}" for name in CASES),
     *(f"iso-{name}" for name in CLASSES),
 )
-LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
-    {
-        "seed": (0, 2**63 - 1),
-        "road_seed": (-1, 2**63 - 1),
-        "iri_m_per_km": (0.0, 30.0),
-        "bump_mm": (-100.0, 100.0),
-        "bump_at_m": (0.0, 1e5),
-        "crown_mm": (-300.0, 300.0),
-        "crown_length_m": (1.0, 1000.0),
-        "crown_at_m": (0.0, 1e5),
-        "break_percent": (-15.0, 15.0),
-        "break_length_m": (1.0, 1000.0),
-        "break_at_m": (0.0, 1e5),
-        "joint_mm": (0.0, 30.0),
-        "joint_spacing_m": (1.0, 1000.0),
-        "patch_mm": (0.0, 100.0),
-        "patches_per_km": (0.0, 200.0),
-        "speed_kmh": (0.0, 150.0),
-        "event_speed_kmh": (0.0, 150.0),
-        "deceleration_g": (0.01, 1.0),
-        "dwell_s": (0.0, 600.0),
-        "event_at_m": (0.0, 1e5),
-        "stops": (1, 100),
-        "stop_spacing_m": (1.0, 1e4),
-        "final_speed_kmh": (0.0, 150.0),
-        "length_m": (10.0, 1e5),
-        "grade_percent": (-20.0, 20.0),
-        "cross_slope_percent": (-15.0, 15.0),
-        "curvature_per_km": (-50.0, 50.0),
-        "sensors": (0.0, 100.0),
-        "encoder_error_percent": (-50.0, 50.0),
-        "slip_percent_per_g": (0.0, 100.0),
-        "radius_percent": (-5.0, 5.0),
-        "warming_percent": (-5.0, 5.0),
-        "laser_ahead_m": (-2.0, 2.0),
-        "latency_ms": (0.0, 100.0),
-        "friction_nm": (0.0, 10000.0),
-        "progression_per_m2": (0.0, 1000.0),
-        "rate_hz": (1000.0, 64000.0),
-        "gyro_rate_hz": (10.0, 10000.0),
-        "profile_interval_m": (0.001, 1.0),
-    }
-)
-"""Smallest and largest value of every number."""
+T = TypeVar("T")
+
+
+def value(default: T, meaning: str) -> T:
+    """Return a field of a scenario that is no number, with its meaning."""
+    found: T = field(default=default, metadata={"meaning": meaning})
+    return found
+
+
+def number(default: T, lowest: float, highest: float, meaning: str) -> T:
+    """Return a field of a scenario between two limits."""
+    metadata = {"lowest": lowest, "highest": highest, "meaning": meaning}
+    found: T = field(default=default, metadata=metadata)
+    return found
 
 
 @dataclass(frozen=True)
 class Scenario:
     """One recording to be simulated; InputError for values out of range.
 
-    Attributes:
-        seed: draws the road and every sensor's errors.
-        road_seed: draws the road in its place, so that other errors meet the same road; -1: off.
-        road: one of `ROADS`: flat, a measured profile, sine waves, of Sayers' spectrum, or of an
-            ISO 8608 class.
-        iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
-        bump_mm, bump_at_m: height of a 3-m bump, 0 for no bump, and where its middle lies.
-        crown_mm, crown_length_m, crown_at_m: height (negative: a dip or a gutter), length and
-            middle of a raised cosine that the whole road climbs over, as at crossings; 0: none.
-        break_percent, break_length_m, break_at_m: change of the road's grade, the length of the
-            parabola in which it changes, and its middle.
-        joint_mm, joint_spacing_m: standard deviation of the step at every joint of a concrete
-            road, and the length of its slabs.
-        patch_mm, patches_per_km: standard deviation of the height of patches, and how many.
-        vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
-        manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
-        speed_kmh: initial speed; simulated speed of a stationary test.
-        event_speed_kmh: at the end of a brake; the fastest of a creep.
-        deceleration_g: of brakes; of coasting and throttle the (de)celeration.
-        dwell_s: at a standstill, or coasting after a near stop.
-        event_at_m: where the brake is released, the stop lies, or coast and throttle begin.
-        stops, stop_spacing_m: how often the vehicle stops, and how far apart; the first stop lies
-            at ``event_at_m``.
-        final_speed_kmh: after the event.
-        length_m: true distance driven.
-        grade_percent: uphill positive.
-        cross_slope_percent: left side up positive.
-        curvature_per_km: of the course, left turn positive, in 1/km.
-        sensors: factor on all errors of `SensorSuite`; 0 is ideal.
-        encoder_error_percent: scale error of the encoder beside the one that is drawn.
-        slip_percent_per_g: of the encoder's wheel, at the factor ``sensors`` of 1.
-        radius_percent: by how much the rolling radius of the encoder's wheel grows from 16 to 97
-            km/h; its calibration holds at 72 km/h.
-        warming_percent: by how much it grows as the tyre warms up during a long drive.
-        laser_ahead_m: the laser's beam ahead of the accelerometer.
-        latency_ms: age of a reading of the laser when it is recorded.
-        friction_nm: moment about pitch at which the suspension's leaf springs slide, in N·m.
-        progression_per_m2: of progressive springs, in 1/m²; see `parameter_sets.with_springs`.
-        imu, gnss, response: whether those channels are recorded.
-        tracks: wheel paths.
-        rate_hz: of the accelerometers.
-        gyro_rate_hz: of the gyros.
-        profile_interval_m: of the truth, and what the recording asks for.
+    Default, limits and meaning stand beside each field, and in docs/scenario.md. Names end with
+    the unit.
     """
 
-    seed: int = 0
-    road_seed: int = -1
-    road: str = "sayers-normal"
-    iri_m_per_km: float = 1.8
-    bump_mm: float = 0.0
-    bump_at_m: float = 0.0
-    crown_mm: float = 0.0
-    crown_length_m: float = 20.0
-    crown_at_m: float = 316.0
-    break_percent: float = 0.0
-    break_length_m: float = 30.0
-    break_at_m: float = 316.0
-    joint_mm: float = 0.0
-    joint_spacing_m: float = 4.6
-    patch_mm: float = 0.0
-    patches_per_km: float = 0.0
-    vehicle: str = "loaded-van"
-    manoeuvre: str = "constant"
-    speed_kmh: float = 72.0
-    event_speed_kmh: float = 11.0
-    deceleration_g: float = 0.2
-    dwell_s: float = 5.0
-    event_at_m: float = 316.0
-    stops: int = 1
-    stop_spacing_m: float = 80.0
-    final_speed_kmh: float = 58.0
-    length_m: float = 500.0
-    grade_percent: float = 0.0
-    cross_slope_percent: float = 0.0
-    curvature_per_km: float = 0.0
-    sensors: float = 1.0
-    encoder_error_percent: float = 0.0
-    slip_percent_per_g: float = 0.3
-    radius_percent: float = 0.0
-    warming_percent: float = 0.0
-    laser_ahead_m: float = 0.0
-    latency_ms: float = 0.0
-    friction_nm: float = 0.0
-    progression_per_m2: float = 0.0
-    imu: bool = True
-    gnss: bool = True
-    response: bool = True
-    tracks: tuple[str, ...] = ("left", "right")
-    rate_hz: float = 16000.0
-    gyro_rate_hz: float = 100.0
-    profile_interval_m: float = 0.00508
+    seed: int = number(
+        0,
+        0,
+        2**63 - 1,
+        "draws the road, where it has no seed of its own, and the errors of every sensor",
+    )
+    road_seed: int = number(
+        -1,
+        -1,
+        2**63 - 1,
+        "draws the road, so that other errors and lines meet the same road; -1: `seed` does",
+    )
+    road: str = value(
+        "sayers-normal",
+        "flat, a measured profile, sine waves, of Sayers' spectrum, or of an ISO 8608 class",
+    )
+    iri_m_per_km: float = number(
+        1.8, 0.0, 30.0, "the road is scaled to it; 0 leaves the road as drawn"
+    )
+    bump_mm: float = number(0.0, -100.0, 100.0, "height of a 3-m bump; 0: none")
+    bump_at_m: float = number(0.0, 0.0, 1e5, "middle of the bump")
+    crown_mm: float = number(
+        0.0, -300.0, 300.0, "height of a crown, a raised cosine; below 0 a dip or a gutter; 0: none"
+    )
+    crown_length_m: float = number(20.0, 1.0, 1000.0, "length of the crown")
+    crown_at_m: float = number(316.0, 0.0, 1e5, "middle of the crown")
+    break_percent: float = number(
+        0.0, -15.0, 15.0, "change of the road's grade along a parabola; 0: none"
+    )
+    break_length_m: float = number(30.0, 1.0, 1000.0, "length of the parabola")
+    break_at_m: float = number(316.0, 0.0, 1e5, "middle of the parabola")
+    joint_mm: float = number(
+        0.0, 0.0, 30.0, "standard deviation of the step at every joint of a concrete road; 0: none"
+    )
+    joint_spacing_m: float = number(4.6, 1.0, 1000.0, "length of its slabs")
+    patch_mm: float = number(
+        0.0, 0.0, 100.0, "standard deviation of the height of patches; 0: none"
+    )
+    patches_per_km: float = number(0.0, 0.0, 200.0, "number of patches in a wheel path")
+    vehicle: str = value("loaded-van", "a whole vehicle, or the linear model of a paper")
+    manoeuvre: str = value(
+        "constant",
+        "kind of drive, a stationary test, or a published run, which sets all numbers of the drive",
+    )
+    speed_kmh: float = number(
+        72.0, 0.0, 150.0, "initial speed; simulated speed of a stationary test"
+    )
+    event_speed_kmh: float = number(
+        11.0, 0.0, 150.0, "at the end of a brake; the fastest of a creep"
+    )
+    deceleration_g: float = number(
+        0.2, 0.01, 1.0, "of brakes; of coasting and throttle the (de)celeration"
+    )
+    dwell_s: float = number(
+        5.0, 0.0, 600.0, "time at a standstill, or of coasting after a near stop"
+    )
+    event_at_m: float = number(
+        316.0, 0.0, 1e5, "where the brake is released, the stop lies, or coast and throttle begin"
+    )
+    stops: int = number(1, 1, 100, "number of stops, the first at `event_at_m`")
+    stop_spacing_m: float = number(80.0, 1.0, 1e4, "between stops")
+    final_speed_kmh: float = number(58.0, 0.0, 150.0, "after the event")
+    length_m: float = number(500.0, 10.0, 1e5, "true distance driven")
+    grade_percent: float = number(0.0, -20.0, 20.0, "of the lane, uphill positive")
+    cross_slope_percent: float = number(0.0, -15.0, 15.0, "of the lane, left side up positive")
+    curvature_per_km: float = number(0.0, -50.0, 50.0, "of the course, left turn positive, in 1/km")
+    sensors: float = number(1.0, 0.0, 100.0, "factor on all errors of `SensorSuite`; 0 is ideal")
+    encoder_error_percent: float = number(
+        0.0, -50.0, 50.0, "scale error of the encoder beside the one that is drawn"
+    )
+    slip_percent_per_g: float = number(
+        0.3, 0.0, 100.0, "of the encoder's wheel, at a factor `sensors` of 1"
+    )
+    radius_percent: float = number(
+        0.0,
+        -5.0,
+        5.0,
+        "growth of the rolling radius of that wheel from 16 to 97 km/h; calibrated at 72",
+    )
+    warming_percent: float = number(
+        0.0, -5.0, 5.0, "its growth as the tyre warms up during a long drive"
+    )
+    laser_ahead_m: float = number(0.0, -2.0, 2.0, "the laser ahead of the accelerometer")
+    latency_ms: float = number(0.0, 0.0, 100.0, "age of a reading of the laser when it is recorded")
+    friction_nm: float = number(
+        0.0, 0.0, 10000.0, "moment about pitch at which the suspension's leaf springs slide, in N·m"
+    )
+    progression_per_m2: float = number(
+        0.0, 0.0, 1000.0, "of progressive springs, in 1/m²: their force is k·d·(1 + p·d²)"
+    )
+    imu: bool = value(True, "whether horizontal accelerometers and gyros are recorded")
+    gnss: bool = value(True, "whether the channels of a receiver are recorded")
+    response: bool = value(True, "whether the channels of the vehicle's response are recorded")
+    tracks: tuple[str, ...] = value(("left", "right"), "names of the wheel paths")
+    rate_hz: float = number(16000.0, 1000.0, 64000.0, "of the accelerometers")
+    gyro_rate_hz: float = number(100.0, 10.0, 10000.0, "of the gyros")
+    profile_interval_m: float = number(
+        0.00508, 0.001, 1.0, "of the truth, and what the recording asks for"
+    )
 
     def __post_init__(self) -> None:
         """Refuse wrong types, names and numbers; InputError names the field."""
-        for field in fields(self):
-            value = _in_type_of(field.name, getattr(self, field.name), field.default)
-            object.__setattr__(self, field.name, value)
+        for each in fields(self):
+            given = _in_type_of(each.name, getattr(self, each.name), each.default)
+            object.__setattr__(self, each.name, given)
         _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
         find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
@@ -191,23 +174,35 @@ class Scenario:
 
     @classmethod
     def from_dict(cls, document: object) -> "Scenario":
-        """Return the scenario of a JSON object; unknown keys are ignored.
+        """Return the scenario of a JSON object, with defaults for the keys that it lacks.
 
-        Raises InputError for an unknown format or a value that makes no scenario.
+        Raises InputError for an unknown format or key, or a value that makes no scenario.
         """
         if not isinstance(document, Mapping):
             raise InputError("a scenario is a JSON object of its numbers")
         if document.get("format", FORMAT) != FORMAT:
             found = shortened(document["format"])
             raise InputError(f"format {found}: unknown, expected {FORMAT!r}")
-        known = {field.name for field in fields(cls)}
-        return cls(**{name: value for name, value in document.items() if name in known})
+        numbers = {key: value for key, value in document.items() if key not in NOT_NUMBERS}
+        for key in numbers:
+            _one_of("key", str(key), tuple(f.name for f in fields(cls)))
+        return cls(**numbers)
 
     @property
     def hash(self) -> str:
         """SHA-256 of the scenario's canonical JSON, in hexadecimal."""
         text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        f.name: (f.metadata["lowest"], f.metadata["highest"])
+        for f in fields(Scenario)
+        if "lowest" in f.metadata
+    }
+)
+"""Smallest and largest value of every number."""
 
 
 def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
@@ -219,20 +214,15 @@ def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
     return replace(Scenario(seed=seed, manoeuvre=name), **changes)
 
 
-def read_scenario(path: Path) -> Scenario:
-    """Return the scenario in a JSON file; InputError with one line naming the file."""
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; give a run or a scenario file") from error
-    except ValueError as error:
-        raise InputError(f"{path}: not JSON ({error}); write one object") from error
-    except RecursionError as error:
-        raise InputError(f"{path}: nested too deeply; write one object of numbers") from error
-    try:
-        return Scenario.from_dict(document)
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+def repeat_passes(scenario: Scenario, count: int) -> tuple[Scenario, ...]:
+    """Return ``count`` passes over one road: the errors and the line of each are drawn anew.
+
+    The first is ``scenario``; the seeds of the others follow its own.
+    """
+    road = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
+    return tuple(
+        replace(scenario, seed=scenario.seed + pass_, road_seed=road) for pass_ in range(count)
+    )
 
 
 def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:

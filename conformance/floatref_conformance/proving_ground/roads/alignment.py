@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
 
 
 class Feature(Protocol):
@@ -65,7 +65,7 @@ class Crown:
         most = 2 * np.pi**2 * self.height_m / self.length_m**2
         return np.where(inside, -most * np.cos(turn), 0.0)
 
-    def _turn(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _turn(self, x: FloatArray) -> tuple[FloatArray, BoolArray]:
         away = np.asarray(x, dtype=np.float64) - self.centre_m
         return 2 * np.pi * away / self.length_m, np.abs(away) < self.length_m / 2
 

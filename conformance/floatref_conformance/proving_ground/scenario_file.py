@@ -1,0 +1,61 @@
+"""Scenario files: what they may hold, as a JSON Schema, and how one is read."""
+
+import json
+from dataclasses import Field, fields
+from pathlib import Path
+from typing import Any
+
+from floatref.errors import InputError
+from floatref_conformance.proving_ground.scenario import FORMAT, MANOEUVRES, ROADS, Scenario
+from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, VEHICLES
+
+CHOICES = {"manoeuvre": MANOEUVRES, "vehicle": (*VEHICLES, *LINEAR_MODELS)}
+"""The names that a field may have. A road may also be `measured:FILE`."""
+
+
+def read_scenario(path: Path) -> Scenario:
+    """Return the scenario in a JSON file; InputError with one line naming the file."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}; give a run or a scenario file") from error
+    except ValueError as error:
+        raise InputError(f"{path}: not JSON ({error}); write one object") from error
+    except RecursionError as error:
+        raise InputError(f"{path}: nested too deeply; write one object of numbers") from error
+    try:
+        return Scenario.from_dict(document)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def scenario_schema() -> dict[str, Any]:
+    """Return the JSON Schema ``floatref-scenario-1``, made from the fields of `Scenario`."""
+    properties: dict[str, Any] = {
+        "$schema": {"type": "string"},
+        "format": {"const": FORMAT, "default": FORMAT},
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": FORMAT.replace("/", "-"),
+        "title": "One recording to be simulated",
+        "type": "object",
+        "additionalProperties": False,
+        "properties": properties | {f.name: _describe(f) for f in fields(Scenario)},
+    }
+
+
+def _describe(field: Field[Any]) -> dict[str, Any]:
+    """Return the schema of one field."""
+    found: dict[str, Any] = {"description": field.metadata["meaning"], "default": field.default}
+    if isinstance(field.default, tuple):
+        names = {"type": "array", "minItems": 1, "uniqueItems": True, "items": {"type": "string"}}
+        return found | names | {"default": list(field.default)}
+    if isinstance(field.default, bool):
+        return found | {"type": "boolean"}
+    if isinstance(field.default, str):
+        known = CHOICES.get(field.name)
+        return found | {"type": "string"} | ({"enum": list(known)} if known else {"examples": list(ROADS)})
+    kind = "integer" if isinstance(field.default, int) else "number"
+    limits = {"minimum": field.metadata["lowest"], "maximum": field.metadata["highest"]}
+    return found | {"type": kind} | limits
