@@ -1,4 +1,8 @@
-"""Compiled kernels: the vehicle's state update, with and without the forces of its corners."""
+"""Compiled kernels: the vehicle's state update, with and without the forces of its corners.
+
+numba's cache sees no change of `elevation_at` or of the fields of `Corners`, which are in other
+files: who changes one in a clone deletes `__pycache__/*.nb?` beside this file.
+"""
 
 from math import copysign, exp
 
