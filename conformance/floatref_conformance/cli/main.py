@@ -8,6 +8,7 @@ from floatref_conformance.cli.no_verdict import VerdictGroup
 COMMANDS = {
     "run": ("floatref_conformance.cli.run:run", "judge a device"),
     "list": ("floatref_conformance.cli.list:list_", "list the checks and the devices"),
+    "scenario": ("floatref_conformance.cli.scenario:scenario", "list the keys of a scenario file"),
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),

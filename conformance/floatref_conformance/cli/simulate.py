@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     type=click.IntRange(1, 1000),
     help="Repeat passes of one road: OUT and the truth get a folder run_001, … for each.",
 )
-def simulate(
-    run: str, out: Path, seed: int | None, truth: Path | None, runs: int | None
-) -> None:
+def simulate(run: str, out: Path, seed: int | None, truth: Path | None, runs: int | None) -> None:
     """Simulate RUN and write a recording directory.
 
     RUN is a published run (sg_10.7s_0.20g, …), ref_72 for the reference pass at 72 km/h, or a
@@ -50,9 +48,7 @@ def simulate(
         raise
 
 
-def _write(
-    run: str, scenario: "Scenario", out: Path, truth: Path | None, made: list[Path]
-) -> None:
+def _write(run: str, scenario: "Scenario", out: Path, truth: Path | None, made: list[Path]) -> None:
     """Simulate one pass; what was written is added to ``made``."""
     from floatref.files import write_profile, write_recording
     from floatref.files.sources import name_errors

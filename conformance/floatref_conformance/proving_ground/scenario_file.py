@@ -55,7 +55,11 @@ def _describe(field: Field[Any]) -> dict[str, Any]:
         return found | {"type": "boolean"}
     if isinstance(field.default, str):
         known = CHOICES.get(field.name)
-        return found | {"type": "string"} | ({"enum": list(known)} if known else {"examples": list(ROADS)})
+        return (
+            found
+            | {"type": "string"}
+            | ({"enum": list(known)} if known else {"examples": list(ROADS)})
+        )
     kind = "integer" if isinstance(field.default, int) else "number"
     limits = {"minimum": field.metadata["lowest"], "maximum": field.metadata["highest"]}
     return found | {"type": kind} | limits

@@ -107,3 +107,23 @@ def test_scenario_that_cannot_be_driven_is_refused_in_a_line_naming_its_file(
         result.output.splitlines()[-1]
     ]
     assert sorted(path.name for path in case.parent.iterdir()) == ["case.json"]
+
+
+def test_repeat_passes_have_a_folder_each_and_one_road(case: Path, tmp_path: Path) -> None:
+    out, truth = tmp_path / "runs", tmp_path / "truths"
+    result = invoked(case, "--out", out, "--truth", truth, "--runs", 3)
+    assert result.exit_code == 0, result.output
+    names = ["run_001", "run_002", "run_003"]
+    assert sorted(p.name for p in out.iterdir()) == sorted(p.name for p in truth.iterdir()) == names
+    heights = [read_recording(out / n).channel("height", "left").values for n in names]
+    roads = [read_profile(truth / n).track("left").elevation for n in names]
+    assert np.array_equal(roads[0], roads[2])
+    assert not np.array_equal(heights[0], heights[2])
+
+
+def test_passes_that_cannot_be_written_leave_nothing(case: Path, tmp_path: Path) -> None:
+    document = json.loads(case.read_text()) | {"manoeuvre": "stop", "event_at_m": 5.0}
+    case.write_text(json.dumps(document))
+    result = invoked(case, "--out", tmp_path / "runs", "--runs", 2)
+    assert result.exit_code == 2
+    assert not (tmp_path / "runs").exists()
