@@ -143,4 +143,4 @@ def degrees(angle: Real) -> np.longdouble:
     Returns:
         Degrees.
     """
-    return np.longdouble(angle) * 180 / PI
+    return np.longdouble(np.longdouble(angle) * 180 / PI)
