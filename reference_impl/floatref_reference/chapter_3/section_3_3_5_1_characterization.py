@@ -12,7 +12,7 @@ KMH = 1 / np.longdouble("3.6")
 BAND = (np.longdouble("70.5") * KMH, np.longdouble("0.5") * KMH)
 """Speeds between which section 5.2 averages the deceleration of a stop from 72 km/h, m/s."""
 V_REST = np.longdouble("0.16") * KMH
-"""Speed below which a vehicle is stationary, m/s: that of section 6.6.3. Section 3.3.7 has none."""
+"""Speed below which a vehicle is stationary, m/s: that of section 6.6.3; section 3.3.7 has no figure."""
 REJECTED = 0.1
 """Acceleration over any second past a brake above which a pass was rejected, g."""
 WATCHED = 150.0
@@ -85,8 +85,8 @@ def deceleration(v: npt.ArrayLike, dt: Real, v_0: Real = BAND[0], v_1: Real = BA
     """Compute average and peak deceleration of a brake.
 
     Equation:
-        Section 5.2: (v_0 - v_1)/(t_1 - t_0), by default from 70.5 to 0.5 km/h. Sections 3.3.5.1 and
-        3.3.7: the peak is the highest average over one second within the brake (3.2.3).
+        Tables 5.1 and 5.2, section 5.2: (v_0 - v_1)/(t_1 - t_0), by default from 70.5 to 0.5 km/h.
+        Section 3.3.5.1: the peak is the highest average over one second within the brake (3.2.3).
 
     Args:
         v: forward speed, m/s, shape (N,).
@@ -114,9 +114,9 @@ def standstill(x: npt.ArrayLike, v: npt.ArrayLike, dt: Real, v_rest: Real = V_RE
     """Find place and duration of the longest stop of a run.
 
     Equation:
-        Section 3.3.7: "the location of the stop, the duration of the stop". The duration is from
-        where the speed, straight between samples, falls to v_rest until it rises above; the place
-        is the mean of the positions read meanwhile.
+        Table 5.1, section 3.3.7: "the location of the stop, the duration of the stop". The duration
+        is from where the speed, straight between samples, falls to v_rest until it rises above; the
+        place is the mean of the positions read meanwhile.
 
     Args:
         x: position along the section, m, shape (N,).
@@ -152,7 +152,8 @@ def place(x: npt.ArrayLike, dt: Real, t: Real) -> np.longdouble:
     """Interpolate where a vehicle was, as at the release of its brake.
 
     Equation:
-        Section 3.3.5.1: "the longitudinal position of each transition", straight between samples.
+        Table 5.2, section 3.3.5.1: "the longitudinal position of each transition", straight between
+        samples.
 
     Args:
         x: position along the section, m, shape (N,).

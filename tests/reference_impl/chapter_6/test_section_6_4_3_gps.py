@@ -64,7 +64,6 @@ def test_the_median_is_of_the_runs_that_count(seed: int) -> None:
         typical_sigma(sigma, np.zeros(51, bool))
 
 
-@pytest.mark.cites("Table 6.1")
 def test_a_missing_estimate_is_that_of_table_6_1() -> None:
     reported = np.array([[0.02, np.nan, np.nan, 0.004]])
     assert own_sigma(reported)[0].tolist() == [0.02, SIGMA_GPS[1], SIGMA_GPS[2], 0.004]
