@@ -81,6 +81,8 @@ def test_a_kink_that_cancels_one_of_the_road_lowers_its_roughness() -> None:
         (bump(2, 0.5), 1, False),
         (bump(2, 1.0), 1, True),
         (bump(2, 0.5) - bump(12, 0.5), 2, False),
+        (bump(2, 0.6) - bump(12, 0.45), 2, False),
+        (bump(2, 0.6) - bump(12, 0.3), 1, False),
         (bump(2, 1.5) - bump(12, 0.5), 1, True),
         (bump(2, 0.5) - bump(12, 1.5), 3, False),
         (-bump(2, 0.5), 3, False),

@@ -64,6 +64,13 @@ def test_a_uniform_distribution_is_5_7_per_cent_from_normal() -> None:
     assert kolmogorov_smirnov(QUANTILES) == pytest.approx(expected, abs=5e-4)
 
 
+def test_a_distribution_and_its_mirror_image_have_one_score() -> None:
+    exponential = -np.log(1 - QUANTILES)
+    score = kolmogorov_smirnov(exponential)
+    assert score == pytest.approx(normal_probability(-1.0), abs=0.005)
+    assert kolmogorov_smirnov(-exponential) == pytest.approx(score, abs=1e-9)
+
+
 @pytest.mark.parametrize("step", [0.05, 0.2, 0.5])
 def test_normal_noise_in_steps_is_half_a_step_of_probability_from_normal(step: float) -> None:
     """Print's 0.00504 would be steps of 1/40 of a standard deviation, 0.00019 deg/s."""
