@@ -12,7 +12,7 @@ KMH = 1 / np.longdouble("3.6")
 BAND = (np.longdouble("70.5") * KMH, np.longdouble("0.5") * KMH)
 """Speeds between which section 5.2 averages the deceleration of a stop from 72 km/h, m/s."""
 V_REST = np.longdouble("0.16") * KMH
-"""Speed below which a vehicle is stationary, m/s: that of section 6.6.3; section 3.3.7 has no figure."""
+"""Speed below which a vehicle is stationary, m/s: of section 6.6.3, since 3.3.7 has no figure."""
 REJECTED = 0.1
 """Acceleration over any second past a brake above which a pass was rejected, g."""
 WATCHED = 150.0
