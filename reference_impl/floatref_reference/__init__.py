@@ -7,6 +7,7 @@ the response of a vehicle. The tree is their tables of contents:
 - `appendix_a`: the digital filters (A.1 to A.22).
 - `appendix_c`: the Jacobians of the Kalman filter (C.1 to C.10).
 - `chapter_2`: the measures, the kinematics and the inverted pendulum (2.1 to 2.26).
+- `chapter_3`: how runs and their results are described (3.1 to 3.4), filters of other profilers.
 - `chapter_5`: the profile pipelines that use no inertial platform (5.1 to 5.9).
 - `chapter_6`: the extended Kalman filter and its smoother (6.1 to 6.66).
 - `zhu_2021`: joint input-state estimation on a half car, Zhu et al. (2021), (1) to (16).

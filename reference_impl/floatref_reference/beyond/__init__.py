@@ -2,5 +2,6 @@
 
 - `matched_high_pass`: the adaptive high-pass filter of section 5.7 as an observer.
 - `quarter_car_response`: a quarter car with masses, for the estimators of the road from response.
+- `reflection_beside_gps`: at a stop the height alone comes from the height sensor.
 - `state_variable`: its backward stages over distance, with the cut-off inside the integrals.
 """

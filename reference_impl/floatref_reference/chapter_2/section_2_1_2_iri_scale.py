@@ -68,3 +68,24 @@ def tpm_rating(iri_m_per_km: Real) -> str:
     if iri_m_per_km < 1.5:
         return "good"
     return "fair" if iri_m_per_km <= 2.68 else "poor"
+
+
+def pre_tpm_rating(iri_m_per_km: Real, interstate: bool) -> str:
+    """Rate a pavement section as was done before the TPM system.
+
+    Equation:
+        Table 2.1, pre-TPM ranges for Interstate and non-Interstate. A limit that two ranges share
+        belongs to the worse one, as 0.95 and in the TPM range 1.50 m/km do; poor is above its own.
+
+    Args:
+        iri_m_per_km: IRI, m/km.
+        interstate: whether the section is of an Interstate highway.
+
+    Returns:
+        "very good", "good", "fair", "mediocre" or "poor".
+    """
+    fair, mediocre = (1.89, 2.68) if interstate else (2.68, 3.47)
+    for limit, rating in ((0.95, "very good"), (1.5, "good"), (fair, "fair")):
+        if iri_m_per_km < limit:
+            return rating
+    return "mediocre" if iri_m_per_km <= mediocre else "poor"

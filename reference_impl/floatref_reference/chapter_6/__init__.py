@@ -11,6 +11,8 @@
 - `section_6_3_6_system`: process model and measurement model (6.38, 6.47, 6.48).
 - `section_6_4_1_allan`: Allan variance (6.49 to 6.53).
 - `section_6_4_2_gyroscopes`: the noise of a rate gyroscope (6.54 to 6.56).
+- `section_6_4_2_distribution`: autocorrelation (figure 6.5) and tests for normality.
+- `section_6_4_3_gps`: the standard deviations that a receiver reports.
 - `section_6_4_4_tuning`: Table 6.1, per time step and as densities.
 - `section_6_5_implementation`: filter, smoother and profile (6.57).
 - `section_6_6_2_gps`: observed by GPS.

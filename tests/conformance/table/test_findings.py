@@ -82,7 +82,7 @@ def test_temporal_high_pass_keeps_it(table: ComparisonTable) -> None:
     assert abs(table.cell("temporal-hpf", "const_5").mean.iri_error_percent) < 10.0
 
 
-@pytest.mark.parametrize("pipeline", ["temporal-hpf", *ADAPTIVE])
+@pytest.mark.parametrize("pipeline", ["temporal-hpf", "temporal-hpf-local-suppression", *ADAPTIVE])
 def test_at_16_km_h_nothing_is_lost(table: ComparisonTable, pipeline: str) -> None:
     assert table.cell(pipeline, "const_16").mean.cross_correlation >= 0.98
 

@@ -1,7 +1,11 @@
 """Figures of chapter 6 that its text and its tables do not agree on."""
 
+import numpy as np
+import pytest
+
 from floatref_conformance.table.published import RUN_NAMES, published_figures
 from floatref_conformance.table.scores import Scores
+from floatref_reference.chapter_6.section_6_4_2_distribution import autocorrelation
 
 BRAKING = [run for run in RUN_NAMES if run.startswith(("brk", "ns"))]
 REFERENCE_PEAK = 2.4
@@ -40,3 +44,14 @@ def test_5_km_h_with_high_pass_filters_6_6_2() -> None:
     assert at_5_km_h["kalman-smoother"] == 0.973
     assert 0.938 not in at_5_km_h.values()
     assert scores("kalman-smoother", "sg_10.7s_0.20g").cross_correlation == 0.938
+
+
+def test_20_000_data_points_6_4_2() -> None:
+    """White noise of so few points exceeds 0.5 %; 20,000 lags of a million points do not."""
+    few = autocorrelation(np.random.default_rng(1).normal(size=20_000), 100)[1:]
+    assert float(np.std(few)) == pytest.approx(1 / np.sqrt(20_000), rel=0.25)
+    assert few.max() > 0.01
+    many = np.random.default_rng(1).normal(size=1_000_000)
+    spectrum = np.abs(np.fft.rfft(many, 2**20 + 2**17)) ** 2
+    lags = np.fft.irfft(spectrum)[1:20_001] / np.sum(many**2)
+    assert lags.max() < 0.005

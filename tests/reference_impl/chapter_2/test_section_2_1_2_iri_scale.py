@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from floatref_reference.chapter_2.section_2_1_1_iri import iri
 from floatref_reference.chapter_2.section_2_1_2_iri_scale import (
     inches_per_mile,
+    pre_tpm_rating,
     segment_iri,
     tpm_rating,
 )
@@ -41,3 +42,29 @@ def test_one_metre_per_kilometre_is_63_36_inches_per_mile() -> None:
 )
 def test_table_2_1_rates_a_section(value: float, rating: str) -> None:
     assert tpm_rating(value) == rating
+
+
+@pytest.mark.cites("Table 2.1")
+@pytest.mark.parametrize(
+    ("value", "interstate", "other"),
+    [
+        (0.94, "very good", "very good"),
+        (0.95, "good", "good"),
+        (1.49, "good", "good"),
+        (1.5, "fair", "fair"),
+        (1.9, "mediocre", "fair"),
+        (2.68, "mediocre", "mediocre"),
+        (2.7, "poor", "mediocre"),
+        (3.47, "poor", "mediocre"),
+        (3.48, "poor", "poor"),
+    ],
+)
+def test_table_2_1_rated_a_section_before(value: float, interstate: str, other: str) -> None:
+    assert pre_tpm_rating(value, interstate=True) == interstate
+    assert pre_tpm_rating(value, interstate=False) == other
+
+
+@pytest.mark.cites("Table 2.1")
+@given(value=st.floats(0.0, 10.0))
+def test_poor_is_poor_on_an_interstate_highway_in_both_eras(value: float) -> None:
+    assert (tpm_rating(value) == "poor") == (pre_tpm_rating(value, interstate=True) == "poor")
