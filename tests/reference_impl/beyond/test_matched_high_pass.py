@@ -59,7 +59,7 @@ def test_the_observer_holds_at_every_sample(seed: int, dt: float) -> None:
         v = v + dt / 2 * (a[k] + b + a[k - 1] + b_past)
         v = v - dt / 2 * sum(2 * omega[i] ** 2 * e[i] for i in (now, past))[0]
         r = r + dt / 2 * (v + v_past) - dt / 2 * sum(2 * omega[i] * e[i] for i in (now, past))[0]
-        assert r - h[k] == pytest.approx(e[k], abs=1e-12)
+        assert r - h[k] == pytest.approx(e[k], rel=1e-13, abs=1e-12)
 
 
 @settings(deadline=None, max_examples=8)

@@ -25,7 +25,8 @@ def marked(
     distance = np.cumsum(speed) / RATE
     distance[list(lost)] = np.nan
     if count_m:
-        distance = count_m * np.floor(distance / count_m)
+        # The encoder begins within a count, not on its edge, where rounding would decide.
+        distance = count_m * np.floor(distance / count_m + 0.3719)
     channels = frozenset({ACCELERATION, DISTANCE})
     stage = MarkDrive(**limits)
     stage.start(Header(Axis.TIME, 1 / RATE, 0.0, Fraction(RATE), channels, ("left",)))
