@@ -15,6 +15,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files import read_schema
 from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.roads.files import FILE_ROAD, digest_files, file_of
 from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
@@ -37,6 +38,8 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "seed": (0, 2**63 - 1),
         "road_seed": (-1, 2**63 - 1),
         "iri_m_per_km": (0.0, 30.0),
+        "wander_m": (0.0, 0.5),
+        "wander_within_m": (0.0, 0.1),
         "bump_mm": (-100.0, 100.0),
         "bump_at_m": (0.0, 1e5),
         "speed_kmh": (0.0, 150.0),
@@ -70,8 +73,13 @@ class Scenario:
         seed: draws the road and every sensor's errors.
         road_seed: draws the road in its place, so that other errors meet the same road; -1: off.
         road: one of `ROADS`: flat, a measured profile, sine waves, of Sayers' spectrum, or of an
-            ISO 8608 class.
-        iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn.
+            ISO 8608 class; or ``measured:FILE``, a profile of any format or an OpenCRG surface.
+        iri_m_per_km: the road is scaled to it; 0 leaves the road as drawn. A scenario file with
+            ``measured:FILE`` and without this number leaves the road as measured.
+        wander_m: standard deviation of the offset of the vehicle's line in a pass, drawn from
+            ``seed``: decimetres in print (4.5.2). Flat and sine roads are alike sideways.
+        wander_within_m: standard deviation of the wander within a pass, centimetres within ten
+            metres.
         bump_mm, bump_at_m: height of a 3-m bump, 0 for no bump, and where its middle lies.
         vehicle: a name of `vehicles.VEHICLES` or `vehicles.LINEAR_MODELS`.
         manoeuvre: one of `MANOEUVRES`. A published run sets all numbers of the drive itself.
@@ -101,6 +109,8 @@ class Scenario:
     road_seed: int = -1
     road: str = "sayers-normal"
     iri_m_per_km: float = 1.8
+    wander_m: float = 0.0
+    wander_within_m: float = 0.0
     bump_mm: float = 0.0
     bump_at_m: float = 0.0
     vehicle: str = "loaded-van"
@@ -133,7 +143,8 @@ class Scenario:
         for field in fields(self):
             value = _in_type_of(field.name, getattr(self, field.name), field.default)
             object.__setattr__(self, field.name, value)
-        _one_of("road", self.road, ROADS)
+        if file_of(self.road) is None:
+            _one_of("road", self.road, ROADS)
         _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
         find_vehicle(self.vehicle)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
@@ -154,13 +165,22 @@ class Scenario:
         if document.get("format", FORMAT) != FORMAT:
             found = shortened(document["format"])
             raise InputError(f"format {found}: unknown, expected {FORMAT!r}")
+        if str(document.get("road")).startswith(FILE_ROAD):
+            document = {"iri_m_per_km": 0.0, **document}
         known = {field.name for field in fields(cls)}
         return cls(**{name: value for name, value in document.items() if name in known})
 
     @property
     def hash(self) -> str:
-        """SHA-256 of the scenario's canonical JSON, in hexadecimal."""
-        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        """SHA-256 of the scenario's canonical JSON, in hexadecimal.
+
+        Of a road that is a file it also holds the content; InputError if that cannot be read.
+        """
+        document = self.to_dict()
+        path = file_of(self.road)
+        if path is not None:
+            document["road_files"] = digest_files(path)
+        text = json.dumps(document, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -174,7 +194,10 @@ def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
 
 
 def read_scenario(path: Path) -> Scenario:
-    """Return the scenario in a JSON file; InputError with one line naming the file."""
+    """Return the scenario in a JSON file; InputError with one line naming the file.
+
+    The file of a road is found from the folder of the scenario file.
+    """
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -184,9 +207,11 @@ def read_scenario(path: Path) -> Scenario:
     except RecursionError as error:
         raise InputError(f"{path}: nested too deeply; write one object of numbers") from error
     try:
-        return Scenario.from_dict(document)
+        scenario = Scenario.from_dict(document)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
+    road = file_of(scenario.road)
+    return scenario if road is None else replace(scenario, road=f"{FILE_ROAD}{path.parent / road}")
 
 
 def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:

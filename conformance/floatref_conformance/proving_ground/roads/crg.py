@@ -54,8 +54,8 @@ def crg_road(
     sides = lateral_positions(tracks)
     x = start_m + spacing_m * np.arange(points_of(length_m, spacing_m, start_m), dtype=np.float64)
     with _opened(path) as surface, name_errors(path):
-        step = surface.increments().u
-        sections = round((surface.u_range().max - surface.u_range().min) / step) + 1
+        (begin, end), (step, _) = surface.u_range(), surface.increments()
+        sections = round((end - begin) / step) + 1
         if sections < FEWEST_POINTS:
             raise InputError(f"has {sections} cross sections; a road needs {FEWEST_POINTS} or more")
         slope = _slope(surface, sections, list(sides.values()))
@@ -81,7 +81,7 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
         import pycrg
     except ImportError as error:
         raise InputError(
-            f"{path}: reading OpenCRG needs pycrg; run: pip install 'floatref[adapters]'"
+            f"{path}: reading OpenCRG needs pycrg; run: pip install 'floatref[conformance]'"
         ) from error
     level = pycrg.get_message_level()
     pycrg.set_message_level(pycrg.MSG_LEVEL_FATAL)
@@ -91,14 +91,11 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
             surface.modifiers_apply()
             yield surface
     except (pycrg.OpenCRGError, OSError) as error:
-        raise InputError(f"{path}: not a whole OpenCRG file ({_reason(error)})") from error
+        raise InputError(
+            f"{path}: not a whole OpenCRG file ({' '.join(str(error).split())})"
+        ) from error
     finally:
         pycrg.set_message_level(level)
-
-
-def _reason(error: Exception) -> str:
-    """Return the last of OpenCRG's own messages, else the error, in one line."""
-    return " ".join(str(error).split())
 
 
 def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> float:
@@ -110,8 +107,12 @@ def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> f
 
 def _sample(surface: "pycrg.RoadSurface", rows: IndexArray, y: FloatArray) -> FloatArray:
     """Return the elevation in m at cross sections and lateral positions, bilinear."""
-    right, left = surface.v_range().min, surface.v_range().max
-    u = surface.u_range().min + surface.increments().u * rows
+    (begin, _), (step, _), (right, left) = (
+        surface.u_range(),
+        surface.increments(),
+        surface.v_range(),
+    )
+    u = begin + step * rows
     outside = (y < right) | (y > left)
     if outside.any():
         far = y[int(np.argmax(outside))]

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.fingerprint import fingerprint_native
 from floatref.files.sources import name_errors
@@ -20,8 +19,16 @@ FILE_ROAD = "measured:"
 
 
 def file_of(road: str) -> Path | None:
-    """Return the file of a scenario's road, or None for a road of another kind."""
-    return Path(road.removeprefix(FILE_ROAD)) if road.startswith(FILE_ROAD) else None
+    """Return the file of a scenario's road, or None for a road of another kind.
+
+    Raises InputError if the name of the file is missing.
+    """
+    if not road.startswith(FILE_ROAD):
+        return None
+    name = road.removeprefix(FILE_ROAD)
+    if not name or "\0" in name:
+        raise InputError(f"road {road!r}: give a file, as in {FILE_ROAD}road.csv")
+    return Path(name)
 
 
 def is_surface(path: Path) -> bool:
@@ -42,6 +49,9 @@ def road_from(path: Path, length_m: float, tracks: Sequence[str]) -> Road:
     """
     if is_surface(path):
         return crg_road(path, length_m, tracks=tracks)
+    # Plug-ins are looked up only when there is a file for them.
+    from floatref.engine.formats import profile_of
+
     profile = profile_of(path)
     with name_errors(path):
         elevation = {name: _elevation(profile, name) for name in tracks}

@@ -48,6 +48,11 @@ class Line:
                 raise InputError(f"{name} of a line is {value}; it must not be below zero")
 
     @property
+    def is_straight(self) -> bool:
+        """Whether the line keeps exactly to the wheel paths."""
+        return self.between_m == 0 and self.within_m == 0
+
+    @property
     def offset_m(self) -> float:
         """Offset of the whole pass in m, left positive, normal."""
         return self.between_m * float(self._stream("offset").standard_normal())
