@@ -2,21 +2,19 @@
 
 import hashlib
 import json
-import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
-from functools import cache
 from pathlib import Path
 from reprlib import repr as shortened
 from types import MappingProxyType
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.files import read_schema
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD, digest_files, file_of
 from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
+from floatref_conformance.proving_ground.scenario_fields import in_type_of, refuse_unknown
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FORMAT = "floatref-scenario/1"
@@ -141,11 +139,13 @@ class Scenario:
     def __post_init__(self) -> None:
         """Refuse wrong types, names and numbers; InputError names the field."""
         for field in fields(self):
-            value = _in_type_of(field.name, getattr(self, field.name), field.default)
+            value = in_type_of(
+                field.name, getattr(self, field.name), field.default, LIMITS.get(field.name)
+            )
             object.__setattr__(self, field.name, value)
         if file_of(self.road) is None:
-            _one_of("road", self.road, ROADS)
-        _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
+            refuse_unknown("road", self.road, ROADS)
+        refuse_unknown("manoeuvre", self.manoeuvre, MANOEUVRES)
         find_vehicle(self.vehicle)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
@@ -212,61 +212,3 @@ def read_scenario(path: Path) -> Scenario:
         raise InputError(f"{path}: {error}") from error
     road = file_of(scenario.road)
     return scenario if road is None else replace(scenario, road=f"{FILE_ROAD}{path.parent / road}")
-
-
-def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
-    """Raise InputError unless ``value`` is among ``known``."""
-    if value not in known:
-        near = get_close_matches(value[:64], known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
-        raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
-
-
-def _in_type_of(name: str, value: Any, default: Any) -> Any:
-    """Return ``value`` in the type of ``default``, or raise InputError naming the field."""
-    if isinstance(default, tuple):
-        return _track_names(value)
-    if isinstance(default, bool | str):
-        if type(value) is not type(default):
-            raise InputError(f"{name} is {shortened(value)}; give {_kind(default)}")
-        return value
-    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
-        raise InputError(f"{name} is {shortened(value)}; give a number")
-    low, high = LIMITS[name]
-    if not low <= value <= high:
-        found = shortened(value)
-        raise InputError(f"{name} is {found}; it must lie between {low:g} and {high:g}")
-    if isinstance(default, int):
-        if value != int(value):
-            raise InputError(f"{name} is {value}; give a whole number")
-        return int(value)
-    return float(value)
-
-
-def _track_names(value: Any) -> tuple[str, ...]:
-    """Return distinct names of wheel paths that can be part of a file name."""
-    names = tuple(value) if isinstance(value, list | tuple) else ()
-    named = all(isinstance(name, str) for name in names)
-    if not (names and named and len(set(names)) == len(names)):
-        raise InputError(
-            f"tracks is {shortened(value)}; give a list of different names of wheel paths"
-        )
-    longest, pattern = _track_rule()
-    for name in names:
-        if len(name) > longest or not pattern.search(name):
-            raise InputError(
-                f"tracks has {shortened(name)}; a name has at most {longest} characters "
-                "that can be part of a file name"
-            )
-    return names
-
-
-@cache
-def _track_rule() -> tuple[int, re.Pattern[str]]:
-    """Return greatest length and pattern of a track's name in a recording directory."""
-    rule = read_schema("floatref-recording-1")["$defs"]["track"]
-    return rule["maxLength"], re.compile(rule["pattern"])
-
-
-def _kind(default: bool | str) -> str:
-    return "true or false" if isinstance(default, bool) else "a name in quotes"

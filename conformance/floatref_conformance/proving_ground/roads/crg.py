@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     import pycrg
 
 SUFFIX = ".crg"
+ROUNDING_M = 1e-6
+"""A line this far beyond an edge is on it: positions in a file are rounded."""
 FEWEST_POINTS = 4
 """Fewest cross sections of which a road is made, as of points of a profile."""
 
@@ -62,7 +64,7 @@ def crg_road(
         first = int(np.floor((x[0] - FULL_FROM_M) / step)) - 2
         last = int(np.ceil((x[-1] - FULL_FROM_M) / step)) + 2
         knots = np.arange(first, last + 1)
-        at = FULL_FROM_M + step * knots
+        at = FULL_FROM_M + step * knots.astype(np.float64)
         rows = sections - 1 - np.abs(np.mod(knots, 2 * (sections - 1)) - (sections - 1))
         shift = np.zeros(knots.size) if line is None else line.at(at)
         elevation = {
@@ -83,8 +85,8 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
         raise InputError(
             f"{path}: reading OpenCRG needs pycrg; run: pip install 'floatref[conformance]'"
         ) from error
-    level = pycrg.get_message_level()
-    pycrg.set_message_level(pycrg.MSG_LEVEL_FATAL)
+    # What OpenCRG has to say is in its exceptions, and not for standard error.
+    pycrg.set_message_callback(lambda level, text: None)
     try:
         with pycrg.RoadSurface.open(path, apply_modifiers=False) as surface:
             surface.modifier_set_int(pycrg.MOD_GRID_NAN_MODE, pycrg.GRID_NAN_KEEP)
@@ -95,7 +97,7 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
             f"{path}: not a whole OpenCRG file ({' '.join(str(error).split())})"
         ) from error
     finally:
-        pycrg.set_message_level(level)
+        pycrg.clear_message_callback()
 
 
 def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> float:
@@ -107,20 +109,20 @@ def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> f
 
 def _sample(surface: "pycrg.RoadSurface", rows: IndexArray, y: FloatArray) -> FloatArray:
     """Return the elevation in m at cross sections and lateral positions, bilinear."""
-    (begin, _), (step, _), (right, left) = (
+    (begin, end), (step, _), (right, left) = (
         surface.u_range(),
         surface.increments(),
         surface.v_range(),
     )
     u = begin + step * rows
-    outside = (y < right) | (y > left)
+    outside = (y < right - ROUNDING_M) | (y > left + ROUNDING_M)
     if outside.any():
         far = y[int(np.argmax(outside))]
         raise InputError(
             f"the surface reaches from {right:g} to {left:g} m across, and the line is at "
-            f"{far:.3f} m; take a wider one or lower wander_m and wander_within_m"
+            f"{far:.4f} m; take a wider one or lower wander_m and wander_within_m"
         )
-    z = surface.uv_to_z_many(u, y)
+    z = surface.uv_to_z_many(np.minimum(u, end), np.clip(y, right, left))
     holes = ~np.isfinite(z)
     if holes.any():
         at = int(np.argmax(holes))

@@ -1,14 +1,14 @@
 """The road beside a wheel path: parallel strings, long waves coherent with it, short ones less.
 
-Measured on a Belgian block (``belgian_block.crg`` of OpenCRG, 10 m by 3.4 m, every 1 cm), the slope between
-neighbouring points, 1 cm apart along the road, correlates across the road by 0.934 at 1 cm, 0.677
-at 5 cm, 0.560 at 10 cm and 0.336 at 50 cm. `lateral_coherence` gives a road of white slope
-0.91, 0.69, 0.55 and 0.33 of the same differences.
+Measured on a Belgian block (``belgian_block.crg`` of OpenCRG, 10 m by 3.4 m, every 1 cm), the slope
+between neighbouring points along the road correlates across it by 0.934 at 1 cm, 0.677 at 5 cm,
+0.560 at 10 cm and 0.336 at 50 cm. With `lateral_coherence` the same differences of a road of white
+slope correlate by 0.915, 0.696, 0.559 and 0.341.
 
 Each wave of wave number ν falls off sideways by exp(-2πνy/a), which makes a surface without a
-scale of its own, as a road of white slope is: every component looks like its own picture of
-any size, stretched by ``a`` across the road. The exponential makes each string follow from the
-one beside it alone, so that strings are drawn outwards as far as a line needs them.
+scale of its own, as a road of white slope is. A large ``a`` means features that are long across
+the road. The exponential makes each string follow from the one beside it alone, so that strings are
+drawn outwards as far as a line needs them.
 
 The wheel paths themselves keep the coherence of `random_roads`, and every string its wheel path's
 spectrum.
@@ -32,7 +32,7 @@ ACROSS_M = 0.01
 """Distance between strings in m, the grid of the measured surface."""
 NARROW_SHARE, NARROW = 0.7, 13.0
 """Share of the variance, and elongation ``a``, of what is narrow across the road; fitted to the
-four measured correlations, of which they miss each by at most 0.022."""
+four measured correlations, of which they miss each by at most 0.02."""
 WIDE = 1100.0
 """Elongation of the remaining share: joints and rows of stones, fitted with the others."""
 REACH_M = 0.4

@@ -61,7 +61,7 @@ class Surface:
     @property
     def left_m(self) -> float:
         """Lateral position of the last, the leftmost string, in m."""
-        return self.right_m + self.across_m * (self.elevation.shape[0] - 1)
+        return self.right_m + self.across_m * float(self.elevation.shape[0] - 1)
 
     @property
     def distance_m(self) -> FloatArray:
@@ -91,7 +91,7 @@ class Surface:
         return z
 
     def _between(self, y: FloatArray) -> tuple[IndexArray, FloatArray]:
-        """Return the string on the right of every position, and the weight of the one left of it."""
+        """Return the string on the right of each position, and the weight of its left one."""
         position = (y - self.right_m) / self.across_m
         position = np.where(
             np.abs(position - np.rint(position)) < ON_STRING, np.rint(position), position
