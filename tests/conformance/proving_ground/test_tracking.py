@@ -10,6 +10,7 @@ import pytest
 from floatref.errors import InputError
 from floatref.measures import iri
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD
+from floatref_conformance.proving_ground.roads.strips import along_line
 from floatref_conformance.proving_ground.roads.wander import Line
 from floatref_conformance.proving_ground.scenario import Scenario, read_scenario
 from floatref_conformance.proving_ground.staging import road_of
@@ -28,6 +29,8 @@ def test_passes_of_one_road_differ_by_their_line_alone() -> None:
         assert np.array_equal(paths[1], road_of(STRAY, 100.0).elevation[track])
         assert 0 < np.abs(paths[1] - paths[0]).max() < 0.02
         assert 0 < np.abs(paths[2] - paths[1]).max() < 0.02
+        same = along_line(straight, Line(4, 0.1, 0.02), 8)
+        assert np.array_equal(paths[2], same.elevation[track])
 
 
 def test_the_road_is_scaled_by_its_wheel_paths_and_not_by_the_line() -> None:
@@ -57,7 +60,9 @@ def test_the_bump_is_as_wide_as_the_road() -> None:
 def test_a_measured_surface_is_sampled_along_the_line(tmp_path: Path) -> None:
     pycrg = pytest.importorskip("pycrg")
     v = np.linspace(-1.5, 1.5, 31)
-    pycrg.write(tmp_path / "a.crg", np.zeros((400, 1)) + 0.1 * v**2, 0.05, v)
+    pycrg.write(
+        tmp_path / "a.crg", 0.01 * np.sin(np.arange(400) / 9)[:, None] + 0.1 * v**2, 0.05, v
+    )
     stray = replace(STRAY, road=f"{FILE_ROAD}{tmp_path / 'a.crg'}", iri_m_per_km=0.0)
     road = road_of(stray, 60.0)
     x = road.distance_m
@@ -66,6 +71,13 @@ def test_a_measured_surface_is_sampled_along_the_line(tmp_path: Path) -> None:
     difference = road.elevation["left"] - road.elevation["right"]
     expected = 0.1 * ((0.86 + shift) ** 2 - (-0.86 + shift) ** 2)
     assert difference[full] == pytest.approx(expected[full], abs=3e-4)
+    straight = replace(stray, wander_m=0.0, wander_within_m=0.0)
+    factors = [
+        np.ptp(road_of(replace(s, iri_m_per_km=1.0), 60.0).elevation["left"])
+        / np.ptp(road_of(s, 60.0).elevation["left"])
+        for s in (straight, stray)
+    ]
+    assert factors[1] == pytest.approx(factors[0])
 
 
 def test_a_road_of_a_file_is_found_from_the_scenario_file_and_left_as_measured(

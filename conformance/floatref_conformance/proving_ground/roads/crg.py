@@ -85,8 +85,6 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
         raise InputError(
             f"{path}: reading OpenCRG needs pycrg; run: pip install 'floatref[conformance]'"
         ) from error
-    # What OpenCRG has to say is in its exceptions, and not for standard error.
-    pycrg.set_message_callback(lambda level, text: None)
     try:
         with pycrg.RoadSurface.open(path, apply_modifiers=False) as surface:
             surface.modifier_set_int(pycrg.MOD_GRID_NAN_MODE, pycrg.GRID_NAN_KEEP)
@@ -96,8 +94,6 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
         raise InputError(
             f"{path}: not a whole OpenCRG file ({' '.join(str(error).split())})"
         ) from error
-    finally:
-        pycrg.clear_message_callback()
 
 
 def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> float:
@@ -109,7 +105,7 @@ def _slope(surface: "pycrg.RoadSurface", sections: int, sides: list[float]) -> f
 
 def _sample(surface: "pycrg.RoadSurface", rows: IndexArray, y: FloatArray) -> FloatArray:
     """Return the elevation in m at cross sections and lateral positions, bilinear."""
-    (begin, end), (step, _), (right, left) = (
+    (begin, _), (step, _), (right, left) = (
         surface.u_range(),
         surface.increments(),
         surface.v_range(),
@@ -122,7 +118,7 @@ def _sample(surface: "pycrg.RoadSurface", rows: IndexArray, y: FloatArray) -> Fl
             f"the surface reaches from {right:g} to {left:g} m across, and the line is at "
             f"{far:.4f} m; take a wider one or lower wander_m and wander_within_m"
         )
-    z = surface.uv_to_z_many(np.minimum(u, end), np.clip(y, right, left))
+    z = surface.uv_to_z_many(u, np.clip(y, right, left))
     holes = ~np.isfinite(z)
     if holes.any():
         at = int(np.argmax(holes))

@@ -10,6 +10,12 @@ scale of its own, as a road of white slope is. A large ``a`` means features that
 the road. The exponential makes each string follow from the one beside it alone, so that strings are
 drawn outwards as far as a line needs them.
 
+Print's agreement at a lateral separation follows without being fitted. Profiles of six roads of
+table 2.2's normal case, filtered as for the IRI, agree by 0.987 at 3 cm (lowest 0.975), by 0.984
+at 5 cm and by 0.966 at 14 cm. In print 14 pairs of passes 3 cm apart or less agree above 0.98 but
+for one (0.976), a pair 5.2 cm apart by 0.993 (4.5.3), and passes 14 cm off the reference by 0.949
+(4.5.2), which holds the errors of both devices.
+
 The wheel paths themselves keep the coherence of `random_roads`, and every string its wheel path's
 spectrum.
 """

@@ -93,17 +93,27 @@ def test_holes_under_the_line_are_refused_and_others_are_not(tmp_path: Path) -> 
 
 def test_a_surface_narrower_than_the_line_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path / "a.crg", hills())
-    with pytest.raises(InputError, match=r"a\.crg: the surface reaches from -1\.2 to 1\.2 m"):
-        crg_road(path, 60.0, Line(3, 0.4, 0.1), 0.05)
-    just = np.abs(V) < 0.861
-    assert crg_road(write(tmp_path / "b.crg", hills()[:, just], V[just]), 60.0).points
+    for seed, sign in ((26, 1), (3, -1)):
+        line = Line(seed, 0.5, 0.0)
+        assert sign * line.offset_m > 0.4
+        with pytest.raises(InputError, match=r"a\.crg: the surface reaches from -1\.2 to 1\.2 m"):
+            crg_road(path, 60.0, line, 0.05)
     narrow = np.abs(V) < 0.85
     with pytest.raises(InputError, match="take a wider one"):
         crg_road(write(tmp_path / "b.crg", hills()[:, narrow], V[narrow]), 60.0, spacing_m=0.05)
 
 
+def test_a_surface_just_as_wide_and_as_long_as_the_wheel_paths_is_wide_enough(
+    tmp_path: Path,
+) -> None:
+    just = np.abs(V) < 0.861
+    edges = {"border_mode_u": 0.0, "border_mode_v": 0.0}
+    path = write(tmp_path / "a.crg", hills()[:, just], V[just], opts=edges)
+    assert crg_road(path, 100.0).points
+
+
 def test_what_is_no_surface_is_named_in_one_line(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     whole = write(tmp_path / "a.crg", hills()).read_bytes()
     for content in (b"", b"hello", whole[: len(whole) // 2], whole[:300]):
@@ -114,7 +124,7 @@ def test_what_is_no_surface_is_named_in_one_line(
         assert "\n" not in str(caught.value)
     with pytest.raises(InputError, match="3 cross sections"):
         crg_road(write(tmp_path / "c.crg", hills()[:3]), 60.0)
-    assert capfd.readouterr().err == ""
+    assert caplog.records == []
 
 
 def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
