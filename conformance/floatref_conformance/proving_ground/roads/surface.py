@@ -37,7 +37,7 @@ class Surface:
     elevation: NDArray[np.float32] | NDArray[np.float64]
 
     def __post_init__(self) -> None:
-        """Refuse a grid that is none; InputError names the number."""
+        """Refuse an impossible grid; InputError names the number."""
         for name in ("spacing_m", "across_m"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):

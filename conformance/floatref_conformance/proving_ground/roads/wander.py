@@ -41,7 +41,7 @@ class Line:
     within_m: float
 
     def __post_init__(self) -> None:
-        """Refuse standard deviations that are none."""
+        """Refuse an impossible standard deviation; InputError names it."""
         for name in ("between_m", "within_m"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value >= 0):

@@ -92,7 +92,7 @@ def test_a_surface_is_read_only_and_not_copied() -> None:
         (1.0, 1.0, np.zeros((2, 2), int), "float32 or float64"),
     ],
 )
-def test_a_grid_that_is_none_is_refused(
+def test_an_impossible_grid_is_refused(
     spacing: float, across: float, z: FloatArray, message: str
 ) -> None:
     with pytest.raises(InputError, match=message):
