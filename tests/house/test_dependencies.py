@@ -44,6 +44,7 @@ ALLOWED = {
         "rich",
         "scipy",
     },
+    "conformance/floatref_conformance/proving_ground/roads": {"pycrg"},
     "conformance/floatref_conformance/render": {"jinja2"},
     "conformance/floatref_conformance/table": {"matplotlib"},
     "conformance/floatref_conformance/testing": {"pytest"},

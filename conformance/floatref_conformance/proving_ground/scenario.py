@@ -2,19 +2,23 @@
 
 import hashlib
 import json
-import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
-from functools import cache
 from reprlib import repr as shortened
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any
 
 from floatref.errors import InputError
-from floatref.files import read_schema
 from floatref_conformance.proving_ground.drives.runs import RUNS
+from floatref_conformance.proving_ground.roads.files import FILE_ROAD, digest_files, file_of
 from floatref_conformance.proving_ground.roads.random_roads import CASES, CLASSES
+from floatref_conformance.proving_ground.scenario_fields import (
+    in_type_of,
+    number,
+    refuse_unknown,
+    value,
+)
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FORMAT = "floatref-scenario/1"
@@ -33,20 +37,6 @@ ROADS = (
     *(f"sayers-{name}" for name in CASES),
     *(f"iso-{name}" for name in CLASSES),
 )
-T = TypeVar("T")
-
-
-def value(default: T, meaning: str) -> T:
-    """Return a field of a scenario that is no number, with its meaning."""
-    found: T = field(default=default, metadata={"meaning": meaning})
-    return found
-
-
-def number(default: T, lowest: float, highest: float, meaning: str) -> T:
-    """Return a field of a scenario between two limits."""
-    metadata = {"lowest": lowest, "highest": highest, "meaning": meaning}
-    found: T = field(default=default, metadata=metadata)
-    return found
 
 
 @dataclass(frozen=True)
@@ -71,10 +61,20 @@ class Scenario:
     )
     road: str = value(
         "sayers-normal",
-        "flat, a measured profile, sine waves, of Sayers' spectrum, or of an ISO 8608 class",
+        "flat, a measured profile, sine waves, of Sayers' spectrum, of an ISO 8608 class; or "
+        "measured:FILE, a profile of any format or an OpenCRG surface",
     )
     iri_m_per_km: float = number(
-        1.8, 0.0, 30.0, "the road is scaled to it; 0 leaves the road as drawn"
+        1.8,
+        0.0,
+        30.0,
+        "the road is scaled to it; 0, and a file without this key, leave it as it is",
+    )
+    wander_m: float = number(
+        0.0, 0.0, 0.5, "standard deviation of the offset of the vehicle's line in a pass (4.5.2)"
+    )
+    wander_within_m: float = number(
+        0.0, 0.0, 0.1, "standard deviation of the wander within a pass, over some ten metres"
     )
     bump_mm: float = number(0.0, -100.0, 100.0, "height of a 3-m bump; 0: none")
     bump_at_m: float = number(0.0, 0.0, 1e5, "middle of the bump")
@@ -160,10 +160,11 @@ class Scenario:
     def __post_init__(self) -> None:
         """Refuse wrong types, names and numbers; InputError names the field."""
         for each in fields(self):
-            given = _in_type_of(each.name, getattr(self, each.name), each.default)
+            given = in_type_of(each, getattr(self, each.name))
             object.__setattr__(self, each.name, given)
-        _one_of("road", self.road, ROADS)
-        _one_of("manoeuvre", self.manoeuvre, MANOEUVRES)
+        if file_of(self.road) is None:
+            refuse_unknown("road", self.road, ROADS)
+        refuse_unknown("manoeuvre", self.manoeuvre, MANOEUVRES)
         find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")
@@ -183,15 +184,24 @@ class Scenario:
         if document.get("format", FORMAT) != FORMAT:
             found = shortened(document["format"])
             raise InputError(f"format {found}: unknown, expected {FORMAT!r}")
+        if str(document.get("road")).startswith(FILE_ROAD):
+            document = {"iri_m_per_km": 0.0, **document}
         numbers = {key: value for key, value in document.items() if key not in NOT_NUMBERS}
         for key in numbers:
-            _one_of("key", str(key), tuple(f.name for f in fields(cls)))
+            refuse_unknown("key", str(key), tuple(f.name for f in fields(cls)))
         return cls(**numbers)
 
     @property
     def hash(self) -> str:
-        """SHA-256 of the scenario's canonical JSON, in hexadecimal."""
-        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"))
+        """SHA-256 of the scenario's canonical JSON, in hexadecimal.
+
+        Of a road that is a file it also holds the content; InputError if that cannot be read.
+        """
+        document = self.to_dict()
+        path = file_of(self.road)
+        if path is not None:
+            document["road_files"] = digest_files(path)
+        text = json.dumps(document, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -223,61 +233,3 @@ def repeat_passes(scenario: Scenario, count: int) -> tuple[Scenario, ...]:
     return tuple(
         replace(scenario, seed=scenario.seed + pass_, road_seed=road) for pass_ in range(count)
     )
-
-
-def _one_of(name: str, value: str, known: tuple[str, ...]) -> None:
-    """Raise InputError unless ``value`` is among ``known``."""
-    if value not in known:
-        near = get_close_matches(value[:64], known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
-        raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
-
-
-def _in_type_of(name: str, value: Any, default: Any) -> Any:
-    """Return ``value`` in the type of ``default``, or raise InputError naming the field."""
-    if isinstance(default, tuple):
-        return _track_names(value)
-    if isinstance(default, bool | str):
-        if type(value) is not type(default):
-            raise InputError(f"{name} is {shortened(value)}; give {_kind(default)}")
-        return value
-    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
-        raise InputError(f"{name} is {shortened(value)}; give a number")
-    low, high = LIMITS[name]
-    if not low <= value <= high:
-        found = shortened(value)
-        raise InputError(f"{name} is {found}; it must lie between {low:g} and {high:g}")
-    if isinstance(default, int):
-        if value != int(value):
-            raise InputError(f"{name} is {value}; give a whole number")
-        return int(value)
-    return float(value)
-
-
-def _track_names(value: Any) -> tuple[str, ...]:
-    """Return distinct names of wheel paths that can be part of a file name."""
-    names = tuple(value) if isinstance(value, list | tuple) else ()
-    named = all(isinstance(name, str) for name in names)
-    if not (names and named and len(set(names)) == len(names)):
-        raise InputError(
-            f"tracks is {shortened(value)}; give a list of different names of wheel paths"
-        )
-    longest, pattern = _track_rule()
-    for name in names:
-        if len(name) > longest or not pattern.search(name):
-            raise InputError(
-                f"tracks has {shortened(name)}; a name has at most {longest} characters "
-                "that can be part of a file name"
-            )
-    return names
-
-
-@cache
-def _track_rule() -> tuple[int, re.Pattern[str]]:
-    """Return greatest length and pattern of a track's name in a recording directory."""
-    rule = read_schema("floatref-recording-1")["$defs"]["track"]
-    return rule["maxLength"], re.compile(rule["pattern"])
-
-
-def _kind(default: bool | str) -> str:
-    return "true or false" if isinstance(default, bool) else "a name in quotes"

@@ -1,11 +1,12 @@
 """Scenario files: what they may hold, as a JSON Schema, and how one is read."""
 
 import json
-from dataclasses import Field, fields
+from dataclasses import Field, fields, replace
 from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
+from floatref_conformance.proving_ground.roads.files import FILE_ROAD, file_of
 from floatref_conformance.proving_ground.scenario import FORMAT, MANOEUVRES, ROADS, Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, VEHICLES
 
@@ -14,7 +15,10 @@ CHOICES = {"manoeuvre": MANOEUVRES, "vehicle": (*VEHICLES, *LINEAR_MODELS)}
 
 
 def read_scenario(path: Path) -> Scenario:
-    """Return the scenario in a JSON file; InputError with one line naming the file."""
+    """Return the scenario in a JSON file; InputError with one line naming the file.
+
+    The file of a road is found from the folder of the scenario file.
+    """
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -24,9 +28,11 @@ def read_scenario(path: Path) -> Scenario:
     except RecursionError as error:
         raise InputError(f"{path}: nested too deeply; write one object of numbers") from error
     try:
-        return Scenario.from_dict(document)
+        scenario = Scenario.from_dict(document)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
+    road = file_of(scenario.road)
+    return scenario if road is None else replace(scenario, road=f"{FILE_ROAD}{path.parent / road}")
 
 
 def scenario_schema() -> dict[str, Any]:

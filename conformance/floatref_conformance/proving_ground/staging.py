@@ -19,6 +19,7 @@ from floatref_conformance.proving_ground.roads.alignment import (
     GradeBreak,
 )
 from floatref_conformance.proving_ground.roads.distress import with_joints, with_patches
+from floatref_conformance.proving_ground.roads.files import file_of, road_from
 from floatref_conformance.proving_ground.roads.measured import (
     SHIPPED_INTERVAL_M,
     measured_road,
@@ -26,10 +27,16 @@ from floatref_conformance.proving_ground.roads.measured import (
 )
 from floatref_conformance.proving_ground.roads.random_roads import iso8608_road, sayers_road
 from floatref_conformance.proving_ground.roads.road import FULL_FROM_M, Road, flat_road
-from floatref_conformance.proving_ground.roads.shaping import scale_to, with_alignment, with_bump
+from floatref_conformance.proving_ground.roads.shaping import (
+    scale_by,
+    scale_factor,
+    with_alignment,
+    with_bump,
+)
 from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
+from floatref_conformance.proving_ground.tracking import follow_line
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 from floatref_conformance.proving_ground.vehicles.response import count_steps
@@ -43,11 +50,17 @@ MOST_SAMPLES = 2**26
 
 
 def road_of(scenario: Scenario, length_m: float) -> Road:
-    """Return the scenario's road, usable up to ``length_m`` or more, scaled and with its bump."""
+    """Return the scenario's road, usable up to ``length_m`` or more, scaled and with its bump.
+
+    It is scaled by its wheel paths, whatever line the vehicle takes; the bump is as wide as it.
+    """
     length_m = max(length_m, FULL_FROM_M + SCALED_OVER_M)
     kind, _, which = scenario.road.partition("-")
     seed = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
-    if kind == "flat":
+    path = file_of(scenario.road)
+    if path is not None:
+        road = road_from(path, length_m, scenario.tracks)
+    elif kind == "flat":
         road = flat_road(length_m, tracks=scenario.tracks)
     elif kind == "measured":
         road = measured_road(
@@ -59,8 +72,11 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
         road = iso8608_road(which, length_m, seed, tracks=scenario.tracks)
     else:
         road = sayers_road(which, length_m, seed, tracks=scenario.tracks)
+    factor = 1.0
     if kind != "flat" and scenario.iri_m_per_km > 0:
-        road = scale_to(road, scenario.iri_m_per_km)
+        factor = scale_factor(road, scenario.iri_m_per_km)
+        road = scale_by(road, factor)
+    road = follow_line(scenario, road, length_m, seed, factor)
     if scenario.bump_mm:
         road = with_bump(road, scenario.bump_at_m, BUMP_LENGTH_M, scenario.bump_mm / 1000)
     road = _with_distress(scenario, road, seed)

@@ -63,6 +63,8 @@ def test_every_field_changes_the_hash() -> None:
         "imu": False,
         "gnss": False,
         "stops": 3,
+        "wander_m": 0.1,
+        "wander_within_m": 0.02,
     }
     plain = Scenario()
     hashes = {plain.hash}

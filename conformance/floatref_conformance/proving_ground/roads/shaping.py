@@ -90,6 +90,21 @@ def scale_to(
 ) -> Road:
     """Return the road scaled so that its wheel paths have a mean IRI of ``iri_m_per_km``.
 
+    Arguments and errors are those of `scale_factor`.
+    """
+    return scale_by(road, scale_factor(road, iri_m_per_km, start_m, end_m))
+
+
+def scale_by(road: Road, factor: float) -> Road:
+    """Return the road with all elevations multiplied by ``factor``."""
+    return road.with_elevation({name: factor * z for name, z in road.elevation.items()})
+
+
+def scale_factor(
+    road: Road, iri_m_per_km: float, start_m: float = FULL_FROM_M, end_m: float | None = None
+) -> float:
+    """Return the factor that gives the wheel paths a mean IRI of ``iri_m_per_km``.
+
     The IRI is linear in the elevation, so one factor for all wheel paths is exact. It is
     taken from ``start_m`` to ``end_m`` (default: where the run-out starts), in m. InputError
     for a road without roughness or a target that is not above zero.
@@ -103,5 +118,4 @@ def scale_to(
     present = float(np.mean(values))
     if not present > 0:
         raise InputError(f"a road without roughness cannot be scaled to {iri_m_per_km} m/km")
-    factor = iri_m_per_km / present
-    return road.with_elevation({name: factor * z for name, z in road.elevation.items()})
+    return iri_m_per_km / present
