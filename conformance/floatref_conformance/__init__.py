@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from floatref_conformance.table import TableSettings as TableSettings
     from floatref_conformance.table import make_table as make_table
 
-EDITION = "2026.1"
-"""Edition of the checks: it fixes the manoeuvres and the limits; the seed draws the rest."""
+EDITIONS = ("2026.1", "2026.2")
+"""The editions of the checks, the oldest first."""
+EDITION = EDITIONS[-1]
+"""The edition by default: it fixes the manoeuvres and the limits; the seed draws the rest."""
 
 # Imported on first use: a module that wants the edition alone loads no check.
 _PUBLIC = {
@@ -26,7 +28,7 @@ _PUBLIC = {
     "hookimpl": "hookspecs",
     "make_table": "table",
 }
-__all__ = ["EDITION", *_PUBLIC]
+__all__ = ["EDITION", "EDITIONS", *_PUBLIC]
 
 
 def __getattr__(name: str) -> Any:

@@ -8,7 +8,7 @@ from reprlib import repr as shortened
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION
+from floatref_conformance import EDITION, EDITIONS
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -24,13 +24,14 @@ class KeptCase:
     """A case in a file; ``device_class`` is the one whose limits it exceeded.
 
     ``refused`` is the reason why this edition cannot run the case; its numbers are then not read.
-    It is empty for a case that can be run.
+    It is empty for a case that can be run. ``edition`` is the one whose checks judge the case.
     """
 
     file: str
     case: Case
     device_class: DeviceClass
     refused: str = ""
+    edition: str = EDITION
 
 
 def name_of(case: Case) -> str:
@@ -38,11 +39,13 @@ def name_of(case: Case) -> str:
     return f"{FOLDER}/{case.check}-{case.digest}.json"
 
 
-def document(case: Case, device_class: DeviceClass, device: str, reason: str) -> dict[str, Any]:
+def document(
+    case: Case, device_class: DeviceClass, device: str, reason: str, edition: str = EDITION
+) -> dict[str, Any]:
     """Return the JSON object that stores ``case``, which ``device`` failed for ``reason``."""
     return {
         "format": FORMAT,
-        "edition": EDITION,
+        "edition": edition,
         "check": case.check,
         "class": device_class.value,
         "device": device,
@@ -51,10 +54,10 @@ def document(case: Case, device_class: DeviceClass, device: str, reason: str) ->
     }
 
 
-def read_case(path: Path) -> KeptCase:
+def read_case(path: Path, edition: str | None = None) -> KeptCase:
     """Return the case in file ``path``; InputError, naming the file, if it holds no case.
 
-    A case of another edition is `refused`.
+    A case of an edition that is not ``edition``, or without it not one of ours, is `refused`.
     """
     try:
         if path.stat().st_size > LARGEST_BYTES:
@@ -65,17 +68,20 @@ def read_case(path: Path) -> KeptCase:
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not JSON ({error}); name a case file") from error
     try:
-        return _parse_case(path.name, found)
+        return _parse_case(path.name, found, edition)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
 
 
-def read_cases(folder: Path) -> tuple[KeptCase, ...]:
-    """Return the cases stored in report directory ``folder``, by name; empty without cases."""
-    return tuple(read_case(path) for path in sorted((folder / FOLDER).glob("*.json")))
+def read_cases(folder: Path, edition: str = EDITION) -> tuple[KeptCase, ...]:
+    """Return the cases stored in report directory ``folder``, by name; empty without cases.
+
+    Those of an edition other than ``edition`` are `refused`.
+    """
+    return tuple(read_case(path, edition) for path in sorted((folder / FOLDER).glob("*.json")))
 
 
-def _parse_case(name: str, found: object) -> KeptCase:
+def _parse_case(name: str, found: object, wanted: str | None) -> KeptCase:
     if not isinstance(found, Mapping) or found.get("format") != FORMAT:
         given = found.get("format") if isinstance(found, Mapping) else type(found).__name__
         raise InputError(f"format {given!r}: unknown, expected {FORMAT!r}")
@@ -83,15 +89,15 @@ def _parse_case(name: str, found: object) -> KeptCase:
     if not isinstance(check, str):
         raise InputError("has no check; give its id")
     edition = found.get("edition")
-    if edition != EDITION:
-        return KeptCase(
-            name, Case(check, Scenario()), DeviceClass.NOMINAL, _describe_edition(edition)
-        )
+    if edition not in EDITIONS or wanted not in (None, edition):
+        reason = _describe_edition(edition, wanted or EDITION)
+        return KeptCase(name, Case(check, Scenario()), DeviceClass.NOMINAL, reason)
     if class_name not in list(DeviceClass):
         raise InputError(f"class {class_name!r}: unknown; choose from {', '.join(DeviceClass)}")
-    return KeptCase(name, Case.of(check, found, Path(name).stem), DeviceClass(class_name))
+    case = Case.of(check, found, Path(name).stem)
+    return KeptCase(name, case, DeviceClass(class_name), edition=str(edition))
 
 
-def _describe_edition(edition: object) -> str:
+def _describe_edition(edition: object, wanted: str) -> str:
     state = "has no edition" if edition is None else f"is of edition {shortened(edition)}"
-    return f"the case {state}, and its numbers may mean something else in {EDITION}; take it out"
+    return f"the case {state}, and its numbers may mean something else in {wanted}; take it out"

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import pluggy
 
-from floatref_conformance import hookspecs
+from floatref_conformance import EDITION, hookspecs
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass
@@ -78,11 +78,16 @@ OWN = "floatref_conformance.own_plugin"
 """Name of the plug-in that holds the suite's own devices and checks."""
 
 
-def load_registry() -> Registry:
-    """Return everything that the suite itself and the installed plug-ins register."""
-    from floatref_conformance import own_plugin
+def load_registry(edition: str = EDITION) -> Registry:
+    """Return everything that the suite itself, as ``edition`` has it, and plug-ins register.
 
-    plugins: dict[str, Callable[[], object]] = {OWN: lambda: own_plugin}
+    Raises InputError for an unknown edition.
+    """
+    from floatref_conformance.editions.edition import find_edition
+    from floatref_conformance.own_plugin import OwnPlugin
+
+    own = OwnPlugin(find_edition(edition))
+    plugins: dict[str, Callable[[], object]] = {OWN: lambda: own}
     for point in sorted(entry_points(group=hookspecs.GROUP), key=lambda p: p.name):
         plugins[point.name] = point.load
     return collect(plugins)

@@ -15,7 +15,8 @@ from floatref_conformance.proving_ground.scenario import Scenario
 Number = float | int | str | bool
 CHANNELS_BY_NEED = ("imu", "gnss", "response")
 """Fields of a scenario that follow from the device's capabilities, not from the case."""
-DEFAULT = Scenario()
+DEFAULT = Scenario(slip_percent_per_g=0.3, laser_ahead_m=0.0)
+"""What a case file does not name, in every edition: a file keeps its meaning."""
 LARGEST = 2**64
 """Largest whole number in a variation: larger ones may have no equal float."""
 
@@ -69,7 +70,15 @@ class Case:
         for key, value in variation.items():
             if not _is_plain(value):
                 raise InputError(f"variation {key} is {shortened(value)}; give a number or a name")
-        return cls(check, Scenario.from_dict(parameters.get("scenario", {})), variation, name)
+        return cls(check, _scenario_of(parameters.get("scenario", {})), variation, name)
+
+
+def _scenario_of(numbers: object) -> Scenario:
+    """Return the scenario of ``numbers`` of a case, else those of `DEFAULT`."""
+    if not isinstance(numbers, Mapping):
+        return Scenario.from_dict(numbers)
+    unnamed = {"slip_percent_per_g": DEFAULT.slip_percent_per_g}
+    return Scenario.from_dict({**unnamed, "laser_ahead_m": DEFAULT.laser_ahead_m, **numbers})
 
 
 def _is_plain(value: object) -> bool:

@@ -55,6 +55,15 @@ class Compared:
         counted = self.distance_m[inside][:-1] >= start_m - self.interval_m / 1e6
         return self._pair(inside, counted)
 
+    def without(self, left_out: BoolArray) -> "Compared":
+        """Return this with the truth's shape, and so no error, at the points ``left_out``.
+
+        What is left out has shape (n,). Other points without elevation stay without.
+        """
+        missing = np.where(left_out, np.nan, self.result)
+        filled = np.where(left_out, bridge(missing, self.truth), self.result)
+        return replace(self, result=filled)
+
     def unflagged(self) -> Pair | None:
         """Return both, counted where points are valid; None if no two adjacent ones are."""
         counted = self.valid[:-1] & self.valid[1:]
@@ -67,10 +76,7 @@ class Compared:
 
 def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
     """Return every wheel path of the unfiltered ``truth`` with that of ``profile``."""
-    tracks = tuple(
-        ProfileTrack.of(t.name, high_pass(t.elevation, truth.interval_m)) for t in truth.tracks
-    )
-    true, found = on_common_grid(replace(truth, tracks=tracks), profile)
+    true, found = on_common_grid(filter_truth(truth), profile)
     return tuple(
         Compared(
             t.name,
@@ -82,6 +88,14 @@ def compare(truth: Profile, profile: Profile) -> tuple[Compared, ...]:
         )
         for t in true.tracks
     )
+
+
+def filter_truth(truth: Profile) -> Profile:
+    """Return ``truth`` after the high-pass of a profile (-3 dB at 91.44 m)."""
+    tracks = tuple(
+        ProfileTrack.of(t.name, high_pass(t.elevation, truth.interval_m)) for t in truth.tracks
+    )
+    return replace(truth, tracks=tracks)
 
 
 def bridge(result: FloatArray, truth: FloatArray) -> FloatArray:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.values.profile import Profile
+from floatref_conformance import EDITION
 from floatref_conformance.checks.evidence import Evidence
 from floatref_conformance.classes import DeviceClass, Limits, lowest
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -104,6 +105,7 @@ class CaseResult:
         hung: whether it did not answer in time.
         skipped: why the device skipped the case, if it did.
         flagged_m: largest length of a wheel path that the device flagged invalid, in m.
+        early_m: largest length by which a profile ended before its recording, in m.
         passes: what it processed, stored for the pictures of a failing case.
         again: outcome of a second run of a failing case, if that run did not fail.
     """
@@ -115,6 +117,7 @@ class CaseResult:
     hung: bool = False
     skipped: str | None = None
     flagged_m: float = 0.0
+    early_m: float = 0.0
     passes: tuple[Pass, ...] = ()
     again: str = ""
 
@@ -146,7 +149,7 @@ class CheckResult:
         worst_case: name of its case.
         counterexample: the simplest case found that fails: ``case``, ``parameters``,
             ``reason``, and ``file``, its name in a report directory.
-        flagged_m: the largest value of its cases.
+        flagged_m, early_m: the largest values of its cases.
         passes: of the counterexample.
         worst_track: the wheel path that fails it, empty without measurements.
         scored_m: start and end of each stretch that it scores, in m.
@@ -162,6 +165,7 @@ class CheckResult:
     worst_case: str = ""
     counterexample: Mapping[str, Any] | None = None
     flagged_m: float = 0.0
+    early_m: float = 0.0
     passes: tuple[Pass, ...] = ()
     scored_m: tuple[tuple[float, float], ...] = ()
     worst_track: str = ""
@@ -174,7 +178,7 @@ class RunResult:
     ``replayed`` has for every case stored by an earlier run: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
-    user gave them; None if not given.
+    user gave them; None if not given. ``edition`` is the name of the checks' edition.
     """
 
     device: Mapping[str, Any]
@@ -185,6 +189,7 @@ class RunResult:
     replayed: tuple[Mapping[str, Any], ...] = ()
     timeout_s: float | None = None
     report: Path | None = None
+    edition: str = EDITION
 
     @property
     def verdict(self) -> Verdict:

@@ -6,6 +6,7 @@ import click
 
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.judge.judging import find_scored
 from floatref_conformance.plugins import load_registry
@@ -14,9 +15,10 @@ from floatref_conformance.render.drawing import draw
 
 @click.command()
 @click.argument("id_", metavar="ID")
-def explain(id_: str) -> None:
+@edition_option
+def explain(id_: str, edition: str) -> None:
     """Explain what check ID asks, what it allows, and why."""
-    registry = load_registry()
+    registry = load_registry(edition)
     check = registry.check(id_)
     click.echo("\n".join(explanation(check, registry.killers(id_))))
 

@@ -7,7 +7,9 @@ from pathlib import Path
 import click
 
 from floatref.errors import InputError
+from floatref_conformance import EDITION
 from floatref_conformance.classes import Effort
+from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import (
     ARCHITECTURES,
     CAPABILITIES,
@@ -48,6 +50,7 @@ DESCRIPTION = "device.json"
     multiple=True,
     help="Record the channels of this capability, too; may be repeated.",
 )
+@edition_option
 def export(
     out: Path,
     effort: str,
@@ -55,6 +58,7 @@ def export(
     seed: int,
     architecture: str,
     capabilities: tuple[str, ...],
+    edition: str,
 ) -> None:
     """Write the recordings of all checks; the truth stays here.
 
@@ -67,7 +71,7 @@ def export(
     from floatref_conformance import golden
     from floatref_conformance.exporting import export as write
 
-    registry = load_registry()
+    registry = load_registry(edition)
     checks, _ = registry.select(ids)
     description = Description(out.name, "unknown", architecture, tuple(capabilities))
     count = write(checks, out, description, seed, Effort(effort), _tell)
@@ -80,6 +84,7 @@ def export(
     }
     (out / DESCRIPTION).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
     words = ["conformance", "run", "--device", f"files:{out}", "--seed", str(seed)]
+    words += ["--edition", edition] if edition != EDITION else []
     words += ["--effort", effort, *(word for id_ in ids for word in ("--check", id_))]
     click.echo(f"{count} recordings in {out}; after processing: {shlex.join(words)}")
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import click
 
-from floatref_conformance import EDITION
 from floatref_conformance.checks.catalogue import IDS, not_built
+from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
@@ -24,13 +24,14 @@ MOST_SPARED = 3
 
 
 @click.command("list")
+@edition_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def list_(as_json: bool) -> None:
+def list_(edition: str, as_json: bool) -> None:
     """List the checks and the devices."""
-    registry = load_registry()
+    registry = load_registry(edition)
     for line in registry.broken:
         click.echo(f"Warning: {line}", err=True)
-    listing = {"edition": EDITION, "checks": _checks(registry), "devices": _devices(registry)}
+    listing = {"edition": edition, "checks": _checks(registry), "devices": _devices(registry)}
     click.echo(json.dumps(listing, indent=2) if as_json else _in_words(listing))
 
 

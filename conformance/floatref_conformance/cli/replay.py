@@ -12,6 +12,7 @@ from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.checks.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.options import class_of, limit_time
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.replaying import replay as replayed
 from floatref_conformance.plugins import load_registry
@@ -49,14 +50,14 @@ def replay(
     kept = read_case(case)
     if kept.refused:
         raise InputError(f"{case}: {kept.refused}")
-    registry = load_registry()
+    registry = load_registry(kept.edition)
     check = registry.check(kept.case.check)
     device = registry.device(spec)
     with close_on_error(device):
         limit_time(device, device_timeout)
         decisive = kept.device_class if device_class is None else class_of(device, device_class)
     try:
-        result = replayed(device, check, kept.case)
+        result = replayed(device, check, kept.case, find_edition(kept.edition))
     except InputError as error:
         raise InputError(f"{case}: {error}") from error
     verdict = _verdict(result, decisive)

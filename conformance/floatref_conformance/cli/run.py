@@ -6,8 +6,10 @@ import click
 
 from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.judge.waivers import check_used, read_waivers
@@ -60,6 +62,7 @@ RECOMMENDED = "builtin:road-prior-smoother"
     help="Directory for report.json, report.html, junit.xml, and the cases that fail; those in "
     "it are run again.",
 )
+@edition_option
 @click.pass_context
 def run(
     context: click.Context,
@@ -71,18 +74,19 @@ def run(
     waive: Path | None,
     device_timeout: float | None,
     report: Path | None,
+    edition: str,
 ) -> None:
     """Judge a device.
 
     Exit code 0: PASS; 1: FAIL; 2: wrong usage; 3: the suite itself is at fault, no verdict, or
     the report could not be written; 4: INCOMPLETE, since checks were left out, skipped or waived.
     """
-    registry = load_registry()
+    registry = load_registry(edition)
     for line in registry.broken:
         click.echo(f"Warning: {line}", err=True)
     checks, left_out = registry.select(ids)
     waivers = {} if waive is None else read_waivers(waive, registry.checks)
-    kept = () if report is None else read_cases(report)
+    kept = () if report is None else read_cases(report, edition)
     device = registry.device(spec)
     with close_on_error(device):
         limit_time(device, device_timeout)
@@ -100,6 +104,7 @@ def run(
             waivers=waivers,
             timeout_s=device_timeout,
             report=report,
+            edition=find_edition(edition),
         )
         writers = writers_into(report)
     finished = follow(plan, writers)

@@ -6,6 +6,8 @@ import click
 from rich.console import Console
 from rich.progress import Progress
 
+from floatref_conformance.cli.edition_option import edition_option
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 from floatref_conformance.selftest.counts import Counts, find_killers
@@ -51,6 +53,7 @@ DOES_NOT_HOLD = 1
     show_default=True,
     help="Number of devices tried at a time.",
 )
+@edition_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.pass_context
 def selftest(
@@ -61,6 +64,7 @@ def selftest(
     unique: bool | None,
     ids: tuple[str, ...],
     processes: int,
+    edition: str,
     as_json: bool,
 ) -> None:
     """Test the suite: mutants killed, limits that hold on both sides, false alarms.
@@ -68,7 +72,7 @@ def selftest(
     Exit code 0: all of it holds; 1: it does not; 2: wrong usage; 3: the suite itself is at fault.
     """
     wanted = Extent(seeds, false_alarms, limits, not ids if unique is None else unique, processes)
-    counts = _count(ids, wanted)
+    counts = _count(ids, wanted, find_edition(edition))
     if as_json:
         click.echo(json.dumps(counts.to_dict(), indent=2))
     else:
@@ -79,13 +83,14 @@ def selftest(
     context.exit(DOES_NOT_HOLD if counts.complaints else 0)
 
 
-def _count(ids: tuple[str, ...], extent: Extent) -> Counts:
+def _count(ids: tuple[str, ...], extent: Extent, edition: Edition) -> Counts:
     """Return the counts; the progress is shown on standard error, if that is a terminal."""
-    registry = load_registry()
+    registry = load_registry(edition.name)
     checks, _ = registry.select(ids)
     with Progress(console=Console(stderr=True), transient=True) as progress:
         work = Work(
             checks,
+            edition,
             find_killers(registry),
             extent,
             lambda items, count, title: progress.track(items, count, description=title),

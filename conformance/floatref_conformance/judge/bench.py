@@ -15,8 +15,9 @@ from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.devices.interface import Description, Device, visible
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.exercise import exercise
+from floatref_conformance.judge.exercise import Delivery, early_end_m, exercise
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
@@ -45,12 +46,16 @@ class DeviceBench:
     Attributes:
         device, description: what is judged.
         make: simulates a scenario.
+        edition: says where a profile may end.
+        early_m: the largest length in m by which a profile has ended before its recording.
         passes: recordings that the device has processed, in order.
     """
 
     device: Device
     description: Description
     make: Callable[[Scenario], Taken] = make_taken
+    edition: Edition = field(default_factory=find_edition)
+    early_m: float = 0.0
     passes: list[Pass] = field(default_factory=list)
 
     def simulate(self, scenario: Scenario) -> Taken:
@@ -60,7 +65,11 @@ class DeviceBench:
 
     def run(self, taken: Taken, label: str = "") -> Profile:
         """Return the profile that the device makes of ``taken.recording``, and store it."""
-        profile = exercise(GuardedDevice(self.device), self.description, taken.recording)
+        true_end_m = taken.truth.length_m if self.edition.true_axis else None
+        delivery = Delivery(self.edition.early_end_m, true_end_m)
+        guarded = GuardedDevice(self.device)
+        profile = exercise(guarded, self.description, taken.recording, delivery)
+        self.early_m = max(self.early_m, early_end_m(profile, taken.recording, true_end_m))
         self.passes.append(Pass(label, taken.truth, profile, taken.scenario))
         return profile
 

@@ -9,6 +9,7 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import CaseResult
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import Device
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
@@ -25,8 +26,13 @@ def judge_case(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
     except DeviceError as error:
         hung, passes = isinstance(error, DeviceHung), tuple(bench.passes)
         return replace(result, fault=str(error), hung=hung, passes=passes)
-    flagged, passes = bench.flagged_m, tuple(bench.passes)
-    return replace(result, measurements=tuple(measured), flagged_m=flagged, passes=passes)
+    return replace(
+        result,
+        measurements=tuple(measured),
+        flagged_m=bench.flagged_m,
+        early_m=bench.early_m,
+        passes=tuple(bench.passes),
+    )
 
 
 def refuse_foreign(check: Check, case: Case) -> None:
@@ -44,15 +50,17 @@ def refuse_foreign(check: Check, case: Case) -> None:
             raise InputError(f"variation {name}: unknown; {others}")
 
 
-def replay(device: Device, check: Check, case: Case) -> CaseResult:
-    """Return the result of ``case`` for ``device`` outside any run, and close the device.
+def replay(device: Device, check: Check, case: Case, edition: Edition) -> CaseResult:
+    """Return the result of ``case`` of ``edition`` for ``device`` outside any run.
+
+    The device is closed.
 
     The case is skipped for a device that does not meet the needs of ``check``. Raises InputError
     for numbers that make no case of the check.
     """
     try:
         refuse_foreign(check, case)
-        result = _judge_alone(device, check, case)
+        result = _judge_alone(device, check, case, edition)
     except BaseException:
         close(device)
         raise
@@ -62,7 +70,7 @@ def replay(device: Device, check: Check, case: Case) -> CaseResult:
     return replace(result, fault=f"when it was stopped, the device {fault}")
 
 
-def _judge_alone(device: Device, check: Check, case: Case) -> CaseResult:
+def _judge_alone(device: Device, check: Check, case: Case, edition: Edition) -> CaseResult:
     try:
         description = describe(device)
     except DeviceError as fault:
@@ -70,4 +78,4 @@ def _judge_alone(device: Device, check: Check, case: Case) -> CaseResult:
     missing = check.needs - description.meets
     if missing:
         return CaseResult(case.name, case.parameters, skipped=describe_missing(missing))
-    return judge_case(check, case, DeviceBench(device, description))
+    return judge_case(check, case, DeviceBench(device, description, edition=edition))

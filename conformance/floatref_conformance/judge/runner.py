@@ -13,6 +13,7 @@ from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.bench import Ahead
 from floatref_conformance.judge.events import (
@@ -51,6 +52,7 @@ class Plan:
         searching: whether cases are drawn that depend on the device's answers.
         waivers: reasons of known failures, by the id of the check.
         ahead: whether the next cases are simulated while the device works.
+        edition: of the checks.
         timeout_s, report: time for a recording in s, and folder of the report; the report names
             both, so that the run can be reproduced.
     """
@@ -68,6 +70,7 @@ class Plan:
     ahead: bool = False
     timeout_s: float | None = None
     report: Path | None = None
+    edition: Edition = field(default_factory=find_edition)
 
 
 def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
@@ -91,7 +94,7 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
 def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResult:
     description, fault = _describe(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
-    trial = Trial(plan.device, description, plan.device_class, emit, fault)
+    trial = Trial(plan.device, description, plan.device_class, emit, fault, edition=plan.edition)
     with _simulate_ahead(plan, trial) as announce:
         results, replayed = _judge_all(plan, trial, announce, closing)
     results += [left_out_result(left_out) for left_out in plan.left_out]
@@ -220,4 +223,5 @@ def _result(
         replayed=tuple(replayed),
         timeout_s=plan.timeout_s,
         report=plan.report,
+        edition=plan.edition.name,
     )

@@ -11,6 +11,7 @@ from floatref_conformance.checks.interface import Check, Taken
 from floatref_conformance.checks.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.judge.bench import DeviceBench, make_taken
 from floatref_conformance.judge.events import (
     CaseFinished,
@@ -39,6 +40,7 @@ class Trial:
         fault: why the device could not describe itself; it is then the fault of every case.
         hangs: how often the device has not answered in time.
         make: simulates a scenario.
+        edition: says where a profile may end.
     """
 
     device: Device
@@ -48,6 +50,7 @@ class Trial:
     fault: str | None = None
     hangs: int = 0
     make: Callable[[Scenario], Taken] = make_taken
+    edition: Edition = field(default_factory=find_edition)
     _judged: dict[Case, CaseResult] = field(default_factory=dict)
 
     @property
@@ -111,7 +114,8 @@ class Trial:
             fault = self.fault or self.given_up
             result = CaseResult(case.name, case.parameters, fault=fault)
         else:
-            result = judge_case(check, case, DeviceBench(self.device, self.description, self.make))
+            bench = DeviceBench(self.device, self.description, self.make, self.edition)
+            result = judge_case(check, case, bench)
             self.hangs += result.hung
         self.emit(CaseFinished(check.id, result))
         return result

@@ -128,7 +128,7 @@ class Scenario:
         0.0, -50.0, 50.0, "scale error of the encoder beside the one that is drawn"
     )
     slip_percent_per_g: float = number(
-        0.3, 0.0, 100.0, "of the encoder's wheel, at a factor `sensors` of 1"
+        2.5, 0.0, 100.0, "of the encoder's wheel, at a factor `sensors` of 1"
     )
     radius_percent: float = number(
         0.0,
@@ -139,7 +139,7 @@ class Scenario:
     warming_percent: float = number(
         0.0, -5.0, 5.0, "its growth as the tyre warms up during a long drive"
     )
-    laser_ahead_m: float = number(0.0, -2.0, 2.0, "the laser ahead of the accelerometer")
+    laser_ahead_m: float = number(0.105, -2.0, 2.0, "the laser ahead of the accelerometer")
     latency_ms: float = number(0.0, 0.0, 100.0, "age of a reading of the laser when it is recorded")
     friction_nm: float = number(
         0.0, 0.0, 10000.0, "moment about pitch at which the suspension's leaf springs slide, in N·m"

@@ -35,7 +35,7 @@ class CaseFiles:
             return
         case = Case.of(check.id, found["parameters"])
         spec = str(result.device["spec"])
-        kept = document(case, result.device_class, spec, found["reason"])
+        kept = document(case, result.device_class, spec, found["reason"], result.edition)
         text = json.dumps(kept, indent=2, ensure_ascii=False) + "\n"
         with replace_file(self.folder / name_of(case), overwrite=True) as beside:
             # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.

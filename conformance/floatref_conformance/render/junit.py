@@ -10,7 +10,6 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
 
 from floatref.files.atomic import replace_file
-from floatref_conformance import EDITION
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import (
@@ -87,7 +86,7 @@ def as_xml(result: RunResult, seconds: Mapping[str, float], begun: datetime) -> 
     """
     root = Element("testsuites")
     checks = [_check(check, result, seconds.get(check.id, 0.0)) for check in result.checks]
-    about = _suite(root, 0, f"floatref conformance {EDITION}", checks, begun)
+    about = _suite(root, 0, f"floatref conformance {result.edition}", checks, begun)
     for name, value in _properties(result):
         SubElement(about, "property", name=name, value=printable(value))
     kept = [_replay_suite(replayed, result) for replayed in result.replayed]
@@ -123,11 +122,13 @@ def _count(cases: Iterable[Element], tag: str) -> int:
     return sum(case.find(tag) is not None for case in cases)
 
 
-def _case(id_: str, seconds: float, outcome: Outcome, reason: str, text: str) -> Element:
+def _case(
+    id_: str, seconds: float, outcome: Outcome, reason: str, text: str, edition: str
+) -> Element:
     case = Element(
         "testcase",
         name=printable(id_),
-        classname=f"{PACKAGE}.{EDITION.replace('.', '_')}",
+        classname=f"{PACKAGE}.{edition.replace('.', '_')}",
         time=f"{seconds:.3f}",
     )
     if outcome is not Outcome.PASS:
@@ -150,14 +151,14 @@ def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
             lines.append(f"{wording.WHERE}: {command}")
     if check.outcome not in wording.UNJUDGED:
         lines.append(f"again: {wording.reproduction(result, check.id)}")
-    return _case(check.id, seconds, check.outcome, check.reason, "\n".join(lines))
+    return _case(check.id, seconds, check.outcome, check.reason, "\n".join(lines), result.edition)
 
 
 def _replay_suite(replayed: Mapping[str, Any], result: RunResult) -> Element:
     reason = str(replayed.get("reason") or "")
     command = wording.replay_command(replayed["file"], result)
     text = f"{reason}\n{wording.WHERE}: {command}"
-    return _case(replayed["file"], 0.0, Outcome(replayed["outcome"]), reason, text)
+    return _case(replayed["file"], 0.0, Outcome(replayed["outcome"]), reason, text, result.edition)
 
 
 def _properties(result: RunResult) -> list[tuple[str, str]]:
@@ -168,7 +169,7 @@ def _properties(result: RunResult) -> list[tuple[str, str]]:
         "class_reached": "none" if reached is None else reached,
         "seed": result.seed,
         "effort": result.effort,
-        "edition": EDITION,
+        "edition": result.edition,
         "verdict": result.verdict,
     }
     return [

@@ -8,7 +8,6 @@ from math import isfinite
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
@@ -134,7 +133,7 @@ def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
         verdict=result.verdict.value,
         device=str(result.device["spec"]),
         device_class=result.device_class.value,
-        edition=EDITION,
+        edition=result.edition,
         summary=wording.summary(result),
         facts=_facts(result),
         rows=tuple(_row(c, result.device_class, targets.get(c.id, "checks")) for c in ordered),
@@ -142,7 +141,7 @@ def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
         replayed=tuple(_replay_row(replayed) for replayed in result.replayed),
         asked=tuple(explained.values()),
         classes=tuple(DeviceClass),
-        versions=_versions(),
+        versions=_versions(result.edition),
     )
 
 
@@ -160,7 +159,7 @@ def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
     return (
         ("Class judged", result.device_class.value),
         ("Class reached", result.class_reached or "no class"),
-        ("Edition", EDITION),
+        ("Edition", result.edition),
         ("Effort", result.effort),
         ("Seed", str(result.seed)),
         ("Device", f"{device['name']} {device['version']}"),
@@ -204,7 +203,8 @@ def _notes(check: CheckResult, worst: Measurement) -> tuple[str, ...]:
     """Return what the worst value is a value of, in which case, and what was flagged."""
     case = f"case {check.worst_case}" if check.worst_case else ""
     flagged = wording.describe_flagged(check) if check.flagged_m else ""
-    notes = (f"{worst.quantity}, track {worst.track}", case, flagged)
+    early = wording.describe_early(check) if check.early_m else ""
+    notes = (f"{worst.quantity}, track {worst.track}", case, flagged, early)
     return tuple(note for note in notes if note)
 
 
@@ -231,8 +231,8 @@ def _replay_row(replayed: Mapping[str, Any]) -> KeptRow:
     return KeptRow(replayed["file"], replayed["check"], replayed["outcome"], value, limit, reason)
 
 
-def _versions() -> str:
+def _versions(edition: str) -> str:
     return (
-        f"floatref {version('floatref')}, edition {EDITION}, "
+        f"floatref {version('floatref')}, edition {edition}, "
         f"Python {platform.python_version()}, NumPy {version('numpy')}"
     )

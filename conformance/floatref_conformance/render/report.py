@@ -8,7 +8,6 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from floatref_conformance import EDITION
 from floatref_conformance.checks.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import Event, RunFinished
@@ -44,7 +43,7 @@ def as_json(result: RunResult) -> dict[str, Any]:
     """Return ``result`` as the object of format conformance-report/1; NaN becomes null."""
     return {
         "format": "conformance-report/1",
-        "edition": EDITION,
+        "edition": result.edition,
         "device": _plain(result.device),
         "class": result.device_class.value,
         "class_reached": _name(result.class_reached),
@@ -70,6 +69,7 @@ def write(document: dict[str, Any], path: Path) -> None:
 
 
 def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
+    early = {"early_m": check.early_m} if check.early_m else {}
     return {
         "id": check.id,
         "outcome": check.outcome.value,
@@ -79,6 +79,7 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
         "worst": check.worst and _worst(check.worst, check.worst_case, device_class),
         "clause": check.clause,
         "flagged_m": check.flagged_m,
+        **early,
         "counterexample": _plain(check.counterexample),
     }
 

@@ -128,6 +128,8 @@ def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
     lines = [f"{check.id}: {'; '.join(parts)} [{check.clause}]"]
     if check.flagged_m:
         lines.append(f"{check.id}: {wording.describe_flagged(check)}")
+    if check.early_m:
+        lines.append(f"{check.id}: {wording.describe_early(check)}")
     if check.counterexample is not None:
         lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
     return lines

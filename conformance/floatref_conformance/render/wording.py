@@ -6,6 +6,7 @@ from math import isfinite, isnan
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from floatref_conformance import EDITION
 from floatref_conformance.case_files import FOLDER
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
@@ -87,6 +88,11 @@ def describe_flagged(check: CheckResult) -> str:
     return f"up to {check.flagged_m:.1f} m of a wheel path flagged invalid"
 
 
+def describe_early(check: CheckResult) -> str:
+    """Return the warning about a profile that ends before its recording."""
+    return f"warning: a profile ends {check.early_m:.3f} m before its recording"
+
+
 def not_run_lines(result: RunResult) -> list[str]:
     """Return one line per reason for which checks were left out or skipped, naming them."""
     reasons: dict[str, list[str]] = {}
@@ -152,6 +158,8 @@ def reproduction(result: RunResult, *ids: str) -> str:
     words += ["--class", result.device_class.value, "--seed", str(result.seed)]
     if result.effort != Effort.QUICK:
         words += ["--effort", result.effort]
+    if result.edition != EDITION:
+        words += ["--edition", result.edition]
     for id_ in ids or [c.id for c in result.checks if c.outcome in FAILED]:
         words += ["--check", id_]
     return shlex.join(words + _timeout(result))

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from floatref_conformance.devices.builtin import CLAIMS
+from floatref_conformance.classes import DeviceClass
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.registry import Registry
 from floatref_conformance.selftest.grading import ALLOWED, TOO_MUCH, Limit
 from floatref_conformance.selftest.trying import Try, TryResult
@@ -23,10 +24,12 @@ def find_killers(registry: Registry) -> Killers:
     }
 
 
-def list_named_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_named_tries(
+    killers: Killers, ids: Sequence[str], seeds: Iterable[int], edition: Edition
+) -> tuple[Try, ...]:
     """Return every device on each check of ``ids`` that must fail it, with every seed."""
     return tuple(
-        Try(spec, id_, seed)
+        Try(spec, id_, seed, edition=edition.name)
         for seed in seeds
         for id_ in ids
         for spec, fails in killers.items()
@@ -34,10 +37,12 @@ def list_named_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int])
     )
 
 
-def list_other_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
+def list_other_tries(
+    killers: Killers, ids: Sequence[str], seeds: Iterable[int], edition: Edition
+) -> tuple[Try, ...]:
     """Return every device that must fail only one check, on all other checks of ``ids``."""
     return tuple(
-        Try(spec, id_, seed)
+        Try(spec, id_, seed, edition=edition.name)
         for seed in seeds
         for id_ in ids
         for spec, fails in killers.items()
@@ -45,13 +50,15 @@ def list_other_tries(killers: Killers, ids: Sequence[str], seeds: Iterable[int])
     )
 
 
-def list_claim_tries(ids: Sequence[str], seeds: Iterable[int]) -> tuple[Try, ...]:
-    """Return every built-in device that claims a class on each check of ``ids``."""
+def list_claim_tries(ids: Sequence[str], seeds: Iterable[int], edition: Edition) -> tuple[Try, ...]:
+    """Return every built-in device on each check of ``ids`` whose class ``edition`` says it has."""
     return tuple(
-        Try(f"builtin:{name}", id_, seed, device_class)
+        Try(f"builtin:{name}", id_, seed, DeviceClass(device_class), edition.name)
         for seed in seeds
         for id_ in ids
-        for name, device_class in CLAIMS.items()
+        for name, by_check in edition.document["reached"].items()
+        for device_class in (by_check.get(id_, by_check.get("all")),)
+        if device_class
     )
 
 

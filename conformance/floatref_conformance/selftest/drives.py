@@ -8,13 +8,14 @@ from floatref_conformance.checks.driving.check import DrivingCheck
 from floatref_conformance.checks.driving.layout import Layout, layout_of, place
 from floatref_conformance.checks.driving.rules import (
     ELSEWHERE,
-    RULES,
     UNFLAGGED,
     WHOLE,
     Rule,
     rule_of,
+    rules_of,
 )
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import BUMP_LENGTH_M
 from floatref_conformance.selftest import put_in
@@ -37,7 +38,7 @@ AWAY_M = 60.0
 def situations(check: DrivingCheck) -> tuple[Situation, ...]:
     """Return one drive for each rule of ``check``: ideal sensors, one wheel path."""
     return tuple(
-        Situation(check, case, tuple(_list_graded(case.scenario, rule)), condition)
+        Situation(check, case, tuple(_list_graded(case.scenario, rule, check.edition)), condition)
         for condition, rule in check.rules.items()
         for case in (_case(check, rule),)
     )
@@ -45,8 +46,8 @@ def situations(check: DrivingCheck) -> tuple[Situation, ...]:
 
 def _case(check: DrivingCheck, rule: Rule) -> Case:
     rows = (case.scenario for case in check.cases(0, Effort.CERTIFICATION))
-    row = next(row for row in rows if rule_of(row) is rule and _stays_fast(row))
-    plain = Scenario(
+    row = next(row for row in rows if rule_of(row, check.edition) is rule and _stays_fast(row))
+    plain = check.edition.make_scenario(
         manoeuvre=row.manoeuvre,
         speed_kmh=row.speed_kmh,
         event_speed_kmh=row.event_speed_kmh,
@@ -59,7 +60,7 @@ def _case(check: DrivingCheck, rule: Rule) -> Case:
         rate_hz=4000.0,
         profile_interval_m=0.01,
     )
-    return Case(check.id, place(plain))
+    return Case(check.id, place(plain, check.edition))
 
 
 def _stays_fast(row: Scenario) -> bool:
@@ -67,13 +68,13 @@ def _stays_fast(row: Scenario) -> bool:
     return row.manoeuvre != "braking" or row.event_speed_kmh > FAST_KMH
 
 
-def _list_graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
-    layout = layout_of(scenario)
+def _list_graded(scenario: Scenario, rule: Rule, edition: Edition) -> Iterator[Graded]:
+    layout, rules = layout_of(scenario), rules_of(edition)
     start_m, end_m = layout.stretches[-1]
-    above = (ADEQUATE, REFERENCE) if rule is RULES["light"] else tuple(DeviceClass)
+    above = (ADEQUATE, REFERENCE) if rule is rules["light"] else tuple(DeviceClass)
     yield Graded((LOSS,), lambda loss: put_in.mix_in_road(loss, start_m, end_m), above)
     yield Graded((ERROR,), _make_higher, above)
-    if rule is RULES["light"]:
+    if rule is rules["light"]:
         yield Graded(
             (LOSS, ERROR),
             lambda percent: put_in.make_higher(-percent / 100.0),
@@ -82,7 +83,7 @@ def _list_graded(scenario: Scenario, rule: Rule) -> Iterator[Graded]:
         )
     unflagged = _make_higher if rule.slow else _make_rougher(0.0, scenario.length_m)
     yield Graded((UNFLAGGED,), unflagged)
-    yield Graded((WHOLE,), _around_event(layout), alone=rule is not RULES["start"])
+    yield Graded((WHOLE,), _around_event(layout), alone=rule is not rules["start"])
     if not rule.slow:
         yield Graded(("flagged at an end",), put_in.flag_end)
         yield Graded((ELSEWHERE,), _flag_away(scenario, layout))

@@ -6,10 +6,12 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache
 
+from floatref_conformance import EDITION
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
@@ -22,12 +24,13 @@ from floatref_conformance.registry import Registry
 
 @dataclass(frozen=True)
 class Try:
-    """A device by its SPEC, a check by its id, a seed, and the class whose limits decide."""
+    """A device by its SPEC, a check of an edition, a seed, and the class whose limits decide."""
 
     spec: str
     check: str
     seed: int
     device_class: DeviceClass = DeviceClass.NOMINAL
+    edition: str = EDITION
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
 
 def attempt(wanted: Try) -> TryResult:
     """Return the result of ``wanted`` at quick effort, including the search."""
-    registry = _registry()
+    registry = _registry(wanted.edition)
     device = registry.device(wanted.spec)
     try:
         return TryResult(wanted, _describe_failure(registry.check(wanted.check), device, wanted))
@@ -71,12 +74,12 @@ def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
     except DeviceError as fault:
         return str(fault)
 
-    check = fit_check(check, description.meets)
+    check, edition = fit_check(check, description.meets), find_edition(wanted.edition)
 
     def ratio(case: Case) -> float:
         if found:
             return 0.0
-        result = judge_case(check, case, DeviceBench(device, description))
+        result = judge_case(check, case, DeviceBench(device, description, edition=edition))
         if result.ratio(wanted.device_class) > 1.0:
             found.append(
                 f"{case.name or 'searched'}: {describe_failure(result, wanted.device_class)}"
@@ -91,5 +94,5 @@ def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
 
 
 @cache
-def _registry() -> Registry:
-    return load_registry()
+def _registry(edition: str) -> Registry:
+    return load_registry(edition)

@@ -12,6 +12,7 @@ from floatref_conformance.checks.interface import Check
 from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.checks.stationary.parked_checks import StationaryCheck
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.selftest import drives, faults, passes, places, stationary, waves
 from floatref_conformance.selftest.counts import (
     Counts,
@@ -85,9 +86,10 @@ class Extent:
 
 @dataclass(frozen=True)
 class Work:
-    """The self-test of ``checks``; ``track`` shows its progress."""
+    """The self-test of ``checks`` of ``edition``; ``track`` shows its progress."""
 
     checks: tuple[Check, ...]
+    edition: Edition
     killers: Killers
     extent: Extent
     track: Track
@@ -100,9 +102,9 @@ class Work:
         return Counts(
             self.killers,
             ids,
-            self._try("mutants", list_named_tries(self.killers, ids, seeds)),
+            self._try("mutants", list_named_tries(self.killers, ids, seeds, self.edition)),
             self._try("only killers", self._others(ids)),
-            self._try("false alarms", list_claim_tries(ids, more)),
+            self._try("false alarms", list_claim_tries(ids, more, self.edition)),
             limits,
             list_ungraded(self.checks, limits) if extent.limits else (),
         )
@@ -115,7 +117,7 @@ class Work:
     def _others(self, ids: tuple[str, ...]) -> tuple[Try, ...]:
         if not self.extent.unique:
             return ()
-        return list_other_tries(self.killers, ids, range(self.extent.seeds))
+        return list_other_tries(self.killers, ids, range(self.extent.seeds), self.edition)
 
     def _try(self, title: str, tries: tuple[Try, ...]) -> tuple[TryResult, ...]:
         return tuple(self.track(try_all(tries, self.extent.processes), len(tries), title))

@@ -7,9 +7,11 @@ from typing import ClassVar
 
 import pytest
 
+from floatref_conformance import EDITION
 from floatref_conformance.checks.verdict import Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.events import Event
 from floatref_conformance.judge.runner import Plan, run
 from floatref_conformance.plugins import load_registry
@@ -33,6 +35,7 @@ class DeviceChecks:
         checks: the ids of the checks to run; all of them if empty.
         seed: draws roads and noise.
         effort: sets the number of cases.
+        edition: name of the edition of the checks.
     """
 
     device: ClassVar[str | Callable[[], Device] | Device] = (
@@ -42,17 +45,18 @@ class DeviceChecks:
     checks: ClassVar[Sequence[str]] = ()
     seed: ClassVar[int] = 0
     effort: ClassVar[str] = Effort.QUICK.value
+    edition: ClassVar[str] = EDITION
 
     def pytest_generate_tests(self, metafunc: pytest.Metafunc) -> None:
         """Make every check that is registered a test; CollectError for an unknown one."""
         if "check" in metafunc.fixturenames:
-            registry = load_registry()
+            registry = load_registry(self.edition)
             self._refuse_unknown(registry)
             metafunc.parametrize("check", tuple(registry.checks))
 
     def test_the_device_passes(self, check: str, request: pytest.FixtureRequest) -> None:
         """Run one check and fail with its reason and the command that reproduces it."""
-        registry = load_registry()
+        registry = load_registry(self.edition)
         if self.checks and check not in self.checks:
             pytest.skip("not selected")
         spec, device = self._resolve(registry)
@@ -64,6 +68,7 @@ class DeviceChecks:
             seed=self.seed,
             effort=Effort(self.effort),
             ahead=True,
+            edition=find_edition(self.edition),
         )
         result = run(plan, _ignore)
         (judged,) = result.checks

@@ -1,17 +1,18 @@
 """`distance`: features lie at the encoder's distance, even with scale errors, slip and stops."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import cycle
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
 from floatref_conformance.checks.distance.features import (
     BESIDE_EVENT_M,
-    DRIVES,
     END_M,
     FARTHEST_M,
     FEATURE_M,
@@ -23,11 +24,14 @@ from floatref_conformance.checks.distance.features import (
     place,
     scenario_of,
 )
-from floatref_conformance.checks.interface import Bench
+from floatref_conformance.checks.encoder_axis import EncoderAxis
+from floatref_conformance.checks.interface import Bench, Taken
 from floatref_conformance.checks.rounded import rounded_numbers, seeds
 from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
+from floatref_conformance.editions.edition import Edition, Table, find_edition
+from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.staging import drive_of
 
 if TYPE_CHECKING:
@@ -61,8 +65,8 @@ DERIVATION = (
     f"ends of the run and {BESIDE_EVENT_M:g} m from a stop or a release of the brake, so that no "
     "event moves them. The truth is converted to the encoder's axis: for every sample the drive "
     "gives the true distance, and the recording the encoder's reading. The encoder is up to 1 % "
-    "wrong, slips by up to 3 % per g (section 3.3.9 saw 0.8 m lost in one braking), and "
-    "does not count at stops; a device with a better sensor must use this axis too. A device "
+    "wrong, slips by up to {most_slip:g} % per g, which from 48 to 24 km/h loses {lost_m:.2f} m "
+    "(section 3.3.9 saw 0.8 m), and does not count at stops; {better}. A device "
     "without a height sensor measures the road at a wheel, up to 5.07 m ahead of the place of a "
     "laser; it adds this length to the encoder's reading, and its truth is converted in the same "
     "way: 1 % of the length, 51 mm, is an error of the encoder that it cannot know. "
@@ -78,7 +82,13 @@ DERIVATION = (
     "0.36²/6 of the correlation, 0.02, is lost, all that class reference may lose. Class "
     "reference is allowed a third. A profile that does not cover the recorded distance is refused."
 )
-"""How features are found, and where the limits come from."""
+"""How features are found, and where the limits come from; an edition completes it."""
+BETTER = {
+    False: "a device with a better sensor must use this axis too",
+    True: "a device with a better sensor may use the true distance instead, and the axis that its "
+    "features lie nearer counts",
+}
+"""What `Edition.true_axis` means for a device."""
 FLOOR = (
     "Every feature has to be found: its correlation with the truth, by (2.16) and so by its "
     "height as well, may fall short of 1 by 0.2 in class nominal, 0.1 in adequate, 0.05 in "
@@ -98,9 +108,17 @@ class DistanceCheck:
         "Derived: the encoder's distance is the profile's axis (Karamihas 2021, sections 3.3.9, "
         "4.1.3 and 5.1); limits from the sensors' delays and the loss of correlation"
     )
-    derivation: str = DERIVATION
     floor: str = FLOOR
     needs: frozenset[str] = frozenset()
+    edition: Edition = field(default_factory=find_edition)
+
+    @property
+    def derivation(self) -> str:
+        """How features are found, by what encoder, and where the limits come from."""
+        most = self.edition.encoder["slip_percent_per_g"].high
+        lost_m = most / 100 * (48**2 - 24**2) * KMH**2 / (2 * STANDARD_GRAVITY)
+        better = BETTER[self.edition.true_axis]
+        return DERIVATION.format(most_slip=most, lost_m=lost_m, better=better)
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -110,15 +128,15 @@ class DistanceCheck:
     @property
     def simplest(self) -> Case:
         """One stop from 72 km/h; the encoder's errors are those of the nominal sensor."""
-        return Case(self.id, scenario_of({"manoeuvre": "stop"}))
+        return Case(self.id, scenario_of({"manoeuvre": "stop"}, self.edition))
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
-        """Return the cases: `DRIVES` and vehicles in turn; roads and noise are drawn."""
+        """Return the cases: drives and vehicles in turn; roads and noise are drawn."""
         source = np.random.SeedSequence([seed, *self.id.encode()])
         roads = source.generate_state(COUNT[effort])
         return tuple(
             self._make_case(number, int(road), drive)
-            for number, (road, drive) in enumerate(zip(roads, cycle(DRIVES), strict=False))
+            for number, (road, drive) in enumerate(zip(roads, cycle(self._drives), strict=False))
         )
 
     def strategy(self) -> "SearchStrategy[Case]":
@@ -130,8 +148,7 @@ class DistanceCheck:
             "vehicle": st.sampled_from(VEHICLES),
             "iri_m_per_km": rounded_numbers(SMOOTHEST, ROUGHEST),
             "speed_kmh": rounded_numbers(40, 90, 0),
-            "encoder_error_percent": rounded_numbers(-1.0, 1.0),
-            "slip_percent_per_g": rounded_numbers(0.0, 3.0),
+            **{name: drawn.strategy() for name, drawn in self.edition.encoder.items()},
         }
         slowing = {"deceleration_g": rounded_numbers(0.1, 0.4, 2)}
         after = {
@@ -145,7 +162,7 @@ class DistanceCheck:
             {"manoeuvre": st.just("braking"), **shared, **slowing, **release},
         )
         numbers = st.one_of([st.fixed_dictionaries(drive) for drive in drives])
-        return numbers.map(lambda given: Case(self.id, scenario_of(given)))
+        return numbers.map(lambda given: Case(self.id, scenario_of(given, self.edition)))
 
     def list_scored(self, case: Case) -> Stretches:
         """Return the stretches in which features lie, ahead of an event and behind it.
@@ -164,16 +181,19 @@ class DistanceCheck:
         self.list_scored(case)
         taken = bench.simulate(case.scenario)
         profile = bench.run(taken)
-        axis, true_event_m = EncoderAxis.of(taken), event_of(case.scenario)
-        at = middles(drive_of(case.scenario).length_m, true_event_m)
-        event_m = None
-        if true_event_m is not None:
-            event_m = float(axis.to_encoder(np.array([true_event_m]))[0])
-        measured: list[Measurement] = []
-        for track in taken.truth.tracks:
-            features = find_features(profile, taken.truth, track.name, axis, at)
-            measured += _measure(track.name, features, event_m)
-        return tuple(measured)
+        found = [_measure_along(axis, taken, profile) for axis in self._list_axes(taken)]
+        return min(found, key=_worst_ratio)
+
+    @property
+    def _drives(self) -> Sequence[Table]:
+        """The drives of the cases, in turn."""
+        drives: Sequence[Table] = self.edition.document["distance"]
+        return drives
+
+    def _list_axes(self, taken: Taken) -> tuple[EncoderAxis, ...]:
+        """Return the axes along which features may lie."""
+        axis = EncoderAxis.of(taken)
+        return (axis, EncoderAxis.without_error(taken)) if self.edition.true_axis else (axis,)
 
     def _make_case(self, number: int, road: int, drive: Mapping[str, Any]) -> Case:
         roughness = np.random.default_rng(road).uniform(SMOOTHEST, ROUGHEST)
@@ -181,9 +201,28 @@ class DistanceCheck:
             **drive,
             "seed": road,
             "iri_m_per_km": round(roughness, 1),
-            "vehicle": VEHICLES[(number + number // len(DRIVES)) % len(VEHICLES)],
+            "vehicle": VEHICLES[(number + number // len(self._drives)) % len(VEHICLES)],
         }
-        return Case(self.id, scenario_of(numbers), name=f"{self.id}-{number + 1}")
+        case = scenario_of(numbers, self.edition)
+        return Case(self.id, case, name=f"{self.id}-{number + 1}")
+
+
+def _measure_along(axis: EncoderAxis, taken: Taken, profile: Profile) -> tuple[Measurement, ...]:
+    """Return the displacements of the features of every wheel path along ``axis``."""
+    true_event_m = event_of(taken.scenario)
+    at = middles(drive_of(taken.scenario).length_m, true_event_m)
+    event_m = None
+    if true_event_m is not None:
+        event_m = float(axis.to_encoder(np.array([true_event_m]))[0])
+    measured: list[Measurement] = []
+    for track in taken.truth.tracks:
+        features = find_features(profile, taken.truth, track.name, axis, at)
+        measured += _measure(track.name, features, event_m)
+    return tuple(measured)
+
+
+def _worst_ratio(measured: Sequence[Measurement]) -> float:
+    return max((m.ratio(DeviceClass.NOMINAL) for m in measured), default=inf)
 
 
 def _measure(track: str, features: tuple[Feature, ...], event_m: float | None) -> list[Measurement]:
@@ -199,6 +238,3 @@ def _measure(track: str, features: tuple[Feature, ...], event_m: float | None) -
         Measurement(name, track, value, unit, limits)
         for (name, unit, limits), value in zip(QUANTITIES, values, strict=True)
     ]
-
-
-DISTANCE = DistanceCheck()

@@ -1,7 +1,7 @@
 """Features of a profile: the drives that pass them, and their places in a profile."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any
 
@@ -10,10 +10,11 @@ import numpy as np
 from floatref.measures import cross_correlation, on_common_grid, waveband_slope
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
+from floatref.values.profile import Profile
+from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.scoring import bridge
 from floatref_conformance.checks.stretches import Stretches, points, stretch
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -83,7 +84,7 @@ def find_features(
 
     Raises DeviceError if a point of one of them has no elevation.
     """
-    wanted = _on_encoder_axis(truth, track, axis)
+    wanted = axis.place(replace(truth, tracks=(truth.track(track),)))
     true, found = on_common_grid(wanted, profile)
     places = [float(place_m) for place_m in axis.to_encoder(middles_m)]
     for at in places:
@@ -118,14 +119,6 @@ def _split_middles(start_m: float, end_m: float) -> FloatArray:
     return start_m + FEATURE_M * (np.arange(count, dtype=np.float64) + 0.5)
 
 
-def _on_encoder_axis(truth: Profile, track: str, axis: EncoderAxis) -> Profile:
-    """Return one wheel path of ``truth`` on the axis of the encoder's readings."""
-    count = int((axis.encoder_m[-1] - axis.encoder_m[0]) / truth.interval_m) + 1
-    points_m = axis.encoder_m[0] + truth.interval_m * np.arange(count)
-    z = np.interp(axis.to_true(points_m), truth.distance_m, truth.track(track).elevation)
-    return Profile(truth.interval_m, (ProfileTrack.of(track, z),), float(axis.encoder_m[0]))
-
-
 def _find_feature(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -> Feature:
     inside = points(profile, at_m - FEATURE_M / 2, at_m + FEATURE_M / 2)
     true, found = (slope[inside] for slope in slopes)
@@ -135,42 +128,15 @@ def _find_feature(slopes: Sequence[FloatArray], profile: Profile, at_m: float) -
 
 FEATURES = 4
 """Number of features before an event, and behind it."""
-DRIVES: tuple[Mapping[str, Any], ...] = (
-    {
-        "manoeuvre": "stop",
-        "speed_kmh": 72.0,
-        "deceleration_g": 0.3,
-        "slip_percent_per_g": 3.0,
-    },
-    {"manoeuvre": "constant", "speed_kmh": 72.0, "encoder_error_percent": 1.0},
-    {
-        "manoeuvre": "braking",
-        "speed_kmh": 80.0,
-        "event_speed_kmh": 30.0,
-        "deceleration_g": 0.4,
-        "encoder_error_percent": -1.0,
-        "slip_percent_per_g": 3.0,
-    },
-    {
-        "manoeuvre": "stop",
-        "speed_kmh": 50.0,
-        "deceleration_g": 0.15,
-        "dwell_s": 15.0,
-        "final_speed_kmh": 40.0,
-        "encoder_error_percent": -0.5,
-        "slip_percent_per_g": 1.0,
-    },
-)
-"""The drives of the cases, in turn."""
 
 
-def scenario_of(numbers: Mapping[str, Any]) -> Scenario:
+def scenario_of(numbers: Mapping[str, Any], edition: Edition) -> Scenario:
     """Return the scenario of ``numbers``, with room for the features around its event."""
-    wanted = Scenario(**numbers)
+    wanted = edition.make_scenario(**numbers)
     braking_m = (wanted.speed_kmh * KMH) ** 2 / (2 * STANDARD_GRAVITY * wanted.deceleration_g)
     room_m = BESIDE_EVENT_M + FEATURES * FEATURE_M + END_M
     event_m = max(room_m, BESIDE_EVENT_M + 10.0 * ceil(0.13 * braking_m))
-    return Scenario(**{**numbers, "event_at_m": event_m, "length_m": event_m + room_m})
+    return replace(wanted, event_at_m=event_m, length_m=event_m + room_m)
 
 
 def event_of(scenario: Scenario) -> float | None:

@@ -1,7 +1,7 @@
 """`waveband`: gain and phase at each wavelength are those of the required filter."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import cycle
 from typing import TYPE_CHECKING
 
@@ -12,12 +12,13 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.distance.encoder_axis import EncoderAxis
+from floatref_conformance.checks.encoder_axis import EncoderAxis
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import seeds
 from floatref_conformance.checks.stretches import Stretches, points, stretch, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.proving_ground.roads.sines import (
     BEYOND_M,
     CUT_OFF_M,
@@ -25,7 +26,6 @@ from floatref_conformance.proving_ground.roads.sines import (
     SHORTEST_FLAT_M,
     WAVELENGTHS_M,
 )
-from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 
 if TYPE_CHECKING:
@@ -119,6 +119,7 @@ class WavebandCheck:
     derivation: str = DERIVATION
     floor: str = FLOOR
     needs: frozenset[str] = frozenset()
+    edition: Edition = field(default_factory=find_edition)
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -177,7 +178,7 @@ class WavebandCheck:
         return tuple(measured)
 
     def _case(self, seed: int, vehicle: str, rate_hz: float, name: str = "") -> Case:
-        scenario = Scenario(
+        scenario = self.edition.make_scenario(
             seed=seed,
             road="sines",
             iri_m_per_km=0.5,
@@ -218,6 +219,3 @@ def _measure(track: str, passed: ComplexArray) -> list[Measurement]:
         Measurement(name, track, float(value), unit, limits)
         for (name, unit, limits), value in zip(QUANTITIES, values, strict=True)
     ]
-
-
-WAVEBAND = WavebandCheck()

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from floatref_conformance.checks import scoring
-from floatref_conformance.checks.driving.edition import Table
 from floatref_conformance.checks.evidence import Pair
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits, write_limits
+from floatref_conformance.editions.edition import Table
 
 LOSS, ERROR = "correlation loss", "IRI error"
 

@@ -7,12 +7,14 @@ filter may leave points without elevation.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import ceil
+from typing import Any
 
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref_conformance.checks.driving.bump import BESIDE_M
 from floatref_conformance.checks.flags import SLOW_MPS
 from floatref_conformance.checks.stretches import END_M, Stretches
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.proving_ground.drives.drive import Segment
 from floatref_conformance.proving_ground.drives.manoeuvres import RESTART, SLOW_COAST_DRAG
 from floatref_conformance.proving_ground.drives.phases import (
@@ -43,6 +45,8 @@ STEADY_M = {"constant": 220.0, "creeping": 130.0, "dead-start": 110.0}
 """Begin in m of the stretch of a drive without an event."""
 SLOW_START_M = 130.0
 """The same for drives below 16 km/h, which take long."""
+ABRUPT = ("braking", "near-stop", "stop")
+"""The manoeuvres with a brake ahead of their event."""
 RUN_OUT_M = 119.1
 """Length in m of the drive after the scored stretch, as in the published runs."""
 
@@ -83,17 +87,33 @@ def layout_of(scenario: Scenario) -> Layout:
     return layout
 
 
-def place(scenario: Scenario) -> Scenario:
-    """Return ``scenario`` with bump, event and length such that all scored points fit."""
+def place(scenario: Scenario, edition: Edition) -> Scenario:
+    """Return ``scenario`` with bump, event and length such that all scored points fit.
+
+    A crown or a break of grade lies at the event, else in the middle of the scored stretch; so
+    does the bump of a drive with an event, if the ``edition`` says so.
+    """
     clear = BUMP_AT_M + BUMP_REACH_M + CALM_M
     event = max(EVENT_M, ceil(clear + brake_length_m(scenario)))
     there = replace(scenario, bump_mm=BUMP_MM, bump_at_m=BUMP_AT_M, event_at_m=event)
     if scenario.manoeuvre == "dead-start":
         there = replace(there, event_at_m=EVENT_M, bump_at_m=_steady_start(there) + 175.0)
+    elif scenario.manoeuvre in ABRUPT and edition.document["drives"]["bump_at_event"]:
+        there = replace(there, bump_at_m=event)
     ends = [*_events(there), *_extra_scored(there)] or [_steady_start(there) + AHEAD_M]
     scored = max(*ends, there.bump_at_m) - AHEAD_M + STRETCH_M
     driven = max(_events(there), default=0.0) + speed_change_after_m(there)
-    return replace(there, length_m=float(ceil(max(scored + RUN_OUT_M, driven + 1.0))))
+    there = replace(there, length_m=float(ceil(max(scored + RUN_OUT_M, driven + 1.0))))
+    return _shape(there, float(ends[0]))
+
+
+def _shape(s: Scenario, middle_m: float) -> Scenario:
+    """Return ``s`` with its crown and its break of grade, if it has them, at ``middle_m``."""
+    at_m: dict[str, Any] = {
+        **({"crown_at_m": middle_m} if s.crown_mm else {}),
+        **({"break_at_m": middle_m} if s.break_percent else {}),
+    }
+    return replace(s, **at_m) if at_m else s
 
 
 def brake_length_m(s: Scenario) -> float:

@@ -1,11 +1,11 @@
 """`faults`: around missing or damaged samples the profile is right or flagged."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving.rules import ELSEWHERE, RULES
+from floatref_conformance.checks.driving.rules import ELSEWHERE, rules_of
 from floatref_conformance.checks.faults import faulty_drives
 from floatref_conformance.checks.faults.fault_scores import (
     BASE_M,
@@ -23,16 +23,13 @@ from floatref_conformance.checks.sameness.change import check_equipped
 from floatref_conformance.checks.scoring import Compared, compare
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.checks.verdict import Measurement
-from floatref_conformance.classes import DeviceClass, Effort, write_limits
+from floatref_conformance.classes import DeviceClass, Effort, Limits, write_limits
 from floatref_conformance.devices.interface import HEIGHT, NEEDS
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
-
-UNPROVOKED = RULES["constant"].flagged_elsewhere
-"""Longest flagged length in m away from the ends, where no event lies."""
-
 
 DERIVATION = (
     "A recording of two wheel paths is processed with one fault in it, and then as it is. The "
@@ -91,6 +88,7 @@ class FaultsCheck:
     needs: frozenset[str] = frozenset()
     meets: frozenset[str] = frozenset(NEEDS)
     """The needs that the device meets; faults of sensors that it does not have are no cases."""
+    edition: Edition = field(default_factory=find_edition)
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -105,24 +103,24 @@ class FaultsCheck:
             },
             "flagged at an end": write_limits(END_LIMITS, "m"),
             "flagged around an event": write_limits(EVENT_LIMITS, "m"),
-            ELSEWHERE: write_limits(UNPROVOKED, "m"),
+            ELSEWHERE: write_limits(self._unprovoked, "m"),
         }
 
     @property
     def simplest(self) -> Case:
         """Half a second without laser, or without wheel accelerometer, at constant speed."""
-        scenario = Scenario(rate_hz=4000.0, length_m=faulty_drives.LENGTH_M)
+        scenario = faulty_drives.make_drive(self.edition, rate_hz=4000.0)
         fault = "laser-dropout" if HEIGHT in self.meets else "response-wheel-dropout"
         return Case(self.id, scenario, {"fault": fault, "at_m": 280.0, "length_s": 0.5})
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every fault once, in a certification three times; ``seed`` draws the roads."""
-        cases = faulty_drives.seeded_cases(seed, effort)
+        cases = faulty_drives.seeded_cases(seed, effort, self.edition)
         return tuple(c for c in cases if c.variation["fault"] in self._faults)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any fault of any length, size and place in any drive."""
-        return faulty_drives.case_strategy(self._faults)
+        return faulty_drives.case_strategy(self.edition, self._faults)
 
     def fit(self, meets: Iterable[str]) -> "FaultsCheck":
         """Return the check without the faults of sensors that are not among ``meets``."""
@@ -162,17 +160,20 @@ class FaultsCheck:
             for one, other, whole in zip(*alike, delivered, strict=True)
             for m in (
                 *measure_fault(one, other, faulty, part),
-                *_measure_flags_without_fault(whole, case.scenario),
+                *self._measure_flags_without_fault(whole, case.scenario),
             )
         )
 
+    @property
+    def _unprovoked(self) -> Limits:
+        """Longest flagged length in m away from the ends, where no event lies."""
+        return rules_of(self.edition)["constant"].flagged_elsewhere
 
-def _measure_flags_without_fault(whole: Compared, scenario: Scenario) -> tuple[Measurement, ...]:
-    """Return the flagged lengths of a drive without a fault; a steady one has no event."""
-    if scenario.manoeuvre == "stop":
-        return measure_flags(whole, scenario, (scenario.event_at_m,))
-    ends, elsewhere = measure_flags(whole, scenario, ())
-    return ends, replace(elsewhere, quantity=ELSEWHERE, limits=UNPROVOKED)
-
-
-FAULTS = FaultsCheck()
+    def _measure_flags_without_fault(
+        self, whole: Compared, scenario: Scenario
+    ) -> tuple[Measurement, ...]:
+        """Return the flagged lengths of a drive without a fault; a steady one has no event."""
+        if scenario.manoeuvre == "stop":
+            return measure_flags(whole, scenario, (scenario.event_at_m,))
+        ends, elsewhere = measure_flags(whole, scenario, ())
+        return ends, replace(elsewhere, quantity=ELSEWHERE, limits=self._unprovoked)

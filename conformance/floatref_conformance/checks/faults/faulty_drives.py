@@ -12,6 +12,7 @@ from floatref_conformance.checks.faults.fault_numbers import NUMBERS, Numbers, n
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.rounded import rounded_numbers, seed_of_its_own, seeds
 from floatref_conformance.classes import Effort
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.proving_ground.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ VEHICLES = ("loaded-van", "minivan", "pickup", "trailer")
 RATES_HZ = (16000.0, 8000.0, 4000.0)
 
 
-def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
+def seeded_cases(seed: int, effort: Effort, edition: Edition) -> tuple[Case, ...]:
     """Return every fault once, in a certification three times; ``seed`` draws their roads.
 
     No two cases have the same road, so that a device cannot use what it stored.
@@ -67,7 +68,7 @@ def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     return tuple(
         Case(
             CHECK,
-            _drive(fault, number, n, next(roads)),
+            _drive(fault, number, n, next(roads), edition),
             {"fault": fault, "at_m": PLACES_M[n], **NUMBERS[fault][n]},
             f"{CHECK}-{fault}-{n + 1}",
         )
@@ -77,7 +78,9 @@ def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     )
 
 
-def case_strategy(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrategy[Case]":
+def case_strategy(
+    edition: Edition, faults: Sequence[str] = tuple(SENSOR_FAULTS)
+) -> "SearchStrategy[Case]":
     """Return the strategy of any of ``faults`` in any drive."""
     from hypothesis import strategies as st
 
@@ -90,17 +93,22 @@ def case_strategy(faults: Sequence[str] = tuple(SENSOR_FAULTS)) -> "SearchStrate
         at_m = draw(rounded_numbers(NEAREST_M, FARTHEST_M))
         variation = {"fault": fault, "at_m": at_m, **variation}
         seed = seed_of_its_own(draw(seeds()), numbers, variation)
-        return Case(CHECK, Scenario(seed=seed, length_m=LENGTH_M, **numbers), variation)
+        return Case(CHECK, make_drive(edition, seed=seed, **numbers), variation)
 
     return case()
 
 
-def _drive(fault: str, number: int, n: int, seed: int) -> Scenario:
+def _drive(fault: str, number: int, n: int, seed: int, edition: Edition) -> Scenario:
     """Return the drive of a seeded case of round ``n``."""
     fields = dict(STOP if fault in AT_A_STOP else ROUNDS[n][number % 2])
     if fault in SLOPES_PERCENT:
         fields["grade_percent"] = SLOPES_PERCENT[fault][n]
-    return Scenario(seed=seed, length_m=LENGTH_M, **fields)
+    return make_drive(edition, seed=seed, **fields)
+
+
+def make_drive(edition: Edition, **numbers: Any) -> Scenario:
+    """Return the drive of ``numbers``: its encoder does not slip where ``edition`` judges slip."""
+    return edition.make_scenario(**edition.without_slip, length_m=LENGTH_M, **numbers)
 
 
 def _common() -> Numbers:

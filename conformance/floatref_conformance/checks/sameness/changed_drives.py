@@ -17,6 +17,7 @@ from floatref_conformance.checks.sameness.changes import (
     UNIT_BIAS,
 )
 from floatref_conformance.classes import Effort
+from floatref_conformance.editions.edition import Edition
 from floatref_conformance.proving_ground.drives.phases import brake_to_stop, extent
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -92,7 +93,7 @@ LATEST_S = 1.4
 """Largest delay of a recording's begin in s: 38 m at 97 km/h."""
 
 
-def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
+def seeded_cases(seed: int, effort: Effort, edition: Edition) -> tuple[Case, ...]:
     """Return every change once, in a certification three times, each on another road."""
     rounds = range(1 if effort is Effort.QUICK else len(ROUNDS))
     source = np.random.SeedSequence([seed, *CHECK.encode()])
@@ -102,7 +103,7 @@ def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     return tuple(
         Case(
             CHECK,
-            drive(change, next(roads), **UNSTEADY.get(change, ROUNDS)[n]),
+            drive(change, next(roads), edition, **UNSTEADY.get(change, ROUNDS)[n]),
             {"change": change, **NUMBERS[change][n]},
             f"{CHECK}-{change}-{n + 1}",
         )
@@ -112,7 +113,7 @@ def seeded_cases(seed: int, effort: Effort) -> tuple[Case, ...]:
     )
 
 
-def drive(change: str, seed: int, **numbers: Any) -> Scenario:
+def drive(change: str, seed: int, edition: Edition, **numbers: Any) -> Scenario:
     """Return a drive of one wheel path for ``change``, long enough for the scored stretch."""
     fields: dict[str, Any] = {"length_m": LENGTH_M, "tracks": ("left",), **numbers}
     if change == "road-height":
@@ -123,7 +124,7 @@ def drive(change: str, seed: int, **numbers: Any) -> Scenario:
         fields["manoeuvre"] = "stop"
         fields["event_at_m"] = max(STOP_M, float(np.ceil(FREE_M + brake_m)))
         fields["length_m"] = float(np.ceil(fields["event_at_m"] + BEHIND_M + END_M))
-    return Scenario(seed=seed, **fields)
+    return edition.make_scenario(**edition.without_slip, seed=seed, **fields)
 
 
 def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
@@ -135,7 +136,9 @@ def later_m(scenario: Scenario, numbers: Mapping[str, Number]) -> float:
     return float(drive_of(scenario).motion(np.array([begin_s])).distance[0])
 
 
-def case_strategy(changes: Sequence[str] = tuple(CHANGES)) -> "SearchStrategy[Case]":
+def case_strategy(
+    edition: Edition, changes: Sequence[str] = tuple(CHANGES)
+) -> "SearchStrategy[Case]":
     """Return the strategy of any of ``changes`` of any drive."""
     from hypothesis import strategies as st
 
@@ -146,7 +149,7 @@ def case_strategy(changes: Sequence[str] = tuple(CHANGES)) -> "SearchStrategy[Ca
         variation = draw(_numbers(change, numbers["rate_hz"]))
         variation = {"change": change, **variation}
         seed = seed_of_its_own(draw(seeds()), numbers, variation)
-        return Case(CHECK, drive(change, seed, **numbers), variation)
+        return Case(CHECK, drive(change, seed, edition, **numbers), variation)
 
     return case()
 

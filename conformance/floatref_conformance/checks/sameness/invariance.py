@@ -1,7 +1,7 @@
 """`invariance`: irrelevant changes of a recording do not change the profile."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from floatref_conformance.checks.case import Case
@@ -30,6 +30,7 @@ from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, write_limits
 from floatref_conformance.devices.interface import NEEDS
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 
@@ -89,6 +90,7 @@ class InvarianceCheck:
     needs: frozenset[str] = frozenset()
     meets: frozenset[str] = frozenset(NEEDS)
     """The needs that the device meets; changes of sensors that it does not have are no cases."""
+    edition: Edition = field(default_factory=find_edition)
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -107,17 +109,17 @@ class InvarianceCheck:
     @property
     def simplest(self) -> Case:
         """Constant speed, one wheel path, stored with time stamps in place of a rate."""
-        scenario = changed_drives.drive("clock-storage", 0, rate_hz=4000.0)
+        scenario = changed_drives.drive("clock-storage", 0, self.edition, rate_hz=4000.0)
         return Case(self.id, scenario, {"change": "clock-storage"})
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return every change once, in a certification three times, each on another road."""
-        cases = changed_drives.seeded_cases(seed, effort)
+        cases = changed_drives.seeded_cases(seed, effort, self.edition)
         return tuple(c for c in cases if c.variation["change"] in self._changes)
 
     def strategy(self) -> "SearchStrategy[Case]":
         """Return any change of any drive."""
-        return changed_drives.case_strategy(self._changes)
+        return changed_drives.case_strategy(self.edition, self._changes)
 
     def fit(self, meets: Iterable[str]) -> "InvarianceCheck":
         """Return the check without changes whose needs are not among ``meets``."""
@@ -197,6 +199,3 @@ def _at_a_stop(before: Compared, after: Compared, scenario: Scenario) -> tuple[M
         measure_rise(before.whole(*stretch), after.whole(*stretch), before.track),
         _measure_floor(before, RAN_IN_M, FREE_M),
     )
-
-
-INVARIANCE = InvarianceCheck()

@@ -1,7 +1,7 @@
 """The stationary tests of AASHTO R 57-14, `quiescent` and `bounce`: a parked vehicle."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import cycle
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,7 @@ from floatref_conformance.checks.stretches import END_M, Stretches, stretch, ver
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, same_limit, write_limits
 from floatref_conformance.devices.interface import HEIGHT
+from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.proving_ground.drives.artificial import artificial_drive
 from floatref_conformance.proving_ground.drives.runs import KMH
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -69,6 +70,7 @@ class StationaryCheck:
     floor: str = FLOOR
     needs: frozenset[str] = frozenset({HEIGHT})
     """The plate lies under the laser, and the wheels do not turn."""
+    edition: Edition = field(default_factory=find_edition)
 
     @property
     def limits(self) -> Mapping[str, Mapping[DeviceClass, str]]:
@@ -82,7 +84,7 @@ class StationaryCheck:
     @property
     def simplest(self) -> Case:
         """The stationary test of the proving ground."""
-        return Case(self.id, Scenario(manoeuvre=self.id))
+        return Case(self.id, self.edition.make_scenario(manoeuvre=self.id))
 
     def cases(self, seed: int, effort: Effort) -> tuple[Case, ...]:
         """Return the cases, each with its own noise; every rate comes in turn."""
@@ -129,7 +131,7 @@ class StationaryCheck:
         return tuple(measured)
 
     def _scenario(self, seed: int, rate_hz: float) -> Scenario:
-        return Scenario(seed=seed, manoeuvre=self.id, rate_hz=rate_hz)
+        return self.edition.make_scenario(seed=seed, manoeuvre=self.id, rate_hz=rate_hz)
 
     def _roughness(self, profile: Profile, track: str) -> Measurement:
         elevation = stretch(profile, track, self.start_m, self.end_m)

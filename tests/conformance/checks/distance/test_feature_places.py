@@ -12,7 +12,7 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.distance.encoder_axis import EncoderAxis, sensing_ahead_m
+from floatref_conformance.checks.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.checks.distance.feature_places import DISTANCE
 from floatref_conformance.checks.distance.features import Feature, middles, place
 from floatref_conformance.classes import DeviceClass, Effort

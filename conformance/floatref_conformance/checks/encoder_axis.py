@@ -1,10 +1,11 @@
 """The axis of distance that a device can know: the encoder's reading at each true place."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.devices.interface import HEIGHT
@@ -30,6 +31,23 @@ class EncoderAxis:
         motion = drive_of(taken.scenario).motion(encoder.times_s)
         ahead_m = sensing_ahead_m(taken.recording)
         return cls(motion.distance + ahead_m, encoder.values + ahead_m)
+
+    @classmethod
+    def without_error(cls, taken: Taken) -> "EncoderAxis":
+        """Return the axis of a device that knows the true distance of ``taken``."""
+        axis = cls.of(taken)
+        return cls(axis.true_m, axis.true_m)
+
+    def place(self, truth: Profile) -> Profile:
+        """Return ``truth``, which lies along the true distance, along this axis."""
+        count = int((self.encoder_m[-1] - self.encoder_m[0]) / truth.interval_m) + 1
+        points_m = self.encoder_m[0] + truth.interval_m * np.arange(count)
+        true_m = self.to_true(points_m)
+        tracks = tuple(
+            ProfileTrack.of(t.name, np.interp(true_m, truth.distance_m, t.elevation))
+            for t in truth.tracks
+        )
+        return replace(truth, tracks=tracks, start_m=float(self.encoder_m[0]))
 
     def to_true(self, encoder_m: FloatArray) -> FloatArray:
         """Return the true distance in m where the encoder reads ``encoder_m``."""
