@@ -3,19 +3,19 @@
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from math import isfinite
 from reprlib import repr as shortened
 from types import MappingProxyType
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.scenario import FIRST_DEFAULTS, Scenario
 
 Number = float | int | str | bool
 CHANNELS_BY_NEED = ("imu", "gnss", "response")
 """Fields of a scenario that follow from the device's capabilities, not from the case."""
-DEFAULT = Scenario(slip_percent_per_g=0.3, laser_ahead_m=0.0)
+DEFAULT = replace(Scenario(), **FIRST_DEFAULTS)
 """What a case file does not name, in every edition: a file keeps its meaning."""
 LARGEST = 2**64
 """Largest whole number in a variation: larger ones may have no equal float."""
@@ -77,8 +77,7 @@ def _scenario_of(numbers: object) -> Scenario:
     """Return the scenario of ``numbers`` of a case, else those of `DEFAULT`."""
     if not isinstance(numbers, Mapping):
         return Scenario.from_dict(numbers)
-    unnamed = {"slip_percent_per_g": DEFAULT.slip_percent_per_g}
-    return Scenario.from_dict({**unnamed, "laser_ahead_m": DEFAULT.laser_ahead_m, **numbers})
+    return Scenario.from_dict({**FIRST_DEFAULTS, **numbers})
 
 
 def _is_plain(value: object) -> bool:

@@ -21,7 +21,12 @@ from floatref_conformance.proving_ground.scenario_fields import (
 )
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
-FORMAT = "floatref-scenario/1"
+FORMAT, FIRST_FORMAT = "floatref-scenario/2", "floatref-scenario/1"
+FIRST_DEFAULTS: Mapping[str, Any] = MappingProxyType(
+    {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
+)
+"""What a file of the first format, and a case of the judge, mean by a field that they do not name:
+an encoder that hardly slips, and a laser at its accelerometer."""
 NOT_NUMBERS = ("format", "$schema")
 """Keys of a file that are no field."""
 STATIONARY = ("quiescent", "bounce")
@@ -181,9 +186,11 @@ class Scenario:
         """
         if not isinstance(document, Mapping):
             raise InputError("a scenario is a JSON object of its numbers")
-        if document.get("format", FORMAT) != FORMAT:
+        if document.get("format", FORMAT) not in (FORMAT, FIRST_FORMAT):
             found = shortened(document["format"])
             raise InputError(f"format {found}: unknown, expected {FORMAT!r}")
+        if document.get("format") == FIRST_FORMAT:
+            document = {**FIRST_DEFAULTS, **document}
         if str(document.get("road")).startswith(FILE_ROAD):
             document = {"iri_m_per_km": 0.0, **document}
         numbers = {key: value for key, value in document.items() if key not in NOT_NUMBERS}

@@ -7,7 +7,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD, file_of
-from floatref_conformance.proving_ground.scenario import FORMAT, MANOEUVRES, ROADS, Scenario
+from floatref_conformance.proving_ground.scenario import FIRST_FORMAT, FORMAT, MANOEUVRES, ROADS, Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, VEHICLES
 
 CHOICES = {"manoeuvre": MANOEUVRES, "vehicle": (*VEHICLES, *LINEAR_MODELS)}
@@ -36,10 +36,10 @@ def read_scenario(path: Path) -> Scenario:
 
 
 def scenario_schema() -> dict[str, Any]:
-    """Return the JSON Schema ``floatref-scenario-1``, made from the fields of `Scenario`."""
+    """Return the JSON Schema ``floatref-scenario-2``, made from the fields of `Scenario`."""
     properties: dict[str, Any] = {
         "$schema": {"type": "string"},
-        "format": {"const": FORMAT, "default": FORMAT},
+        "format": {"enum": [FORMAT, FIRST_FORMAT], "default": FORMAT},
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

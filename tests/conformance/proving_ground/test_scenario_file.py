@@ -37,7 +37,7 @@ def test_nested_lists_are_refused_in_one_short_line(tmp_path: Path, depth: int) 
 
 def test_the_shipped_schema_is_that_of_the_fields() -> None:
     """`conformance scenario --json` writes it anew."""
-    assert read_schema("floatref-scenario-1") == scenario_schema()
+    assert read_schema("floatref-scenario-2") == scenario_schema()
 
 
 def test_every_field_has_a_meaning_and_a_default_that_keeps_its_limits() -> None:

@@ -85,7 +85,7 @@ DERIVATION = (
     f"{START_M:g} m from both ends, all waves, a level and a slope are fitted to the profile and "
     "to the unfiltered truth; the ratio of the complex amplitudes is gain and phase. A point of "
     "the profile lies where the vehicle was when the encoder had this distance. The sensors have "
-    "no errors and the road is smooth (IRI 0.5 m/km), so that tilt of the body, of second order, "
+    "no errors, the laser is at its accelerometer, and the road is smooth (IRI 0.5 m/km), so that tilt of the body, of second order, "
     "stays below 0.2 % and what is judged is the software: the mean age of a laser reading held "
     "at 3.24 kHz, 0.155 ms, alone would cost 1 % near 9 m, where the body moves more than the "
     "road and has to cancel. Gain: 1 % is asked; HPF_B3x2 takes 0.44 % at 42.9 m, reference "
@@ -185,6 +185,7 @@ class WavebandCheck:
             vehicle=vehicle,
             length_m=LENGTH_M,
             sensors=0.0,
+            laser_ahead_m=0.0,
             rate_hz=rate_hz,
         )
         return Case(self.id, scenario, name=name)
