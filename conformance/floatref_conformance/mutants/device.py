@@ -14,6 +14,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.mutants import MUTATIONS
@@ -26,6 +27,11 @@ class Mutant:
     """A device with one mutation."""
 
     mutation: Mutation
+
+    @property
+    def claims(self) -> DeviceClass:
+        """The class by whose limits the mutant is judged."""
+        return self.mutation.claims
 
     def describe(self) -> Mapping[str, Any]:
         """Return the description of the sound pipeline, with the mutation's name."""

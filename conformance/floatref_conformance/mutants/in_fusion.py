@@ -62,13 +62,13 @@ def _tilt_elevation(recording: Recording, track: str, sound: Profile, wrong: Wro
     channels = [recording.channel(name, track) for name in FORCES]
     times = channels[-1].times_s
     forces = np.stack([at_times(times, c.times_s, c.values) for c in channels])
-    true = _attitude(recording, times)
+    true = read_attitude(recording, times)
     acceleration = np.sum(forces * (wrong(true).up - true.up), axis=0)
     still = np.zeros_like(signals.height)
     return in_time()(replace(signals, acceleration=acceleration, height=still), sound)
 
 
-def _attitude(recording: Recording, times: FloatArray) -> Attitude:
+def read_attitude(recording: Recording, times: FloatArray) -> Attitude:
     """Return the attitude measured by the receiver; level while it is silent."""
     weights = np.full(SMOOTH, 1.0 / SMOOTH)
     rows = []

@@ -7,6 +7,7 @@ from typing import Any
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.classes import DeviceClass
 
 RECOMMENDED = "temporal-adaptive-hpf-spatial-backward"
 SPATIAL = "spatial-hpf-timer-distortion-reflection"
@@ -46,6 +47,7 @@ class Mutation:
         after: mutates the pipeline's profile; it also gets the original recording.
         pipeline: the sound pipeline of floatref.
         settings: of the pipeline.
+        claims: the class by whose limits it is judged.
     """
 
     name: str
@@ -55,3 +57,4 @@ class Mutation:
     after: After = keep_profile
     pipeline: str = RECOMMENDED
     settings: Mapping[str, Any] = field(default_factory=dict)
+    claims: DeviceClass = DeviceClass.NOMINAL

@@ -22,7 +22,7 @@ def change_elevation(change: Elevation) -> After:
     """Return a mutation that applies ``change`` to every elevation; flags do not change."""
 
     def mutate(profile: Profile, recording: Recording) -> Profile:
-        return _each(
+        return change_each(
             profile,
             lambda t: ProfileTrack.of(t.name, change(np.array(t.elevation), profile), t.valid),
         )
@@ -104,7 +104,7 @@ def add_motion_where_flat(share: float) -> After:
             motion = np.interp(profile.distance_m, travelled, laser.values - laser.values[0])
             return ProfileTrack.of(track.name, z + share * motion, track.valid)
 
-        return _each(profile, add)
+        return change_each(profile, add)
 
     return mutate
 
@@ -118,7 +118,7 @@ def drop_end(length_m: float) -> After:
 
 def reverse(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with its last point first."""
-    return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation[::-1], t.valid[::-1]))
+    return change_each(profile, lambda t: ProfileTrack.of(t.name, t.elevation[::-1], t.valid[::-1]))
 
 
 def swap_tracks(profile: Profile, recording: Recording) -> Profile:
@@ -132,7 +132,7 @@ def swap_tracks(profile: Profile, recording: Recording) -> Profile:
 def average_tracks(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with the mean of all wheel paths under every name."""
     mean = np.mean([t.elevation for t in profile.tracks], axis=0)
-    return _each(profile, lambda t: ProfileTrack.of(t.name, mean, t.valid))
+    return change_each(profile, lambda t: ProfileTrack.of(t.name, mean, t.valid))
 
 
 def drop_start(length_m: float) -> After:
@@ -141,19 +141,23 @@ def drop_start(length_m: float) -> After:
     def mutate(profile: Profile, recording: Recording) -> Profile:
         count = round(length_m / profile.interval_m)
         later = replace(profile, start_m=profile.start_m + count * profile.interval_m)
-        return _each(later, lambda t: ProfileTrack.of(t.name, t.elevation[count:], t.valid[count:]))
+        return change_each(
+            later, lambda t: ProfileTrack.of(t.name, t.elevation[count:], t.valid[count:])
+        )
 
     return mutate
 
 
 def mark_valid(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with all points valid that have an elevation."""
-    return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation))
+    return change_each(profile, lambda t: ProfileTrack.of(t.name, t.elevation))
 
 
 def flag_all(profile: Profile, recording: Recording) -> Profile:
     """Return ``profile`` with no point valid."""
-    return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation, np.zeros_like(t.valid)))
+    return change_each(
+        profile, lambda t: ProfileTrack.of(t.name, t.elevation, np.zeros_like(t.valid))
+    )
 
 
 def flag_around(where: Callable[[Drive], float], length_m: float) -> After:
@@ -161,7 +165,7 @@ def flag_around(where: Callable[[Drive], float], length_m: float) -> After:
 
     def mutate(profile: Profile, recording: Recording) -> Profile:
         near = np.abs(profile.distance_m - where(Drive.of(recording))) < length_m / 2
-        return _each(profile, lambda t: ProfileTrack.of(t.name, t.elevation, t.valid & ~near))
+        return change_each(profile, lambda t: ProfileTrack.of(t.name, t.elevation, t.valid & ~near))
 
     return mutate
 
@@ -192,7 +196,7 @@ def _replace_at_slowest(
             z[near] = make(z, near)
             return ProfileTrack.of(track.name, z)
 
-        return _each(profile, change)
+        return change_each(profile, change)
 
     return mutate
 
@@ -235,5 +239,6 @@ def _sample_at(z: FloatArray, profile: Profile, places_m: FloatArray) -> FloatAr
     return np.interp(places_m, profile.distance_m[seen], z[seen])
 
 
-def _each(profile: Profile, change: Callable[[ProfileTrack], ProfileTrack]) -> Profile:
+def change_each(profile: Profile, change: Callable[[ProfileTrack], ProfileTrack]) -> Profile:
+    """Return ``profile`` with ``change`` applied to each of its wheel paths."""
     return replace(profile, tracks=tuple(change(track) for track in profile.tracks))

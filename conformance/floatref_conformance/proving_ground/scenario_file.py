@@ -7,7 +7,13 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD, file_of
-from floatref_conformance.proving_ground.scenario import FIRST_FORMAT, FORMAT, MANOEUVRES, ROADS, Scenario
+from floatref_conformance.proving_ground.scenario import (
+    FIRST_FORMAT,
+    FORMAT,
+    MANOEUVRES,
+    ROADS,
+    Scenario,
+)
 from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, VEHICLES
 
 CHOICES = {"manoeuvre": MANOEUVRES, "vehicle": (*VEHICLES, *LINEAR_MODELS)}

@@ -24,12 +24,15 @@ from floatref_conformance.registry import Registry
 
 @dataclass(frozen=True)
 class Try:
-    """A device by its SPEC, a check of an edition, a seed, and the class whose limits decide."""
+    """A device by its SPEC, a check of an edition, a seed, and the class whose limits decide.
+
+    Without a class it is the one that the device claims, nominal if it claims none.
+    """
 
     spec: str
     check: str
     seed: int
-    device_class: DeviceClass = DeviceClass.NOMINAL
+    device_class: DeviceClass | None = None
     edition: str = EDITION
 
 
@@ -74,17 +77,17 @@ def _describe_failure(check: Check, device: Device, wanted: Try) -> str:
     except DeviceError as fault:
         return str(fault)
 
+    claimed: DeviceClass = getattr(device, "claims", DeviceClass.NOMINAL)
+    decisive = wanted.device_class or claimed
     check, edition = fit_check(check, description.meets), find_edition(wanted.edition)
 
     def ratio(case: Case) -> float:
         if found:
             return 0.0
         result = judge_case(check, case, DeviceBench(device, description, edition=edition))
-        if result.ratio(wanted.device_class) > 1.0:
-            found.append(
-                f"{case.name or 'searched'}: {describe_failure(result, wanted.device_class)}"
-            )
-        return result.ratio(wanted.device_class)
+        if result.ratio(decisive) > 1.0:
+            found.append(f"{case.name or 'searched'}: {describe_failure(result, decisive)}")
+        return result.ratio(decisive)
 
     for case in check.cases(wanted.seed, Effort.QUICK):
         ratio(case)

@@ -6,10 +6,10 @@ import pytest
 
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.sameness.changes import CHANGES
-from floatref_conformance.checks.sameness.invariance import INVARIANCE
+from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.judge.events import CheckStarted
@@ -55,9 +55,9 @@ def test_a_check_is_fitted_to_what_the_device_declares(
 def test_a_kept_case_of_a_sensor_is_skipped_without_one(
     plan, result_of, fake_device, monkeypatch, fault, another, having, reason
 ):
-    cases = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
+    cases = {case.variation["fault"]: case for case in FaultsCheck().cases(0, Effort.QUICK)}
     kept = KeptCase("kept.json", cases[fault], DeviceClass.NOMINAL)
-    alone = replace(FAULTS, meets=frozenset(having.get("capabilities", ("height",))))
+    alone = replace(FaultsCheck(), meets=frozenset(having.get("capabilities", ("height",))))
     monkeypatch.setattr(type(alone), "cases", lambda *_: (cases[another],))
     (again,) = result_of(plan(fake_device(**having), alone, kept=(kept,), searching=False)).replayed
     assert again["outcome"] == Outcome.SKIP.value
@@ -67,7 +67,7 @@ def test_a_kept_case_of_a_sensor_is_skipped_without_one(
 @pytest.mark.parametrize(("effort", "times"), [(Effort.QUICK, 1), (Effort.CERTIFICATION, 3)])
 @pytest.mark.parametrize(
     ("check", "number", "known"),
-    [(FAULTS, "fault", SENSOR_FAULTS), (INVARIANCE, "change", CHANGES)],
+    [(FaultsCheck(), "fault", SENSOR_FAULTS), (InvarianceCheck(), "change", CHANGES)],
     ids=["faults", "invariance"],
 )
 def test_every_variation_comes_in_turn_and_the_seed_draws_the_road_alone(

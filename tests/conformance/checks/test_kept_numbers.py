@@ -8,16 +8,16 @@ from click.testing import CliRunner
 
 from floatref.errors import InputError
 from floatref_conformance.case_files import document
-from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.sameness.invariance import INVARIANCE
-from floatref_conformance.checks.sameness.repeatability import REPEATABILITY
+from floatref_conformance.checks.faults.check import FaultsCheck
+from floatref_conformance.checks.sameness.invariance import InvarianceCheck
+from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.main import main
 from floatref_conformance.judge.bench import make_taken
 from floatref_conformance.plugins import load_registry
 
 CHECKS = load_registry().checks
-CASES = [*INVARIANCE.cases(1, Effort.QUICK), *FAULTS.cases(1, Effort.QUICK)]
+CASES = [*InvarianceCheck().cases(1, Effort.QUICK), *FaultsCheck().cases(1, Effort.QUICK)]
 EVERYWHERE = ("encoder-rolling-back", "gnss-never-fixed")
 """Faults without a place: a vehicle rolls back where it stands."""
 OWN = [
@@ -56,14 +56,14 @@ def test_a_number_that_is_missing_or_none_is_refused_by_its_name(right_bench, ca
 @pytest.mark.parametrize("key", SECOND)
 @pytest.mark.parametrize("value", [True, 1e300, -1e9, "x y"])
 def test_a_second_pass_that_cannot_be_is_refused_by_its_name(right_bench, key, value):
-    case = replace(REPEATABILITY.simplest, variation={**SECOND, key: value})
+    case = replace(RepeatabilityCheck().simplest, variation={**SECOND, key: value})
     with pytest.raises(InputError, match=f"^variation {key}: "):
         judged(right_bench, case)
 
 
 def test_a_name_that_a_second_pass_does_not_have_is_refused(right_bench):
     with pytest.raises(InputError, match="variation second_sped_kmh: unknown; known: second_seed"):
-        judged(right_bench, with_number(REPEATABILITY.simplest, "second_sped_kmh", 60.0))
+        judged(right_bench, with_number(RepeatabilityCheck().simplest, "second_sped_kmh", 60.0))
 
 
 @pytest.mark.parametrize("id_", DRIVEN)
@@ -110,7 +110,8 @@ def test_a_flat_road_has_no_iri_that_could_be_wrong(id_):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("case", "key"), [(INVARIANCE.cases(1, Effort.QUICK)[0], "samples"), (FAULTS.simplest, "fault")]
+    ("case", "key"),
+    [(InvarianceCheck().cases(1, Effort.QUICK)[0], "samples"), (FaultsCheck().simplest, "fault")],
 )
 def test_replay_names_file_and_key_in_one_line_and_exits_with_2(tmp_path, case, key):
     path = tmp_path / "kept.json"

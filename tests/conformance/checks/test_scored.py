@@ -8,16 +8,17 @@ import pytest
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.driving.check import DRIVING_CHECKS
-from floatref_conformance.checks.faults.check import FAULTS
-from floatref_conformance.checks.sameness.invariance import INVARIANCE
+from floatref_conformance.checks.driving.check import driving_checks
+from floatref_conformance.editions.edition import find_edition
+from floatref_conformance.checks.faults.check import FaultsCheck
+from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.render.places import join_stretches
 
-STOP = DRIVING_CHECKS["stop"]
+STOP = driving_checks(find_edition())["stop"]
 INSIDE_M, OUTSIDE_M = 0.1, 5.0
 """The lasers of `repeatability` lie up to 2 m from where the vehicle is said to be."""
 WHOLE = [id_ for id_ in load_registry().checks if id_ not in (*STATIONARY, "faults")]
@@ -73,27 +74,29 @@ def test_every_stop_of_several_has_its_stretch(right_bench):
 
 
 def test_of_a_recording_that_begins_later_what_counts_begins_later(right_bench):
-    constant = slow(INVARIANCE.simplest)
+    constant = slow(InvarianceCheck().simplest)
     later = replace(constant, variation={"change": "later-start", "samples": 1500})
-    ((start, end),), ((first, last),) = map(INVARIANCE.list_scored, (later, constant))
+    ((start, end),), ((first, last),) = map(InvarianceCheck().list_scored, (later, constant))
     assert (start, end) == pytest.approx((first + 1.5 * 20.0, last))
-    assert asked_for(INVARIANCE, later, right_bench, start + INSIDE_M)
-    assert not asked_for(INVARIANCE, later, right_bench, start - OUTSIDE_M)
+    assert asked_for(InvarianceCheck(), later, right_bench, start + INSIDE_M)
+    assert not asked_for(InvarianceCheck(), later, right_bench, start - OUTSIDE_M)
 
 
 def test_a_stop_that_is_compared_has_both_its_stretches(right_bench):
     longer = next(
-        case for case in INVARIANCE.cases(1, Effort.QUICK) if "stop" in case.variation["change"]
+        case
+        for case in InvarianceCheck().cases(1, Effort.QUICK)
+        if "stop" in case.variation["change"]
     )
-    within, without = edges(INVARIANCE, slow(longer))
+    within, without = edges(InvarianceCheck(), slow(longer))
     assert len(within) == 4
-    assert all(asked_for(INVARIANCE, slow(longer), right_bench, x) for x in within)
-    assert not any(asked_for(INVARIANCE, slow(longer), right_bench, x) for x in without)
+    assert all(asked_for(InvarianceCheck(), slow(longer), right_bench, x) for x in within)
+    assert not any(asked_for(InvarianceCheck(), slow(longer), right_bench, x) for x in without)
 
 
 def test_of_a_fault_every_point_of_the_drive_counts_that_is_vouched_for(right_bench):
-    case = slow(FAULTS.simplest)
-    ((start, end),) = FAULTS.list_scored(case)
+    case = slow(FaultsCheck().simplest)
+    ((start, end),) = FaultsCheck().list_scored(case)
 
     def lifted(at_m):
         """Return what is measured of a device that is wrong at one place."""
@@ -105,7 +108,7 @@ def test_of_a_fault_every_point_of_the_drive_counts_that_is_vouched_for(right_be
             )
             return replace(profile, tracks=tracks)
 
-        measured = FAULTS.judge(case, right_bench(lift))
+        measured = FaultsCheck().judge(case, right_bench(lift))
         return max(m.value for m in measured if m.quantity == "IRI error, unflagged")
 
     assert lifted(end + 10.0) < 1e-9
@@ -116,4 +119,4 @@ def test_numbers_that_leave_no_room_are_refused():
     with pytest.raises(InputError, match="must lie 106 m from its ends"):
         STOP.list_scored(Case("stop", Scenario(manoeuvre="stop", length_m=400.0)))
     with pytest.raises(InputError, match="variation samples is None"):
-        INVARIANCE.list_scored(Case("invariance", Scenario(), {"change": "later-start"}))
+        InvarianceCheck().list_scored(Case("invariance", Scenario(), {"change": "later-start"}))

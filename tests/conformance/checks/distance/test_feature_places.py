@@ -13,20 +13,20 @@ from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.encoder_axis import EncoderAxis, sensing_ahead_m
-from floatref_conformance.checks.distance.feature_places import DISTANCE
+from floatref_conformance.checks.distance.feature_places import DistanceCheck
 from floatref_conformance.checks.distance.features import Feature, middles, place
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.staging import drive_of
 
-START, SCALE, STEP, REST, LOSS = DISTANCE.limits
+START, SCALE, STEP, REST, LOSS = DistanceCheck().limits
 
 
 @pytest.fixture(scope="module")
 def stopped():
     """A stop whose sensors have no errors: the encoder tells the true distance."""
-    return taken_of(replace(DISTANCE.simplest.scenario, sensors=0.0))
+    return taken_of(replace(DistanceCheck().simplest.scenario, sensors=0.0))
 
 
 def known(taken, change=lambda z: z, stretched=1.0, start_m=0.0, interval_m=None):
@@ -42,12 +42,15 @@ def known(taken, change=lambda z: z, stretched=1.0, start_m=0.0, interval_m=None
 
 def judged(taken, **spoiled):
     case = Case("distance", taken.scenario)
-    return DISTANCE.judge(case, OneRecording(taken, lambda t: known(t, **spoiled)))
+    return DistanceCheck().judge(case, OneRecording(taken, lambda t: known(t, **spoiled)))
 
 
 def read(taken, **spoiled):
     measured = judged(taken, **spoiled)
-    return {name: max(m.value for m in measured if m.quantity == name) for name in DISTANCE.limits}
+    return {
+        name: max(m.value for m in measured if m.quantity == name)
+        for name in DistanceCheck().limits
+    }
 
 
 def failing(taken, device_class=DeviceClass.NOMINAL, **spoiled):
@@ -123,7 +126,7 @@ def test_points_without_elevation_are_an_error_in_a_feature_alone(stopped):
 
 
 def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there():
-    scenario = DISTANCE.cases(1, Effort.QUICK)[1].scenario
+    scenario = DistanceCheck().cases(1, Effort.QUICK)[1].scenario
     assert scenario.encoder_error_percent == 1.0
     taken = taken_of(replace(scenario, sensors=0.0))
     assert failing(taken, DeviceClass.REFERENCE, stretched=1.01) == set()
@@ -132,7 +135,7 @@ def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there():
 
 @pytest.mark.slow
 def test_the_axis_of_an_encoder_that_slips_is_what_it_told():
-    taken = taken_of(DISTANCE.cases(1, Effort.QUICK)[0].scenario)
+    taken = taken_of(DistanceCheck().cases(1, Effort.QUICK)[0].scenario)
     channel = taken.recording.channel("distance")
     true = drive_of(taken.scenario).motion(channel.times_s).distance
     axis = EncoderAxis.of(taken)
@@ -165,13 +168,13 @@ def seen_by_wheels(taken):
 @pytest.mark.slow
 @pytest.mark.parametrize("percent", [-1.0, 1.0])
 def test_what_the_encoder_tells_wrong_between_wheel_and_laser_is_no_fault_of_a_device(percent):
-    case = DISTANCE.cases(1, Effort.QUICK)[2]
+    case = DistanceCheck().cases(1, Effort.QUICK)[2]
     scenario = replace(case.scenario, encoder_error_percent=percent, vehicle="pickup")
     taken, best = seen_by_wheels(taken_of(scenario))
-    measured = DISTANCE.judge(case, OneRecording(taken, lambda _: best))
+    measured = DistanceCheck().judge(case, OneRecording(taken, lambda _: best))
     assert all(m.within(DeviceClass.REFERENCE) for m in measured)
     displaced = replace(best, start_m=-taken.recording.setup.vehicle.x_m)
-    forgetful = DISTANCE.judge(case, OneRecording(taken, lambda _: displaced))
+    forgetful = DistanceCheck().judge(case, OneRecording(taken, lambda _: displaced))
     assert {m.quantity for m in forgetful if not m.within(DeviceClass.NOMINAL)} >= {START}
 
 
@@ -210,8 +213,8 @@ def test_features_keep_clear_of_ends_and_event(event_m):
 
 
 def test_cases_follow_the_seed_and_survive_as_parameters():
-    cases = DISTANCE.cases(5, Effort.CERTIFICATION)
-    assert cases == DISTANCE.cases(5, Effort.CERTIFICATION)
+    cases = DistanceCheck().cases(5, Effort.CERTIFICATION)
+    assert cases == DistanceCheck().cases(5, Effort.CERTIFICATION)
     assert [Case.of("distance", c.parameters, c.name) for c in cases] == list(cases)
     for case in cases:
         assert drive_of(case.scenario).length_m >= case.scenario.length_m - 1e-6
@@ -219,7 +222,7 @@ def test_cases_follow_the_seed_and_survive_as_parameters():
 
 @pytest.mark.slow
 def test_the_recommended_pipeline_passes_braking_with_slip():
-    case = DISTANCE.cases(0, Effort.QUICK)[2]
+    case = DistanceCheck().cases(0, Effort.QUICK)[2]
     name = "spatial-hpf-timer-distortion-reflection"
     bench = OneRecording(taken_of(case.scenario), lambda t: floatref.process(t.recording, name))
-    assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in DISTANCE.judge(case, bench))
+    assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in DistanceCheck().judge(case, bench))

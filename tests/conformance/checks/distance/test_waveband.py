@@ -13,17 +13,17 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.distance.waveband import WAVEBAND, waves_of
+from floatref_conformance.checks.distance.waveband import WavebandCheck, waves_of
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.roads.sines import WAVELENGTHS_M
 
-GAIN, CUT_OFF, BEYOND, DISPLACEMENT, PHASE = WAVEBAND.limits
+GAIN, CUT_OFF, BEYOND, DISPLACEMENT, PHASE = WavebandCheck().limits
 
 
 @pytest.fixture(scope="module")
 def taken():
-    return taken_of(WAVEBAND.simplest.scenario)
+    return taken_of(WavebandCheck().simplest.scenario)
 
 
 def filtered(taken, wavelength_m=91.44, change=lambda z: z, stretched=1.0):
@@ -38,13 +38,16 @@ def filtered(taken, wavelength_m=91.44, change=lambda z: z, stretched=1.0):
 
 def judged(taken, **spoiled):
     bench = OneRecording(taken, lambda t: filtered(t, **spoiled))
-    return WAVEBAND.judge(WAVEBAND.simplest, bench)
+    return WavebandCheck().judge(WavebandCheck().simplest, bench)
 
 
 def read(taken, **spoiled):
     """Return the largest of each quantity of both wheel paths."""
     measured = judged(taken, **spoiled)
-    return {name: max(m.value for m in measured if m.quantity == name) for name in WAVEBAND.limits}
+    return {
+        name: max(m.value for m in measured if m.quantity == name)
+        for name in WavebandCheck().limits
+    }
 
 
 def failing(taken, device_class=DeviceClass.NOMINAL, **spoiled):
@@ -106,7 +109,7 @@ def test_a_flat_profile_and_a_smoothed_one_fail_by_gain(taken):
 
 @pytest.mark.slow
 def test_an_encoder_that_is_wrong_by_a_known_share_moves_no_wave():
-    scenario = replace(WAVEBAND.simplest.scenario, encoder_error_percent=1.0)
+    scenario = replace(WavebandCheck().simplest.scenario, encoder_error_percent=1.0)
     assert failing(taken_of(scenario), DeviceClass.REFERENCE, stretched=1.01) == set()
 
 
@@ -121,21 +124,21 @@ def test_points_without_elevation_matter_in_the_middle_alone(taken):
 
 
 def test_cases_follow_the_seed_and_survive_as_parameters():
-    cases = WAVEBAND.cases(5, Effort.QUICK)
-    assert cases == WAVEBAND.cases(5, Effort.QUICK)
+    cases = WavebandCheck().cases(5, Effort.QUICK)
+    assert cases == WavebandCheck().cases(5, Effort.QUICK)
     assert {c.scenario.seed for c in cases}.isdisjoint(
-        c.scenario.seed for c in WAVEBAND.cases(6, Effort.QUICK)
+        c.scenario.seed for c in WavebandCheck().cases(6, Effort.QUICK)
     )
     assert [Case.of("waveband", c.parameters, c.name) for c in cases] == list(cases)
 
 
 @pytest.mark.slow
 def test_the_basic_pipeline_passes_its_first_case():
-    case = WAVEBAND.cases(0, Effort.QUICK)[0]
+    case = WavebandCheck().cases(0, Effort.QUICK)[0]
     bench = OneRecording(
         taken_of(case.scenario), lambda t: floatref.process(t.recording, "temporal-basic")
     )
-    assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in WAVEBAND.judge(case, bench))
+    assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in WavebandCheck().judge(case, bench))
 
 
 seeds = st.integers(0, 2**32 - 1)

@@ -11,7 +11,8 @@ from tests.conformance.checks.benches import OneRecording
 import floatref
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.checks.driving.check import DRIVING_CHECKS
+from floatref_conformance.checks.driving.check import driving_checks
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.checks.driving.layout import layout_of
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.classes import DeviceClass, Effort
@@ -20,8 +21,11 @@ from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
 
-CHECKS = tuple(DRIVING_CHECKS.values())
-STOP, NEAR_STOP = DRIVING_CHECKS["stop"], DRIVING_CHECKS["near-stop"]
+CHECKS = tuple(driving_checks(find_edition()).values())
+STOP, NEAR_STOP = (
+    driving_checks(find_edition())["stop"],
+    driving_checks(find_edition())["near-stop"],
+)
 RECOMMENDED = ("temporal-adaptive-hpf-spatial-backward", "spatial-hpf-timer-distortion-reflection")
 NOMINAL, ADEQUATE, REFERENCE = DeviceClass
 each = pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
@@ -109,7 +113,7 @@ def test_a_smooth_profile_fails(check, taken):
 def test_flagging_everything_fails_unless_all_of_it_is_slow(check, taken):
     device = spoilt(lambda z: z, lambda z: np.zeros(z.size, dtype=bool))
     found = failing(check, taken(check), device)
-    assert bool(found) is (check is not DRIVING_CHECKS["low-speed"])
+    assert bool(found) is (check is not driving_checks(find_edition())["low-speed"])
     assert {quantity.split()[0] for quantity in found} <= {"flagged"}
 
 
@@ -119,7 +123,7 @@ def test_a_wheel_path_without_elevations_is_the_devices_fault_unless_all_of_it_i
     check, taken
 ):
     device = spoilt(lambda z: np.full(z.size, np.nan), lambda z: np.zeros(z.size, dtype=bool))
-    if check is DRIVING_CHECKS["low-speed"]:
+    if check is driving_checks(find_edition())["low-speed"]:
         assert failing(check, taken(check), device) == set()
         assert failing(check, taken(check), device, ADEQUATE)
     else:
@@ -190,12 +194,14 @@ def test_the_corners_of_the_domains_are_among_the_cases_of_a_quick_run():
     def values(check, name):
         return {getattr(case.scenario, name) for case in check.cases(0, Effort.QUICK)}
 
-    assert {16.1, 97.0} <= values(DRIVING_CHECKS["constant-speed"], "speed_kmh")
-    assert {4.0, 15.9} <= values(DRIVING_CHECKS["low-speed"], "speed_kmh")
-    assert {"constant", "creeping"} == values(DRIVING_CHECKS["low-speed"], "manoeuvre")
-    assert {0.05, 0.84} <= values(DRIVING_CHECKS["braking"], "deceleration_g")
-    assert {30.0, 100.0} <= values(DRIVING_CHECKS["braking"], "speed_kmh")
-    assert {15.0, 60.0} <= values(DRIVING_CHECKS["braking"], "event_speed_kmh")
+    assert {16.1, 97.0} <= values(driving_checks(find_edition())["constant-speed"], "speed_kmh")
+    assert {4.0, 15.9} <= values(driving_checks(find_edition())["low-speed"], "speed_kmh")
+    assert {"constant", "creeping"} == values(
+        driving_checks(find_edition())["low-speed"], "manoeuvre"
+    )
+    assert {0.05, 0.84} <= values(driving_checks(find_edition())["braking"], "deceleration_g")
+    assert {30.0, 100.0} <= values(driving_checks(find_edition())["braking"], "speed_kmh")
+    assert {15.0, 60.0} <= values(driving_checks(find_edition())["braking"], "event_speed_kmh")
     assert {0.5, 120.0} <= values(STOP, "dwell_s")
     assert {1, 3} == values(STOP, "stops")
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.driving import strategies
-from floatref_conformance.checks.driving.check import DRIVING_CHECKS
+from floatref_conformance.checks.driving.check import driving_checks
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.checks.driving.edition import ROADS
 from floatref_conformance.checks.driving.layout import BUMP_REACH_M, END_M, layout_of, place
 from floatref_conformance.proving_ground.drives.runs import KMH
@@ -36,7 +37,7 @@ def simplest(strategy):
     return found[0]
 
 
-@pytest.fixture(params=DRIVING_CHECKS)
+@pytest.fixture(params=driving_checks(find_edition()))
 def drives(request):
     return strategies.drives(request.param)
 

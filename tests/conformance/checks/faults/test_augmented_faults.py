@@ -6,7 +6,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED
-from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.classes import Effort
 from floatref_conformance.devices.interface import CAPABILITIES
@@ -14,7 +14,7 @@ from floatref_conformance.proving_ground.scenario import Scenario
 
 STEADY = Scenario(length_m=560.0, rate_hz=1000.0)
 SPEED, AT_M = 20.0, 280.0
-CASES = [c for c in FAULTS.cases(0, Effort.QUICK) if c.variation["fault"] in AUGMENTED]
+CASES = [c for c in FaultsCheck().cases(0, Effort.QUICK) if c.variation["fault"] in AUGMENTED]
 RATES = {"roll_rate", "pitch_rate", "yaw_rate"}
 HEIGHT, WORSE = frozenset({"gnss_height"}), frozenset({"gnss_height", "gnss_quality"})
 INJURED = {

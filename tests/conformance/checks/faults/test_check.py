@@ -12,7 +12,7 @@ import floatref
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, needs_of
 from floatref_conformance.checks.interface import fit_check
 from floatref_conformance.classes import DeviceClass, Effort
@@ -22,7 +22,7 @@ from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import drive_of
 
 NOMINAL = DeviceClass.NOMINAL
-QUICK = {case.variation["fault"]: case for case in FAULTS.cases(0, Effort.QUICK)}
+QUICK = {case.variation["fault"]: case for case in FaultsCheck().cases(0, Effort.QUICK)}
 LASER = QUICK["laser-dropout"]
 AT_M = LASER.variation["at_m"]
 RECOMMENDED = (
@@ -35,7 +35,7 @@ few = settings(
 
 
 def judged(case, bench, track="left"):
-    return {m.quantity: m for m in FAULTS.judge(case, bench) if m.track == track}
+    return {m.quantity: m for m in FaultsCheck().judge(case, bench) if m.track == track}
 
 
 def changed(profile, change, label="with the fault"):
@@ -55,8 +55,8 @@ def spoiling(change, label="with the fault"):
 @pytest.mark.slow
 @pytest.mark.parametrize("case", QUICK.values(), ids=lambda c: c.name)
 def test_a_right_device_need_flag_nothing(right_bench, case):
-    measured = FAULTS.judge(case, right_bench(augmented=True))
-    assert {m.quantity for m in measured} <= FAULTS.limits.keys()
+    measured = FaultsCheck().judge(case, right_bench(augmented=True))
+    assert {m.quantity for m in measured} <= FaultsCheck().limits.keys()
     assert {m.track for m in measured} == {"left", "right"}
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.6
 
@@ -90,7 +90,7 @@ def test_the_middle_of_a_run_is_flagged_for_a_stop_alone(right_bench, case):
     def flag(x, z, valid):
         return z, valid & (np.abs(x - 300.0) > 50.0)
 
-    measured = FAULTS.judge(case, right_bench(lambda _, p: changed(p, flag), augmented=True))
+    measured = FaultsCheck().judge(case, right_bench(lambda _, p: changed(p, flag), augmented=True))
     fails = max(m.ratio(NOMINAL) for m in measured) > 1.0
     assert fails == (case.scenario.manoeuvre != "stop")
 
@@ -138,7 +138,7 @@ def test_a_profile_that_says_nothing_fails(right_bench, wrong):
     def empty(x, z, valid):
         return (z * 0.0, valid) if wrong == "flat" else (z, np.zeros_like(valid))
 
-    measured = FAULTS.judge(LASER, right_bench(lambda _, profile: changed(profile, empty)))
+    measured = FaultsCheck().judge(LASER, right_bench(lambda _, profile: changed(profile, empty)))
     assert max(m.ratio(NOMINAL) for m in measured) > 1.0
 
 
@@ -173,7 +173,7 @@ def test_metres_told_in_error_are_taken_out(right_bench, fault):
 
 def test_the_fault_comes_first(right_bench):
     bench = right_bench()
-    FAULTS.judge(LASER, bench)
+    FaultsCheck().judge(LASER, bench)
     assert bench.labels == ["with the fault", "without the fault"]
 
 
@@ -184,7 +184,7 @@ def test_the_fault_comes_first(right_bench):
 def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
     without = right_bench()
     with pytest.raises(InputError, match=f"variation fault {fault}: needs {needed}, which"):
-        FAULTS.judge(QUICK[fault], without)
+        FaultsCheck().judge(QUICK[fault], without)
     assert without.labels == []
 
 
@@ -202,27 +202,27 @@ def test_a_fault_of_a_sensor_needs_it(right_bench, fault, needed):
 )
 def test_faults_of_sensors_that_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
     lacking = {"imu", "gnss", "response", "height"} - set(having)
-    assert fit_check(FAULTS, having).cases(1, effort) == tuple(
+    assert fit_check(FaultsCheck(), having).cases(1, effort) == tuple(
         case
-        for case in FAULTS.cases(1, effort)
+        for case in FaultsCheck().cases(1, effort)
         if case.variation["fault"].split("-")[0].replace("laser", "height") not in lacking
     )
 
 
 @settings(deadline=None, max_examples=60)
-@given(case=fit_check(FAULTS, ("imu", "response")).strategy())
+@given(case=fit_check(FaultsCheck(), ("imu", "response")).strategy())
 def test_what_a_device_lacks_is_not_searched_for(case):
     assert not case.variation["fault"].startswith(("gnss", "laser"))
 
 
 @pytest.mark.parametrize("having", [("height",), ("response",), ("height", "response")])
 def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
-    check = fit_check(FAULTS, having)
+    check = fit_check(FaultsCheck(), having)
     assert needs_of(check.simplest.variation["fault"]) <= set(having)
 
 
 @settings(deadline=None, max_examples=60)
-@given(case=FAULTS.strategy())
+@given(case=FaultsCheck().strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_fault(case):
     assert Case.of("faults", case.parameters) == case
     assert case.variation["fault"] in SENSOR_FAULTS

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED
-from floatref_conformance.checks.faults.check import FAULTS
+from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS, fault_of, needs_of
 from floatref_conformance.classes import Effort
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -25,7 +25,7 @@ INJURED = {
     "response-deflection": "suspension_deflection",
 }
 NEEDED = {"laser": "height", "gnss": "gnss", "imu": "imu", "response": "response"}
-NOMINAL = [c for c in FAULTS.cases(0, Effort.QUICK) if c.variation["fault"] not in AUGMENTED]
+NOMINAL = [c for c in FaultsCheck().cases(0, Effort.QUICK) if c.variation["fault"] not in AUGMENTED]
 few = settings(
     deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )

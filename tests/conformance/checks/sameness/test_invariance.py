@@ -12,14 +12,14 @@ from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import fit_check
 from floatref_conformance.checks.sameness.changes import CHANGES
-from floatref_conformance.checks.sameness.invariance import INVARIANCE
+from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge import oracle
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import drive_of
 
-QUICK = INVARIANCE.cases(0, Effort.QUICK)
+QUICK = InvarianceCheck().cases(0, Effort.QUICK)
 ALIKE = next(case for case in QUICK if case.variation["change"] == "clock-storage")
 LONGER = next(case for case in QUICK if case.variation["change"] == "longer-stop")
 DRIVEN_AGAIN = ("road-height", "sample-rate", "longer-stop", "gyro-rate", "slope")
@@ -34,16 +34,18 @@ def scaled(profile, gain):
 
 
 def judged(case, bench):
-    return {m.quantity: m for m in INVARIANCE.judge(case, bench)}
+    return {m.quantity: m for m in InvarianceCheck().judge(case, bench)}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", INVARIANCE.cases(3, Effort.CERTIFICATION), ids=lambda c: c.name)
+@pytest.mark.parametrize(
+    "case", InvarianceCheck().cases(3, Effort.CERTIFICATION), ids=lambda c: c.name
+)
 def test_a_right_device_keeps_every_limit_of_every_case(right_bench, case):
     bench = right_bench(augmented=True)
-    measured = INVARIANCE.judge(case, bench)
+    measured = InvarianceCheck().judge(case, bench)
     assert bench.labels == ["changed", "unchanged"]
-    assert {m.quantity for m in measured} <= INVARIANCE.limits.keys()
+    assert {m.quantity for m in measured} <= InvarianceCheck().limits.keys()
     assert max(m.ratio(DeviceClass.REFERENCE) for m in measured) < 0.3
 
 
@@ -111,7 +113,7 @@ def test_the_error_at_a_stop_may_rise_by_a_tenth_of_it(right_bench, first, more)
 @pytest.mark.parametrize("case", [ALIKE, LONGER], ids=lambda c: c.name)
 def test_the_reference_measures_the_same(right_bench, case):
     bench = right_bench(lambda label, p: scaled(p, 1.1 if label == "changed" else 1.0))
-    measured = INVARIANCE.judge(case, bench)
+    measured = InvarianceCheck().judge(case, bench)
     assert max(m.ratio(DeviceClass.NOMINAL) for m in measured) > 1.0
     for measurement in measured:
         oracle.confirm("invariance", measurement)
@@ -119,7 +121,7 @@ def test_the_reference_measures_the_same(right_bench, case):
 
 @pytest.mark.parametrize("case", [ALIKE, LONGER], ids=lambda c: c.name)
 def test_a_profile_that_shows_nothing_fails(right_bench, case):
-    measured = INVARIANCE.judge(case, right_bench(lambda _, p: scaled(p, 0.0)))
+    measured = InvarianceCheck().judge(case, right_bench(lambda _, p: scaled(p, 0.0)))
     assert max(m.ratio(DeviceClass.NOMINAL) for m in measured) > 1.0
 
 
@@ -131,12 +133,12 @@ def test_a_point_without_elevation_where_it_counts_is_the_devices_fault(right_be
         return replace(profile, tracks=(ProfileTrack.of(track.name, z),))
 
     with pytest.raises(DeviceError, match=r"1 of .* points without elevation"):
-        INVARIANCE.judge(ALIKE, right_bench(holed))
+        InvarianceCheck().judge(ALIKE, right_bench(holed))
 
 
 @pytest.mark.slow
 @settings(deadline=None, max_examples=60)
-@given(case=INVARIANCE.strategy())
+@given(case=InvarianceCheck().strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_change(case):
     assert Case.of("invariance", case.parameters) == case
     change = CHANGES[case.variation["change"]]
@@ -153,21 +155,21 @@ def test_a_change_of_a_sensor_needs_it(right_bench, change, needed):
     case = next(case for case in QUICK if case.variation["change"] == change)
     without = right_bench()
     with pytest.raises(InputError, match=f"variation change {change}: needs {needed}, which"):
-        INVARIANCE.judge(case, without)
+        InvarianceCheck().judge(case, without)
     assert without.labels == []
 
 
 @pytest.mark.parametrize("effort", list(Effort))
 @pytest.mark.parametrize("having", [(), ("imu",), ("gnss",), ("imu", "gnss")])
 def test_changes_of_what_a_device_lacks_are_no_cases_and_all_others_stay(effort, having):
-    assert fit_check(INVARIANCE, having).cases(1, effort) == tuple(
+    assert fit_check(InvarianceCheck(), having).cases(1, effort) == tuple(
         case
-        for case in INVARIANCE.cases(1, effort)
+        for case in InvarianceCheck().cases(1, effort)
         if CHANGES[case.variation["change"]].needs <= set(having)
     )
 
 
 @settings(deadline=None, max_examples=40)
-@given(case=fit_check(INVARIANCE, ()).strategy())
+@given(case=fit_check(InvarianceCheck(), ()).strategy())
 def test_what_a_device_lacks_is_not_searched_for(case):
     assert not CHANGES[case.variation["change"]].needs

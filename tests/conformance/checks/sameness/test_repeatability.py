@@ -12,14 +12,14 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.sameness.repeatability import LABELS, REPEATABILITY, passes_of
+from floatref_conformance.checks.sameness.repeatability import LABELS, RepeatabilityCheck, passes_of
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.oracle import confirm
 from floatref_conformance.proving_ground.staging import road_of
 
-BETWEEN, DIFFERENCE, TO_TRUTH = REPEATABILITY.limits
-CASE = REPEATABILITY.simplest
+BETWEEN, DIFFERENCE, TO_TRUTH = RepeatabilityCheck().limits
+CASE = RepeatabilityCheck().simplest
 
 
 class Bench:
@@ -54,14 +54,15 @@ def spoiled(**changes):
 
 
 def read(case=CASE, **changes):
-    measured = REPEATABILITY.judge(case, spoiled(**changes))
+    measured = RepeatabilityCheck().judge(case, spoiled(**changes))
     return {
-        name: max(m.value for m in measured if m.quantity == name) for name in REPEATABILITY.limits
+        name: max(m.value for m in measured if m.quantity == name)
+        for name in RepeatabilityCheck().limits
     }
 
 
 def failing(case=CASE, device_class=DeviceClass.NOMINAL, **changes):
-    measured = REPEATABILITY.judge(case, spoiled(**changes))
+    measured = RepeatabilityCheck().judge(case, spoiled(**changes))
     return {m.quantity for m in measured if not m.within(device_class)}
 
 
@@ -70,7 +71,7 @@ def times(factor):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [CASE, REPEATABILITY.cases(3, Effort.QUICK)[1]])
+@pytest.mark.parametrize("case", [CASE, RepeatabilityCheck().cases(3, Effort.QUICK)[1]])
 def test_the_truth_of_both_passes_agrees_whatever_the_vehicle(case):
     assert failing(case, DeviceClass.REFERENCE) == set()
 
@@ -103,7 +104,7 @@ def test_two_passes_that_show_the_same_wrong_road_fail_against_the_truth():
 @pytest.mark.slow
 def test_two_flat_passes_fail_and_the_oracle_finds_the_same():
     flat = {"first": times(0.0), "second": times(0.0)}
-    measured = REPEATABILITY.judge(CASE, spoiled(**flat))
+    measured = RepeatabilityCheck().judge(CASE, spoiled(**flat))
     assert {m.quantity for m in measured if not m.within(DeviceClass.NOMINAL)} == {
         BETWEEN,
         TO_TRUTH,
@@ -127,7 +128,7 @@ def test_a_point_without_elevation_is_an_error(which):
         read(**{which: holed})
 
 
-@pytest.mark.parametrize("case", REPEATABILITY.cases(0, Effort.CERTIFICATION))
+@pytest.mark.parametrize("case", RepeatabilityCheck().cases(0, Effort.CERTIFICATION))
 def test_the_passes_of_a_case_meet_one_road_with_other_errors(case):
     first, second = passes_of(case)
     assert first.seed != second.seed
@@ -138,7 +139,7 @@ def test_the_passes_of_a_case_meet_one_road_with_other_errors(case):
 
 @pytest.mark.slow
 def test_the_recommended_pipeline_repeats_itself():
-    case = REPEATABILITY.cases(0, Effort.QUICK)[0]
+    case = RepeatabilityCheck().cases(0, Effort.QUICK)[0]
     name = "temporal-adaptive-hpf-spatial-backward"
     seen = []
 
@@ -146,7 +147,7 @@ def test_the_recommended_pipeline_repeats_itself():
         seen.append(label)
         return floatref.process(taken.recording, name)
 
-    measured = REPEATABILITY.judge(case, Bench(make))
+    measured = RepeatabilityCheck().judge(case, Bench(make))
     assert all(m.ratio(DeviceClass.NOMINAL) <= 0.7 for m in measured)
     assert tuple(seen) == LABELS
     confirm("repeatability", next(m for m in measured if m.quantity == DIFFERENCE))
