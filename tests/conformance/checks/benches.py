@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+from floatref.measures import high_pass
+from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.proving_ground.simulate import simulate
 
@@ -22,3 +24,12 @@ class OneRecording:
 def taken_of(scenario):
     made = simulate(replace(scenario, imu=False, gnss=False))
     return Taken(made.recording, made.truth, scenario)
+
+
+def follow_true_distance(taken):
+    """Return the truth of ``taken``, filtered as a profile is, along the true distance."""
+    truth = taken.truth
+    tracks = tuple(
+        ProfileTrack.of(t.name, high_pass(t.elevation, truth.interval_m)) for t in truth.tracks
+    )
+    return Profile(truth.interval_m, tracks, truth.start_m)

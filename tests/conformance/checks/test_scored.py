@@ -9,10 +9,10 @@ from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.driving.check import driving_checks
-from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.checks.faults.check import FaultsCheck
 from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.classes import Effort
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario

@@ -12,9 +12,9 @@ import floatref
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.checks.distance.feature_places import DistanceCheck
 from floatref_conformance.checks.distance.features import Feature, middles, place
+from floatref_conformance.checks.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, visible
 from floatref_conformance.errors import DeviceError
