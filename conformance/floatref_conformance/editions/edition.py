@@ -5,7 +5,7 @@ An edition never changes once it is published: a verdict names it, and can be re
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -47,7 +47,7 @@ class Edition:
     true_axis: bool
     wander: Mapping[str, float]
     encoder: Mapping[str, Drawn]
-    document: Table
+    document: Table = field(repr=False)
 
     def make_scenario(self, **numbers: Any) -> Scenario:
         """Return the scenario of ``numbers``, else of the edition's defaults.

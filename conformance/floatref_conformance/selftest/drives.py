@@ -9,6 +9,7 @@ from floatref_conformance.checks.driving.layout import Layout, layout_of, place
 from floatref_conformance.checks.driving.rules import (
     ELSEWHERE,
     UNFLAGGED,
+    VALID_PART,
     WHOLE,
     Rule,
     rule_of,
@@ -28,6 +29,8 @@ EITHER_PERCENT = 10.0
 """Percent by which the profile is lowered: it loses 0.1 of the correlation, beyond that limit."""
 AROUND_M = 60.0
 """Length in m flagged on each side of an event: less than 125 m in total."""
+SLOW_M = 15.0
+"""Around an event in m: a device may give up what is driven below 16 km/h, and 5 m beside it."""
 ERROR_M = 40.0
 """Length in m of the error on each side; the IRI's car has settled where the flags end."""
 FAST_KMH = 20.0
@@ -83,6 +86,7 @@ def _list_graded(scenario: Scenario, rule: Rule, edition: Edition) -> Iterator[G
         )
     unflagged = _make_higher if rule.slow else _make_rougher(0.0, scenario.length_m)
     yield Graded((UNFLAGGED,), unflagged)
+    yield Graded((VALID_PART,), _make_rougher(start_m, end_m), alone=False)
     yield Graded((WHOLE,), _around_event(layout), alone=rule is not rules["start"])
     if not rule.slow:
         yield Graded(("flagged at an end",), put_in.flag_end)
@@ -102,9 +106,12 @@ def _around_event(layout: Layout) -> Put:
     """Return a function that puts the whole error near an event, and flags it."""
     start_m, end_m = layout.stretches[0]
     event_m = layout.events_m[0] if layout.events_m else (start_m + end_m) / 2
-    there = put_in.between(event_m - ERROR_M, event_m + ERROR_M)
+    before = put_in.between(event_m - ERROR_M, event_m - SLOW_M)
+    behind = put_in.between(event_m + SLOW_M, event_m + ERROR_M)
     flags = put_in.flag_points(event_m - AROUND_M, event_m + AROUND_M)
-    return lambda v: put_in.chain(put_in.make_rougher(v, start_m, end_m, there), flags)
+    return lambda v: put_in.chain(
+        put_in.make_rougher(v, start_m, end_m, lambda x: before(x) + behind(x)), flags
+    )
 
 
 def _flag_away(scenario: Scenario, layout: Layout) -> Put:

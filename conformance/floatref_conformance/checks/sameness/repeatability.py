@@ -8,19 +8,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures import iri_trace, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded_numbers, seeds
+from floatref_conformance.checks.sameness.two_passes import (
+    BETWEEN,
+    DIFFERENCE,
+    DIFFERENCE_LIMITS,
+    END_M,
+    LOSS_LIMITS,
+    START_M,
+    compare_beyond,
+    compare_passes,
+)
 from floatref_conformance.checks.scoring import (
-    Compared,
     compare,
     correlation,
     filter_truth,
-    roughness_percent,
 )
-from floatref_conformance.checks.stretches import Stretches, stretch, verify_stretches
+from floatref_conformance.checks.stretches import Stretches, verify_stretches
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Effort, Limits, write_limits
 from floatref_conformance.editions.edition import Edition, find_edition
@@ -62,22 +69,10 @@ def move_to_road(profile: Profile, scenario: Scenario) -> Profile:
 
 
 LABELS = ("first pass", "second pass")
-BETWEEN = "correlation loss between passes"
-DIFFERENCE = "IRI difference between passes"
 TO_TRUTH = "correlation loss to the truth"
-LOSS_LIMITS: Limits = {
-    DeviceClass.NOMINAL: 0.08,
-    DeviceClass.ADEQUATE: 0.05,
-    DeviceClass.REFERENCE: 0.02,
-}
-DIFFERENCE_LIMITS: Limits = {
-    DeviceClass.NOMINAL: 5.0,
-    DeviceClass.ADEQUATE: 3.0,
-    DeviceClass.REFERENCE: 2.0,
-}
 TRUTH_LIMITS: Limits = {c: 2.0 * limit for c, limit in LOSS_LIMITS.items()}
-START_M, END_M, LENGTH_M = 220.0, 380.9, 490.0
-"""Start and end of the compared stretch, and length of a pass, in m."""
+LENGTH_M = 490.0
+"""Length of a pass, in m."""
 SPEEDS_KMH = ((60.0, 80.0), (30.0, 72.0), (97.0, 50.0), (72.0, 72.0))
 """Of the two passes of a case, in turn."""
 VEHICLES = (
@@ -211,9 +206,9 @@ class RepeatabilityCheck:
                 loss = correlation(pair, compared.track, TRUTH_LIMITS)
                 losses.setdefault(compared.track, []).append(loss)
         for track, found in losses.items():
-            between = _compare_passes(profiles[0], profiles[1], track)
+            between = compare_passes(profiles[0], profiles[1], track)
             if self.edition.wander:
-                between = _beyond(between, _compare_passes(truths[0], truths[1], track))
+                between = compare_beyond(profiles, truths, track)
             measured += between
             measured.append(replace(max(found, key=lambda m: m.value), quantity=TO_TRUTH))
         return tuple(measured)
@@ -241,32 +236,3 @@ class RepeatabilityCheck:
         if vehicles[1] != vehicles[0]:
             changes["second_vehicle"] = vehicles[1]
         return Case(self.id, scenario, changes, f"{self.id}-{number + 1}")
-
-
-def _compare_passes(first: Profile, second: Profile, track: str) -> list[Measurement]:
-    """Return correlation loss, and difference in IRI in percent of the rougher pass's.
-
-    Two flat profiles have no difference.
-    """
-    one, other = on_common_grid(first, second)
-    stretch(one, track, START_M, END_M)
-    before, after = one.track(track).elevation, other.track(track)
-    compared = Compared(track, one.distance_m, before, after.elevation, after.valid, one.interval_m)
-    pair = compared.whole(START_M, END_M)
-    measured = [replace(correlation(pair, track, LOSS_LIMITS), quantity=BETWEEN)]
-    rough = [
-        np.abs(iri_trace(z, pair.interval_m)[pair.counted]).mean()
-        for z in (pair.truth, pair.result)
-    ]
-    if max(rough) > 0:
-        if rough[0] < rough[1]:
-            pair = replace(pair, truth=pair.result, result=pair.truth)
-        difference = roughness_percent(pair, track, DIFFERENCE_LIMITS)
-        measured.append(replace(difference, quantity=DIFFERENCE))
-    return measured
-
-
-def _beyond(found: list[Measurement], true: list[Measurement]) -> list[Measurement]:
-    """Return what is ``found`` beyond the difference of the ``true`` roads under both lines."""
-    known = {m.quantity: m.value for m in true}
-    return [replace(m, value=max(m.value - known[m.quantity], 0.0), evidence=None) for m in found]
