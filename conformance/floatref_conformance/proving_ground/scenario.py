@@ -140,6 +140,13 @@ class Scenario:
         0.0, -5.0, 5.0, "its growth as the tyre warms up during a long drive"
     )
     laser_ahead_m: float = number(0.0, -2.0, 2.0, "the laser ahead of the accelerometer")
+    laser_line_mm: float = number(
+        0.0,
+        0.0,
+        300.0,
+        "width of a line laser across the lane, which makes one bridged height of it (4.3: 100 mm) "
+        "and by it the truth; 0: a point laser",
+    )
     latency_ms: float = number(0.0, 0.0, 100.0, "age of a reading of the laser when it is recorded")
     friction_nm: float = number(
         0.0, 0.0, 10000.0, "moment about pitch at which the suspension's leaf springs slide, in N·m"
