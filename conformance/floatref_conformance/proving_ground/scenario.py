@@ -39,6 +39,10 @@ ROADS = (
 )
 
 
+SECOND_DISTANCES = ("none", "gnss", "can", "optical")
+"""Sources of distance beside the encoder (4.1.3)."""
+
+
 @dataclass(frozen=True)
 class Scenario:
     """One recording to be simulated; InputError for values out of range.
@@ -154,6 +158,14 @@ class Scenario:
     progression_per_m2: float = number(
         0.0, 0.0, 1000.0, "of progressive springs, in 1/m²: their force is k·d·(1 + p·d²)"
     )
+    encoder_per_side: bool = value(
+        False, "whether the encoder of the wheel on each side is recorded, beside the shared one"
+    )
+    second_distance: str = value(
+        "none",
+        "a second source of distance that is recorded: none, gnss (speed over ground), can (wheel "
+        "speed of the vehicle bus) or optical (fifth wheel)",
+    )
     imu: bool = value(True, "whether horizontal accelerometers and gyros are recorded")
     gnss: bool = value(True, "whether the channels of a receiver are recorded")
     response: bool = value(True, "whether the channels of the vehicle's response are recorded")
@@ -172,6 +184,7 @@ class Scenario:
         if file_of(self.road) is None:
             refuse_unknown("road", self.road, ROADS)
         refuse_unknown("manoeuvre", self.manoeuvre, MANOEUVRES)
+        refuse_unknown("second_distance", self.second_distance, SECOND_DISTANCES)
         find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")

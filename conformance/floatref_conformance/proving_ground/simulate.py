@@ -1,6 +1,6 @@
 """From a scenario to a recording and the truth behind it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 
@@ -8,14 +8,19 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Recording, Setup
+from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.proving_ground.parked import park
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.roads.wander import Line
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError
 from floatref_conformance.proving_ground.sensors.gauging import as_installed, response_channels
-from floatref_conformance.proving_ground.sensors.satellite import gnss_channels
+from floatref_conformance.proving_ground.sensors.odometry import (
+    optical_distance,
+    wheel_encoders,
+    wheel_speed,
+)
+from floatref_conformance.proving_ground.sensors.satellite import gnss_channels, gnss_speed
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.staging import (
     course_of,
@@ -125,9 +130,30 @@ def _record(scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: S
         channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing)
     if motion.suspension is not None:
         channels += response_channels(suite, scenario.seed, motion.suspension, setup)
+    channels += _more_distances(scenario, chain, setup)
     model = f"proving ground {version('floatref')}"
     recording = Recording(tuple(channels), setup, "floatref", model)
     return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)
+
+
+def _more_distances(scenario: Scenario, chain: Chain, setup: Setup) -> Iterator[Channel]:
+    """Yield the encoders of both sides and the second source of distance, if they are recorded.
+
+    A parked body turns about its reference points, another one about its centre of gravity.
+    """
+    standing = scenario.manoeuvre in STATIONARY
+    course = course_of(scenario)
+    if scenario.encoder_per_side:
+        yield from wheel_encoders(chain, setup, 0.0 if standing else course.curvature_per_m)
+    if scenario.second_distance == "gnss":
+        vehicle, antenna = vehicle_of(scenario), setup.gnss_antenna_offset_m
+        x, z = (vehicle.sensor_x_m, vehicle.sensor_z_m) if standing else (0.0, vehicle.cg_height_m)
+        lever = (antenna[0] - x, antenna[1], antenna[2] - z)
+        yield gnss_speed(chain, lever, course.grade_rad, standing)
+    elif scenario.second_distance == "can":
+        yield wheel_speed(chain, standing)
+    elif scenario.second_distance == "optical":
+        yield optical_distance(chain, standing)
 
 
 def _ground(scenario: Scenario, road: Road) -> Ground:
