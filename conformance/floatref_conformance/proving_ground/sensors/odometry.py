@@ -76,4 +76,5 @@ def _walk(rng: np.random.Generator, density: float, distance: FloatArray) -> Flo
     """Return a walk from 0 that spreads by ``density`` per √m of distance, shape (n,), in m."""
     steps = int(np.ceil(distance[-1] / WALK_M)) + 1
     walk = np.cumsum(density * WALK_M**0.5 * rng.standard_normal(steps))
-    return np.interp(distance, WALK_M * np.arange(steps + 1), np.concatenate([[0.0], walk]))
+    knots = WALK_M * np.arange(steps + 1)
+    return np.asarray(np.interp(distance, knots, np.concatenate([[0.0], walk])))
