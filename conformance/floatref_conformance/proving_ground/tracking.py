@@ -75,7 +75,8 @@ def read_beside(road: Road, line: Line, road_seed: int, width_m: float) -> Groun
     rolled, read = {}, {}
     for track in road.tracks:
         strip = strip_around(road, track, road_seed, *reach)
-        rolled[track], read[track] = strip.line(y), bridge(strip, y, width_m)
+        rolled[track] = road.elevation[track] if line.is_straight else strip.line(y)
+        read[track] = bridge(strip, y, width_m)
     return Ground(road.with_elevation(rolled), road.with_elevation(read))
 
 

@@ -9,6 +9,7 @@ import pytest
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.roads.bridging import bridge
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD
+from floatref_conformance.proving_ground.roads.shaping import scale_factor
 from floatref_conformance.proving_ground.roads.strips import strip_around
 from floatref_conformance.proving_ground.roads.wander import Line
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -35,7 +36,7 @@ def test_the_tyres_keep_their_road_and_the_line_lies_about_it(wander: dict[str, 
         assert ground.rolled.elevation[track] == pytest.approx(z, abs=1e-12)
     base = road_of(POINT, 60.0)
     y = Line(3, wide.wander_m, wide.wander_within_m).at(base.distance_m)
-    strip = strip_around(base, "left", 8, -0.3, 0.3)
+    strip = strip_around(base, "left", 8, float(y.min()) - 0.07, float(y.max()) + 0.07)
     found = ground.read.elevation["left"]
     assert found == pytest.approx(bridge(strip, y, 0.1), abs=1e-12)
     difference = found - ground.rolled.elevation["left"]
@@ -96,8 +97,38 @@ def test_a_measured_surface_is_read_as_it_is_measured(tmp_path: Path) -> None:
     ground = ground_of(scenario, 60.0)
     full = slice(round(50 / 0.005), None)
     for track in ("left", "right"):
-        read, rolled = (road.elevation[track][full] for road in ground)
+        rolled, read = (road.elevation[track][full] for road in ground)
         assert read == pytest.approx(rolled, abs=1e-4)
     assert not same(ground)
+
+
+def test_a_measured_surface_is_read_about_the_line_at_its_scale(tmp_path: Path) -> None:
+    """Of z = y³ the mean over the middle 70 mm is y³ + y·(35 mm)²."""
+    pycrg = pytest.importorskip("pycrg")
+    v = np.round(np.arange(-130, 131) * 0.01, 2)
+    pycrg.write(tmp_path / "a.crg", 0.005 * np.sin(np.arange(800) / 9)[:, None] + v**3, 0.05, v)
+    own = replace(WIDE, road=f"{FILE_ROAD}{tmp_path / 'a.crg'}", iri_m_per_km=0.0, wander_m=0.1)
+    full = slice(round(50 / 0.005), None)
+    ranges = []
+    for factor in (1.0, 2.0):
+        scenario = own
+        if factor == 2.0:
+            straight = road_of(replace(POINT, road=own.road, iri_m_per_km=0.0), 60.0)
+            scenario = replace(own, iri_m_per_km=2.0 / scale_factor(straight, 1.0))
+        ground = ground_of(scenario, 60.0)
+        y = 0.86 + Line(3, 0.1, 0.0).offset_m
+        rolled, read = (road.elevation["left"][full] for road in ground)
+        assert read - rolled == pytest.approx(factor * y * 0.035**2, abs=factor * 6e-5)
+        ranges.append(np.ptp(rolled))
+    assert ranges[1] == pytest.approx(2 * ranges[0])
+
+
+def test_a_surface_narrower_than_the_line_is_refused(tmp_path: Path) -> None:
+    pycrg = pytest.importorskip("pycrg")
+    v = np.round(np.arange(-90, 91) * 0.01, 2)
+    pycrg.write(tmp_path / "a.crg", np.zeros((800, v.size)), 0.05, v)
+    scenario = replace(POINT, road=f"{FILE_ROAD}{tmp_path / 'a.crg'}", iri_m_per_km=0.0)
+    ground_of(scenario, 60.0)
+    scenario = replace(scenario, laser_line_mm=100.0)
     with pytest.raises(InputError, match="lower wander_m, wander_within_m or laser_line_mm"):
-        ground_of(replace(scenario, wander_m=0.5, seed=1), 60.0)
+        ground_of(scenario, 60.0)

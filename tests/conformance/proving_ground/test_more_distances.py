@@ -42,7 +42,14 @@ def test_every_wheel_path_has_an_encoder_of_its_own() -> None:
 
 
 @pytest.mark.parametrize(
-    "pipeline", ["temporal-basic", "spatial-hpf", "kalman-smoother", "response-observer"]
+    "pipeline",
+    [
+        "temporal-basic",
+        "spatial-hpf",
+        "kalman-smoother",
+        pytest.param("road-prior-smoother", marks=pytest.mark.slow),
+        pytest.param("response-observer", marks=pytest.mark.slow),
+    ],
 )
 def test_pipelines_work_as_without_them(pipeline: str) -> None:
     plain = floatref.process(simulate(PLAIN).recording, pipeline)
@@ -54,7 +61,7 @@ def test_pipelines_work_as_without_them(pipeline: str) -> None:
 
 @pytest.mark.parametrize("kind", ["quiescent", "bounce"])
 def test_a_parked_vehicle_travels_by_its_encoders_alone(kind: str) -> None:
-    parked = Scenario(manoeuvre=kind, rate_hz=1000.0, encoder_per_side=True, sensors=0.0)
+    parked = replace(MORE, manoeuvre=kind, rate_hz=1000.0, sensors=0.0)
     wheels = simulate(parked).recording
     assert np.array_equal(
         wheels.channel("wheel_distance", "left").values, wheels.channel("distance").values
@@ -63,6 +70,27 @@ def test_a_parked_vehicle_travels_by_its_encoders_alone(kind: str) -> None:
         channel = simulate(replace(parked, second_distance=source)).recording.channel(name)
         limit = 0.3 if (kind, source) == ("bounce", "gnss") else 1e-3
         assert np.abs(channel.values).max() < limit
+
+
+def test_a_parked_antenna_swings_about_the_reference_points() -> None:
+    """Its speed is the rate of its horizontal place, by (6.23), which bouncing changes."""
+    bounce = replace(MORE, manoeuvre="bounce", rate_hz=1000.0, second_distance="gnss", sensors=0.0)
+    simulation = simulate(bounce)
+    motion, setup = simulation.motion, simulation.recording.setup
+    x, y, z = np.subtract(
+        setup.gnss_antenna_offset_m, (*setup.tracks["left"].reference_point_m[:1], 0.0, 0.0)
+    )
+    z -= setup.tracks["left"].reference_point_m[2]
+    sin, cos = np.sin, np.cos
+    ahead = x * cos(motion.pitch) + sin(motion.pitch) * (
+        y * sin(motion.roll) + z * cos(motion.roll)
+    )
+    across = y * cos(motion.roll) - z * sin(motion.roll)
+    speed = np.hypot(np.gradient(ahead, 1e-3), np.gradient(across, 1e-3))
+    found = simulation.recording.channel("gnss_speed")
+    assert found.values.max() > 0.02
+    expected = np.interp(found.times_s, motion.times_s, speed)
+    assert found.values == pytest.approx(expected, abs=0.02 * expected.max())
 
 
 def test_an_unknown_source_is_refused() -> None:

@@ -40,8 +40,8 @@ def bridge(surface: Surface, lateral_m: FloatArray, width_m: float) -> FloatArra
 
     if not (np.isfinite(width_m) and width_m > 0):
         raise InputError(f"the line of a laser is {width_m} m wide; it must be above zero")
-    for side in (-0.5, 0.5):
-        surface.line(lateral_m + side * width_m)
+    for beyond in (lateral_m - width_m / 2, lateral_m + width_m / 2):
+        surface.refuse_beyond(beyond)
     begin = (lateral_m - width_m / 2 - surface.right_m) / surface.across_m
     width = width_m / surface.across_m
     _refuse_holes(surface, begin, width)

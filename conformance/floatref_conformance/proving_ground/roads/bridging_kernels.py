@@ -45,26 +45,26 @@ def bridge_strings(
     upper = 1.0 - highest
     bottom = top = strings[0, 0]
     for k in range(begin.size):
-        count = cut_line(strings, k, begin[k], width, pieces)
+        count = _cut_line(strings, k, begin[k], width, pieces)
         # The quantiles of the point before are near.
-        bottom, left_out = lowest_part(pieces, count, lowest, bottom)
-        top, kept = lowest_part(pieces, count, upper, top)
+        bottom, left_out = _lowest_part(pieces, count, lowest, bottom)
+        top, kept = _lowest_part(pieces, count, upper, top)
         heights[k] = (kept - left_out) / (upper - lowest)
 
 
 @compiled
-def cut_line(strings: FloatArray, k: int, begin: float, width: float, pieces: Pieces) -> int:
+def _cut_line(strings: FloatArray, k: int, begin: float, width: float, pieces: Pieces) -> int:
     """Cut the line at point ``k`` of the strings into ``pieces``; return their number.
 
     A line that begins or ends beyond an outer string by rounding ends on it.
     """
     at, end = max(begin, 0.0), min(begin + width, strings.shape[0] - 1.0)
     whole = end - at
-    before = height_at(strings, k, at)
+    before = _height_at(strings, k, at)
     count = 0
     while at < end:
         cut = min(np.floor(at) + 1.0, end)
-        after = height_at(strings, k, cut)
+        after = _height_at(strings, k, cut)
         pieces.low[count], pieces.high[count] = min(before, after), max(before, after)
         pieces.share[count] = (cut - at) / whole
         at, before = cut, after
@@ -73,7 +73,7 @@ def cut_line(strings: FloatArray, k: int, begin: float, width: float, pieces: Pi
 
 
 @compiled
-def height_at(strings: FloatArray, k: int, position: float) -> float:
+def _height_at(strings: FloatArray, k: int, position: float) -> float:
     """Return the elevation at a position in strings, linear in between."""
     index = min(int(position), strings.shape[0] - 2)
     right, left = strings[index, k], strings[index + 1, k]
@@ -81,7 +81,7 @@ def height_at(strings: FloatArray, k: int, position: float) -> float:
 
 
 @compiled
-def lowest_part(pieces: Pieces, count: int, part: float, level: float) -> tuple[float, float]:
+def _lowest_part(pieces: Pieces, count: int, part: float, level: float) -> tuple[float, float]:
     """Return the height below which ``part`` of the line lies, and what that adds to the mean.
 
     Newton's method from ``level`` on, between bounds: the share below a height is linear between
@@ -95,7 +95,7 @@ def lowest_part(pieces: Pieces, count: int, part: float, level: float) -> tuple[
     for _ in range(MOST_STEPS if least < most else 0):
         if not least < level < most:
             level = (least + most) / 2
-        below, density, depth = under(pieces, count, level)
+        below, density, depth = _under(pieces, count, level)
         quantile, lower = level, level * part - depth
         if abs(below - part) < CLOSE:
             break
@@ -108,7 +108,7 @@ def lowest_part(pieces: Pieces, count: int, part: float, level: float) -> tuple[
 
 
 @compiled
-def under(pieces: Pieces, count: int, level: float) -> tuple[float, float, float]:
+def _under(pieces: Pieces, count: int, level: float) -> tuple[float, float, float]:
     """Return the share of the line below ``level``, its derivative, and the mean depth below."""
     below = density = depth = 0.0
     for j in range(count):

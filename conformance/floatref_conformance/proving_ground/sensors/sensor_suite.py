@@ -7,6 +7,7 @@ on the rate. 6·10⁻⁴ g of a 16-kHz accelerometer sample and 0.0077 °/s of a
 gyros' is K_A of (6.55) and the accelerometers' 1 µg after one second: with much more, the mean
 of the 400-s run at 5 km/h could not be removed as Table 5.4 shows it. The accelerometers' bias
 is near the 1.15 mg of section 5.3; their axes are level to within 0.25 to 0.75 degrees, as drawn.
+Rate and resolution of the laser are those of the line lasers of section 4.3, for a point laser too.
 
 A wheel carrier bears tens of g of impacts, and so a sensor of ±50 g that is made for them: a
 micromachined one, with twice the bias and ten times the noise density of the accelerometers on

@@ -96,16 +96,22 @@ def test_each_wheel_loses_the_slip_of_its_own_brake(stop, slip, curvature):
         assert lost == pytest.approx(expected, rel=1e-9)
 
 
-def test_slip_and_growth_of_both_wheels_differ_by_at_most_their_spread(stop):
-    standing = int(np.argmax(stop.speed == 0.0))
-    lost = np.array(
+@pytest.mark.parametrize("errors", [{"slip_per_g": 0.06}, {"radius_growth": 0.01}])
+def test_slip_and_growth_of_both_wheels_differ_by_at_most_their_spread(stop, errors):
+    motion = stop if "slip_per_g" in errors else cruise(30.0)
+    at = int(np.argmax(stop.speed == 0.0)) if motion is stop else -1
+
+    def lost(counted):
+        return motion.distance[at] - counted[at]
+
+    shared = lost(chain_of(motion, **errors).distance().values)
+    shares = np.array(
         [
-            stop.distance[standing] - each[standing]
+            lost(each) / shared
             for seed in range(40)
-            for each in encoders(stop, seed=seed, slip_per_g=0.06, wheel_spread=0.1).values()
+            for each in encoders(motion, seed=seed, wheel_spread=0.1, **errors).values()
         ]
     )
-    shares = lost / (0.06 * stop.speed[0] ** 2 / (2 * STANDARD_GRAVITY))
     assert 0.9 <= shares.min() < 0.93
     assert 1.07 < shares.max() <= 1.1
     assert np.unique(shares).size == shares.size
