@@ -12,6 +12,9 @@ So a crack of up to 15 % of the line does not count, a dip of 85 % or more count
 plane has the height of its middle. The strings of a surface are 10 mm apart and straight in
 between; readings 0.25 mm apart are as good as the continuous line between them, whose
 height is found in closed form: they differ by less than the relief of the line divided by 400.
+
+On six wheel paths of table 2.2's normal case, filtered as for the IRI, the height of 100 mm agrees
+with that of a point in its middle by 0.996 (lowest 0.994), that of 300 mm by 0.990 (0.981).
 """
 
 import numpy as np
