@@ -53,6 +53,10 @@ CAPABILITIES: Mapping[str, frozenset[str]] = {
             "roll_acceleration",
         }
     ),
+    "encoders": frozenset({"wheel_distance"}),
+    "gnss-speed": frozenset({"gnss_speed"}),
+    "wheel-speed": frozenset({"wheel_speed"}),
+    "optical": frozenset({"optical_distance"}),
 }
 """The channels that each capability adds to the nominal ones."""
 RESPONSE = "response"

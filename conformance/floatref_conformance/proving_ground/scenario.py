@@ -44,6 +44,10 @@ ROADS = (
 )
 
 
+SECOND_DISTANCES = ("none", "gnss", "can", "optical")
+"""Sources of distance beside the encoder (4.1.3)."""
+
+
 @dataclass(frozen=True)
 class Scenario:
     """One recording to be simulated; InputError for values out of range.
@@ -145,12 +149,27 @@ class Scenario:
         0.0, -5.0, 5.0, "its growth as the tyre warms up during a long drive"
     )
     laser_ahead_m: float = number(0.105, -2.0, 2.0, "the laser ahead of the accelerometer")
+    laser_line_mm: float = number(
+        0.0,
+        0.0,
+        300.0,
+        "width of a line laser across the lane, which makes one bridged height of it (4.3: 100 mm) "
+        "and by it the truth; 0: a point laser",
+    )
     latency_ms: float = number(0.0, 0.0, 100.0, "age of a reading of the laser when it is recorded")
     friction_nm: float = number(
         0.0, 0.0, 10000.0, "moment about pitch at which the suspension's leaf springs slide, in N·m"
     )
     progression_per_m2: float = number(
         0.0, 0.0, 1000.0, "of progressive springs, in 1/m²: their force is k·d·(1 + p·d²)"
+    )
+    encoder_per_side: bool = value(
+        False, "whether the encoder of the wheel on each side is recorded, beside the shared one"
+    )
+    second_distance: str = value(
+        "none",
+        "a second source of distance that is recorded: none, gnss (speed over ground), can (wheel "
+        "speed of the vehicle bus) or optical (fifth wheel)",
     )
     imu: bool = value(True, "whether horizontal accelerometers and gyros are recorded")
     gnss: bool = value(True, "whether the channels of a receiver are recorded")
@@ -170,6 +189,7 @@ class Scenario:
         if file_of(self.road) is None:
             refuse_unknown("road", self.road, ROADS)
         refuse_unknown("manoeuvre", self.manoeuvre, MANOEUVRES)
+        refuse_unknown("second_distance", self.second_distance, SECOND_DISTANCES)
         find_vehicle(self.vehicle, self.friction_nm, self.progression_per_m2)
         if self.speed_kmh == 0 and self.manoeuvre not in ("dead-start", *RUNS):
             raise InputError(f"speed_kmh is 0; {self.manoeuvre} needs a speed above 0")

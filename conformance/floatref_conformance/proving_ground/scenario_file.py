@@ -12,11 +12,16 @@ from floatref_conformance.proving_ground.scenario import (
     FORMAT,
     MANOEUVRES,
     ROADS,
+    SECOND_DISTANCES,
     Scenario,
 )
 from floatref_conformance.proving_ground.vehicles.parameter_sets import LINEAR_MODELS, VEHICLES
 
-CHOICES = {"manoeuvre": MANOEUVRES, "vehicle": (*VEHICLES, *LINEAR_MODELS)}
+CHOICES = {
+    "manoeuvre": MANOEUVRES,
+    "vehicle": (*VEHICLES, *LINEAR_MODELS),
+    "second_distance": SECOND_DISTANCES,
+}
 """The names that a field may have. A road may also be `measured:FILE`."""
 
 

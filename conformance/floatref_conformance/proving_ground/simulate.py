@@ -1,6 +1,6 @@
 """From a scenario to a recording and the truth behind it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 
@@ -8,22 +8,29 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Recording, Setup
+from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.proving_ground.parked import park
 from floatref_conformance.proving_ground.roads.road import Road
+from floatref_conformance.proving_ground.roads.wander import Line
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError
 from floatref_conformance.proving_ground.sensors.gauging import as_installed, response_channels
-from floatref_conformance.proving_ground.sensors.satellite import gnss_channels
+from floatref_conformance.proving_ground.sensors.odometry import (
+    optical_distance,
+    wheel_encoders,
+    wheel_speed,
+)
+from floatref_conformance.proving_ground.sensors.satellite import gnss_channels, gnss_speed
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
 from floatref_conformance.proving_ground.staging import (
     course_of,
     drive_of,
-    road_of,
+    ground_of,
     setup_of,
     suite_of,
     vehicle_of,
 )
+from floatref_conformance.proving_ground.tracking import Ground, read_beside
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, drive_over
 
 
@@ -34,7 +41,8 @@ class Simulation:
     Attributes:
         recording: what the sensors delivered.
         truth: unfiltered elevation along the laser's footprint against true distance, at the
-            setup's profile interval.
+            setup's profile interval. Of a line laser it is the bridged height of the line, one
+            height of what the footprint covers; the tyres roll on the line's middle.
         motion: the true motion.
         errors: the slow errors of the vertical accelerometers, by wheel path.
     """
@@ -59,13 +67,14 @@ def simulate(
         return _record(scenario, suite.idling(), motion, setup)
     drive, course = drive_of(scenario), course_of(scenario)
     vehicle = vehicle_of(scenario)
-    road = road_of(scenario, drive.length_m) if road is None else road
+    ground = ground_of(scenario, drive.length_m) if road is None else _ground(scenario, road)
+    road = ground.rolled
     _check_road(scenario, road, drive.length_m)
     known = as_installed(vehicle.make_setup(), suite.vehicle_error, scenario.seed)
     setup = replace(setup_of(scenario, vehicle, road.lateral_m), vehicle=known)
     kept = suite.response_rate_hz if scenario.response else None
     motion = drive_over(
-        vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup, kept
+        vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup, kept, ground.read
     )
     return _record(scenario, suite, motion, setup)
 
@@ -121,9 +130,38 @@ def _record(scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: S
         channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing)
     if motion.suspension is not None:
         channels += response_channels(suite, scenario.seed, motion.suspension, setup)
+    channels += _more_distances(scenario, chain, setup)
     model = f"proving ground {version('floatref')}"
     recording = Recording(tuple(channels), setup, "floatref", model)
     return Simulation(recording, truth_of(motion, setup.profile_interval_m), motion, errors)
+
+
+def _more_distances(scenario: Scenario, chain: Chain, setup: Setup) -> Iterator[Channel]:
+    """Yield the encoders of both sides and the second source of distance, if they are recorded.
+
+    A parked body turns about its reference points, another one about its centre of gravity.
+    """
+    standing = scenario.manoeuvre in STATIONARY
+    course = course_of(scenario)
+    if scenario.encoder_per_side:
+        yield from wheel_encoders(chain, setup, 0.0 if standing else course.curvature_per_m)
+    if scenario.second_distance == "gnss":
+        vehicle, antenna = vehicle_of(scenario), setup.gnss_antenna_offset_m
+        x, z = (vehicle.sensor_x_m, vehicle.sensor_z_m) if standing else (0.0, vehicle.cg_height_m)
+        lever = (antenna[0] - x, antenna[1], antenna[2] - z)
+        yield gnss_speed(chain, lever, course.grade_rad, standing)
+    elif scenario.second_distance == "can":
+        yield wheel_speed(chain, standing)
+    elif scenario.second_distance == "optical":
+        yield optical_distance(chain, standing)
+
+
+def _ground(scenario: Scenario, road: Road) -> Ground:
+    """Return the ground on a given road, which a vehicle follows without wander."""
+    if scenario.laser_line_mm == 0:
+        return Ground(road, road)
+    seed = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
+    return read_beside(road, Line(seed, 0.0, 0.0), seed, scenario.laser_line_mm / 1000)
 
 
 def _check_road(scenario: Scenario, road: Road, length_m: float) -> None:

@@ -36,7 +36,7 @@ from floatref_conformance.proving_ground.roads.shaping import (
 from floatref_conformance.proving_ground.roads.sines import sines_road
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.sensor_suite import SensorSuite
-from floatref_conformance.proving_ground.tracking import follow_line
+from floatref_conformance.proving_ground.tracking import Ground, follow_line
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 from floatref_conformance.proving_ground.vehicles.response import count_steps
@@ -50,9 +50,15 @@ MOST_SAMPLES = 2**26
 
 
 def road_of(scenario: Scenario, length_m: float) -> Road:
-    """Return the scenario's road, usable up to ``length_m`` or more, scaled and with its bump.
+    """Return the scenario's road under the tyres, as `ground_of` does."""
+    return ground_of(scenario, length_m).rolled
 
-    It is scaled by its wheel paths, whatever line the vehicle takes; the bump is as wide as it.
+
+def ground_of(scenario: Scenario, length_m: float) -> Ground:
+    """Return the scenario's ground, usable up to ``length_m`` or more, scaled and with its bump.
+
+    It is scaled by its wheel paths, whatever line the vehicle takes. Bump, joints, patches,
+    crown and break are as wide as the road, so that a line laser reads them as a point does.
     """
     length_m = max(length_m, FULL_FROM_M + SCALED_OVER_M)
     kind, _, which = scenario.road.partition("-")
@@ -76,7 +82,13 @@ def road_of(scenario: Scenario, length_m: float) -> Road:
     if kind != "flat" and scenario.iri_m_per_km > 0:
         factor = scale_factor(road, scenario.iri_m_per_km)
         road = scale_by(road, factor)
-    road = follow_line(scenario, road, length_m, seed, factor)
+    rolled, read = follow_line(scenario, road, length_m, seed, factor)
+    shaped = _with_features(scenario, rolled, seed)
+    return Ground(shaped, shaped if read is rolled else _with_features(scenario, read, seed))
+
+
+def _with_features(scenario: Scenario, road: Road, seed: int) -> Road:
+    """Return the road with its bump, its joints and patches, and its alignment."""
     if scenario.bump_mm:
         road = with_bump(road, scenario.bump_at_m, BUMP_LENGTH_M, scenario.bump_mm / 1000)
     road = _with_distress(scenario, road, seed)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from floatref_conformance.checks.case import Case
-from floatref_conformance.checks.sameness import repeatability
+from floatref_conformance.checks.sameness import repeatability, two_passes
 from floatref_conformance.checks.sameness.changed_drives import (
     BEFORE_M,
     BEHIND_M,
@@ -31,15 +31,15 @@ def situations_of_repeatability(check: RepeatabilityCheck) -> tuple[Situation, .
         sensors=0.0,
         profile_interval_m=INTERVAL_M,
     )
-    stretch = repeatability.START_M, repeatability.END_M
+    stretch = two_passes.START_M, two_passes.END_M
     second = repeatability.LABELS[1]
     graded = (
         Graded(
-            (repeatability.BETWEEN,),
+            (two_passes.BETWEEN,),
             lambda loss: put_in.limit_to_labels(put_in.mix_in_road(loss, *stretch), second),
         ),
         Graded(
-            (repeatability.DIFFERENCE,),
+            (two_passes.DIFFERENCE,),
             lambda percent: put_in.limit_to_labels(put_in.make_higher(percent / 100.0), second),
         ),
         Graded((repeatability.TO_TRUTH,), lambda loss: put_in.mix_in_road(loss, *stretch)),

@@ -31,7 +31,7 @@ def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Ite
     is too short or too long for ``interval_m``, or that is faster than any profiler.
     """
     _check_range(channel, summary, interval_m)
-    _check_direction(channel)
+    check_direction(channel)
     _check_length(channel, summary, interval_m)
     _check_speed(channel)
     length = summary.greatest - summary.least
@@ -68,8 +68,8 @@ def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
         )
 
 
-def _check_direction(channel: Channel) -> None:
-    """Refuse a distance that goes back farther than a vehicle rolls; a spike is accepted."""
+def check_direction(channel: Channel) -> None:
+    """Raise InputError for a distance that goes back farther than a vehicle rolls; a spike may."""
     if _goes_back(chunks(channel.values)) is None:
         return
     found = _goes_back(_without_spikes(channel.values))

@@ -65,6 +65,7 @@ def test_every_field_changes_the_hash() -> None:
         "stops": 3,
         "wander_m": 0.1,
         "wander_within_m": 0.02,
+        "second_distance": "can",
     }
     plain = Scenario()
     hashes = {plain.hash}

@@ -12,7 +12,8 @@ from floatref.measures import iri
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD
 from floatref_conformance.proving_ground.roads.strips import along_line
 from floatref_conformance.proving_ground.roads.wander import Line
-from floatref_conformance.proving_ground.scenario import Scenario, read_scenario
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.scenario_file import read_scenario
 from floatref_conformance.proving_ground.staging import road_of
 
 STRAY = Scenario(seed=3, road_seed=8, wander_m=0.1, wander_within_m=0.02, length_m=100.0)

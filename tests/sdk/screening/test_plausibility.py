@@ -57,6 +57,14 @@ def test_a_plausible_recording_gives_no_warning() -> None:
     assert examine(recorded(good())) == ()
 
 
+@pytest.mark.parametrize("name", ["wheel_distance", "optical_distance"])
+def test_a_second_distance_that_decreases_is_a_warning_since_nothing_reads_it(name: str) -> None:
+    values = good()
+    assert examine(recorded(values | {name: values["distance"]})) == ()
+    (line,) = examine(recorded(values | {name: -values["distance"]}))
+    assert re.fullmatch(rf"channel {name}: sample 1 goes back by 0\.1 m .*; it is not used", line)
+
+
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
 REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (FORCE, lambda a: a / 9.80665,

@@ -116,7 +116,7 @@ def _sample(surface: "pycrg.RoadSurface", rows: IndexArray, y: FloatArray) -> Fl
         far = y[int(np.argmax(outside))]
         raise InputError(
             f"the surface reaches from {right:g} to {left:g} m across, and the line is at "
-            f"{far:.4f} m; take a wider one or lower wander_m and wander_within_m"
+            f"{far:.4f} m; take a wider one or lower wander_m, wander_within_m or laser_line_mm"
         )
     z = surface.uv_to_z_many(u, np.clip(y, right, left))
     holes = ~np.isfinite(z)

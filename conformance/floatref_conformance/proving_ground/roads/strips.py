@@ -68,13 +68,13 @@ def strip_around(
     first = int(np.floor(right_m / ACROSS_M))
     last = max(int(np.ceil(left_m / ACROSS_M)), first + 1)
     rows = np.empty((last - first + 1, road.points))
-    path = road.elevation[track]
+    path, fade = road.elevation[track], _fade(road)
     for side, outermost in ((1, last), (-1, -first)):
         strings = _differences(road, track, seed, side)
         for step in range(1, outermost + 1):
             amplitudes = next(strings)
             if first <= side * step <= last:
-                rows[side * step - first] = path + _difference(road, amplitudes)
+                rows[side * step - first] = path + _difference(road, amplitudes, fade)
     if first <= 0 <= last:
         rows[-first] = path
     return Surface(road.start_m, road.spacing_m, ACROSS_M * first, ACROSS_M, rows)
@@ -119,22 +119,27 @@ def _differences(road: Road, track: str, seed: int, side: int) -> Iterator[Float
     narrow = NARROW_SHARE * sign + np.sqrt(NARROW_SHARE * (1 - NARROW_SHARE)) * shared
     wide = sign - narrow
     rng = _stream(seed, track, side)
+    drawn = np.empty(middle.size)
     for _ in count():
-        narrow = keeps[0] * narrow + fresh[0] * rng.standard_normal(middle.size)
-        wide = keeps[1] * wide + fresh[1] * rng.standard_normal(middle.size)
+        for part, keep, new in zip((narrow, wide), keeps, fresh, strict=True):
+            rng.standard_normal(out=drawn)
+            drawn *= new
+            part *= keep
+            part += drawn
         yield size * (narrow + wide - sign)
 
 
-def _difference(road: Road, amplitudes: FloatArray) -> FloatArray:
+def _fade(road: Road) -> FloatArray:
+    """Return the share of a difference before the road carries its whole roughness."""
+    x = road.distance_m[: _first_full(road)]
+    return cosine_rise((x - LEVEL_UNTIL_M) / (FULL_FROM_M - LEVEL_UNTIL_M))
+
+
+def _difference(road: Road, amplitudes: FloatArray, fade: FloatArray) -> FloatArray:
     """Return the difference in m of a string of these amplitudes, faded in as the road is."""
-    first = _first_full(road)
-    full = idct(amplitudes, norm="ortho")[: road.points - first]
-    if first == 0:
-        return np.asarray(full)
-    before = full[np.minimum(np.arange(first)[::-1], full.size - 1)]
-    x = road.distance_m[:first]
-    rise = cosine_rise((x - LEVEL_UNTIL_M) / (FULL_FROM_M - LEVEL_UNTIL_M))
-    return np.concatenate([rise * before, full])
+    full = idct(amplitudes, norm="ortho")[: road.points - fade.size]
+    before = full[np.minimum(np.arange(fade.size)[::-1], full.size - 1)]
+    return np.concatenate([fade * before, full])
 
 
 def _stream(seed: int, track: str, side: int) -> np.random.Generator:

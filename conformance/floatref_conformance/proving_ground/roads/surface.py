@@ -96,11 +96,16 @@ class Surface:
         position = np.where(
             np.abs(position - np.rint(position)) < ON_STRING, np.rint(position), position
         )
-        inside = (position >= 0) & (position <= self.elevation.shape[0] - 1)
-        reach = f"the surface reaches from {self.right_m:g} to {self.left_m:g} m"
-        self._refuse(~inside, y, f"{reach}; take a wider one or let the line wander less")
+        self.refuse_beyond(y)
         right = position.astype(np.int64)
         return right, position - right
+
+    def refuse_beyond(self, y: FloatArray) -> None:
+        """Raise InputError for the first lateral position in m beyond the outer strings."""
+        margin = ON_STRING * self.across_m
+        inside = (y >= self.right_m - margin) & (y <= self.left_m + margin)
+        reach = f"the surface reaches from {self.right_m:g} to {self.left_m:g} m"
+        self._refuse(~inside, y, f"{reach}; take a wider one or let the line wander less")
 
     def _refuse(self, wrong: NDArray[np.bool_], y: FloatArray, why: str) -> None:
         """Raise InputError that names the first place where ``wrong`` holds."""

@@ -137,36 +137,54 @@ class Chain:
         return self.channel("height", fresh[latest], track)
 
     def distance(self) -> Channel:
-        """Return the encoder: whole counts of a wheel that slips with acceleration.
+        """Return the encoder: whole counts of a wheel that slips with acceleration."""
+        drawn_scale = self.suite.encoder_scale * stream(self.seed, "distance").uniform(-1.0, 1.0)
+        return self.channel("distance", self.count_wheel(drawn_scale))
+
+    def count_wheel(self, drawn_scale: float, path: float = 1.0, own: float = 1.0) -> FloatArray:
+        """Return the distance that a wheel's encoder counts, shape (n,), in m.
 
         The slip integrates in closed form: ∫ v·(s·a/g) dt = s·(v² − v₀²)/(2g).
+
+        Args:
+            drawn_scale: scale error beside that of the suite.
+            path: length of the wheel's path over that of the vehicle.
+            own: slip and growth of the wheel over those of the suite.
         """
         suite, motion = self.suite, self.motion
-        rng = stream(self.seed, "distance")
-        drawn_scale = suite.encoder_scale * rng.uniform(-1.0, 1.0)
-        travel = motion.distance * (1.0 + drawn_scale + suite.encoder_error)
+        travel = motion.distance * (path * (1.0 + drawn_scale + suite.encoder_error))
         if suite.slip_per_g > 0:
             gain = motion.speed**2
             gain -= gain[0]
-            gain *= suite.slip_per_g / (2 * STANDARD_GRAVITY)
+            gain *= own * path * suite.slip_per_g / (2 * STANDARD_GRAVITY)
             travel += gain
         if suite.radius_growth or suite.radius_warming:
-            travel -= self._radius_error()
-        return self.channel("distance", count_steps(travel, suite.encoder_step_m))
+            speed = path * motion.speed
+            lost = own * self.radius_growth(speed, motion.times_s) * speed
+            travel -= (np.cumsum(lost) - (lost + lost[0]) / 2) / self.rate_hz
+        return count_steps(travel, suite.encoder_step_m)
 
-    def _radius_error(self) -> FloatArray:
-        """Return by how much a wheel whose radius has grown counts too little, shape (n,), in m.
+    def radius_growth(self, speed: FloatArray, times_s: FloatArray) -> FloatArray:
+        """Return the relative growth of a rolling radius at speeds in m/s, shape (n,).
 
         The radius of a free-rolling tyre grows with its speed of rotation (3.3.9), like the
         centrifugal force: by v². It is calibrated cold, at `CALIBRATED_MPS`.
         """
-        suite, motion = self.suite, self.motion
-        grown = suite.radius_growth * (motion.speed**2 - CALIBRATED_MPS**2)
+        grown = self.suite.radius_growth * (speed**2 - CALIBRATED_MPS**2)
         grown /= FASTEST_MPS**2 - SLOWEST_MPS**2
-        grown += suite.radius_warming * -np.expm1(-motion.times_s / WARM_S)
-        lost = grown * motion.speed
-        total = np.cumsum(lost)
-        return np.asarray((total - (lost + lost[0]) / 2) / self.rate_hz)
+        grown += self.suite.radius_warming * -np.expm1(-times_s / WARM_S)
+        return np.asarray(grown)
+
+    def sample_times(
+        self, first_s: float, rate_hz: float, late_s: float = 0.0
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return a slower sensor's times in s, and the samples of the motion that it reads then.
+
+        It starts at ``first_s``; its readings are ``late_s`` old. Before the start nothing moves.
+        """
+        last_s = (self.count - 1) / self.rate_hz
+        times = first_s + np.arange(int(max(0.0, last_s - first_s) * rate_hz) + 1) / rate_hz
+        return times, np.maximum(np.minimum(times, last_s) - late_s, 0.0) * self.rate_hz
 
     def gyros(self) -> tuple[Channel, ...]:
         """Return roll, pitch and yaw rate on the gyros' own clock."""

@@ -27,10 +27,8 @@ def gnss_channels(
         curvature: of the course, left turn positive, in 1/m.
         standing: the vehicle is parked and its distance an artificial encoder's.
     """
-    last_s = (chain.count - 1) / chain.rate_hz
-    fixes = int(max(0.0, last_s - FIRST_S) * chain.suite.gnss_rate_hz) + 1
-    times = FIRST_S + np.arange(fixes) / chain.suite.gnss_rate_hz
-    at = np.minimum(times, last_s) * chain.rate_hz
+    times, at = chain.sample_times(FIRST_S, chain.suite.gnss_rate_hz)
+    fixes = times.size
     attitude = _attitude(chain, at)
     antenna = setup.gnss_antenna_offset_m
     reference = next(iter(setup.tracks.values())).reference_point_m
@@ -51,6 +49,31 @@ def gnss_channels(
         values = values + gauss_markov(rng, drift, chain.suite.gnss_drift_s, times)
         channels.append(Channel.of(name, values + noise * rng.standard_normal(fixes), clock))
     return tuple(channels)
+
+
+def gnss_speed(
+    chain: Chain, lever_m: Vector, grade_rad: float = 0.0, standing: bool = False
+) -> Channel:
+    """Return the antenna's speed over ground on the receiver's time stamps.
+
+    The antenna swings with the body. Speed is the length of a horizontal velocity, both
+    components of which have noise: at a stop it is small, but never below 0.
+
+    Args:
+        chain: suite, seed and true motion.
+        lever_m: antenna from the point about which the body turns, in m.
+        grade_rad: of the lane, whose horizontal share is measured; crowns are not taken off.
+        standing: the vehicle is parked and its distance an artificial encoder's.
+    """
+    suite, motion = chain.suite, chain.motion
+    times, at = chain.sample_times(FIRST_S, suite.gnss_rate_hz, suite.gnss_speed_latency_s)
+    swing = np.cross(sample_rows(motion.rates, at), np.array(lever_m)[:, None], axis=0)
+    speed = np.zeros(times.size) if standing else sample_rows(motion.speed, at)
+    rng = stream(chain.seed, "gnss_speed")
+    ahead, across = suite.gnss_velocity_noise * rng.standard_normal((2, times.size))
+    ahead += speed * np.cos(grade_rad) + swing[0]
+    across += swing[1]
+    return Channel.of("gnss_speed", np.hypot(ahead, across), StampedClock.of(times))
 
 
 def _attitude(chain: Chain, at: FloatArray) -> FloatArray:

@@ -99,6 +99,7 @@ def drive_over(
     rate_hz: float,
     setup: Setup,
     response_rate_hz: float | None = None,
+    read: Road | None = None,
 ) -> BodyMotion:
     """Return the motion of ``vehicle`` on ``drive``, from static equilibrium on the first points.
 
@@ -111,11 +112,13 @@ def drive_over(
         rate_hz: rate of the result, in Hz.
         setup: where the reference points and lasers of each wheel path sit.
         response_rate_hz: rate in Hz at which the freedoms are kept; None: not at all.
+        read: under the lasers, if they read another height than the tyres roll on.
     """
     clock = UniformClock.of(rate_hz)
     every = count_steps(rate_hz)
     inner = UniformClock(clock.rate * every)
-    seen = Sighted.of(course, road, list(setup.tracks.values()), vehicle.cg_height_m)
+    under = road if read is None else read
+    seen = Sighted.of(course, under, list(setup.tracks.values()), vehicle.cg_height_m)
     count = int(duration_s * rate_hz) * every + 1
     travel, shared, tracks = empty_rows(len(setup.tracks), count)
     start = drive.motion(np.zeros(1))

@@ -73,11 +73,14 @@ CARRIER = Limit(1e4, 500.0, "mg", 1000 / 9.80665)
 DEFLECTION = Limit(0.5, 0.25, "mm", 1000.0, AGAINST_REST)
 DISPLACEMENT = Limit(100.0, 5.0, "mm", 1000.0, AGAINST_REST)
 VELOCITY = Limit(100.0, 5.0, "mm/s", 1000.0)
+SPEED = Limit(100.0, 42.0, "km/h", 3.6)
+TRAVEL = Limit(1e6, 1e6, "mm", 1000.0)
 LIMITS: Mapping[str, Limit] = {
     "gnss_latitude": Limit(pi / 2 + 1e-9, pi / 2, "deg", DEGREE),
     "gnss_longitude": Limit(2 * pi + 1e-9, 2 * pi, "deg", DEGREE),
     "gnss_height": Limit(1e5, 9500.0, "mm", 1000.0),
     "gnss_vertical_velocity": Limit(100.0, 5.0, "km/h", 3.6),
+    "gnss_speed": SPEED,
     "gnss_pitch": ANGLE,
     "gnss_roll": ANGLE,
     "gnss_quality": Limit(9.0, 9.0, "another table of qualities", 1.0),
@@ -86,6 +89,9 @@ LIMITS: Mapping[str, Limit] = {
     "yaw_rate": RATE,
     "longitudinal_specific_force": FORCE,
     "lateral_specific_force": FORCE,
+    "wheel_speed": SPEED,
+    "wheel_distance": TRAVEL,
+    "optical_distance": TRAVEL,
     **dict.fromkeys(TOLERANCES, CARRIER),
     "suspension_deflection": DEFLECTION,
     "rear_suspension_deflection": DEFLECTION,

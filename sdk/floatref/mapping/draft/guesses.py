@@ -27,6 +27,7 @@ QUANTITIES = (
     ("gnss_longitude", "rad", r"\blong?(itude)?\b|l.nge"),
     ("gnss_quality", "1", r"qual"),
     ("gnss_vertical_velocity", "m/s", r"(vert|up|climb|\bd\b).*(vel|speed|spd)|vel.*(up|vert)|^z$"),
+    ("gnss_speed", "m/s", r"speed|\bspd\b|\bsog\b"),
     ("gnss_height", "m", r"\balt|ellips|height|\bhgt\b"),
     ("gnss_pitch", "rad", r"pitch"),
     ("gnss_roll", "rad", r"roll"),

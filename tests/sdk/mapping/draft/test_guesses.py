@@ -51,6 +51,9 @@ SURE = [
     ("PASHR", "pitch", "deg", "gnss_pitch", None),
     ("BESTVEL", "z", "m/s", "gnss_vertical_velocity", None),
     ("BESTVEL", "vert speed", "m/s", "gnss_vertical_velocity", None),
+    ("BESTVEL", "hor speed", "m/s", "gnss_speed", None),
+    ("VTG", "speed", "km/h", "gnss_speed", None),
+    ("", "GPS speed", "km/h", "gnss_speed", None),
     ("INSPVA", "pitch", "deg", "gnss_pitch", None),
     ("INSPVAX", "roll", "deg", "gnss_roll", None),
     ("INSPVA", "up velocity", "m/s", "gnss_vertical_velocity", None),
@@ -70,7 +73,6 @@ def test_a_name_and_a_unit_of_a_logger_give_its_channel(
 @pytest.mark.parametrize(
     ("stream", "name", "unit"),
     [
-        ("", "GPS speed", "km/h"),
         ("", "Heading", "deg"),
         ("", "Temperature", "\u00b0C"),
         ("", "Battery", "V"),
@@ -80,7 +82,6 @@ def test_a_name_and_a_unit_of_a_logger_give_its_channel(
         ("", "Laser", "deg"),
         ("adc", "Acc_Q", "deg/s"),
         ("adc", "spare", "kPa"),
-        ("BESTVEL", "hor speed", "m/s"),
         ("BESTPOS", "undulation", "m"),
         ("BESTPOS", "lat std", "m"),
         ("GGA", "geoid height", "m"),
