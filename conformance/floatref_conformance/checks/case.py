@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, fields, replace
 from math import isfinite
 from reprlib import repr as shortened
@@ -14,6 +14,11 @@ from floatref_conformance.proving_ground.scenario import FIRST_DEFAULTS, Scenari
 
 Number = float | int | str | bool
 CHANNELS_BY_NEED = ("imu", "gnss", "response")
+SECOND_DISTANCES: Mapping[str, str] = MappingProxyType(
+    {"optical": "optical", "gnss-speed": "gnss", "wheel-speed": "can"}
+)
+"""The second source of distance that a capability stands for; of several the first is recorded."""
+FROM_DEVICE = (*CHANNELS_BY_NEED, "encoder_per_side", "second_distance")
 """Fields of a scenario that follow from the device's capabilities, not from the case."""
 DEFAULT = replace(Scenario(), **FIRST_DEFAULTS)
 """What a case file does not name, in every edition: a file keeps its meaning."""
@@ -80,6 +85,16 @@ def _scenario_of(numbers: object) -> Scenario:
     return Scenario.from_dict({**FIRST_DEFAULTS, **numbers})
 
 
+def record_for(capabilities: Collection[str]) -> dict[str, Any]:
+    """Return the fields `FROM_DEVICE` of a recording for a device with ``capabilities``."""
+    second = [source for need, source in SECOND_DISTANCES.items() if need in capabilities]
+    return {
+        **{name: name in capabilities for name in CHANNELS_BY_NEED},
+        "encoder_per_side": "encoders" in capabilities,
+        "second_distance": second[0] if second else "none",
+    }
+
+
 def _is_plain(value: object) -> bool:
     if isinstance(value, int):
         return abs(value) <= LARGEST
@@ -91,5 +106,5 @@ def _differences_from_default(scenario: Scenario) -> dict[str, Any]:
     return {
         f.name: values[f.name]
         for f in fields(scenario)
-        if f.name not in CHANNELS_BY_NEED and getattr(scenario, f.name) != getattr(DEFAULT, f.name)
+        if f.name not in FROM_DEVICE and getattr(scenario, f.name) != getattr(DEFAULT, f.name)
     }

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from floatref.values.profile import Profile
-from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
+from floatref_conformance.checks.case import Case, record_for
 from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.devices.interface import Description, Device, visible
@@ -117,8 +117,7 @@ def _age(path: Path) -> tuple[int, int, int]:
 
 def restrict_channels(description: Description, scenario: Scenario) -> Scenario:
     """Return ``scenario`` with only the channels that the device declares."""
-    recorded: dict[str, Any] = {n: n in description.capabilities for n in CHANNELS_BY_NEED}
-    return replace(scenario, **recorded)
+    return replace(scenario, **record_for(description.capabilities))
 
 
 def flagged_m(profile: Profile, truth: Profile) -> float:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, fields, replace
 from unittest import mock
 
 from floatref.errors import InputError
-from floatref_conformance.checks.case import CHANNELS_BY_NEED, Case
+from floatref_conformance.checks.case import FROM_DEVICE, Case
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.errors import SuiteError
 
@@ -125,7 +125,7 @@ def _differing_names(case: Case, base: Case) -> list[str]:
     names = [
         f.name
         for f in fields(case.scenario)
-        if f.name not in CHANNELS_BY_NEED
+        if f.name not in FROM_DEVICE
         and getattr(case.scenario, f.name) != getattr(base.scenario, f.name)
     ]
     own = {*case.variation, *base.variation}

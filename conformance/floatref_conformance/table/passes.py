@@ -13,7 +13,7 @@ import numpy as np
 from floatref.files import read_profile, write_recording
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.checks.case import CHANNELS_BY_NEED
+from floatref_conformance.checks.case import record_for
 from floatref_conformance.devices import builtin
 from floatref_conformance.devices.interface import visible
 from floatref_conformance.errors import SuiteError
@@ -46,8 +46,7 @@ def pass_scenario(
     so that a table of fewer runs or pipelines holds the same figures.
     """
     drawn = draw_seed(seed, run, *place)
-    recorded = {name: name in capabilities for name in CHANNELS_BY_NEED}
-    return scenario_of_run(run, drawn, vehicle=vehicle, **recorded)
+    return scenario_of_run(run, drawn, vehicle=vehicle, **record_for(capabilities))
 
 
 @dataclass(frozen=True, eq=False)

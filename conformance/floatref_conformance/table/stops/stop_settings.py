@@ -7,6 +7,7 @@ from math import log10
 import numpy as np
 
 from floatref.errors import InputError
+from floatref_conformance.checks.case import record_for
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
 from floatref_conformance.table.passes import ROADS, draw_seed
@@ -101,7 +102,5 @@ def draw_stop(
         dwell_s=round(float(10 ** draw.uniform(log10(DWELL_S[0]), log10(DWELL_S[1]))), 2),
         final_speed_kmh=round(draw.uniform(*FINAL_SPEED_KMH), 1),
         length_m=LENGTH_M,
-        imu="imu" in capabilities,
-        gnss="gnss" in capabilities,
-        response="response" in capabilities,
+        **record_for(capabilities),
     )
