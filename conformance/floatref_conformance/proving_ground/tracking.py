@@ -1,5 +1,6 @@
 """The road under a scenario's vehicle, which does not keep exactly to its wheel paths."""
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
@@ -72,11 +73,16 @@ def read_beside(road: Road, line: Line, road_seed: int, width_m: float) -> Groun
     """
     y = line.at(road.distance_m)
     reach = float(y.min()) - width_m / 2, float(y.max()) + width_m / 2
-    rolled, read = {}, {}
-    for track in road.tracks:
+
+    def of(track: str) -> tuple[FloatArray, FloatArray]:
         strip = strip_around(road, track, road_seed, *reach)
-        rolled[track] = road.elevation[track] if line.is_straight else strip.line(y)
-        read[track] = bridge(strip, y, width_m)
+        rolled = road.elevation[track] if line.is_straight else strip.line(y)
+        return rolled, bridge(strip, y, width_m)
+
+    # Every wheel path draws from a stream of its own, and arrays and kernels let others run.
+    with ThreadPoolExecutor(len(road.tracks)) as workers:
+        found = dict(zip(road.tracks, workers.map(of, road.tracks), strict=True))
+    rolled, read = ({track: both[n] for track, both in found.items()} for n in (0, 1))
     return Ground(road.with_elevation(rolled), road.with_elevation(read))
 
 
