@@ -15,7 +15,7 @@ from floatref.screening.findings import Screening
 from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.filters.butterworth import low_pass_b3
 from floatref.stages.protocol import Stage
-from floatref.stages.signals import ACCELERATION, DistanceCheck, HEIGHT, REFERENCE_HEIGHT, SIGMA
+from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA
 from floatref.stages.speed import TravelSpeed
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
@@ -83,9 +83,7 @@ class Task:
         self.sub_block = model.sub_block
         constants = (value for name, value in model._asdict().items() if name != "sub_block")
         self.model = np.hstack([*constants])
-        self.distance = np.concatenate(
-            [block[ChannelId(DistanceCheck())] for block in prepared.blocks]
-        )
+        self.distance = np.concatenate([block[ChannelId(DISTANCE)] for block in prepared.blocks])
         self.u = [np.concatenate(pieces) for pieces in zip(*inputs, strict=True)]
         self.at = np.concatenate(at).astype(np.int64)
         self.marks = np.concatenate(marks).astype(np.int64)

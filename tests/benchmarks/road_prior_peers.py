@@ -13,7 +13,7 @@ from kalman_task import TRACK
 from floatref.estimators.road_prior import RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.track import sub_block
-from floatref.stages.signals import ACCELERATION, DistanceCheck, HEIGHT
+from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
@@ -27,7 +27,7 @@ def signals(header: Header, block: Block, prior: RoadPrior) -> Recorded:
 
     Between nodes the inputs are linear, as they are to the stage.
     """
-    distance, a = block[ChannelId(DistanceCheck())], block[ChannelId(ACCELERATION, TRACK)]
+    distance, a = block[ChannelId(DISTANCE)], block[ChannelId(ACCELERATION, TRACK)]
     height, every = block[ChannelId(HEIGHT, TRACK)], sub_block(header.step)
     nodes = np.arange(0, a.size, every)
     excitation = Excitation.of(every * header.step, prior.pitch_hz, prior.pitch_damping)

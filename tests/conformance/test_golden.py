@@ -19,7 +19,7 @@ from floatref.stages.resampling import TimeStep, ToDistance
 from floatref.stages.signals import (
     ACCELERATION,
     CUTOFF,
-    DistanceCheck,
+    DISTANCE,
     ELEVATION,
     HEIGHT,
     REFERENCE_HEIGHT,
@@ -40,7 +40,7 @@ from floatref_conformance import golden
 from floatref_conformance.schemas import enforce
 
 ROOT = Path(__file__).parents[2]
-SHARED = {DistanceCheck(), TRAVEL_SPEED, CUTOFF, TIME, TIME_STEP, TRUE_TIME_STEP}
+SHARED = {DISTANCE, TRAVEL_SPEED, CUTOFF, TIME, TIME_STEP, TRUE_TIME_STEP}
 SECTIONS = {"b3s1": "B3S1", "b3s2": "B3S2", "b3s1r": "B3S1R", "b3s2r": "B3S2R"}
 
 
@@ -117,13 +117,13 @@ def distorted(s, i):
 def over_points(s, i):
     signals = {ACCELERATION: i["x"], TIME_STEP: i["time_step"]}
     stage = Integrate(ACCELERATION, VELOCITY)
-    return {"y": through(stage, Axis.DistanceCheck(), 0.125, VELOCITY, **signals)}
+    return {"y": through(stage, Axis.DISTANCE, 0.125, VELOCITY, **signals)}
 
 
 def reflected(s, i):
     signals = {VELOCITY: i["velocity"], HEIGHT: i["height"], TIME_STEP: i["adjusted"]}
     signals[TRUE_TIME_STEP] = i["time_step"]
-    r = through(IntegrateReflecting(), Axis.DistanceCheck(), 0.125, REFERENCE_HEIGHT, **signals)
+    r = through(IntegrateReflecting(), Axis.DISTANCE, 0.125, REFERENCE_HEIGHT, **signals)
     return {"reference_height": r}
 
 
@@ -173,7 +173,7 @@ STAGES = {
     "local-suppression": suppressed,
     "projection": projected,
     "time-step": lambda s, i: {
-        TIME_STEP: through(TimeStep(), Axis.DistanceCheck(), 0.125, TIME_STEP, time=i["time"])
+        TIME_STEP: through(TimeStep(), Axis.DISTANCE, 0.125, TIME_STEP, time=i["time"])
     },
     "timer-distortion": distorted,
     "spatial-integration": over_points,

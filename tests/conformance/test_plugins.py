@@ -8,11 +8,15 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from floatref_conformance import hookspecs, own_plugin, plugins
+from floatref_conformance import hookspecs, plugins
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.devices.interface import DeviceEntry, DeviceKind
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.hookspecs import hookimpl
+from floatref_conformance.own_plugin import OwnPlugin
 from floatref_conformance.proving_ground.scenario import Scenario
+
+OWN = OwnPlugin(find_edition())
 
 
 def plugin(devices=None, checks=None):
@@ -25,7 +29,7 @@ def plugin(devices=None, checks=None):
 
 
 def collected(**others):
-    loaders = {plugins.OWN: own_plugin, **others}
+    loaders = {plugins.OWN: OWN, **others}
     return plugins.collect({name: lambda p=p: p for name, p in loaders.items()})
 
 
@@ -171,7 +175,7 @@ def test_a_plugin_that_ends_the_process_is_left_out_and_reported():
     def leaving():
         sys.exit(7)
 
-    registry = plugins.collect({plugins.OWN: lambda: own_plugin, "vendor": leaving})
+    registry = plugins.collect({plugins.OWN: lambda: OWN, "vendor": leaving})
     assert registry.broken == ("plug-in vendor: SystemExit: 7; it is left out",)
     assert "bounce" in registry.checks
 

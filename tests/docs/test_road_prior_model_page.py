@@ -9,13 +9,13 @@ import pytest
 
 from floatref.builtin_pipelines.road_prior import CONSTANTS, ROAD_PRIOR
 from floatref.estimators.road_prior import RoadPrior
-from floatref.stages.signals import DistanceCheck, HEIGHT, REFERENCE_HEIGHT, SIGMA
+from floatref.stages.signals import DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA
 
 PAGE = (Path(__file__).parents[2] / "docs" / "road-prior-model.md").read_text(encoding="utf-8")
 TEXT = re.sub(r"^```.*?^```$", "", PAGE, flags=re.M | re.S)
 NAMES = sorted(set(re.findall(r"`([^`\n]+)`", TEXT)))
 NUMBERS = re.findall(r"^\| `(floatref[\w.]+)` \| ([\d.e-]+) \|", PAGE, re.M)
-CHANNELS = {DistanceCheck(), HEIGHT, REFERENCE_HEIGHT, SIGMA}
+CHANNELS = {DISTANCE, HEIGHT, REFERENCE_HEIGHT, SIGMA}
 
 
 def found(name: str) -> Any:

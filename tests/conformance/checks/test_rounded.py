@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from floatref_conformance.checks.faults import faulty_drives
 from floatref_conformance.checks.rounded import SEED, rounded_numbers, seed_of_its_own
 from floatref_conformance.checks.sameness import changed_drives
+from floatref_conformance.editions.edition import find_edition
 
 
 @settings(deadline=None, max_examples=25)
@@ -32,7 +33,7 @@ def test_no_two_drawn_cases_share_a_road_though_the_same_seed_is_drawn(drives, m
     cases = set()
 
     @settings(deadline=None, max_examples=40, database=None)
-    @given(drives.case_strategy())
+    @given(drives.case_strategy(find_edition()))
     def collect(case):
         cases.add(case)
 

@@ -64,7 +64,7 @@ def registry(toy_check, devices):
 @pytest.fixture
 def call(monkeypatch, registry):
     for module in MODULES:
-        monkeypatch.setattr(module, "load_registry", lambda: registry)
+        monkeypatch.setattr(module, "load_registry", lambda edition: registry)
     return lambda *words: CliRunner().invoke(main, [*map(str, words)])
 
 

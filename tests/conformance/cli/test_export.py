@@ -15,7 +15,7 @@ def test_the_command_for_afterwards_quotes_the_folder_and_names_the_checks(
     ids, registry, monkeypatch, tmp_path
 ):
     out = tmp_path / "two words"
-    monkeypatch.setattr(export, "load_registry", lambda: registry)
+    monkeypatch.setattr(export, "load_registry", lambda edition: registry)
     monkeypatch.setattr(golden, "copy_to", lambda folder: None)
     monkeypatch.setattr(exporting, "export", lambda checks, folder, *_: folder.mkdir() or 3)
     asked = [word for id_ in ids for word in ("--check", id_)]

@@ -17,7 +17,7 @@ from floatref_conformance.cli import run as run_command
 def test_an_unexpected_error_outside_a_run_is_exit_3_in_one_line(
     call, monkeypatch, keep, tmp_path, command, error
 ):
-    def broken():
+    def broken(edition):
         raise error
 
     for module in (run_command, list_command, explain_command, replay_command):
@@ -43,7 +43,7 @@ def test_a_check_that_breaks_in_a_replay_is_no_verdict(call, keep, tmp_path, reg
 
 
 def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
-    def interrupted():
+    def interrupted(edition):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(list_command, "load_registry", interrupted)

@@ -10,6 +10,7 @@ from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.cli.main import main
 from floatref_conformance.devices.interface import CAPABILITIES, Description
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.exporting import export
 from floatref_conformance.judge.bench import DeviceBench
@@ -54,10 +55,10 @@ def test_a_temporal_device_with_the_capability_sees_both(plan, result_of, fake_d
 
 def test_a_replay_shows_it_no_height_either(toy_check, wheels):
     check = toy_check()
-    assert replay(wheels, check, check.simplest).measurements
+    assert replay(wheels, check, check.simplest, find_edition()).measurements
     assert "height" not in names_in(wheels.seen[0][3])
     needy = toy_check(needs=NEEDY)
-    assert replay(wheels, needy, needy.simplest).skipped == REASON
+    assert replay(wheels, needy, needy.simplest, find_edition()).skipped == REASON
     assert len(wheels.seen) == 1
 
 

@@ -34,7 +34,7 @@ def test_a_number_that_a_check_does_not_have_is_refused_before_the_device_is_ask
     case = replace(check.simplest, variation={**own, "bump_hight_mm": 20.0})
     device = fake_device()
     with pytest.raises(InputError, match=r"^variation bump_hight_mm: unknown; ") as caught:
-        replay(device, check, case)
+        replay(device, check, case, check.edition)
     assert "\n" not in str(caught.value)
     assert (device.seen, device.closed) == ([], 1)
 

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import pytest
 
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.events import CaseFinished, CheckFinished, RunFinished
 from floatref_conformance.judge.runner import run
+from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render.report import as_json
 
 
@@ -73,7 +75,7 @@ def test_a_device_beyond_the_limit_fails_with_value_limit_and_case(plan, result_
 
 def test_the_counterexample_is_the_simplest_case_with_its_pass(plan, result_of, halving):
     check = result_of(plan(halving, seed=1)).checks[0]
-    assert check.counterexample["parameters"] == {"scenario": {}, "variation": {}}
+    assert check.counterexample["parameters"] == Case("toy", Scenario()).parameters
     assert "IRI error" in check.counterexample["reason"]
     assert check.counterexample["file"].startswith("cases/toy-")
     (shown,) = check.passes

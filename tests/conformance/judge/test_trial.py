@@ -38,7 +38,8 @@ def test_a_device_that_hung_is_not_asked_for_something_simpler(plan, events_of, 
     device = raising(DeviceHung("no answer"), lambda number: number == 1)
     events, result = events_of(plan(device, seed=1))
     assert not any(isinstance(e, (SearchStarted, ShrinkStarted)) for e in events)
-    assert result.checks[0].counterexample["parameters"]["scenario"] == {"seed": 100}
+    numbers = result.checks[0].counterexample["parameters"]
+    assert numbers == Case("toy", Scenario(seed=100)).parameters
     assert len(device.seen) == 2
 
 

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.checks.case import Case
+from floatref_conformance.checks.case import DEFAULT, Case
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, Pass, RunResult
 from floatref_conformance.classes import DeviceClass, same_limit
-from floatref_conformance.proving_ground.scenario import Scenario
 
 DEVICE = {
     "spec": "exec:./firmware 'x y'",
@@ -18,7 +17,7 @@ DEVICE = {
     "architecture": "spatial",
     "capabilities": ("imu",),
 }
-STOP = Scenario(manoeuvre="stop", speed_kmh=60.0, bump_mm=20.0, bump_at_m=150.0)
+STOP = replace(DEFAULT, manoeuvre="stop", speed_kmh=60.0, bump_mm=20.0, bump_at_m=150.0)
 
 
 def road(interval):

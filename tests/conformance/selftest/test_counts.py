@@ -1,7 +1,12 @@
 """The counts of the self-test: survivors, only killers, false alarms."""
 
+import pytest
+
+from floatref_conformance import EDITIONS
+from floatref_conformance.checks.catalogue import IDS as CATALOGUE
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import CLAIMS
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.selftest.counts import (
     Counts,
@@ -15,13 +20,16 @@ from floatref_conformance.selftest.trying import Try, TryResult
 
 KILLERS = {"mutant:flat": ("bounce", "quiescent"), "mutant:noisy": ("quiescent",)}
 IDS = ("quiescent", "bounce")
-KILLED = tuple(TryResult(one, "too rough") for one in list_named_tries(KILLERS, IDS, range(3)))
-SPARED = tuple(TryResult(one, "") for one in list_other_tries(KILLERS, IDS, range(3)))
+EDITION = find_edition()
+KILLED = tuple(
+    TryResult(one, "too rough") for one in list_named_tries(KILLERS, IDS, range(3), EDITION)
+)
+SPARED = tuple(TryResult(one, "") for one in list_other_tries(KILLERS, IDS, range(3), EDITION))
 SOUND = Limit("bounce", "IRI", DeviceClass.NOMINAL, 0.0, 1.5, 0.67, (0.0, ""))
 
 
 def test_every_mutant_is_tried_on_what_it_names_and_no_more():
-    assert {(t.spec, t.check) for t in list_named_tries(KILLERS, IDS, [4])} == {
+    assert {(t.spec, t.check) for t in list_named_tries(KILLERS, IDS, [4], EDITION)} == {
         ("mutant:flat", "bounce"),
         ("mutant:flat", "quiescent"),
         ("mutant:noisy", "quiescent"),
@@ -29,11 +37,29 @@ def test_every_mutant_is_tried_on_what_it_names_and_no_more():
 
 
 def test_those_that_name_one_check_are_tried_on_all_others():
-    assert list_other_tries(KILLERS, IDS, [4]) == (Try("mutant:noisy", "bounce", 4),)
+    (tried,) = list_other_tries(KILLERS, IDS, [4], EDITION)
+    assert tried == Try("mutant:noisy", "bounce", 4, edition=EDITION.name)
 
 
-def test_what_claims_a_class_is_judged_by_it():
-    tries = list_claim_tries(IDS, range(2))
+@pytest.mark.parametrize("name", EDITIONS)
+def test_a_pipeline_is_judged_by_the_class_that_the_edition_says_it_reaches(name):
+    edition = find_edition(name)
+    tries = list_claim_tries(tuple(CATALOGUE), range(2), edition)
+    assert len(set(tries)) == len(tries)
+    reached = edition.document["reached"]
+    for pipeline, by_check in reached.items():
+        own = {t.check: t.device_class for t in tries if t.spec == f"builtin:{pipeline}"}
+        everywhere = dict.fromkeys(CATALOGUE, by_check["all"]) if "all" in by_check else {}
+        named = {id_: c for id_, c in by_check.items() if id_ != "all"}
+        assert own == everywhere | named
+        assert all(isinstance(c, DeviceClass) for c in own.values())
+    assert {t.spec for t in tries} == {f"builtin:{pipeline}" for pipeline in reached}
+    assert {t.edition for t in tries} == {name}
+    assert {t.seed for t in tries} == {0, 1}
+
+
+def test_in_the_first_edition_pipelines_reach_what_they_claim():
+    tries = list_claim_tries(IDS, range(2), find_edition("2026.1"))
     assert len(tries) == 2 * 2 * len(CLAIMS)
     assert all(CLAIMS[t.spec.partition(":")[2]] is t.device_class for t in tries)
 
@@ -76,7 +102,9 @@ def test_a_survivor_is_nobodys_only_victim():
 
 
 def test_a_false_alarm_is_told():
-    alarms = tuple(TryResult(one, "too rough") for one in list_claim_tries(["bounce"], [7])[:1])
+    alarms = tuple(
+        TryResult(one, "too rough") for one in list_claim_tries(["bounce"], [7], EDITION)[:1]
+    )
     counts = Counts(KILLERS, IDS, KILLED, alarms=alarms)
     assert "fails bounce with seed 7: too rough" in counts.complaints[0]
     assert counts.to_dict()["false_alarms"] == 1

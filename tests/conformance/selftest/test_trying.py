@@ -15,7 +15,7 @@ def registered(monkeypatch, toy_check):
     def register(device, **settings):
         registry = Registry({}, {"toy": toy_check(**settings)})
         monkeypatch.setattr(Registry, "device", lambda self, spec: device)
-        monkeypatch.setattr(trying, "_registry", lambda: registry)
+        monkeypatch.setattr(trying, "_registry", lambda edition: registry)
         return device
 
     return register

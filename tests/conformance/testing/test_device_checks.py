@@ -117,7 +117,7 @@ def test_a_check_that_is_not_in_a_tuple_is_refused():
 def test_every_registered_check_is_a_test(monkeypatch):
     registry = load_registry()
     more = replace(registry, checks={**registry.checks, "ours:wet": registry.check("bounce")})
-    monkeypatch.setattr(device_checks, "load_registry", lambda: more)
+    monkeypatch.setattr(device_checks, "load_registry", lambda edition: more)
     asked = {}
     function = SimpleNamespace(fixturenames=("check", "request"), parametrize=asked.__setitem__)
     DeviceChecks().pytest_generate_tests(function)

@@ -17,10 +17,14 @@ from floatref_conformance.checks.distance.features import Feature, middles, plac
 from floatref_conformance.checks.encoder_axis import EncoderAxis, sensing_ahead_m
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, visible
+from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
+from floatref_conformance.judge.perfect import make_perfect
 from floatref_conformance.proving_ground.staging import drive_of
 
 START, SCALE, STEP, REST, LOSS = DistanceCheck().limits
+FIRST, SECOND = (DistanceCheck(edition=find_edition(name)) for name in ("2026.1", "2026.2"))
+both = pytest.mark.parametrize("check", [FIRST, SECOND], ids=["2026.1", "2026.2"])
 
 
 @pytest.fixture(scope="module")
@@ -40,9 +44,9 @@ def known(taken, change=lambda z: z, stretched=1.0, start_m=0.0, interval_m=None
     return Profile(stretched * given * every, tracks, start_m)
 
 
-def judged(taken, **spoiled):
+def judged(taken, check=SECOND, **spoiled):
     case = Case("distance", taken.scenario)
-    return DistanceCheck().judge(case, OneRecording(taken, lambda t: known(t, **spoiled)))
+    return check.judge(case, OneRecording(taken, lambda t: known(t, **spoiled)))
 
 
 def read(taken, **spoiled):
@@ -53,8 +57,8 @@ def read(taken, **spoiled):
     }
 
 
-def failing(taken, device_class=DeviceClass.NOMINAL, **spoiled):
-    return {m.quantity for m in judged(taken, **spoiled) if not m.within(device_class)}
+def failing(taken, device_class=DeviceClass.NOMINAL, check=SECOND, **spoiled):
+    return {m.quantity for m in judged(taken, check, **spoiled) if not m.within(device_class)}
 
 
 @pytest.mark.slow
@@ -125,12 +129,37 @@ def test_points_without_elevation_are_an_error_in_a_feature_alone(stopped):
         read(stopped, change=without(event + 61.0, event + 62.0))
 
 
-def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there():
-    scenario = DistanceCheck().cases(1, Effort.QUICK)[1].scenario
+@both
+def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there(check):
+    scenario = check.cases(1, Effort.QUICK)[1].scenario
     assert scenario.encoder_error_percent == 1.0
     taken = taken_of(replace(scenario, sensors=0.0))
-    assert failing(taken, DeviceClass.REFERENCE, stretched=1.01) == set()
-    assert SCALE in failing(taken)
+    assert failing(taken, DeviceClass.REFERENCE, check, stretched=1.01) == set()
+    # Only the first edition has the encoder's axis alone; between both axes lies neither.
+    assert (SCALE in failing(taken, check=check)) is (check is FIRST)
+    assert SCALE in failing(taken, check=check, stretched=1.005)
+
+
+@pytest.mark.slow
+@both
+def test_a_profile_along_the_true_distance_counts_where_the_edition_allows_it(check):
+    scenario = check.cases(0, Effort.QUICK)[0].scenario
+    taken = taken_of(replace(scenario, slip_percent_per_g=12.0, rate_hz=4000.0))
+    along_encoder = check.judge(Case("distance", scenario), OneRecording(taken, make_perfect))
+    assert all(m.within(DeviceClass.REFERENCE) for m in along_encoder)
+    assert (STEP in failing(taken, check=check)) is (check is FIRST)
+    assert (failing(taken, DeviceClass.REFERENCE, check) == set()) is (check is SECOND)
+
+
+def test_the_text_says_how_much_the_editions_encoder_loses_and_which_axis_counts():
+    # From 48 to 24 km/h: (13.33² - 6.67²) / (2·9.80665) m, times the slip per g.
+    lost_m = (48**2 - 24**2) / 3.6**2 / (2 * 9.80665)
+    for check, slip, words in ((FIRST, 0.03, "must use this axis"), (SECOND, 0.12, "may use the")):
+        assert f"up to {100 * slip:g} % per g" in check.derivation
+        assert f"loses {slip * lost_m:.2f} m" in check.derivation
+        assert words in check.derivation
+    assert "loses 0.20 m" in FIRST.derivation
+    assert "loses 0.82 m" in SECOND.derivation
 
 
 @pytest.mark.slow
@@ -182,7 +211,7 @@ def test_a_device_with_a_height_sensor_sees_the_road_at_its_laser(stopped):
     assert stopped.recording.setup.vehicle is not None
     assert sensing_ahead_m(stopped.recording) == 0.0
     taken, _ = seen_by_wheels(stopped)
-    assert sensing_ahead_m(taken.recording) == pytest.approx(1.72 + 2.91)
+    assert sensing_ahead_m(taken.recording) == pytest.approx(1.72 + 2.91 - 0.105)
 
 
 @settings(deadline=None, max_examples=20)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.stationary.parked_checks import (
     BOUNCE,
     QUIESCENT,
@@ -215,13 +216,18 @@ def test_the_search_draws_cases_of_the_check_itself(drawn):
     check, case = drawn
     assert case.check == case.scenario.manoeuvre == check.id
     assert case.scenario.rate_hz in SEARCHED_RATES_HZ
-    assert case.parameters["scenario"].keys() <= {"manoeuvre", "rate_hz", "seed"}
+    numbers = {
+        "manoeuvre": case.check,
+        "rate_hz": case.scenario.rate_hz,
+        "seed": case.scenario.seed,
+    }
+    assert case.scenario == check.edition.make_scenario(**numbers)
 
 
 def test_the_simplest_case_is_the_test_of_the_proving_ground_alone():
     for check in (QUIESCENT, BOUNCE):
-        parameters = check.simplest.parameters
-        assert parameters == {"scenario": {"manoeuvre": check.id}, "variation": {}}
+        plain = check.edition.make_scenario(manoeuvre=check.id)
+        assert check.simplest == Case(check.id, plain)
 
 
 def test_the_limits_are_those_of_r_57_and_half_of_them_for_class_reference():
