@@ -4,7 +4,6 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields, replace
-from difflib import get_close_matches
 from reprlib import repr as shortened
 from types import MappingProxyType
 from typing import Any
@@ -244,10 +243,7 @@ LIMITS: Mapping[str, tuple[float, float]] = MappingProxyType(
 
 def scenario_of_run(name: str, seed: int = 0, **changes: Any) -> Scenario:
     """Return the scenario of a published run or `ref_72`; InputError if it is unknown."""
-    if name not in RUNS:
-        near = get_close_matches(name, RUNS, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(RUNS)}"
-        raise InputError(f"run {name}: unknown; {hint}")
+    refuse_unknown("run", name, tuple(RUNS))
     return replace(Scenario(seed=seed, manoeuvre=name), **changes)
 
 

@@ -29,6 +29,7 @@ def driven() -> Recording:
         tracks=("left",),
         rate_hz=5000.0,
         profile_interval_m=0.05,
+        slip_percent_per_g=0.3,
         imu=False,
         gnss=False,
     )

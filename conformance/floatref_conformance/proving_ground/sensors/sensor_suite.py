@@ -114,7 +114,7 @@ class SensorSuite:
     encoder_step_m: float = 0.3e-3
     encoder_scale: float = 3e-4
     encoder_error: float = 0.0
-    slip_per_g: float = 3e-3
+    slip_per_g: float = 2.5e-2
     radius_growth: float = 0.0
     radius_warming: float = 0.0
     wheel_spread: float = 0.1
