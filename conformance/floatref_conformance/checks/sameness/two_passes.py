@@ -8,7 +8,12 @@ import numpy as np
 from floatref.measures import iri_trace, on_common_grid
 from floatref.values.profile import Profile
 from floatref_conformance.checks.evidence import Pair
-from floatref_conformance.checks.scoring import Compared, correlation, roughness_percent
+from floatref_conformance.checks.scoring import (
+    Compared,
+    correlation,
+    refuse_flat,
+    roughness_percent,
+)
 from floatref_conformance.checks.stretches import stretch
 from floatref_conformance.checks.verdict import Measurement
 from floatref_conformance.classes import DeviceClass, Limits
@@ -69,11 +74,11 @@ def compare_beyond(
     """Return loss and difference of two passes beyond those of the true roads under their lines.
 
     The IRI of each pass is taken as a share of its own line's; the difference is that of the
-    shares, in percent of the larger.
+    shares, in percent of the larger. Raises InputError for a line without roughness.
     """
     found, true = (_pair_of(first, second, track) for first, second in (profiles, truths))
     losses = [correlation(pair, track, LOSS_LIMITS).value for pair in (found, true)]
-    shares = [q / t for q, t in zip(_roughness(found), _roughness(true), strict=True)]
+    shares = [q / refuse_flat(t) for q, t in zip(_roughness(found), _roughness(true), strict=True)]
     measured = [Measurement(BETWEEN, track, max(losses[0] - losses[1], 0.0), "", LOSS_LIMITS)]
     if max(shares) > 0:
         percent = 100.0 * abs(shares[0] - shares[1]) / max(shares)
