@@ -56,7 +56,6 @@ IN_PROCESSING = (
             "coasting",
             "throttle",
             "braking",
-            "near-stop",
             "stop",
             "waveband",
             "faults",

@@ -84,7 +84,7 @@ IN_RESULTS = (
     Mutation(
         "staircase",
         "holds each elevation for 0.5 m",
-        all_but("low-speed", "throttle", "braking", "stop"),
+        all_but("low-speed", "coasting", "throttle", "braking", "stop"),
         after=p.hold_in_steps(0.5),
     ),
     Mutation(

@@ -46,7 +46,7 @@ IN_SENSORS = (
     Mutation(
         "late-laser",
         "reads the laser 2 ms late",
-        ("bounce", "waveband", "distance"),
+        ("bounce", "waveband"),
         r.change_channel(r.HEIGHT, r.delay_by(0.002)),
     ),
     Mutation(
@@ -88,7 +88,7 @@ IN_SENSORS = (
     Mutation(
         "sample-lost",
         "loses one of 4096 samples of the accelerometer",
-        ("bounce", "dead-start", "waveband", "repeatability", "invariance"),
+        ("bounce", "dead-start", "waveband", "invariance"),
         r.change_channel(r.FORCE, r.lose_samples(4096)),
     ),
     Mutation(
