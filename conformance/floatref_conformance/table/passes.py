@@ -1,7 +1,7 @@
 """The passes behind the table: a run driven on a road, and what every pipeline makes of it."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -102,10 +102,17 @@ class Processing:
         """
         return self.drive(scenario, f"run {scenario.manoeuvre}", road).profiles
 
-    def drive(self, scenario: Scenario, name: str, road: Road | None = None) -> Driven:
+    def drive(
+        self,
+        scenario: Scenario,
+        name: str,
+        road: Road | None = None,
+        on_failure: Callable[[str, SuiteError], None] | None = None,
+    ) -> Driven:
         """Return the profiles of ``scenario``, called ``name``, on ``road`` or else its own.
 
-        Raises SuiteError, naming pipeline and ``name``, for a pipeline that fails.
+        A pipeline that fails is left out and ``on_failure`` is called with its name and error;
+        without it, SuiteError, naming pipeline and ``name``, is raised.
         """
         simulation = simulate(scenario, road=road)
         truth, recording = simulation.truth, simulation.recording
@@ -120,8 +127,15 @@ class Processing:
             del recording
             given = [folder / str(kinds.index(each.channels)) for each in self._about.values()]
             with ThreadPoolExecutor(os.cpu_count()) as workers:
-                made = workers.map(partial(self._process, name), self._about, given)
-                return Driven(truth, encoder_m, dict(zip(self._about, made, strict=True)))
+                made = workers.map(partial(self._try, name), self._about, given)
+                found = dict(zip(self._about, made, strict=True))
+        return Driven(truth, encoder_m, _keep_profiles(found, on_failure))
+
+    def _try(self, name: str, pipeline: str, given: Path) -> Profile | SuiteError:
+        try:
+            return self._process(name, pipeline, given)
+        except SuiteError as error:
+            return error
 
     def _process(self, name: str, pipeline: str, given: Path) -> Profile:
         target = given.with_name(f"profile-{pipeline}")
@@ -131,6 +145,22 @@ class Processing:
         except Exception as error:
             text = " ".join(str(error).split())
             raise SuiteError(f"pipeline {pipeline}, {name}: {text}") from error
+
+
+def _keep_profiles(
+    found: Mapping[str, Profile | SuiteError],
+    on_failure: Callable[[str, SuiteError], None] | None,
+) -> Mapping[str, Profile]:
+    """Return the profiles of ``found``; see `Processing.drive` for the others."""
+    profiles: dict[str, Profile] = {}
+    for pipeline, made in found.items():
+        if isinstance(made, Profile):
+            profiles[pipeline] = made
+        elif on_failure is None:
+            raise made
+        else:
+            on_failure(pipeline, made)
+    return profiles
 
 
 def draw_seed(seed: int, name: str, *numbers: int) -> int:

@@ -46,7 +46,7 @@ def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict
     with missing points within `STRETCH_M`, InputError for a missing wheel path.
     """
     _check_reach(profile)
-    reference, text = _high_pass(truth), _high_pass(_along(truth, encoder_m))
+    reference, text = _high_pass(truth), _high_pass(along_encoder(truth, encoder_m))
     return {
         name: StopScores(
             scores.cross_correlation,
@@ -69,7 +69,7 @@ def _check_reach(profile: Profile) -> None:
         )
 
 
-def _along(truth: Profile, encoder_m: FloatArray) -> Profile:
+def along_encoder(truth: Profile, encoder_m: FloatArray) -> Profile:
     """Return ``truth`` against the distance by the encoder, at the same interval."""
     text = truth.interval_m * np.arange(int(encoder_m[-1] / truth.interval_m) + 1)
     tracks = (
