@@ -38,12 +38,15 @@ def closing_lines(table: ComparisonTable) -> list[str]:
     rule = "the rule 'stop: low, else high' alone"
     chapter, stops = found["chapter_5"], found["stops"]
     lines.append(f"  chapter 5: {_rank_in_words(chapter)}; {rule}: {_value(chapter.rule)}")
-    lines.append(f"  without the two cells marked *: {_rank_in_words(found['predicted'])}")
+    fitted = any((cell.pipeline, cell.run) in FITTED for cell in table.cells)
+    if fitted:
+        lines.append(f"  without the cells marked *: {_rank_in_words(found['predicted'])}")
     lines.append(f"  its stops alone: {_rank_in_words(stops)}")
-    lines.append(
-        f"* The encoder's slip, {SLIP_PERCENT_PER_G:g} % per g, is fitted to these cells; "
-        "all others are predicted."
-    )
+    if fitted:
+        lines.append(
+            f"* The encoder's slip, {SLIP_PERCENT_PER_G:g} % per g, is fitted to these cells; "
+            "all others are predicted."
+        )
     return lines
 
 

@@ -19,7 +19,7 @@ from floatref_conformance.table.families.family_table import (
 )
 
 FIGURES = ("median", "10 %", "lowest", "IRI 90 %", "right %")
-WIDTH = 120
+WIDTH = 132
 """Columns of the output where the terminal's width is unknown."""
 
 
@@ -39,8 +39,9 @@ def closing_lines(table: FamilyTable) -> list[str]:
     lines = [
         "Cross correlation with the road along the laser's path after the IRI filter, along the "
         f"true distance and along the encoder's; {made.drives} drives of each condition, two wheel "
-        f"paths each, seed {made.seed}. 10 %: the 10th percentile; IRI 90 %: the 90th of its error, in "
-        "percent; right %: wheel paths whose valid points have an IRI within 5 % or 0.1 m/km.",
+        f"paths each, seed {made.seed}. 10 %: the 10th percentile; IRI 90 %: the 90th of its "
+        "error, in percent; right %: wheel paths whose valid points have an IRI within 5 % or 0.1 "
+        "m/km.",
         "",
     ]
     if not wrong:
@@ -70,7 +71,7 @@ def _block(table: FamilyTable, pipeline: str) -> Table:
         pad_edge=False,
     )
     block.add_column("condition", no_wrap=True)
-    for axis in ("true", "encoder"):
+    for axis in ("true", "enc."):
         for figure in FIGURES:
             block.add_column(f"{axis},\n{figure}", justify="right", no_wrap=True, vertical="bottom")
     block.add_column("flagged,\nm", justify="right", no_wrap=True, vertical="bottom")
