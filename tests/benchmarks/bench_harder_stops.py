@@ -5,9 +5,11 @@ its laser on the axis of the accelerometer, on two roads with sensor errors of t
 are compared with the road under the laser, high-pass filtered as they are, over 160.9 m about the
 stop, along the true distance and along the encoder's. Run as
 
-    python tests/benchmarks/bench_harder_stops.py [--only NAME...] [--json FILE] [--page PAGE ...]
+    python tests/benchmarks/bench_harder_stops.py [--only NAME...] [--json FILE]
+        [--read FILE] [--page PAGE...]
 
-`--json` keeps the figures; `--page` writes a pipeline's rows into the pages that quote it.
+`--json` keeps the figures, `--read` takes kept ones in place of measuring, and `--page` writes the
+rows of a pipeline into the pages that quote it.
 """
 
 import argparse
@@ -68,10 +70,15 @@ CHANGES: Mapping[str, Mapping[str, float]] = {
 """What each row changes of `STOP`; crowns are 20 m and grade breaks 30 m long, and at the stop."""
 SEEDS = (1, 2)
 AXES = ("true", "encoder")
-COLUMNS = ("change", "cross corr.", "encoder", "IRI, %", "encoder", "RMS, mm", "encoder")
-COLUMNS += ("within 2 σ, %", "encoder", "valid, %")
-DIGITS = {"cross_correlation": 3, "iri_error_percent": 1, "rms_mm": 1, "within_percent": 0}
-"""Of what is shown along both distances."""
+COLUMNS = ("what changes", "cross corr., true distance", "encoder's", "IRI error, %")
+COLUMNS += ("RMS, mm, true distance", "encoder's", "within 2 σ, %, true distance", "encoder's")
+SHOWN = (
+    ("cross_correlation", AXES, 3),
+    ("iri_error_percent", AXES[:1], 1),
+    ("rms_mm", AXES, 1),
+    ("within_percent", AXES, 0),
+)
+"""Figure, distances along which it is shown, and digits."""
 Figures = dict[str, float]
 
 
@@ -145,9 +152,9 @@ def mean(paths: list[Figures]) -> Figures:
 def cells(row: Mapping[str, Any]) -> list[str]:
     """Return the cells of one line."""
     shown = [row["change"]]
-    for name, digits in DIGITS.items():
-        shown += [f"{row[f'{name}_{axis}']:.{digits}f}" for axis in AXES]
-    return [*shown, f"{row['valid_percent']:.0f}"]
+    for name, axes, digits in SHOWN:
+        shown += [f"{row[f'{name}_{axis}']:.{digits}f}" for axis in axes]
+    return shown
 
 
 def table(rows: list[dict[str, Any]], pipeline: str) -> str:
@@ -162,7 +169,7 @@ def marks(pipeline: str) -> tuple[str, str]:
 
 def fill(page: str, rows: list[dict[str, Any]]) -> str:
     """Return ``page`` with the tables of the pipelines that have marks on it."""
-    head = f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}\n"
+    head = f"| {' | '.join(COLUMNS)} |\n|---|{'---:|' * (len(COLUMNS) - 1)}\n"
     for pipeline in PIPELINES:
         begin, end = marks(pipeline)
         if begin in page:
@@ -176,23 +183,33 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", nargs="+", default=list(CHANGES), help="names of changes")
     parser.add_argument("--json", type=Path, help="figures, written as they come")
+    parser.add_argument("--read", type=Path, help="figures that were kept, in place of measuring")
     parser.add_argument("--page", type=Path, nargs="+", default=[], help="pages to be filled")
     return parser.parse_args()
 
 
-def main() -> None:
-    """Measure every change, print the tables, and write what is asked for."""
-    given, rows = arguments(), list[dict[str, Any]]()
-    processing = Processing(PIPELINES)
-    for change in given.only:
+def measure_all(changes: list[str], target: Path | None) -> list[dict[str, Any]]:
+    """Return the rows of ``changes``, printed and written to ``target`` as they come."""
+    processing, rows = Processing(PIPELINES), list[dict[str, Any]]()
+    for change in changes:
         for pipeline, paths in measured(processing, change).items():
             rows.append({"pipeline": pipeline, "change": change, **mean(paths)})
             print(pipeline, *cells(rows[-1]), sep=" | ", flush=True)
-        if given.json:
-            given.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+        if target:
+            target.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    return rows
+
+
+def main() -> None:
+    """Measure every change, print the tables, and write what is asked for."""
+    given = arguments()
+    if given.read:
+        rows = json.loads(given.read.read_text(encoding="utf-8"))
+    else:
+        rows = measure_all(given.only, given.json)
     for pipeline in PIPELINES:
         lines = [cells(row) for row in rows if row["pipeline"] == pipeline]
-        show(pipeline, COLUMNS, lines, 150)
+        show(pipeline, COLUMNS, lines, 120)
     for page in given.page:
         page.write_text(fill(page.read_text(encoding="utf-8"), rows), encoding="utf-8")
 
