@@ -84,24 +84,27 @@ class Scenario:
     wander_within_m: float = number(
         0.0, 0.0, 0.1, "standard deviation of the wander within a pass, over some ten metres"
     )
-    bump_mm: float = number(0.0, -100.0, 100.0, "height of a 3-m bump; 0: none")
+    bump_mm: float = number(0.0, -100.0, 100.0, "height of a 3-m bump; 0: no bump")
     bump_at_m: float = number(0.0, 0.0, 1e5, "middle of the bump")
     crown_mm: float = number(
-        0.0, -300.0, 300.0, "height of a crown, a raised cosine; below 0 a dip or a gutter; 0: none"
+        0.0,
+        -300.0,
+        300.0,
+        "height of a crown, a raised cosine; below 0 a dip or a gutter; 0: no crown",
     )
     crown_length_m: float = number(20.0, 1.0, 1000.0, "length of the crown")
     crown_at_m: float = number(316.0, 0.0, 1e5, "middle of the crown")
     break_percent: float = number(
-        0.0, -15.0, 15.0, "change of the road's grade along a parabola; 0: none"
+        0.0, -15.0, 15.0, "change of the road's grade along a parabola; 0: no change"
     )
     break_length_m: float = number(30.0, 1.0, 1000.0, "length of the parabola")
     break_at_m: float = number(316.0, 0.0, 1e5, "middle of the parabola")
     joint_mm: float = number(
-        0.0, 0.0, 30.0, "standard deviation of the step at every joint of a concrete road; 0: none"
+        0.0, 0.0, 30.0, "standard deviation of the step at every joint of concrete; 0: no joints"
     )
     joint_spacing_m: float = number(4.6, 1.0, 1000.0, "length of its slabs")
     patch_mm: float = number(
-        0.0, 0.0, 100.0, "standard deviation of the height of patches; 0: none"
+        0.0, 0.0, 100.0, "standard deviation of the height of patches; 0: no patches"
     )
     patches_per_km: float = number(0.0, 0.0, 200.0, "number of patches in a wheel path")
     vehicle: str = value("loaded-van", "a whole vehicle, or the linear model of a paper")

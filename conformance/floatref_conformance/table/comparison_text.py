@@ -32,6 +32,7 @@ def closing_lines(table: ComparisonTable) -> list[str]:
     lines = [
         f"Means over {paths} (roads: {made.roads}, sets of passes on each: {made.seeds}; "
         f"vehicle {made.vehicle}, seed {made.seed}).",
+        "All are along the true distance, as in print, but for the last column.",
         "Spearman's rank correlation of the cross correlations, clipped below at 0.2, with print:",
     ]
     found = rank_correlations(table)
@@ -60,11 +61,13 @@ def _block(pipeline: str, cells: tuple[Cell, ...]) -> Table:
         box=SIMPLE_HEAD,
         padding=CELL_PADDING,
         pad_edge=False,
+        show_edge=False,
     )
     block.add_column("run", no_wrap=True)
     for figure in FIGURES:
         block.add_column(figure, justify="right", no_wrap=True)
         block.add_column("print", justify="right", style="dim", no_wrap=True)
+    block.add_column("along\nenc.", justify="right", no_wrap=True)
     for cell in cells:
         block.add_row(*_row(cell))
     return block
@@ -81,6 +84,7 @@ def _row(cell: Cell) -> tuple[str, ...]:
         f"{theirs.iri_error_percent:,.1f}" if theirs else "–",
         f"{ours.cross_correlation:.3f}{'*' if (cell.pipeline, cell.run) in FITTED else ''}",
         printed_correlation(published) if published else "–",
+        _value(ours.cross_correlation_encoder, 3, "–"),
     )
 
 
@@ -99,5 +103,5 @@ def _count_in_words(number: int, name: str) -> str:
     return f"{number} {name}" if number == 1 else f"{number} {name}s"
 
 
-def _value(value: float | None) -> str:
-    return "no value" if value is None else f"{value:.2f}"
+def _value(value: float | None, digits: int = 2, missing: str = "no value") -> str:
+    return missing if value is None else f"{value:.{digits}f}"

@@ -1,17 +1,19 @@
 """Making the table, road by road, noise by noise, run by run, and how far it is."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
+import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from floatref.errors import InputError
-from floatref.values.profile import Profile
+from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.proving_ground.drives.runs import REFERENCE_RUN
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import Processing, draw_road, pass_scenario
+from floatref_conformance.table.passes import Driven, Processing, draw_road, pass_scenario
 from floatref_conformance.table.published import published_figures
 from floatref_conformance.table.scores import Scores, score
 from floatref_conformance.table.table_settings import TableSettings
@@ -58,9 +60,10 @@ def _score_set(
     reference = _drive(settings, road, place, REFERENCE_RUN, (REFERENCE_PIPELINE,))
     for run in settings.runs:
         watch(f"{where}: {run}")
-        profiles = _drive(settings, road, place, run, settings.pipelines)
-        for pipeline, profile in profiles.items():
-            yield pipeline, run, _scores(reference[REFERENCE_PIPELINE], profile, pipeline, run)
+        driven = _drive(settings, road, place, run, settings.pipelines)
+        references = _references(reference, driven)
+        for pipeline, profile in driven.profiles.items():
+            yield pipeline, run, _scores(references, profile, pipeline, run)
 
 
 def _drive(
@@ -69,18 +72,37 @@ def _drive(
     place: tuple[int, int],
     run: str,
     pipelines: tuple[str, ...],
-) -> Mapping[str, Profile]:
-    """Return the profile of every pipeline after one pass."""
+) -> Driven:
+    """Return one pass with the profile of every pipeline."""
     processing = Processing(pipelines)
     scenario = pass_scenario(run, settings.seed, place, settings.vehicle, processing.capabilities)
-    return processing.profiles(scenario, road)
+    return processing.drive(scenario, f"run {run}", road)
 
 
-def _scores(reference: Profile, profile: Profile, pipeline: str, run: str) -> tuple[Scores, ...]:
+def _references(reference: Driven, driven: Driven) -> tuple[Profile, Profile]:
+    """Return the profile of the reference pass as it is, and along the encoder of ``driven``."""
+    profile = reference.profiles[REFERENCE_PIPELINE]
+    true_m = driven.truth.interval_m * np.arange(driven.encoder_m.size)
+    places = np.interp(profile.distance_m, driven.encoder_m, true_m)
+    counted = np.interp(places, true_m, reference.encoder_m)
+    tracks = (
+        ProfileTrack.of(t.name, np.interp(counted, profile.distance_m, t.elevation))
+        for t in profile.tracks
+    )
+    return profile, replace(profile, tracks=tuple(tracks))
+
+
+def _scores(
+    references: tuple[Profile, Profile], profile: Profile, pipeline: str, run: str
+) -> tuple[Scores, ...]:
     try:
-        return tuple(score(reference, profile).values())
+        found, beside = (score(reference, profile) for reference in references)
     except (DeviceError, InputError) as error:
         raise SuiteError(f"pipeline {pipeline}, run {run}: {error}") from error
+    return tuple(
+        replace(scores, cross_correlation_encoder=beside[name].cross_correlation)
+        for name, scores in found.items()
+    )
 
 
 class PassProgress:

@@ -32,9 +32,10 @@ ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 SLIP_PERCENT_PER_G = 2.5
 """Slip of the encoder's wheel in the published runs: the one number that is fitted to print, by the
 two cells `FITTED`. Print has 0.6 to 1.2 m lost from 72 km/h (3.3.1.3), and 0.8 m from 48 to 24 km/h
-(3.3.9), 3 to 12 % per g; the encoder of chapter 5 is none of those profilers'."""
+(3.3.9), 3 to 12 % per g; the vehicle of chapter 5 is not one of theirs."""
 FITTED = frozenset({("temporal-hpf", "brk_49-23_0.18g_b"), ("temporal-hpf", "brk_72-29_0.39g")})
-"""The cells, pipeline and run, to which `SLIP_PERCENT_PER_G` is fitted; others are predicted."""
+"""The cells, pipeline and run, to which `SLIP_PERCENT_PER_G` is fitted (print: 0.963 and 0.848);
+others are predicted."""
 LASER_AHEAD_M = 0.0
 """In print the middle of the line laser is on the axis of its accelerometer (4.2.1); the point
 laser, which the chapters with results do not use, is 0.105 m ahead."""

@@ -33,11 +33,15 @@ class Scores:
         peak_m_per_km: highest value of the short-interval roughness profile within `PEAK_M`.
         iri_error_percent: error of the IRI over `AVERAGE_M`, in percent of the reference's.
         cross_correlation: agreement (2.16) after the IRI filter over `AVERAGE_M`, -1 to 1.
+        cross_correlation_encoder: the same along the encoder's distance, which leaves out the error
+            of the axis; the others are along the true distance, as print has them. None if it was
+            not measured.
     """
 
     peak_m_per_km: float
     iri_error_percent: float
     cross_correlation: float
+    cross_correlation_encoder: float | None = None
 
 
 def score(reference: Profile, profile: Profile) -> dict[str, Scores]:
@@ -55,10 +59,13 @@ def mean_scores(scores: Sequence[Scores]) -> Scores:
     """Return the mean of each figure as it is; InputError without any scores."""
     if not scores:
         raise InputError("no scores to average; make at least one pass")
+    beside = [s.cross_correlation_encoder for s in scores]
+    known = [value for value in beside if value is not None]
     return Scores(
         float(np.mean([s.peak_m_per_km for s in scores])),
         float(np.mean([s.iri_error_percent for s in scores])),
         float(np.mean([s.cross_correlation for s in scores])),
+        float(np.mean(known)) if len(known) == len(scores) else None,
     )
 
 

@@ -11,6 +11,8 @@ from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM, publish
 from floatref_conformance.table.rank import rank_correlations
 
 FORMAT = "conformance-table/1"
+BESIDE = "cross_correlation_encoder"
+"""The figure that print does not have."""
 
 
 def document(table: ComparisonTable) -> dict[str, Any]:
@@ -43,8 +45,9 @@ def _cell(cell: Cell) -> dict[str, Any]:
         "passes": len(cell.passes),
     }
     for name, value in asdict(cell.mean).items():
-        named[name] = value if isfinite(value) else None
-        named[f"published_{name}"] = published and getattr(published.scores, name)
+        named[name] = value if value is not None and isfinite(value) else None
+        if name != BESIDE:
+            named[f"published_{name}"] = published and getattr(published.scores, name)
     named["fitted"] = (cell.pipeline, cell.run) in FITTED
     bounded = published and published.cross_correlation_is_upper_bound
     return named | {"published_cross_correlation_is_upper_bound": bounded}

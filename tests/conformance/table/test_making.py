@@ -13,7 +13,8 @@ from floatref_conformance.errors import SuiteError
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table import TableSettings, make_table
-from floatref_conformance.table.passes import Processing, draw_road, pass_scenario
+from floatref_conformance.table.making import _references
+from floatref_conformance.table.passes import Driven, Processing, draw_road, pass_scenario
 from floatref_conformance.table.table_settings import offered_pipelines
 
 BRAKES = ("brk_72-29_0.39g", "brk_49-34_0.84g")
@@ -92,6 +93,24 @@ def test_each_pipeline_gets_the_channels_that_it_declares(monkeypatch, fake_devi
         given = {c.id.name for c in devices[name].seen[0][3].channels}
         assert {"vertical_specific_force", "height", "distance"} <= given
         assert given & {"pitch_rate", "gnss_height"} == more
+
+
+def test_a_slip_moves_the_reference_along_the_encoder_and_leaves_it_along_the_true_distance():
+    """Both encoders and the road in closed form: what counts is the road's place by each."""
+    x = 0.05 * np.arange(8001)
+    truth = Profile(0.05, (ProfileTrack.of("left", np.zeros(x.size)),))
+
+    def road(true_m):
+        return 0.01 * np.sin(true_m / 3.0)
+
+    slow, lost = 1.001, 0.5 * np.clip((x - 150.0) / 40.0, 0.0, 1.0)
+    by_reference = Profile(0.05, (ProfileTrack.of("left", road(x / slow)),))
+    reference = Driven(truth, slow * x, {"temporal-basic": by_reference})
+    plain, beside = _references(reference, Driven(truth, x - lost, {}))
+    assert plain is by_reference
+    found = beside.track("left").elevation[2000:7000]
+    expected = road(np.interp(x[2000:7000], x - lost, x))
+    assert found == pytest.approx(expected, abs=1e-5)
 
 
 def run_of(profile):

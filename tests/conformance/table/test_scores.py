@@ -105,7 +105,9 @@ def test_a_reference_without_roughness_is_refused():
 
 
 def test_the_mean_is_that_of_the_raw_values():
-    scores = [Scores(2.0, 10.0, 0.9), Scores(6.0, -40.0, -0.6)]
-    assert mean_scores(scores) == Scores(4.0, -15.0, pytest.approx(0.15))
+    scores = [Scores(2.0, 10.0, 0.9, 1.0), Scores(6.0, -40.0, -0.6, 0.5)]
+    assert mean_scores(scores) == Scores(4.0, -15.0, pytest.approx(0.15), 0.75)
+    without = [scores[0], replace(scores[1], cross_correlation_encoder=None)]
+    assert mean_scores(without).cross_correlation_encoder is None
     with pytest.raises(InputError, match="no scores"):
         mean_scores([])

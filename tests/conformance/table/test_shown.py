@@ -17,7 +17,10 @@ from floatref_conformance.table.table_document import document
 
 STOP, BRAKE = "sg_5.7s_0.20g", "brk_49-20_0.25g"
 BASIC = "temporal-basic"
-SCORES = {(BASIC, STOP): Scores(1234.5, 4321.0, -0.25), (BASIC, BRAKE): Scores(2.5, -1.5, 0.87)}
+SCORES = {
+    (BASIC, STOP): Scores(1234.5, 4321.0, -0.25),
+    (BASIC, BRAKE): Scores(2.5, -1.5, 0.87, 0.991),
+}
 
 
 @pytest.fixture
@@ -34,10 +37,10 @@ def printed(table, **settings):
 def test_each_figure_stands_beside_the_printed_one(table):
     lines = printed(table).splitlines()
     assert lines[0].strip() == "temporal-basic (Table 5.3)"
-    (stop,) = [line.split() for line in lines if line.startswith(f" {STOP}")]
-    assert stop[1:] == ["1,234.5", "949.0", "4,321.0", "3,784.1", "-0.250", "<0.2"]
-    (brake,) = [line.split() for line in lines if line.startswith(f" {BRAKE}")]
-    assert brake[1:] == ["2.5", "2.2", "-1.5", "0.0", "0.870", "0.944"]
+    (stop,) = [line.split() for line in lines if line.startswith(f"{STOP}")]
+    assert stop[1:] == ["1,234.5", "949.0", "4,321.0", "3,784.1", "-0.250", "<0.2", "–"]
+    (brake,) = [line.split() for line in lines if line.startswith(f"{BRAKE}")]
+    assert brake[1:] == ["2.5", "2.2", "-1.5", "0.0", "0.870", "0.944", "0.991"]
     assert "chapter 5: 1.00 over 2 cells" in lines[-2]
     assert "'stop: low, else high' alone: 1.00" in lines[-2]
     assert lines[-1] == "  its stops alone: no value over 1 cell"
@@ -64,19 +67,21 @@ def test_the_whole_table_fits_a_terminal_of_80_columns(hand_table, cross_correla
     """The numbers are larger than the largest of print, 3299.8 m/km and 13139.7 %."""
     whole = TableSettings()
     keys = [(pipeline, run) for pipeline in whole.pipelines for run in whole.runs]
-    worst = hand_table(dict.fromkeys(keys, Scores(98765.4, 123456.7, cross_correlation)), whole)
+    worst = hand_table(
+        dict.fromkeys(keys, Scores(98765.4, 123456.7, *2 * (cross_correlation,))), whole
+    )
     text = printed(worst, force_terminal=True, width=80, color_system=None)
     assert "98,765.4" in text
     assert "123,456.7" in text
     assert [line for line in text.splitlines() if "…" in line] == []
     for run in whole.runs:
-        assert text.count(f" {run} ") == len(whole.pipelines)
+        assert text.count(f"\n{run} ") == len(whole.pipelines)
 
 
 def test_what_was_not_published_says_so(table):
     bare = replace(table, cells=tuple(replace(cell, published=None) for cell in table.cells))
-    (stop,) = [line.split() for line in printed(bare).splitlines() if line.startswith(f" {STOP}")]
-    assert stop[1:] == ["1,234.5", "–", "4,321.0", "–", "-0.250", "–"]
+    (stop,) = [line.split() for line in printed(bare).splitlines() if line.startswith(f"{STOP}")]
+    assert stop[1:] == ["1,234.5", "–", "4,321.0", "–", "-0.250", "–", "–"]
 
 
 def test_the_document_holds_every_figure_with_its_unit(table):
@@ -96,6 +101,7 @@ def test_the_document_holds_every_figure_with_its_unit(table):
         "iri_error_percent": 4321.0,
         "published_iri_error_percent": 3784.1,
         "cross_correlation": -0.25,
+        "cross_correlation_encoder": None,
         "published_cross_correlation": 0.2,
         "published_cross_correlation_is_upper_bound": True,
         "fitted": False,
@@ -103,6 +109,7 @@ def test_the_document_holds_every_figure_with_its_unit(table):
     # The published error of 0.0 is a figure and not a missing one.
     assert brake["published_iri_error_percent"] == 0.0
     assert brake["published_cross_correlation_is_upper_bound"] is False
+    assert brake["cross_correlation_encoder"] == 0.991
     assert made["rank_correlation"]["chapter_5"] == {
         "ours": pytest.approx(1.0), "rule": pytest.approx(1.0), "cells": 2,
     }  # fmt: skip

@@ -58,7 +58,11 @@ class SensorSuite:
         encoder_step_m: travel per count, in m.
         encoder_scale: scale error, relative; drawn up to it.
         encoder_error: scale error beside the one that is drawn, relative.
-        slip_per_g: relative error of the encoder's speed per g of longitudinal acceleration.
+        slip_per_g: relative error of the encoder's speed per g of longitudinal acceleration. 0.025
+            is fitted to two cells in print (`table.passes.FITTED`). 0.03 to 0.06 lose the 0.6 to
+            1.2 m of a brake from 72 km/h (3.3.1.3), 0.12 the 0.8 m from 48 to 24 km/h (3.3.9).
+            In a coast 0.12 moves the end of the section by 1.3 of print's "up to 2 m" (3.3.1.2);
+            what is left would be the tyre's temperature.
         radius_growth: relative growth of the wheel's rolling radius from 16 to 97 km/h; up to 1 %
             in sections 3.3.1.1 and 3.3.9.
         radius_warming: its relative growth as the tyre warms up.
