@@ -256,6 +256,5 @@ def repeat_passes(scenario: Scenario, count: int) -> tuple[Scenario, ...]:
     The first is ``scenario``; the seeds of the others follow its own.
     """
     road = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
-    return tuple(
-        replace(scenario, seed=scenario.seed + pass_, road_seed=road) for pass_ in range(count)
-    )
+    seeds = range(scenario.seed, scenario.seed + count)
+    return tuple(replace(scenario, seed=seed, road_seed=road) for seed in seeds)
