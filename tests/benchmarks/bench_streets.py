@@ -53,6 +53,7 @@ CASES: dict[str, dict[str, float]] = {
     "laser 0.3 m ahead": {"laser_ahead_m": 0.3},
     "latency 1 ms": {"latency_ms": 1.0},
     "latency 3 ms": {"latency_ms": 3.0},
+    "latency 3 ms, laser at 0 m": {"latency_ms": 3.0, "laser_ahead_m": 0.0},
     "friction 2000 N·m": {"friction_nm": 2000.0},
     "progressive springs, 50/m²": {"progression_per_m2": 50.0},
     "slip 12 %/g": {"slip_percent_per_g": 12.0},
