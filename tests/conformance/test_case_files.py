@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION
+from floatref_conformance import EDITION, EDITIONS
 from floatref_conformance.case_files import document, name_of, read_case, read_cases
 from floatref_conformance.checks.case import CHANNELS_BY_NEED, DEFAULT, Case
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
@@ -162,6 +162,29 @@ def test_a_case_of_another_edition_is_refused_and_none_of_its_numbers_is_read(tm
     assert EDITION in kept.refused
     path.write_text(json.dumps(CASE))
     assert read_case(path).refused == ""
+
+
+@pytest.mark.parametrize("edition", EDITIONS)
+def test_a_file_has_its_edition_and_only_that_one_reads_it(tmp_path, edition):
+    case = Case("toy", Scenario(seed=3))
+    path = tmp_path / "cases" / "toy-1.json"
+    path.parent.mkdir()
+    path.write_text(json.dumps(document(case, DeviceClass.NOMINAL, "x", "rough", edition)))
+    assert read_case(path).edition == edition
+    for asked in EDITIONS:
+        kept = read_case(path, asked)
+        assert [one.refused for one in read_cases(tmp_path, asked)] == [kept.refused]
+        assert (kept.refused == "") is (asked == edition)
+        assert kept.refused == "" or f"'{edition}'" in kept.refused
+        assert asked == edition or kept.refused.endswith(f"in {asked}; take it out")
+
+
+@pytest.mark.parametrize("edition", EDITIONS)
+def test_what_a_case_does_not_name_is_what_the_first_edition_meant(tmp_path, edition):
+    path = tmp_path / "old.json"
+    path.write_text(json.dumps({**CASE, "edition": edition, "scenario": {"speed_kmh": 60.0}}))
+    scenario = read_case(path).case.scenario
+    assert scenario == Scenario(speed_kmh=60.0, slip_percent_per_g=0.3, laser_ahead_m=0.0)
 
 
 @pytest.mark.parametrize("make", [lambda path: None, os.mkdir])

@@ -9,6 +9,8 @@ import click
 
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
+from floatref_conformance.table.families.conditions import FAMILIES
+from floatref_conformance.table.families.family_settings import ALL, FamilySettings
 from floatref_conformance.table.table_settings import TableSettings
 
 OF_PUBLISHED_RUNS = ("runs", "roads", "seeds")
@@ -63,6 +65,18 @@ OF_PUBLISHED_RUNS = ("runs", "roads", "seeds")
     show_default=True,
     help="Drawn stops of each vehicle on each of three roads in place of the runs; 0: the runs.",
 )
+@click.option(
+    "--family",
+    type=click.Choice((*FAMILIES, ALL)),
+    help="Drawn drives of this family of roads, vehicles and sensors in place of the runs.",
+)
+@click.option(
+    "--drives",
+    type=click.IntRange(min=1),
+    default=FamilySettings.drives,
+    show_default=True,
+    help="With --family: drives of each condition.",
+)
 def table(
     plot: Path | None,
     as_json: bool,
@@ -73,6 +87,8 @@ def table(
     runs: tuple[str, ...],
     pipelines: tuple[str, ...],
     stops: int,
+    family: str | None,
+    drives: int,
 ) -> None:
     """Put the published results beside ours: 17 runs through every pipeline.
 
@@ -85,25 +101,44 @@ def table(
     1.8 and 4 m/km), and what the pipelines make of 160.9 m around the stop is compared with the
     truth along the laser's path, high-pass filtered as profiles are: cross correlation, error of
     the IRI, and how often the truth lies within two sigma.
+
+    With --family every condition of the family is driven --drives times on drawn roads, vehicles
+    and sensors: `single` changes one thing at a time at one stop, `urban` has stops on crowns,
+    humps, dips and changes of grade, `rural` speed that changes, curves and concrete, `harsh` hard
+    brakes, leaf springs and all at once. Quantiles of the cross correlation and of the IRI's error
+    are shown along the true distance and along the encoder's, and at the end where points that are
+    marked valid are wrong. `all` takes some twenty minutes on two free cores.
     """
     from floatref_conformance.table.comparison_picture import check_picture
 
-    if stops:
-        _refuse_options_of_runs()
+    if stops or family:
+        _refuse_options_of_runs("--stops" if stops else "--family")
+    _refuse_options_of_families(stops, family)
     settings = TableSettings(seed, roads, seeds, vehicle, runs, pipelines)
     if plot is not None:
         check_picture(plot)
-    if stops:
+    if family:
+        _show_family(FamilySettings(family, seed, drives, settings.pipelines), as_json, plot)
+    elif stops:
         _show_drawn_stops(stops, settings, as_json, plot)
     else:
         _show_published_runs(settings, as_json, plot)
 
 
-def _refuse_options_of_runs() -> None:
-    """Raise InputError for an option given beside --stops that has no meaning there."""
+def _refuse_options_of_runs(other: str) -> None:
+    """Raise InputError for an option given beside the ``other`` that has no meaning there."""
     for option in click.get_current_context().command.params:
         if option.name in OF_PUBLISHED_RUNS and _is_given(option.name):
-            raise InputError(f"{option.opts[0]}: not together with --stops; leave one of them out")
+            raise InputError(f"{option.opts[0]}: not together with {other}; leave one of them out")
+
+
+def _refuse_options_of_families(stops: int, family: str | None) -> None:
+    """Raise InputError for what makes no sense beside, or without, --family."""
+    if family is None and _is_given("drives"):
+        raise InputError("--drives: only with --family; add it, or leave --drives out")
+    if family is not None and (stops or _is_given("vehicle")):
+        other = "--stops" if stops else "--vehicle"
+        raise InputError(f"{other}: not together with --family; leave one of them out")
 
 
 def _is_given(name: str) -> bool:
@@ -138,6 +173,19 @@ def _show_drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Pa
     with PassProgress(settings.passes) as progress:
         made = make_stop_table(settings, progress)
     _show(made, stop_document if as_json else None, print_stops, plot, draw_stops)
+
+
+def _show_family(settings: FamilySettings, as_json: bool, plot: Path | None) -> None:
+    """Make and show a table of families."""
+    from floatref_conformance.table.families.family_document import family_document
+    from floatref_conformance.table.families.family_picture import draw_families
+    from floatref_conformance.table.families.family_table import make_family_table
+    from floatref_conformance.table.families.family_text import print_families
+    from floatref_conformance.table.making import PassProgress
+
+    with PassProgress(settings.passes) as progress:
+        made = make_family_table(settings, progress)
+    _show(made, family_document if as_json else None, print_families, plot, draw_families)
 
 
 def _show(

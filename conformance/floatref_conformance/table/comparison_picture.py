@@ -13,6 +13,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
 from floatref_conformance.table.cells import Cell, ComparisonTable
+from floatref_conformance.table.passes import FITTED
 from floatref_conformance.table.published import PRINTED_FLOOR, published_table
 from floatref_conformance.table.scores import Scores
 
@@ -96,7 +97,8 @@ def draw_comparison_maps(table: ComparisonTable, path: Path) -> None:
     """Write heat maps of ``table`` to ``path``: ours on the left, print on the right.
 
     Above the cross correlation, below the peak of the short-interval roughness profile on a
-    logarithmic scale; both sides share their colours. Grey is what was not published. Raises
+    logarithmic scale; both sides share their colours. Grey is what was not published, * a cell to
+    which the slip is fitted. Raises
     InputError where matplotlib is missing or ``path`` cannot be written.
     """
     columns, rows = len(table.settings.pipelines), len(table.settings.runs)
@@ -135,6 +137,7 @@ def _draw_map(
     from matplotlib import colormaps
 
     runs, colours = table.settings.runs, colormaps[quantity.colours]
+    side_is_ours = scores_of is SIDES[0][1]
     values = np.full((len(runs), len(table.settings.pipelines)), np.nan)
     for column, pipeline in enumerate(table.settings.pipelines):
         for cell in table.of_pipeline(pipeline):
@@ -144,8 +147,9 @@ def _draw_map(
             row, value = runs.index(cell.run), quantity.value(scores)
             values[row, column] = value
             dark = np.dot(colours(norm(value))[:3], (0.3, 0.6, 0.1)) < 0.5
+            mark = "*" if side_is_ours and (cell.pipeline, cell.run) in FITTED else ""
             ax.text(
-                column, row, quantity.text(value),
+                column, row, quantity.text(value) + mark,
                 ha="center", va="center", fontsize="x-small", color="white" if dark else "black",
             )  # fmt: skip
     ax.set_facecolor(MISSING)

@@ -6,6 +6,7 @@ from rich.table import Table
 
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.table.cells import Cell, ComparisonTable
+from floatref_conformance.table.passes import FITTED, SLIP_PERCENT_PER_G
 from floatref_conformance.table.published import PublishedFigures, published_table
 from floatref_conformance.table.rank import RankCorrelation, rank_correlations
 
@@ -37,7 +38,15 @@ def closing_lines(table: ComparisonTable) -> list[str]:
     rule = "the rule 'stop: low, else high' alone"
     chapter, stops = found["chapter_5"], found["stops"]
     lines.append(f"  chapter 5: {_rank_in_words(chapter)}; {rule}: {_value(chapter.rule)}")
+    fitted = any((cell.pipeline, cell.run) in FITTED for cell in table.cells)
+    if fitted:
+        lines.append(f"  without the cells marked *: {_rank_in_words(found['predicted'])}")
     lines.append(f"  its stops alone: {_rank_in_words(stops)}")
+    if fitted:
+        lines.append(
+            f"* The encoder's slip, {SLIP_PERCENT_PER_G:g} % per g, is fitted to these cells; "
+            "all others are predicted."
+        )
     return lines
 
 
@@ -70,7 +79,7 @@ def _row(cell: Cell) -> tuple[str, ...]:
         f"{theirs.peak_m_per_km:,.1f}" if theirs else "–",
         f"{ours.iri_error_percent:,.1f}",
         f"{theirs.iri_error_percent:,.1f}" if theirs else "–",
-        f"{ours.cross_correlation:.3f}",
+        f"{ours.cross_correlation:.3f}{'*' if (cell.pipeline, cell.run) in FITTED else ''}",
         printed_correlation(published) if published else "–",
     )
 

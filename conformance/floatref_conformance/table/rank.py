@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from floatref_conformance.proving_ground.drives.runs import RUNS
 from floatref_conformance.table.cells import Cell, ComparisonTable
+from floatref_conformance.table.passes import FITTED
 from floatref_conformance.table.published import PRINTED_FLOOR
 
 CHAPTER = 5
@@ -30,9 +31,16 @@ class RankCorrelation:
 
 
 def rank_correlations(table: ComparisonTable) -> dict[str, RankCorrelation]:
-    """Return the rank correlation over the ``chapter_5`` cells, and over their ``stops`` alone."""
-    stops = (cell for cell in table.cells if _is_stop(cell))
-    return {"chapter_5": rank_correlation(table.cells), "stops": rank_correlation(stops)}
+    """Return the rank correlation over the ``chapter_5`` cells, those ``predicted``, and ``stops``.
+
+    Predicted are all of chapter 5 but the `FITTED` ones.
+    """
+    predicted = [cell for cell in table.cells if (cell.pipeline, cell.run) not in FITTED]
+    return {
+        "chapter_5": rank_correlation(table.cells),
+        "predicted": rank_correlation(predicted),
+        "stops": rank_correlation(cell for cell in table.cells if _is_stop(cell)),
+    }
 
 
 def rank_correlation(cells: Iterable[Cell]) -> RankCorrelation:

@@ -6,7 +6,7 @@ from typing import Any
 
 from floatref_conformance.schemas import enforce
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import ROADS
+from floatref_conformance.table.passes import FITTED, ROADS, SLIP_PERCENT_PER_G
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM, published_table
 from floatref_conformance.table.rank import rank_correlations
 
@@ -23,6 +23,7 @@ def document(table: ComparisonTable) -> dict[str, Any]:
         "roads": settings.roads,
         "road": {"kinds": list(ROADS), "iri_m_per_km": REFERENCE_IRI_M_PER_KM},
         "vehicle": settings.vehicle,
+        "slip_percent_per_g": SLIP_PERCENT_PER_G,
         "cells": [_cell(cell) for cell in table.cells],
         "rank_correlation": {
             name: asdict(value) for name, value in rank_correlations(table).items()
@@ -44,5 +45,6 @@ def _cell(cell: Cell) -> dict[str, Any]:
     for name, value in asdict(cell.mean).items():
         named[name] = value if isfinite(value) else None
         named[f"published_{name}"] = published and getattr(published.scores, name)
+    named["fitted"] = (cell.pipeline, cell.run) in FITTED
     bounded = published and published.cross_correlation_is_upper_bound
     return named | {"published_cross_correlation_is_upper_bound": bounded}

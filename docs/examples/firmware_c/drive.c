@@ -5,7 +5,7 @@
 
 const double LOW_SPEED_HZ = 0.45, CUTOFF_WAVELENGTH_M = 105.91;
 const double TRANSITION_MPS = 2.778, TRANSITION_STEEPNESS = 2.5;
-const double SLOW_MPS = 4.444444, STOPPING_TIME_S = 5.0;
+const double SLOW_MPS = 4.4704, STOPPING_TIME_S = 5.0;
 
 static const double SPEED_S = 0.05;  /* the speed is the mean over this time */
 static const double WINDOW_S = 0.25; /* two such windows are compared for a brake */

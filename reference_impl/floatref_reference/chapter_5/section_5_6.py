@@ -16,7 +16,8 @@ from floatref_reference.chapter_5.section_5_5 import (
 from floatref_reference.signals import ZERO, Real, Samples, Signal, samples, signal
 
 WINDOW = 0.05
-V_ON = 16 / 3.6
+V_ON = 4.4704
+"""Speed below which the controller acts, m/s: 10 mph, printed as 16 km/h."""
 K_P = 0.001
 K_I = 0.834
 

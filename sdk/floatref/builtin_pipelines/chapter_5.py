@@ -8,7 +8,7 @@ from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.signals import ACCELERATION, CUTOFF, HEIGHT, REFERENCE_HEIGHT, VELOCITY
 
 VALIDITY: dict[str, float | None] = {
-    "slow_mps": 4.444444,
+    "slow_mps": 4.4704,
     "stopping_time_s": 5.0,
     "before_slow_m": 15.0,
     "after_slow_m": 30.0,
@@ -27,7 +27,7 @@ COLLECTIVE = {
 }
 SUPPRESSION = {
     **COLLECTIVE,
-    "suppression_speed_mps": 4.444444,
+    "suppression_speed_mps": 4.4704,
     "suppression_proportional": 0.001,
     "suppression_integral_per_s": 0.834,
 }

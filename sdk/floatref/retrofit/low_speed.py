@@ -30,7 +30,7 @@ class LocalSuppression:
     def __init__(
         self,
         rate_hz: float | Fraction,
-        below_mps: float = 16 / 3.6,
+        below_mps: float = 4.4704,
         proportional: float = 0.001,
         integral_per_s: float = 0.834,
     ) -> None:

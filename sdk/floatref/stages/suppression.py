@@ -28,7 +28,7 @@ class SuppressLocally(Stage):
     def __init__(
         self,
         channel: str = VELOCITY,
-        below_mps: float = 16 / 3.6,
+        below_mps: float = 4.4704,
         proportional: float = 0.001,
         integral_per_s: float = 0.834,
     ) -> None:

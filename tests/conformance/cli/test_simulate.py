@@ -65,7 +65,7 @@ def test_reference_pass_by_name(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("ref_27", "--out", "new"), "run ref_27: unknown; did you mean ref_72?"),
+        (("ref_27", "--out", "new"), "run 'ref_27': unknown; did you mean ref_72?"),
         (("missing.json", "--out", "new"), "missing.json: No such file or directory"),
         (("ref_72", "--out", "case.json"), "case.json: exists; choose another name"),
         (("ref_72", "--out", "no/new"), "no/new: its folder does not exist"),

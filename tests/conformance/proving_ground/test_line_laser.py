@@ -17,9 +17,7 @@ from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.proving_ground.staging import ground_of, road_of
 from floatref_conformance.proving_ground.tracking import Ground
 
-POINT = Scenario(
-    seed=3, road_seed=8, length_m=60.0, rate_hz=2000.0, sensors=0.0, laser_ahead_m=0.0
-)
+POINT = Scenario(seed=3, road_seed=8, length_m=60.0, rate_hz=2000.0, sensors=0.0, laser_ahead_m=0.0)
 WIDE = replace(POINT, laser_line_mm=100.0)
 
 

@@ -3,6 +3,8 @@
 import pytest
 
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.mutants import MUTATIONS
+from floatref_conformance.mutants.device import Mutant
 from floatref_conformance.registry import Registry
 from floatref_conformance.selftest import trying
 from floatref_conformance.selftest.trying import Try, attempt, try_all
@@ -42,6 +44,36 @@ def test_the_class_decides(registered, fake_device):
     )
     assert nominal == ""
     assert reference
+
+
+def test_without_a_class_it_is_the_one_that_the_device_claims(registered, fake_device):
+    device = registered(fake_device(lambda t: {name: 0.98 * z for name, z in t.items()}))
+    assert attempt(Try("fake:device", "toy", 0)).fails == ""
+    device.claims = DeviceClass.REFERENCE
+    assert "limit 0.01 m/km" in attempt(Try("fake:device", "toy", 0)).fails
+    assert attempt(Try("fake:device", "toy", 0, DeviceClass.NOMINAL)).fails == ""
+
+
+def test_mutants_claim_the_class_of_their_mutation():
+    devices = {m.name: (Mutant(m), m.claims) for m in MUTATIONS}
+    assert all(device.claims is claimed for device, claimed in devices.values())
+    assert devices["slip-believed"][0].claims is DeviceClass.ADEQUATE
+    assert devices["tilt-ignored"][0].claims is DeviceClass.NOMINAL
+
+
+@pytest.mark.parametrize(
+    ("edition", "ends_early"), [("2026.1", "the recording goes"), ("2026.2", "")]
+)
+def test_a_try_is_of_its_edition(monkeypatch, toy_check, fake_device, edition, ends_early):
+    asked = []
+    registry = Registry({}, {"toy": toy_check()})
+    device = fake_device(lambda tracks: {t: z[:-5] for t, z in tracks.items()})
+    monkeypatch.setattr(Registry, "device", lambda self, spec: device)
+    monkeypatch.setattr(trying, "_registry", lambda name: asked.append(name) or registry)
+    fails = attempt(Try("fake:device", "toy", 0, edition=edition)).fails
+    assert ends_early in fails
+    assert bool(fails) is bool(ends_early)
+    assert asked == [edition]
 
 
 def test_a_device_that_cannot_describe_itself_fails(registered, fake_device):

@@ -43,6 +43,22 @@ def test_each_figure_stands_beside_the_printed_one(table):
     assert lines[-1] == "  its stops alone: no value over 1 cell"
 
 
+def test_the_cells_to_which_the_slip_is_fitted_are_marked_and_not_predicted(hand_table):
+    runs = ("brk_49-23_0.18g_b", "brk_49-20_0.25g", "const_16")
+    figures = {("temporal-hpf", run): Scores(2.0, 1.0, 0.9 + n / 100) for n, run in enumerate(runs)}
+    table = hand_table(figures, TableSettings(runs=runs, pipelines=("temporal-hpf",)))
+    text = printed(table)
+    assert "0.900*" in text
+    assert "without the cells marked *: " in text
+    assert "over 2 cells" in text
+    made = document(table)
+    assert {cell["run"]: cell["fitted"] for cell in made["cells"]} == dict(
+        zip(runs, (True, False, False), strict=True)
+    )
+    assert made["rank_correlation"]["predicted"]["cells"] == 2
+    assert made["slip_percent_per_g"] == 2.5
+
+
 @pytest.mark.parametrize("cross_correlation", [0.87, -0.25])
 def test_the_whole_table_fits_a_terminal_of_80_columns(hand_table, cross_correlation):
     """The numbers are larger than the largest of print, 3299.8 m/km and 13139.7 %."""
@@ -82,6 +98,7 @@ def test_the_document_holds_every_figure_with_its_unit(table):
         "cross_correlation": -0.25,
         "published_cross_correlation": 0.2,
         "published_cross_correlation_is_upper_bound": True,
+        "fitted": False,
     }
     # The published error of 0.0 is a figure and not a missing one.
     assert brake["published_iri_error_percent"] == 0.0

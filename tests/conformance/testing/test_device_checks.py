@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from floatref_conformance import EDITION
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.testing import DeviceChecks, device_checks
 
@@ -122,6 +123,24 @@ def test_every_registered_check_is_a_test(monkeypatch):
     function = SimpleNamespace(fixturenames=("check", "request"), parametrize=asked.__setitem__)
     DeviceChecks().pytest_generate_tests(function)
     assert asked == {"check": (*registry.checks, "ours:wet")}
+
+
+def test_the_checks_are_those_of_the_edition(monkeypatch):
+    registry, editions = load_registry("2026.1"), []
+    monkeypatch.setattr(device_checks, "load_registry", lambda e: editions.append(e) or registry)
+    function = SimpleNamespace(fixturenames=("check",), parametrize=lambda *_: None)
+    DeviceChecks().pytest_generate_tests(function)
+    type("Older", (DeviceChecks,), {"edition": "2026.1"})().pytest_generate_tests(function)
+    assert editions == [EDITION, "2026.1"]
+
+
+@pytest.mark.slow
+def test_the_command_names_an_edition_that_is_not_the_default(judged):
+    with pytest.raises(pytest.fail.Exception, match=r"--edition 2026\.1 --check quiescent"):
+        judged("mutant:scaled", edition="2026.1")
+    with pytest.raises(pytest.fail.Exception) as failed:
+        judged("mutant:scaled")
+    assert "--edition" not in str(failed.value)
 
 
 @pytest.mark.slow

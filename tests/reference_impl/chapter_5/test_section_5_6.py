@@ -106,7 +106,7 @@ def test_control_acts_below_the_limit_and_leaves_no_step(
 
 def test_at_the_limit_control_rests() -> None:
     d = np.linspace(0, 3, 50)
-    assert (controlled_velocity(d, np.full(50, 16 / 3.6), 0.01) == d).all()
+    assert (controlled_velocity(d, np.full(50, 4.4704), 0.01) == d).all()
 
 
 def test_at_speed_the_pipeline_is_temporal_high_pass_filtering() -> None:

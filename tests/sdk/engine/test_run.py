@@ -28,7 +28,7 @@ def test_the_profile_records_how_it_was_made(steady):
         "interval_m": 0.05,
         "anti_alias_hz": 1000.0,
         "cutoff_wavelength_m": 50.0,
-        "slow_mps": 4.444444,
+        "slow_mps": 4.4704,
         "stopping_time_s": 5.0,
         "before_slow_m": 158.865,
         "after_slow_m": 158.865,

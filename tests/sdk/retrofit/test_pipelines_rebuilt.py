@@ -29,7 +29,7 @@ def high_pass(a, h, distance):
 
 
 def local_suppression(a, h, distance):
-    stage, control = floatref.HighPass(RATE), floatref.LocalSuppression(RATE, below_mps=4.444444)
+    stage, control = floatref.HighPass(RATE), floatref.LocalSuppression(RATE, below_mps=4.4704)
     speed = floatref.TravelSpeed(RATE).of(distance)
     v = control.velocity(summed(stage.acceleration(a), 1 / RATE), speed)
     r = summed(stage.velocity(v), 1 / RATE)

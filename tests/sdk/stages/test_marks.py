@@ -38,9 +38,9 @@ def marked(
 @given(st.floats(0.0, 35.0), st.sampled_from([0.0, 0.0003, 0.01]))
 def test_a_steady_speed_is_slow_below_16_km_h_however_coarse_the_encoder(speed, count_m):
     flags = marked(np.full(5 * RATE, speed), count_m)[RATE:]
-    if speed < 16 / 3.6 - 0.03:
+    if speed < 4.4704 - 0.03:
         assert (flags == Flag.SLOW).all()
-    elif speed > 16 / 3.6 + 0.03:
+    elif speed > 4.4704 + 0.03:
         assert (flags == 0).all()
 
 
@@ -76,7 +76,7 @@ def test_a_brake_of_many_counts_is_marked_with_a_held_encoder(braking, count_m):
     flags = marked(speed, count_m)
     short_m = braking * G * 0.25**2
     left = 12.0 / (braking * G) + 2.0 - (times - 0.25)
-    hard = (times > 2.6) & (speed > 16 / 3.6 + 0.5 * braking * G)
+    hard = (times > 2.6) & (speed > 4.4704 + 0.5 * braking * G)
     hard &= (left < 3.0) & (short_m > 6 * count_m)
     assert (flags[hard] & Flag.BRAKING).all()
 

@@ -29,6 +29,9 @@ class StopScores:
             where the profile has no sigma.
         within_two_sigma_true_distance_percent: the same along the true distance, so that sigma
             would have to contain the error of the axis.
+        cross_correlation_encoder, iri_error_encoder_percent: the first two along the encoder's
+            distance, so that they leave out the error of the axis; the others, but for the share
+            above, are along the true distance.
     """
 
     cross_correlation: float
@@ -36,6 +39,8 @@ class StopScores:
     peak_m_per_km: float
     within_two_sigma_percent: float | None = None
     within_two_sigma_true_distance_percent: float | None = None
+    cross_correlation_encoder: float | None = None
+    iri_error_encoder_percent: float | None = None
 
 
 def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict[str, StopScores]:
@@ -46,7 +51,8 @@ def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict
     with missing points within `STRETCH_M`, InputError for a missing wheel path.
     """
     _check_reach(profile)
-    reference, text = _high_pass(truth), _high_pass(_along(truth, encoder_m))
+    reference, text = _high_pass(truth), _high_pass(along_encoder(truth, encoder_m))
+    beside = score(text, profile)
     return {
         name: StopScores(
             scores.cross_correlation,
@@ -54,6 +60,8 @@ def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict
             scores.peak_m_per_km,
             _within_two_sigma(text, profile, name),
             _within_two_sigma(reference, profile, name),
+            beside[name].cross_correlation,
+            beside[name].iri_error_percent,
         )
         for name, scores in score(reference, profile).items()
     }
@@ -69,7 +77,7 @@ def _check_reach(profile: Profile) -> None:
         )
 
 
-def _along(truth: Profile, encoder_m: FloatArray) -> Profile:
+def along_encoder(truth: Profile, encoder_m: FloatArray) -> Profile:
     """Return ``truth`` against the distance by the encoder, at the same interval."""
     text = truth.interval_m * np.arange(int(encoder_m[-1] / truth.interval_m) + 1)
     tracks = (

@@ -80,6 +80,8 @@ class StopSummary:
         iri_error_median_percent, iri_error_largest_percent: of the magnitudes of the errors.
         within_two_sigma_percent, within_two_sigma_true_distance_percent: of the shares of points
             of each wheel path, as in `StopScores`; None without sigma.
+        cross_correlation_encoder_median, cross_correlation_encoder_percentile_1,
+            cross_correlation_encoder_lowest: along the encoder's distance; None without.
     """
 
     wheel_paths: int
@@ -90,6 +92,9 @@ class StopSummary:
     iri_error_largest_percent: float
     within_two_sigma_percent: Ends | None
     within_two_sigma_true_distance_percent: Ends | None
+    cross_correlation_encoder_median: float | None = None
+    cross_correlation_encoder_percentile_1: float | None = None
+    cross_correlation_encoder_lowest: float | None = None
 
 
 def summary(paths: Sequence[WheelPath]) -> StopSummary:
@@ -99,6 +104,7 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
     scores = [path.scores for path in paths]
     correlations = [each.cross_correlation for each in scores]
     errors = [abs(each.iri_error_percent) for each in scores]
+    beside = [c for each in scores if (c := each.cross_correlation_encoder) is not None]
     return StopSummary(
         len(paths),
         float(np.median(correlations)),
@@ -108,6 +114,11 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
         max(errors),
         _ends([each.within_two_sigma_percent for each in scores]),
         _ends([each.within_two_sigma_true_distance_percent for each in scores]),
+        *(
+            (float(np.median(beside)), float(np.percentile(beside, 1)), min(beside))
+            if beside
+            else (None, None, None)
+        ),
     )
 
 

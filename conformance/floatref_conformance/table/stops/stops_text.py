@@ -32,13 +32,15 @@ def print_stops(table: StopTable, console: Console) -> None:
             console.print(line, markup=False, highlight=False, soft_wrap=True)
     if len(pipelines) > 1:
         console.print(_together(table))
+        console.print(_together_along_encoder(table))
     console.print(closing_line(table), markup=False, highlight=False, soft_wrap=True)
 
 
 def below_block(table: StopTable, pipeline: str) -> list[str]:
     """Return the lines below the block of ``pipeline``, and an empty line."""
-    shares = summary(table.of(pipeline)).within_two_sigma_true_distance_percent
-    lines = [lowest_line(table, pipeline), ""]
+    found = summary(table.of(pipeline))
+    shares = found.within_two_sigma_true_distance_percent
+    lines = [*_beside(found), lowest_line(table, pipeline), ""]
     if shares is not None:
         lines.insert(
             0,
@@ -46,6 +48,18 @@ def below_block(table: StopTable, pipeline: str) -> list[str]:
             f"median {shares.median:.1f}",
         )
     return lines
+
+
+def _beside(found: StopSummary) -> list[str]:
+    """Return the line of quantiles along the encoder's distance, if they are known."""
+    if found.cross_correlation_encoder_median is None:
+        return []
+    return [
+        "cross correlation along the encoder's distance: median "
+        f"{found.cross_correlation_encoder_median:.3f}, 1st percentile "
+        f"{found.cross_correlation_encoder_percentile_1:.3f}, lowest "
+        f"{found.cross_correlation_encoder_lowest:.3f} (the block: along the true distance)"
+    ]
 
 
 def lowest_line(table: StopTable, pipeline: str) -> str:
@@ -86,6 +100,14 @@ def _together(table: StopTable) -> Table:
     return block
 
 
+def _together_along_encoder(table: StopTable) -> Table:
+    """Return the same quantiles of the cross correlation along the encoder's distance."""
+    block = _empty("The same along the encoder's distance", "pipeline", *SCORES[:3])
+    for name in table.settings.pipelines:
+        block.add_row(name, *_encoder(summary(table.of(name))))
+    return block
+
+
 def _empty(title: str, of_what: str, *figures: str) -> Table:
     block = Table(
         title=title,
@@ -109,6 +131,15 @@ def _scores(found: StopSummary) -> tuple[str, ...]:
         _percent(found.iri_error_median_percent),
         _percent(found.iri_error_largest_percent),
     )
+
+
+def _encoder(found: StopSummary) -> tuple[str, ...]:
+    values = (
+        found.cross_correlation_encoder_median,
+        found.cross_correlation_encoder_percentile_1,
+        found.cross_correlation_encoder_lowest,
+    )
+    return tuple("–" if value is None else f"{value:.3f}" for value in values)
 
 
 def _shares(found: StopSummary) -> tuple[str, ...]:

@@ -66,7 +66,8 @@ def test_all_pipelines_stand_together_in_80_columns(hand_stops):
     assert [line for line in lines if "…" in line] == []
     assert max(len(line.rstrip()) for line in lines if not line.startswith(("lowest", "Ag"))) <= 80
     for pipeline in settings.pipelines:
-        (row,) = [line.split() for line in lines if line.startswith(f" {pipeline} ")]
+        row, beside = (line.split() for line in lines if line.startswith(f" {pipeline} "))
+        assert beside[1:] == ["–"] * 3
         assert row[1:] == ["-0.250"] * 3 + ["538,123"] * 2
 
 
@@ -85,6 +86,8 @@ def test_the_document_holds_every_wheel_path(table):
         "peak_m_per_km": 80.0,
         "within_two_sigma_percent": 99.5,
         "within_two_sigma_true_distance_percent": 64.0,
+        "cross_correlation_encoder": None,
+        "iri_error_encoder_percent": None,
     }
     (pipeline,) = made["pipelines"]
     assert pipeline["all"] == pipeline["vehicles"]["minivan"]

@@ -1,0 +1,137 @@
+"""How a profile compares with the road, along the true distance and along the encoder's."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.measures import iri_trace
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.profile import Profile
+from floatref_conformance.checks.driving.layout import layout_of
+from floatref_conformance.checks.evidence import Pair
+from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.table.stops.stop_scores import along_encoder
+
+RIGHT_PERCENT, RIGHT_M_PER_KM = 5.0, 0.1
+"""What is valid is right: its IRI is within either of these of the road's."""
+
+
+@dataclass(frozen=True)
+class PathScores:
+    """One wheel path along one axis; of several stretches of 160.9 m the worst counts.
+
+    Attributes:
+        cross_correlation: agreement (2.16) after the IRI filter, -1 to 1.
+        iri_error_percent: magnitude of the error of the IRI in percent of the road's.
+        within_two_sigma_percent: of the points with a 1-sigma, those within two of it; None
+            without any.
+        valid_is_right: whether the IRI with the road's shape in place of flagged points is within
+            `RIGHT_PERCENT` or `RIGHT_M_PER_KM` of the road's.
+        valid_error_percent: the magnitude of that error.
+    """
+
+    cross_correlation: float
+    iri_error_percent: float
+    within_two_sigma_percent: float | None
+    valid_is_right: bool
+    valid_error_percent: float
+
+
+@dataclass(frozen=True)
+class FamilyScores:
+    """One wheel path along the ``true`` distance and along the ``encoder``'s.
+
+    ``flagged_m`` and ``missing_m`` are the lengths of scored points that are not valid, and those
+    without elevation, in m. The road's shape stands in for points without elevation.
+    """
+
+    true: PathScores
+    encoder: PathScores
+    flagged_m: float
+    missing_m: float
+
+
+def family_scores(
+    scenario: Scenario, truth: Profile, encoder_m: FloatArray, profile: Profile
+) -> Mapping[str, FamilyScores]:
+    """Return the scores of every wheel path of ``truth``, the unfiltered road under the laser.
+
+    ``encoder_m`` is the distance by the encoder at the truth's points. Raises InputError for a
+    wheel path that is missing, or a drive without scored stretches.
+    """
+    stretches = layout_of(scenario).stretches
+    along_true = compare(truth, profile)
+    along_its = {c.track: c for c in compare(along_encoder(truth, encoder_m), profile)}
+    sigmas = {track.name: _sigma_on_grid(profile, track.sigma) for track in profile.tracks}
+    found = {}
+    for compared in along_true:
+        scored = _scored(compared, stretches)
+        found[compared.track] = FamilyScores(
+            _score(compared, stretches, sigmas[compared.track]),
+            _score(along_its[compared.track], stretches, sigmas[compared.track]),
+            compared.interval_m * float(np.sum(scored & ~compared.valid)),
+            compared.interval_m * float(np.sum(scored & np.isnan(compared.result))),
+        )
+    return found
+
+
+def _sigma_on_grid(profile: Profile, sigma: FloatArray | None) -> tuple[FloatArray, FloatArray]:
+    """Return the places in m of the points with a 1-sigma, and it; both empty without any."""
+    if sigma is None:
+        return np.empty(0), np.empty(0)
+    known = np.isfinite(sigma)
+    return profile.distance_m[known], sigma[known]
+
+
+def _scored(compared: Compared, stretches: tuple[tuple[float, float], ...]) -> BoolArray:
+    """Return which points lie in a stretch, shape (n,)."""
+    x = compared.distance_m
+    inside = [(x >= start) & (x <= end) for start, end in stretches]
+    return np.asarray(np.logical_or.reduce(inside))
+
+
+def _score(
+    compared: Compared,
+    stretches: tuple[tuple[float, float], ...],
+    sigma: tuple[FloatArray, FloatArray],
+) -> PathScores:
+    whole = compared.without(np.isnan(compared.result))
+    valid = compared.without(~compared.valid | np.isnan(compared.result))
+    pairs = [whole.whole(*ends) for ends in stretches]
+    rest = [valid.whole(*ends) for ends in stretches]
+    errors = [_error(pair) for pair in rest]
+    return PathScores(
+        min(1.0 - correlation(pair, compared.track, {}).value for pair in pairs),
+        max(_error(pair)[0] for pair in pairs),
+        _within_two_sigma(compared, _scored(compared, stretches), sigma),
+        all(percent <= RIGHT_PERCENT or off <= RIGHT_M_PER_KM for percent, off in errors),
+        max(percent for percent, _ in errors),
+    )
+
+
+def _error(pair: Pair) -> tuple[float, float]:
+    """Return the magnitude of the IRI's error, in percent of the road's and in m/km."""
+    measured = roughness_percent(pair, "", {})
+    percent = measured.value
+    return percent, percent / 100.0 * _road(pair)
+
+
+def _road(pair: Pair) -> float:
+    """Return the IRI of the true road, in m/km."""
+    return float(np.abs(iri_trace(pair.truth, pair.interval_m)[pair.counted]).mean())
+
+
+def _within_two_sigma(
+    compared: Compared, scored: BoolArray, sigma: tuple[FloatArray, FloatArray]
+) -> float | None:
+    places, values = sigma
+    if places.size == 0:
+        return None
+    at = np.interp(compared.distance_m, places, values)
+    counted = scored & np.isfinite(compared.result)
+    if not counted.any():
+        return None
+    error = np.abs(compared.result - compared.truth)[counted]
+    return 100.0 * float(np.mean(error <= 2.0 * at[counted]))
