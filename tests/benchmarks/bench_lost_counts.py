@@ -29,6 +29,8 @@ STOP = Scenario(
     tracks=("left",),
     imu=False,
     gnss=False,
+    slip_percent_per_g=0.3,
+    laser_ahead_m=0.0,
 )
 
 

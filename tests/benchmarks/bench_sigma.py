@@ -49,7 +49,8 @@ def compared(
 
 
 def row(run: str, seed: int, pipeline: str) -> list[str]:
-    simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True))
+    plain = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
+    simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True, **plain))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         profile = floatref.process(simulation.recording, pipeline)

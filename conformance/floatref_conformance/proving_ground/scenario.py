@@ -139,16 +139,16 @@ class Scenario:
         0.0, -50.0, 50.0, "scale error of the encoder beside the one that is drawn"
     )
     slip_percent_per_g: float = number(
-        2.5, 0.0, 100.0, "of the encoder's wheel, at a factor `sensors` of 1"
+        2.5, 0.0, 100.0, "of the encoder's wheel; fitted to Table 5.5; 3.3.1.3, 3.3.9: 3 to 12"
     )
     radius_percent: float = number(
         0.0,
         -5.0,
         5.0,
-        "growth of the rolling radius of that wheel from 16 to 97 km/h; calibrated at 72",
+        "growth of that wheel's radius from 16 to 97 km/h, up to 1 (3.3.1.1); calibrated at 72",
     )
     warming_percent: float = number(
-        0.0, -5.0, 5.0, "its growth as the tyre warms up during a long drive"
+        0.0, -5.0, 5.0, "its growth as the tyre warms up in a long drive (3.3.9: no figure)"
     )
     laser_ahead_m: float = number(0.105, -2.0, 2.0, "the laser ahead of the accelerometer")
     laser_line_mm: float = number(
@@ -256,6 +256,5 @@ def repeat_passes(scenario: Scenario, count: int) -> tuple[Scenario, ...]:
     The first is ``scenario``; the seeds of the others follow its own.
     """
     road = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
-    return tuple(
-        replace(scenario, seed=scenario.seed + pass_, road_seed=road) for pass_ in range(count)
-    )
+    seeds = range(scenario.seed, scenario.seed + count)
+    return tuple(replace(scenario, seed=seed, road_seed=road) for seed in seeds)

@@ -47,7 +47,7 @@ WINDOW_S = 0.25
 """Two such windows are compared: short enough to mark a brake where it begins, long enough that
 coarse encoder counts do not flicker."""
 SLOW_MPS = 4.4704
-"""10 mph, printed as 16 km/h, below which every suppression algorithm loses the profile (section 5.1)."""
+"""10 mph, printed as 16 km/h, below which every suppression algorithm loses the profile (5.1)."""
 STOPPING_TIME_S = 5.0
 """0.16 g, up to which braking rarely raised the roughness (section 3.3.1.3), takes so long to a
 standstill from 28 km/h; the brakes behind that figure were released at 24 and 32 km/h."""

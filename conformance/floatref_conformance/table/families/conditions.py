@@ -7,7 +7,7 @@ Figures of roads are the geometry of streets: crowns of 25 to 100 mm over 10 to 
 150 mm over 4 to 10 m, dips and gutters likewise below, grades that change by 1 to 6 % within 20 to
 60 m; joints and patches give the slope a kurtosis in the hundreds, as nine runs on a concrete
 motorway have it. Slip: 3 to 12 % per g (Karamihas 2021, 3.3.1.3, 3.3.9); rolling radius: up to 1 %
-over 16 to 97 km/h (3.3.1.2); laser: up to 0.3 m from its accelerometer, by default 0.105 m (4.2.1);
+over 16 to 97 km/h (3.3.1.1); laser: up to 0.3 m from its accelerometer, by default 0.105 m (4.2.1);
 its line 100 mm (4.3). Latency up to 3 ms, friction of 1000 to 2500 N·m about pitch, and progressive
 springs of 10 to 100 1/m² are ranges of ours.
 """

@@ -1,0 +1,86 @@
+"""The scores of a profile: along both distances, and whether what is valid is right."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from floatref.measures import high_pass
+from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.table.families.family_scores import family_scores
+
+STEADY = Scenario(length_m=600.0)
+INTERVAL = 0.05
+X = np.arange(round(600 / INTERVAL) + 1) * INTERVAL
+ENCODER = X * 1.0
+
+
+@pytest.fixture(scope="module")
+def truth():
+    walk = np.cumsum(np.random.default_rng(3).normal(0.0, 3e-4, X.size))
+    return Profile(INTERVAL, (ProfileTrack.of("left", walk),))
+
+
+def perfect(truth, change=lambda z: z, valid=None, sigma=None):
+    z = change(high_pass(truth.track("left").elevation, INTERVAL))
+    return replace(truth, tracks=(ProfileTrack.of("left", z, valid, sigma),))
+
+
+def scored(truth, profile, encoder_m=ENCODER):
+    return family_scores(STEADY, truth, encoder_m, profile)["left"]
+
+
+def test_the_road_itself_is_right_along_both_distances(truth):
+    found = scored(truth, perfect(truth, sigma=np.full(X.size, 1e-3)))
+    for axis in (found.true, found.encoder):
+        assert axis.cross_correlation == pytest.approx(1.0)
+        assert axis.iri_error_percent == pytest.approx(0.0, abs=1e-9)
+        assert axis.within_two_sigma_percent == 100.0
+        assert axis.valid_is_right
+    assert (found.flagged_m, found.missing_m) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("percent", "right"), [(4.0, True), (8.0, False)])
+def test_what_is_valid_is_wrong_by_5_percent(truth, percent, right):
+    found = scored(truth, perfect(truth, lambda z: (1 + percent / 100) * z))
+    assert found.true.valid_is_right is right
+    assert found.true.valid_error_percent == pytest.approx(percent, abs=0.2)
+
+
+def test_a_smooth_road_may_be_wrong_by_a_tenth_of_a_metre_per_km(truth):
+    smooth = replace(truth, tracks=(ProfileTrack.of("left", 0.02 * truth.track("left").elevation),))
+    assert scored(smooth, perfect(smooth, lambda z: 1.2 * z)).true.valid_is_right
+
+
+def test_what_is_flagged_does_not_count_as_valid_but_in_the_correlation(truth):
+    bad = (X > 260.0) & (X < 320.0)
+    wrong = perfect(truth, lambda z: np.where(bad, 4.0 * z, z), ~bad)
+    found = scored(truth, wrong)
+    assert found.true.valid_is_right
+    assert found.true.cross_correlation < 0.95
+    assert found.flagged_m == pytest.approx(60.0, abs=0.2)
+    told = scored(truth, perfect(truth, lambda z: np.where(bad, 4.0 * z, z)))
+    assert not told.true.valid_is_right
+
+
+def test_points_without_elevation_get_the_roads_shape_and_are_counted(truth):
+    bad = (X > 260.0) & (X < 290.0)
+    found = scored(truth, perfect(truth, lambda z: np.where(bad, np.nan, z)))
+    assert found.true.cross_correlation == pytest.approx(1.0)
+    assert found.missing_m == pytest.approx(30.0, abs=0.2)
+
+
+def test_an_axis_that_is_wrong_costs_along_the_true_distance_alone(truth):
+    encoder = X - 3.0 * np.clip((X - 250.0) / 100.0, 0.0, 1.0)
+    along = np.interp(X, encoder, truth.track("left").elevation)
+    profile = replace(truth, tracks=(ProfileTrack.of("left", high_pass(along, INTERVAL)),))
+    found = scored(truth, profile, encoder)
+    assert found.encoder.cross_correlation > 0.98
+    assert found.true.cross_correlation < 0.8
+
+
+def test_a_sigma_that_is_too_small_contains_little(truth):
+    off = perfect(truth, lambda z: z + 0.01, sigma=np.full(X.size, 1e-3))
+    assert scored(truth, off).true.within_two_sigma_percent < 1.0
+    assert scored(truth, perfect(truth)).true.within_two_sigma_percent is None
