@@ -1,5 +1,7 @@
 """The page of families: its columns are the code's, and its figures those of the command."""
 
+import importlib
+import json
 import re
 from pathlib import Path
 
@@ -10,6 +12,7 @@ from floatref_conformance.table.families.family_table import summarize
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "families.md").read_text(encoding="utf-8")
+DATA = json.loads((Path(__file__).parent / "data" / "families.json").read_text(encoding="utf-8"))
 HEAD = re.findall(r"^\| condition \|(.+)\|$", PAGE, re.M)
 PIPELINES = re.findall(r"`([\w-]+)`", HEAD[0])
 ROWS = {
@@ -35,6 +38,36 @@ def test_every_condition_has_a_row_and_every_pipeline_of_the_table_a_cell():
     assert f"on {len(CONDITIONS)} conditions" in PAGE
     assert (DOCS / "images" / "families.png").exists()
     assert "--drives 2" in PAGE
+
+
+def test_the_list_of_what_is_wrong_is_complete(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS.parent / ".ci"))
+    tool = importlib.import_module("families_wrong")
+    assert tool.fill(PAGE, DATA) == PAGE
+    counts = dict(re.findall(r"^\| `([\w-]+)` \| (\d+) \| \w+: ", PAGE, re.M))
+    assert counts == {name: str(len(found)) for name, found in DATA["wrong"].items()}
+
+
+def test_counts_tell_wrong_along_both_distances_from_the_true_one_alone(monkeypatch):
+    monkeypatch.syspath_prepend(str(DOCS.parent / ".ci"))
+    tool = importlib.import_module("families_wrong")
+    right, wrong = {"valid_is_right": True}, {"valid_is_right": False}
+    axes = [(wrong, wrong), (wrong, right), (wrong, wrong), (right, wrong), (right, right)]
+    paths = [
+        {
+            "pipeline": "one",
+            "family": "urban",
+            "condition": "stop",
+            "scores": {"true": true, "encoder": encoder},
+        }
+        for true, encoder in axes
+    ]
+    lost = {**paths[0], "pipeline": "two", "scores": None}
+    document = {"family": "all", "seed": 0, "drives": 2, "paths": [*paths, lost]}
+    data = tool.shorten(document)
+    assert data["wrong"] == {"one": {"urban: stop": 2}, "two": {}}
+    assert data["wrong_along_true_distance_alone"] == {"one": {"urban: stop": 1}, "two": {}}
+    assert "| `one` | urban: stop 2 |\n| `two` | – |" in tool.make_table(data)
 
 
 def single(names, pipelines, monkeypatch, **settings):

@@ -34,6 +34,11 @@ def test_the_farthest_drives_fit(corner):
     assert drive.duration_s > DWELL_S[1]
 
 
+def test_a_stop_has_the_slip_and_the_laser_of_the_figures_in_the_pages():
+    drawn = draw_stop(0, "minivan", STOP_ROADS[0], 0, NOMINAL)
+    assert (drawn.slip_percent_per_g, drawn.laser_ahead_m) == (0.3, 0.0)
+
+
 def test_numbers_are_drawn_all_over_their_ranges():
     drawn = [draw_stop(5, "trailer", STOP_ROADS[1], number, NOMINAL) for number in range(400)]
     for name, (low, high), middle in (

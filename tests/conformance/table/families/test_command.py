@@ -1,0 +1,80 @@
+"""`conformance table --family`: output, options and refusals in one line."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from floatref_conformance import table as table_package
+from floatref_conformance.cli.main import main
+from floatref_conformance.table.families import FamilySettings, family_table
+
+
+@pytest.fixture
+def call(monkeypatch, hand_families):
+    """Return a function that calls the command without any drive, and what it was to make."""
+    made = []
+
+    def quick(settings, watch):
+        made.append(settings)
+        watch("urban: stop 1")
+        return hand_families({}, settings.pipelines, settings.family)
+
+    monkeypatch.setattr(family_table, "make_family_table", quick)
+    monkeypatch.setattr(table_package, "make_table", lambda *_: made.append("runs"))
+    return (lambda *words: CliRunner().invoke(main, ["table", *map(str, words)])), made
+
+
+def test_json_is_all_there_is_on_stdout(call):
+    answer = call[0](*"--family urban --drives 1 --json --pipeline spatial-basic".split())
+    assert answer.exit_code == 0, answer.output
+    assert json.loads(answer.stdout)["format"] == "conformance-families/1"
+    assert answer.stderr.splitlines() == ["urban …"]
+
+
+def test_options_reach_the_settings(call):
+    command, made = call
+    words = "--family harsh --drives 5 --seed 7 --pipeline spatial-basic"
+    assert command(*words.split()).exit_code == 0
+    assert made == [FamilySettings("harsh", 7, 5, ("spatial-basic",))]
+
+
+@pytest.mark.slow
+def test_text_and_picture(call, tmp_path):
+    picture = tmp_path / "families.png"
+    answer = call[0]("--family", "rural", "--pipeline", "spatial-basic", "--plot", picture)
+    assert answer.exit_code == 0, answer.output
+    assert answer.stdout.splitlines()[0].strip() == "spatial-basic"
+    assert answer.stdout.splitlines()[-1] == (
+        "What is valid is right (5 % or 0.1 m/km) on every drive."
+    )
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--run", "const_16"), "--run: not together with --family; leave one of them out"),
+        (("--roads", "3"), "--roads: not together with --family; leave one of them out"),
+        (("--vehicle", "minivan"), "--vehicle: not together with --family; leave one of them out"),
+        (("--stops", "2"), "--stops: not together with --family; leave one of them out"),
+        (("--pipeline", "magic"), "pipeline magic: unknown; "),
+        (("--drives", "0"), "'--drives': 0 is not in the range x>=1"),
+        (("--family", "urben"), "'--family': 'urben' is not one of 'single', 'urban', 'rural'"),
+    ],
+)
+def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(call, words, message):
+    command, made = call
+    answer = command("--family", "urban", *words)
+    assert answer.exit_code == 2
+    assert message in answer.stderr.splitlines()[-1]
+    assert made == []
+
+
+def test_drives_without_a_family_are_refused(call):
+    command, made = call
+    for words in (("--drives", "2"), ("--stops", "1", "--drives", "2")):
+        answer = command(*words)
+        assert answer.exit_code == 2
+        assert "--drives: only with --family" in answer.stderr.splitlines()[-1]
+    assert made == []
