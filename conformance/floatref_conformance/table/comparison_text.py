@@ -6,7 +6,7 @@ from rich.table import Table
 
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import FITTED, SLIP_PERCENT_PER_G
+from floatref_conformance.table.passes import FITTED, SLIP_PERCENT_PER_G, slip_of
 from floatref_conformance.table.published import PublishedFigures, published_table
 from floatref_conformance.table.rank import RankCorrelation, rank_correlations
 
@@ -43,6 +43,8 @@ def closing_lines(table: ComparisonTable) -> list[str]:
     if fitted:
         lines.append(f"  without the cells marked *: {_rank_in_words(found['predicted'])}")
     lines.append(f"  its stops alone: {_rank_in_words(stops)}")
+    if any(slip_of(cell.pipeline) == 0.0 for cell in table.cells):
+        lines.append("Pipelines of chapter 6 read an optical encoder, which does not slip (6.5).")
     if fitted:
         lines.append(
             f"* The encoder's slip, {SLIP_PERCENT_PER_G:g} % per g, is fitted to these cells; "

@@ -13,7 +13,13 @@ from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.proving_ground.drives.runs import REFERENCE_RUN
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import Driven, Processing, draw_road, pass_scenario
+from floatref_conformance.table.passes import (
+    Driven,
+    Processing,
+    draw_road,
+    pass_scenario,
+    slip_of,
+)
 from floatref_conformance.table.published import published_figures
 from floatref_conformance.table.scores import Scores, score
 from floatref_conformance.table.table_settings import TableSettings
@@ -57,13 +63,13 @@ def _score_set(
     """Yield the scores of one set of passes; ``place`` is the number of its road and noise."""
     where = f"road {place[0] + 1}, noise {place[1] + 1}"
     watch(f"{where}: {REFERENCE_RUN}")
-    reference = _drive(settings, road, place, REFERENCE_RUN, (REFERENCE_PIPELINE,))
+    (reference,) = _drive(settings, road, place, REFERENCE_RUN, (REFERENCE_PIPELINE,))
     for run in settings.runs:
         watch(f"{where}: {run}")
-        driven = _drive(settings, road, place, run, settings.pipelines)
-        references = _references(reference, driven)
-        for pipeline, profile in driven.profiles.items():
-            yield pipeline, run, _scores(references, profile, pipeline, run)
+        for driven in _drive(settings, road, place, run, settings.pipelines):
+            references = _references(reference, driven)
+            for pipeline, profile in driven.profiles.items():
+                yield pipeline, run, _scores(references, profile, pipeline, run)
 
 
 def _drive(
@@ -72,11 +78,14 @@ def _drive(
     place: tuple[int, int],
     run: str,
     pipelines: tuple[str, ...],
-) -> Driven:
-    """Return one pass with the profile of every pipeline."""
-    processing = Processing(pipelines)
-    scenario = pass_scenario(run, settings.seed, place, settings.vehicle, processing.capabilities)
-    return processing.drive(scenario, f"run {run}", road)
+) -> Iterator[Driven]:
+    """Yield one pass with the profile of every pipeline, once for each encoder that they read."""
+    for slip in dict.fromkeys(map(slip_of, pipelines)):
+        processing = Processing([name for name in pipelines if slip_of(name) == slip])
+        scenario = pass_scenario(
+            run, settings.seed, place, settings.vehicle, processing.capabilities, slip
+        )
+        yield processing.drive(scenario, f"run {run}", road)
 
 
 def _references(reference: Driven, driven: Driven) -> tuple[Profile, Profile]:

@@ -23,19 +23,26 @@ from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 from floatref_conformance.proving_ground.staging import road_of
-from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM
+from floatref_conformance.table.published import (
+    REFERENCE_IRI_M_PER_KM,
+    chapter_of,
+    published_table,
+)
 
 ROADS = ("sayers-normal", "sayers-asphalt-long-waves", "measured")
 """The roads' kinds in turn; each is scaled to the IRI of the published reference pass."""
 
 
 SLIP_PERCENT_PER_G = 2.5
-"""Slip of the encoder's wheel in the published runs: the one number that is fitted to print, by the
-two cells `FITTED`. Print has 0.6 to 1.2 m lost from 72 km/h (3.3.1.3), and 0.8 m from 48 to 24 km/h
-(3.3.9), 3 to 12 % per g; the vehicle of chapter 5 is not one of theirs."""
+"""Slip of the encoder's wheel in chapter 5: the one number that is fitted to print, by the two
+cells `FITTED`. Other vehicles of print lose 0.6 to 1.2 m in a stop from 72 km/h (3.3.1.3: 3 to 6 %
+per g), and 0.8 m from 48 to 24 km/h (3.3.9: 12 % per g)."""
 FITTED = frozenset({("temporal-hpf", "brk_49-23_0.18g_b"), ("temporal-hpf", "brk_72-29_0.39g")})
 """The cells, pipeline and run, to which `SLIP_PERCENT_PER_G` is fitted (print: 0.963 and 0.848);
 others are predicted."""
+OPTICAL_CHAPTER = 6
+"""The chapter whose pipelines take the distance of an optical encoder (6.5), which does not slip;
+those of chapter 5, and all that print does not have, take that of the wheel's (5.2)."""
 LASER_AHEAD_M = 0.0
 """In print the middle of the line laser is on the axis of its accelerometer (4.2.1); the point
 laser, which the chapters with results do not use, is 0.105 m ahead."""
@@ -49,8 +56,20 @@ def draw_road(seed: int, index: int) -> Road:
     return road_of(scenario, RECORDING_LENGTH_M)
 
 
+def slip_of(pipeline: str) -> float:
+    """Return by how many percent per g the encoder slips that ``pipeline`` reads."""
+    number = published_table(pipeline)
+    optical = number is not None and chapter_of(number) == OPTICAL_CHAPTER
+    return 0.0 if optical else SLIP_PERCENT_PER_G
+
+
 def pass_scenario(
-    run: str, seed: int, place: tuple[int, int], vehicle: str, capabilities: frozenset[str]
+    run: str,
+    seed: int,
+    place: tuple[int, int],
+    vehicle: str,
+    capabilities: frozenset[str],
+    slip_percent_per_g: float = SLIP_PERCENT_PER_G,
 ) -> Scenario:
     """Return the scenario of a pass; its sensor errors are those of no other run or pass.
 
@@ -62,7 +81,7 @@ def pass_scenario(
         run,
         drawn,
         vehicle=vehicle,
-        slip_percent_per_g=SLIP_PERCENT_PER_G,
+        slip_percent_per_g=slip_percent_per_g,
         laser_ahead_m=LASER_AHEAD_M,
         **record_for(capabilities),
     )

@@ -36,7 +36,7 @@ class PublishedFigures:
     @property
     def chapter(self) -> int:
         """Number of the chapter that the table is in."""
-        return int(self.table.partition(".")[0])
+        return chapter_of(self.table)
 
 
 @cache
@@ -51,6 +51,11 @@ def published_table(pipeline: str) -> str | None:
     """Return the number of the table of ``pipeline``; None if nothing was published of it."""
     numbers = (f.table for (name, _), f in published_figures().items() if name == pipeline)
     return next(numbers, None)
+
+
+def chapter_of(table: str) -> int:
+    """Return the number of the chapter that a table is in: 6 of "6.2"."""
+    return int(table.partition(".")[0])
 
 
 def _figures(row: Mapping[str, str]) -> PublishedFigures:

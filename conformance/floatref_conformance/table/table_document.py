@@ -6,7 +6,7 @@ from typing import Any
 
 from floatref_conformance.schemas import enforce
 from floatref_conformance.table.cells import Cell, ComparisonTable
-from floatref_conformance.table.passes import FITTED, ROADS, SLIP_PERCENT_PER_G
+from floatref_conformance.table.passes import FITTED, ROADS, SLIP_PERCENT_PER_G, slip_of
 from floatref_conformance.table.published import REFERENCE_IRI_M_PER_KM, published_table
 from floatref_conformance.table.rank import rank_correlations
 
@@ -48,6 +48,7 @@ def _cell(cell: Cell) -> dict[str, Any]:
         named[name] = value if value is not None and isfinite(value) else None
         if name != BESIDE:
             named[f"published_{name}"] = published and getattr(published.scores, name)
+    named["slip_percent_per_g"] = slip_of(cell.pipeline)
     named["fitted"] = (cell.pipeline, cell.run) in FITTED
     bounded = published and published.cross_correlation_is_upper_bound
     return named | {"published_cross_correlation_is_upper_bound": bounded}

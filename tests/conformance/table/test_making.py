@@ -13,8 +13,16 @@ from floatref_conformance.errors import SuiteError
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.staging import road_of
 from floatref_conformance.table import TableSettings, make_table
-from floatref_conformance.table.making import _references
-from floatref_conformance.table.passes import Driven, Processing, draw_road, pass_scenario
+from floatref_conformance.table.making import _drive, _references
+from floatref_conformance.table.passes import (
+    FITTED,
+    SLIP_PERCENT_PER_G,
+    Driven,
+    Processing,
+    draw_road,
+    pass_scenario,
+)
+from floatref_conformance.table.published import published_figures
 from floatref_conformance.table.table_settings import offered_pipelines
 
 BRAKES = ("brk_72-29_0.39g", "brk_49-34_0.84g")
@@ -77,6 +85,24 @@ def test_no_two_passes_share_their_errors_nor_two_roads_their_shape():
     first, again, second = (draw_road(0, n).elevation["left"] for n in (0, 0, 1))
     assert np.array_equal(first, again)
     assert not np.allclose(first, second)
+
+
+@pytest.mark.cites("5.2", "6.5")
+def test_only_pipelines_of_chapter_6_read_an_encoder_that_does_not_slip(monkeypatch):
+    driven = []
+
+    def note(processing, scenario, name, road):
+        driven.append((scenario.slip_percent_per_g, tuple(processing._devices)))
+
+    monkeypatch.setattr(Processing, "drive", note)
+    settings = TableSettings(runs=BRAKES[:1])
+    list(_drive(settings, None, (0, 0), BRAKES[0], settings.pipelines))
+    chapters = {name: figures.chapter for (name, _), figures in published_figures().items()}
+    optical = [name for name in settings.pipelines if chapters.get(name) == 6]
+    wheel = [name for name in settings.pipelines if name not in optical]
+    assert len(optical) == 5
+    assert driven == [(SLIP_PERCENT_PER_G, tuple(wheel)), (0.0, tuple(optical))]
+    assert {pipeline for pipeline, _ in FITTED} <= set(wheel)
 
 
 def test_each_pipeline_gets_the_channels_that_it_declares(monkeypatch, fake_device):

@@ -21,9 +21,6 @@ DWELL_S = (0.5, 120.0)
 """Shortest and longest stop; drawn evenly in their logarithm."""
 FINAL_SPEED_KMH = (30.0, 72.0)
 """Slowest and fastest speed after the stop."""
-SLIP_PERCENT_PER_G, LASER_AHEAD_M = 0.3, 0.0
-"""An encoder that hardly slips, and a laser at its accelerometer: a drawn stop asks what a pipeline
-makes of the stop. Print's slip and lasers beside the accelerometer are drawn in `table.families`."""
 LENGTH_M = 550.0
 """True distance driven: a vehicle needs 214 m to set off to 72 km/h."""
 
@@ -105,7 +102,5 @@ def draw_stop(
         dwell_s=round(float(10 ** draw.uniform(log10(DWELL_S[0]), log10(DWELL_S[1]))), 2),
         final_speed_kmh=round(draw.uniform(*FINAL_SPEED_KMH), 1),
         length_m=LENGTH_M,
-        slip_percent_per_g=SLIP_PERCENT_PER_G,
-        laser_ahead_m=LASER_AHEAD_M,
         **record_for(capabilities),
     )

@@ -26,7 +26,9 @@ def call(monkeypatch, hand_families):
 
 
 def test_json_is_all_there_is_on_stdout(call):
-    answer = call[0](*"--family urban --drives 1 --json --pipeline spatial-basic".split())
+    answer = call[0](
+        *["--family", "urban", "--drives", "1", "--json", "--pipeline", "spatial-basic"]
+    )
     assert answer.exit_code == 0, answer.output
     assert json.loads(answer.stdout)["format"] == "conformance-families/1"
     assert answer.stderr.splitlines() == ["urban …"]

@@ -34,9 +34,9 @@ def test_the_farthest_drives_fit(corner):
     assert drive.duration_s > DWELL_S[1]
 
 
-def test_a_stop_has_the_slip_and_the_laser_of_the_figures_in_the_pages():
+def test_a_stop_has_the_slip_and_the_laser_that_scenarios_have_by_default():
     drawn = draw_stop(0, "minivan", STOP_ROADS[0], 0, NOMINAL)
-    assert (drawn.slip_percent_per_g, drawn.laser_ahead_m) == (0.3, 0.0)
+    assert (drawn.slip_percent_per_g, drawn.laser_ahead_m) == (2.5, 0.105)
 
 
 def test_numbers_are_drawn_all_over_their_ranges():
