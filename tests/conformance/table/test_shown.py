@@ -104,6 +104,7 @@ def test_the_document_holds_every_figure_with_its_unit(table):
         "cross_correlation_encoder": None,
         "published_cross_correlation": 0.2,
         "published_cross_correlation_is_upper_bound": True,
+        "slip_percent_per_g": 2.5,
         "fitted": False,
     }
     # The published error of 0.0 is a figure and not a missing one.

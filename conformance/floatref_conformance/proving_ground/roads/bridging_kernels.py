@@ -117,8 +117,9 @@ def _under(pieces: Pieces, count: int, level: float) -> tuple[float, float, floa
             below += share
             depth += share * (level - (low + high) / 2)
         elif level > low:
-            steep = share / (high - low)
-            below += steep * (level - low)
-            density += steep
-            depth += steep * (level - low) ** 2 / 2
+            # The share comes first: a relief of 1e-313 m has no finite density.
+            covered = share * ((level - low) / (high - low))
+            below += covered
+            density += share / (high - low)
+            depth += covered * (level - low) / 2
     return below, density, depth

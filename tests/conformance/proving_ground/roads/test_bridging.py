@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
@@ -84,6 +84,7 @@ def test_the_height_is_that_of_400_sorted_readings(width_m: float, wanders: bool
 
 
 @given(st.lists(st.floats(-0.05, 0.05), min_size=8, max_size=8), st.floats(-1.0, 1.0))
+@example([-2.2250738585e-313, *7 * [0.0]], 0.0)
 def test_raising_the_road_raises_the_height_and_it_lies_within(
     heights: list[float], lift: float
 ) -> None:
