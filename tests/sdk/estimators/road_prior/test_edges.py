@@ -1,12 +1,14 @@
 """A body heaves at a stop, its laser over an edge: the readings jump, the road stays."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.estimators.road_prior.forward import ROAD, _let_go
 from floatref.values.channels import ChannelId
 
 RATE = 500
@@ -47,3 +49,17 @@ def test_an_edge_under_the_laser_leaves_the_height_as_it_is(
 
     assert off(RoadPrior()) < 1.5e-3
     assert off(RoadPrior(edge_sigmas=1e6)) > 0.3 * depth
+
+
+class Edge(NamedTuple):
+    """What the model says of edges: squared deviation, and variance of a reading in m²."""
+
+    edge: float
+    reading: float
+
+
+@given(still_s=st.floats(0.0, 0.2))
+def test_a_vehicle_has_to_stand_for_a_twentieth_of_a_second(still_s):
+    covariance = np.zeros((8, 8))
+    _let_go.py_func(Edge(36.0, 1e-8), 0.02, still_s, covariance)
+    assert covariance[ROAD, ROAD] == (0.02**2 if still_s >= 0.05 else 0.0)

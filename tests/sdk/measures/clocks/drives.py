@@ -7,7 +7,9 @@ from floatref_conformance.proving_ground import Scenario, simulate
 
 
 @cache
-def driven(manoeuvre: str, vehicle: str, seed: int, stops: int = 1) -> Recording:
+def driven(
+    manoeuvre: str, vehicle: str, seed: int, stops: int = 1, laser_ahead_m: float = 0.0
+) -> Recording:
     return simulate(
         Scenario(
             seed=seed,
@@ -20,6 +22,7 @@ def driven(manoeuvre: str, vehicle: str, seed: int, stops: int = 1) -> Recording
             stops=stops,
             stop_spacing_m=120.0,
             length_m=200.0 + 120.0 * (stops - 1),
+            laser_ahead_m=laser_ahead_m,
             rate_hz=4000.0,
             tracks=("left",),
             imu=False,

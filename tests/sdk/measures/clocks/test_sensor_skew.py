@@ -67,6 +67,15 @@ def test_a_stop_says_how_well_it_knows(vehicle: str, seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("laser_ahead_m", [0.105, 0.3, -0.3])
+def test_a_laser_away_from_its_accelerometer_leaves_the_skew_open(laser_ahead_m: float) -> None:
+    """At a stop it sees the pitching too: the two sensors no longer move as one."""
+    found = sensor_skew(*parts(driven("stop", "pickup", 38, laser_ahead_m=laser_ahead_m)))
+    assert not found.known
+    assert np.isnan(found.skew_s)
+
+
+@pytest.mark.slow
 def test_several_stops_know_more_than_one() -> None:
     one = sensor_skew(*parts(driven("stop", "pickup", 38)))
     more = sensor_skew(*parts(driven("stop", "pickup", 38, stops=3)))
