@@ -16,6 +16,7 @@ from floatref_conformance.proving_ground import scenario_of_run, simulate
 from floatref_conformance.proving_ground.drives.runs import RUNS, SECTION_START_M
 from floatref_conformance.schemas import read_schema
 from floatref_conformance.table import TableSettings, make_table, published_figures
+from floatref_conformance.table.passes import LASER_AHEAD_M, SLIP_PERCENT_PER_G
 from floatref_conformance.table.scores import PEAK_M
 from floatref_reference.beyond.state_variable import (
     hpf_b3s1r_state_variable,
@@ -86,12 +87,40 @@ def test_quoted_cells_are_the_tables() -> None:
         ], (run, pipeline)
 
 
+def test_both_distances_of_every_run_are_the_tables() -> None:
+    (shown,) = re.findall(r"^<!-- both distances -->(.*?)^<!-- end", PAGE, re.M | re.S)
+    pipelines = re.findall(r"\| `([^`]+)`", shown.strip().splitlines()[0])
+    assert re.findall(r"^\| `([^`]+)` \| (.+) \|$", shown, re.M) == [
+        (
+            run,
+            " | ".join(
+                f"{cell['cross_correlation']:.3f}, {cell['cross_correlation_encoder']:.3f}"
+                for cell in (CELLS[run, name] for name in pipelines)
+            ),
+        )
+        for run in RUNS
+        if run != "ref_72"
+    ]
+
+
 def test_quoted_rank_correlations_are_the_tables() -> None:
     chapter, stops = (TABLE["rank_correlation"][name] for name in ("chapter_5", "stops"))
     assert f"reaches {chapter['rule']:.2f} over the {chapter['cells']} cells" in TEXT
     assert f"with its defaults, reaches {chapter['ours']:.3f}." in TEXT
     assert f"Among the {stops['cells']} cells of stops" in TEXT
     assert f"and ours is {stops['ours']:.3f}." in TEXT
+    predicted = TABLE["rank_correlation"]["predicted"]
+    assert f"over {predicted['cells']}, it is {predicted['ours']:.3f} as well." in TEXT
+
+
+def test_the_two_cells_that_slip_is_fitted_to_are_within_0_03_of_print() -> None:
+    """And without them the order of the others is predicted, by 0.90 at least."""
+    fitted = [cell for cell in TABLE["cells"] if cell["fitted"]]
+    assert len(fitted) == 2
+    for cell in fitted:
+        printed = cell["published_cross_correlation"]
+        assert cell["cross_correlation"] == pytest.approx(printed, abs=0.03)
+    assert TABLE["rank_correlation"]["predicted"]["ours"] >= 0.90
 
 
 @pytest.mark.parametrize("row", ROWS)
@@ -136,11 +165,12 @@ def test_the_decision_says_what_a_step_becomes(deceleration: float) -> None:
 
 
 def recorded(run: str, **changes: str) -> tuple[floatref.Recording, floatref.Recording]:
-    """A run on a flat road with perfect sensors: as driven, and with all sensors plumb."""
+    """The table's run on a flat road with perfect sensors: as driven, and with all plumb."""
     simulation = simulate(
         scenario_of_run(
             run, road="flat", sensors=0.0, imu=False, gnss=False,
-            tracks=("left",), rate_hz=4000.0, **changes,
+            tracks=("left",), rate_hz=4000.0, slip_percent_per_g=SLIP_PERCENT_PER_G,
+            laser_ahead_m=LASER_AHEAD_M, **changes,
         )
     )  # fmt: skip
     clock, track = simulation.motion.clock, simulation.motion.tracks["left"]
