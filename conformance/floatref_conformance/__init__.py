@@ -8,17 +8,15 @@ Units and axes are those of `floatref`: SI, ISO 8855, IRI in m/km.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from floatref_conformance.editions import EDITION as EDITION
+from floatref_conformance.editions import EDITIONS as EDITIONS
+
 if TYPE_CHECKING:
     from floatref_conformance.checks.interface import Check as Check
     from floatref_conformance.devices.interface import DeviceKind as DeviceKind
     from floatref_conformance.hookspecs import hookimpl as hookimpl
     from floatref_conformance.table import TableSettings as TableSettings
     from floatref_conformance.table import make_table as make_table
-
-EDITIONS = ("2026.1", "2026.2")
-"""The editions of the checks, the oldest first."""
-EDITION = EDITIONS[-1]
-"""The edition by default: it fixes the manoeuvres and the limits; the seed draws the rest."""
 
 # Imported on first use: a module that wants the edition alone loads no check.
 _PUBLIC = {

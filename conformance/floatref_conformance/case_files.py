@@ -8,9 +8,9 @@ from reprlib import repr as shortened
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION, EDITIONS
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.editions import EDITION, EDITIONS
 from floatref_conformance.proving_ground.scenario import Scenario
 
 FORMAT = "floatref-case/1"

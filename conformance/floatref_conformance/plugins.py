@@ -7,11 +7,12 @@ from typing import Any, TypeVar
 
 import pluggy
 
-from floatref_conformance import EDITION, hookspecs
+from floatref_conformance import hookspecs
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import NEEDS, DeviceEntry, DeviceKind
+from floatref_conformance.editions import EDITION
 from floatref_conformance.registry import Registry
 
 

@@ -29,6 +29,7 @@ ALLOWED: dict[str, dict[str, str]] = {
     "conformance/floatref_conformance/certify/worksheet/worksheet_document.py": {
         "said": "a key of the worksheet's JSON"
     },
+    "conformance/floatref_conformance/checks/case.py": {"none": "a value of a key"},
     "conformance/floatref_conformance/cli/certify.py": {"none:": "the value of an option"},
     "conformance/floatref_conformance/cli/certify_options.py": {"none": "the value of an option"},
     "conformance/floatref_conformance/proving_ground/scenario.py": {"none": "a value of a key"},

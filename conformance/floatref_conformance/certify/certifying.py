@@ -7,7 +7,6 @@ from pathlib import Path
 
 from floatref.errors import InputError
 from floatref.values.profile import Profile
-from floatref_conformance import EDITION
 from floatref_conformance.certify.judging.contents import (
     Criterion,
     SectionSheet,
@@ -31,6 +30,7 @@ from floatref_conformance.certify.plan.plan_document import (
 )
 from floatref_conformance.certify.plan.run_paths import names_of
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.editions import EDITION
 
 MEASURED_BY = ("floatref", "numpy", "scipy", "numba")
 """Distributions on whose versions the numbers depend."""

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from floatref.values.profile import Profile
-from floatref_conformance import EDITION
 from floatref_conformance.checks.evidence import Evidence
 from floatref_conformance.classes import DeviceClass, Limits, lowest
+from floatref_conformance.editions import EDITION
 from floatref_conformance.proving_ground.scenario import Scenario
 
 

@@ -2,7 +2,7 @@
 
 import click
 
-from floatref_conformance import EDITION, EDITIONS
+from floatref_conformance.editions import EDITION, EDITIONS
 
 edition_option = click.option(
     "--edition",

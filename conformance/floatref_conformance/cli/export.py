@@ -7,7 +7,6 @@ from pathlib import Path
 import click
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION
 from floatref_conformance.classes import Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import (
@@ -16,6 +15,7 @@ from floatref_conformance.devices.interface import (
     RESPONSE,
     Description,
 )
+from floatref_conformance.editions import EDITION
 from floatref_conformance.plugins import load_registry
 
 DESCRIPTION = "device.json"

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from floatref.errors import InputError
-from floatref_conformance import EDITION, EDITIONS
+from floatref_conformance.editions import EDITION, EDITIONS
 from floatref_conformance.editions.drawn import Drawn, Roads
 from floatref_conformance.proving_ground.scenario import Scenario
 
@@ -72,7 +72,7 @@ class Edition:
 
 
 def find_edition(name: str = EDITION) -> Edition:
-    """Return the edition called ``name``; InputError if there is none."""
+    """Return the edition called ``name``; InputError for an unknown name."""
     if name not in EDITIONS:
         raise InputError(f"edition {name}: unknown; choose from {', '.join(EDITIONS)}")
     return _read(name)

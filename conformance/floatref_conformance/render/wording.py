@@ -6,11 +6,11 @@ from math import isfinite, isnan
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from floatref_conformance import EDITION
 from floatref_conformance.case_files import FOLDER
 from floatref_conformance.checks.verdict import CheckResult, Measurement, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import RESPONSE
+from floatref_conformance.editions import EDITION
 
 FAILED = (Outcome.FAIL, Outcome.ERROR)
 WHERE = "this case alone, where the run was started"

@@ -6,11 +6,11 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache
 
-from floatref_conformance import EDITION
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.interface import Check, fit_check
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
+from floatref_conformance.editions import EDITION
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.bench import DeviceBench
@@ -26,7 +26,7 @@ from floatref_conformance.registry import Registry
 class Try:
     """A device by its SPEC, a check of an edition, a seed, and the class whose limits decide.
 
-    Without a class it is the one that the device claims, nominal if it claims none.
+    Without a class it is the one that the device claims, nominal if it claims no class.
     """
 
     spec: str

@@ -7,10 +7,10 @@ from typing import ClassVar
 
 import pytest
 
-from floatref_conformance import EDITION
 from floatref_conformance.checks.verdict import Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
+from floatref_conformance.editions import EDITION
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.events import Event
 from floatref_conformance.judge.runner import Plan, run

@@ -73,7 +73,7 @@ MISREADINGS = (
 """Mean of a vertical accelerometer, its tolerance, and the meaning."""
 
 SECOND_DISTANCES = ("wheel_distance", "optical_distance")
-"""Distances beside the encoder's; none may decrease either."""
+"""Distances beside the encoder's, which may not decrease either."""
 
 Examine = Callable[[Channel, float], tuple[str, ...]]
 """A function that examines a channel at a profile interval in m, as `examine_channel` does."""

@@ -66,7 +66,7 @@ class Draws:
         }
 
     def _shape(self) -> dict[str, float]:
-        """Return the numbers of a crown, a dip or a break of grade, or of none."""
+        """Return the numbers of a crown, a dip or a break of grade, or no numbers."""
         from hypothesis import strategies as st
 
         shapes = self.edition.document["shapes"]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 STEPS = (0.0, 0.5, 0.8, 0.92, 0.95, 0.98, 1.0)
 """Ends of the colours: 0.92 and 0.98 are those of AASHTO R 56-14."""
 COLOURS = "RdYlBu"
-"""Red to blue: told apart by people who do not tell red from green."""
+"""Red to blue: people who do not tell red from green tell these."""
 AXES = (("true", "Along the true distance"), ("encoder", "Along the encoder's distance"))
 
 
