@@ -68,7 +68,7 @@ def test_every_run_is_counted_in_any_pieces(x, over, data):
     lengths = [n for first, n, v in by_groups(x) if not abs(after[first + n] - v) <= over]
     expected = [sum(min(length, 7) == n for length in lengths) for n in range(8)]
     assert held.tolist() == expected
-    assert memory.longest == sum(length for length in lengths if length >= 7)
+    assert memory.in_long == sum(length for length in lengths if length >= 7)
     steps = np.abs(np.diff(x))
     steps = steps[steps > 0]
     assert memory.quantum == (steps.min() if steps.size else np.inf)
