@@ -109,7 +109,8 @@ def test_bounce_and_dive_alone_leave_what_the_page_says(script):
 
 def correlations(run):
     """Cross correlation with the road, as driven and level: cascade and observer of each."""
-    simulation = simulate(scenario_of_run(run, sensors=0.0, imu=False, gnss=False, rate_hz=4000.0))
+    perfect = {"sensors": 0.0, "slip_percent_per_g": 0.0, "laser_ahead_m": 0.0}
+    simulation = simulate(scenario_of_run(run, imu=False, gnss=False, rate_hz=4000.0, **perfect))
     interval_m, tracks = simulation.truth.interval_m, simulation.truth.tracks
     filtered = [
         floatref.ProfileTrack.of(x.name, high_pass(x.elevation, interval_m)) for x in tracks

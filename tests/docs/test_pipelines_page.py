@@ -37,7 +37,8 @@ def test_every_setting_of_every_pipeline_is_on_the_page_with_its_default() -> No
 
 @pytest.mark.slow
 def test_how_far_off_valid_elevation_is_in_the_picture_of_a_stop() -> None:
-    simulation = simulate(scenario_of_run("sg_10.7s_0.20g", imu=False, gnss=False))
+    place = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
+    simulation = simulate(scenario_of_run("sg_10.7s_0.20g", imu=False, gnss=False, **place))
     found = {}
     for name in ("temporal-basic", "temporal-adaptive-hpf-spatial-backward"):
         profile = floatref.process(simulation.recording, name)

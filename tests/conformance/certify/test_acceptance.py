@@ -64,6 +64,7 @@ def _drive(number: int, encoder_error_percent: float = 0.0) -> Taken:
         speed_kmh=SPEEDS_KMH[number],
         length_m=300.0,
         response=False,
+        laser_ahead_m=0.0,
         encoder_error_percent=encoder_error_percent,
     )
     made = simulate(scenario)

@@ -26,6 +26,8 @@ def driven(manoeuvre: str = "stop", dwell_s: float = 2.0, **numbers: float) -> S
         manoeuvre=manoeuvre,
         dwell_s=dwell_s,
         seed=7,
+        slip_percent_per_g=0.3,
+        laser_ahead_m=0.0,
         event_at_m=STOP_M,
         length_m=310.0,
         tracks=("left",),

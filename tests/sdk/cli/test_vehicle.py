@@ -28,6 +28,7 @@ STOP: dict[str, Any] = {
     "final_speed_kmh": 25.0,
     "vehicle": "soft-van",
     "iri_m_per_km": 1.0,
+    "laser_ahead_m": 0.0,
 }
 OURS = ("--pipeline", "road-prior-smoother")
 
