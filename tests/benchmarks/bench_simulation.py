@@ -7,6 +7,7 @@ same drive (a part of it), in the same process.
 import statistics
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +17,15 @@ from floatref_conformance.proving_ground.vehicles.parameter_sets import LOADED_V
 from floatref_conformance.proving_ground.vehicles.response import bilinear
 
 RUNS = ("ref_72", "sg_10.7s_0.20g", "brk_49-23_0.18g_a")
+OPTIONS: dict[str, dict[str, float | bool | str]] = {
+    "crown, joints and patches": {"crown_mm": 50.0, "joint_mm": 5.0, "patch_mm": 5.0},
+    "friction and progressive springs": {"friction_nm": 2000.0, "progression_per_m2": 50.0},
+    "wander on a surface": {"wander_m": 0.1, "wander_within_m": 0.02},
+    "line laser of 100 mm": {"laser_line_mm": 100.0},
+    "radius, warming, latency": {"radius_percent": 1.0, "warming_percent": 0.3, "latency_ms": 3.0},
+    "all encoders": {"encoder_per_side": True, "second_distance": "optical"},
+}
+"""What streets have, each on top of the first run; then all of them together."""
 RATE_HZ = 16000.0
 PEER_SAMPLES = 40_000
 
@@ -43,13 +53,18 @@ def main() -> None:
     """Print the medians, and their ratio to the peer."""
     peer_ns = seconds(plain_update) / PEER_SAMPLES * 1e9
     print(f"numpy, vehicle alone: {peer_ns:.0f} ns/sample")
-    for name in RUNS:
-        scenario = scenario_of_run(name)
+    drives = {f"{name}, two tracks, all channels": scenario_of_run(name) for name in RUNS}
+    together: dict[str, float | bool | str] = {}
+    for name, numbers in OPTIONS.items():
+        drives[f"the first with {name}"] = replace(scenario_of_run(RUNS[0]), **numbers)
+        together |= numbers
+    drives["the first with all of these"] = replace(scenario_of_run(RUNS[0]), **together)
+    for name, scenario in drives.items():
         count = simulate(scenario).motion.distance.size
         taken = seconds(lambda scenario=scenario: simulate(scenario))
         ns = taken / count * 1e9
         print(
-            f"{name}, two tracks, all channels: {ns:.0f} ns/sample, "
+            f"{name}: {ns:.0f} ns/sample, "
             f"{count / RATE_HZ / taken:.0f} x real time (aim 60), {ns / peer_ns:.2f} of the peer"
         )
 
