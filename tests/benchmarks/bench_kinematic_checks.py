@@ -46,6 +46,8 @@ DRIVES: Mapping[str, Mapping[str, object]] = {
     "slippery": {**STOP, "slip_percent_per_g": 10.0},
 }  # fmt: skip
 """Numbers of the scenarios."""
+PLAIN = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
+"""What all have that do not state other numbers."""
 DEGREES = 180.0 / np.pi
 RPQ = ("roll_rate", "pitch_rate", "yaw_rate")
 ANGLES = ("gnss_roll", "gnss_pitch")
@@ -158,7 +160,13 @@ def recordings(drive: str, seeds: int) -> Iterator[Recording]:
     """Yield what every vehicle records on a drive, once for each seed."""
     for vehicle in VEHICLES:
         for seed in range(seeds):
-            numbers = {**DRIVES[drive], "vehicle": vehicle, "seed": seed, "rate_hz": RATE_HZ}
+            numbers = {
+                **PLAIN,
+                **DRIVES[drive],
+                "vehicle": vehicle,
+                "seed": seed,
+                "rate_hz": RATE_HZ,
+            }
             yield simulate(Scenario.from_dict(numbers)).recording
 
 
