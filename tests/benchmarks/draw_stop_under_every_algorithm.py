@@ -14,6 +14,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from kind_drives import KIND
 
 import floatref
 from floatref.measures import high_pass
@@ -117,7 +118,7 @@ def main() -> None:
     parser.add_argument("--run", default="sg_10.7s_0.20g")
     given = parser.parse_args()
     processing = Processing(floatref.pipelines())
-    scenario = scenario_of_run(given.run, tracks=(TRACK,), imu=True, gnss=True)
+    scenario = scenario_of_run(given.run, tracks=(TRACK,), imu=True, gnss=True, **KIND)
     draw(given.run, processing.drive(scenario, given.run), given.path)
 
 
