@@ -36,7 +36,7 @@ LEGEND = (
     "black: the road; dotted: where the vehicle stands; bold: cross correlation with the road; "
     "in the panel: the range of what leaves it"
 )
-COLOURS = {"temporal": "C0", "spatial": "C2", "kalman": "C4", "road": "C3"}
+COLOURS = {"temporal": "C0", "spatial": "C2", "kalman": "C4", "road": "C3", "response": "C1"}
 """By the first word of a pipeline's name."""
 
 
