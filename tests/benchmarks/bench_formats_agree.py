@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from kind_drives import KIND
 
 from floatref import Profile, Recording, process, read_native
 from floatref.engine.formats import native_of, reader_of
@@ -79,7 +80,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--pipeline", default="temporal-basic")
     pipeline = parser.parse_args().pipeline
-    recording = nominal(simulate(scenario_of_run(RUN)).recording)
+    recording = nominal(simulate(scenario_of_run(RUN, **KIND)).recording)
     reference = process(recording, pipeline)
     moved = max(
         farthest(process(dithered(recording, seed), pipeline), reference) for seed in range(DITHERS)

@@ -22,6 +22,7 @@ os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")
 import kalman_peers as peers
 import numpy as np
 from kalman_task import TRACK, Prepared, Task
+from kind_drives import KIND
 from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
 from floatref.estimators.kalman import Noise, Plan
@@ -115,14 +116,14 @@ def report_peers(prepared: Prepared) -> None:
 
 def main(length_m: float) -> None:
     """Report on a drive at constant speed, and on one with a stop."""
-    constant = Scenario(speed_kmh=72.0, length_m=length_m, tracks=(TRACK,))
-    stop = scenario_of_run("sg_10.7s_0.20g", tracks=(TRACK,))
+    constant = Scenario(speed_kmh=72.0, length_m=length_m, tracks=(TRACK,), **KIND)
+    stop = scenario_of_run("sg_10.7s_0.20g", tracks=(TRACK,), **KIND)
     drives = {name: simulate(s).recording for name, s in (("72 km/h", constant), ("stop", stop))}
     with tempfile.TemporaryDirectory(prefix="floatref-kalman-") as folder:
         for name, recording in drives.items():
             report_stage(Path(folder), name, Prepared.of(recording))
     report_peers(Prepared.of(drives["72 km/h"]))
-    short = simulate(Scenario(length_m=100.0, tracks=(TRACK,))).recording
+    short = simulate(Scenario(length_m=100.0, tracks=(TRACK,), **KIND)).recording
     report_start(short, "kalman-smoother-reflection")
 
 

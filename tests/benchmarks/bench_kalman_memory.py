@@ -20,6 +20,7 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+from kind_drives import KIND
 from timing import RUN
 
 import floatref
@@ -56,6 +57,7 @@ def past_two_stops(pipeline: str) -> Scenario:
         length_m=FIRST_STOP_M + CYCLE_M + 300.0,
         imu=pipeline != NOMINAL,
         gnss=pipeline != NOMINAL,
+        **KIND,
     )
 
 

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+from kind_drives import KIND
 
 from floatref.errors import InputError
 from floatref.screening.gnss_height import gnss_faults
@@ -160,14 +161,8 @@ def recordings(drive: str, seeds: int) -> Iterator[Recording]:
     """Yield what every vehicle records on a drive, once for each seed."""
     for vehicle in VEHICLES:
         for seed in range(seeds):
-            numbers = {
-                **PLAIN,
-                **DRIVES[drive],
-                "vehicle": vehicle,
-                "seed": seed,
-                "rate_hz": RATE_HZ,
-            }
-            yield simulate(Scenario.from_dict(numbers)).recording
+            common = {**KIND, "vehicle": vehicle, "seed": seed, "rate_hz": RATE_HZ}
+            yield simulate(Scenario.from_dict({**common, **DRIVES[drive]})).recording
 
 
 def answer(recording: Recording, words: tuple[str, ...]) -> str:

@@ -10,6 +10,7 @@ from dataclasses import replace
 os.environ["OMP_NUM_THREADS"] = "1"
 
 import numpy as np
+from kind_drives import KIND
 
 import floatref
 from floatref.measures import high_pass
@@ -29,8 +30,7 @@ STOP = Scenario(
     tracks=("left",),
     imu=False,
     gnss=False,
-    slip_percent_per_g=0.3,
-    laser_ahead_m=0.0,
+    **KIND,
 )
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from kind_drives import KIND
 from rich.progress import track as shown
 from road_prior_measuring import compared, quietly, stretch
 from tables import show, write_page
@@ -63,6 +64,7 @@ def drive(speed_kmh: float, draw: int, known: bool = False) -> Simulation:
         gnss=False,
         rate_hz=4000.0,
         profile_interval_m=INTERVAL_M,
+        **KIND,
     )
     suite = suite_of(scenario)
     return simulate(scenario, suite=replace(suite, vehicle_error=0.0) if known else suite)
@@ -158,7 +160,8 @@ def lines_apart(draws: int) -> list[list[str]]:
     for name in VEHICLES:
         vehicle, found = find_vehicle(name), []
         for draw in range(draws):
-            scenario = Scenario(seed=draw, length_m=LENGTH_M, profile_interval_m=INTERVAL_M)
+            lengths = {"length_m": LENGTH_M, "profile_interval_m": INTERVAL_M}
+            scenario = Scenario(seed=draw, **lengths, **KIND)
             road = road_of(scenario, LENGTH_M)
             laser = setup_of(scenario, vehicle, road.lateral_m).tracks["left"].reference_point_m[1]
             found.append(_compared(road, laser, vehicle.front.half_track_m))

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 import road_prior_peers as peers
 from kalman_task import TRACK, Prepared
+from kind_drives import KIND
 from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
 import floatref
@@ -39,6 +40,7 @@ SHORT = Scenario(
     tracks=(TRACK,),
     imu=False,
     gnss=False,
+    **KIND,
 )
 """Its first four seconds are what the peers filter."""
 PARTS = {
@@ -108,7 +110,7 @@ def report_peers() -> None:
 
 def main(length_m: float) -> None:
     """Report on a drive at constant speed, and on one with a stop."""
-    nominal = {"tracks": (TRACK,), "imu": False, "gnss": False}
+    nominal = {"tracks": (TRACK,), "imu": False, "gnss": False, **KIND}
     constant = Scenario(speed_kmh=72.0, length_m=length_m, **nominal)
     stop = scenario_of_run("sg_10.7s_0.20g", **nominal)
     for name, scenario in (("72 km/h", constant), ("stop", stop)):

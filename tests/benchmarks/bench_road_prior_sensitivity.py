@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from road_prior_adversities import PLAIN, STOP, Adversity, stop
+from kind_drives import KIND
+from road_prior_adversities import STOP, Adversity, stop
 from road_prior_changes import crack, injured
 from road_prior_measuring import OURS, Found, compared, quietly, simulated
 from tables import show, write_page
@@ -87,7 +88,7 @@ class Row:
 def of_run(name: str) -> Adversity:
     place = RUNS[name].event_location_m
     assert place is not None
-    scenario = scenario_of_run(name, imu=False, gnss=False, **PLAIN)
+    scenario = scenario_of_run(name, imu=False, gnss=False, **KIND)
     return Adversity(name, "", scenario, SECTION_START_M + place)
 
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 os.environ["OMP_NUM_THREADS"] = "1"
 
 import numpy as np
+from kind_drives import KIND
 
 from floatref.measures.clocks.sensor_skew import (
     STANDS_M,
@@ -51,7 +52,7 @@ def later(channel: Channel, by_s: float) -> Channel:
 
 def run_row(name: str) -> str:
     """Return the row of a run: what is found, and the largest error of six shifts."""
-    only = {"tracks": ("left",), "imu": False, "gnss": False, **PLAIN}
+    only = {"tracks": ("left",), "imu": False, "gnss": False, **KIND}
     force, height, distance = parts(simulate_cached(Scenario(manoeuvre=name, **only)).recording)
     found = sensor_skew(force, height, distance)
     errors, warned = [], []
@@ -89,7 +90,7 @@ def drawn_stops() -> Iterator[tuple[str, Recording]]:
             tracks=("left",),
             imu=False,
             gnss=False,
-            **PLAIN,
+            **KIND,
         )
         yield vehicle, simulate(scenario).recording
 

@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Iterator
 
 import numpy as np
+from kind_drives import KIND
 from rich.console import Console
 from rich.table import Table
 
@@ -49,8 +50,7 @@ def compared(
 
 
 def row(run: str, seed: int, pipeline: str) -> list[str]:
-    plain = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
-    simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True, **plain))
+    simulation = simulate(scenario_of_run(run, seed, imu=True, gnss=True, **KIND))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         profile = floatref.process(simulation.recording, pipeline)

@@ -14,6 +14,7 @@ from typing import Any
 
 import matplotlib
 import numpy as np
+from kind_drives import KIND
 
 import floatref
 from floatref.measures import high_pass
@@ -35,7 +36,7 @@ LEGEND = (
     "black: the road; dotted: where the vehicle stands; bold: cross correlation with the road; "
     "in the panel: the range of what leaves it"
 )
-COLOURS = {"temporal": "C0", "spatial": "C2", "kalman": "C4", "road": "C3"}
+COLOURS = {"temporal": "C0", "spatial": "C2", "kalman": "C4", "road": "C3", "response": "C1"}
 """By the first word of a pipeline's name."""
 
 
@@ -117,9 +118,7 @@ def main() -> None:
     parser.add_argument("--run", default="sg_10.7s_0.20g")
     given = parser.parse_args()
     processing = Processing(floatref.pipelines())
-    # An encoder that hardly slips: the error shown is that of the elevation.
-    plain = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
-    scenario = scenario_of_run(given.run, tracks=(TRACK,), imu=True, gnss=True, **plain)
+    scenario = scenario_of_run(given.run, tracks=(TRACK,), imu=True, gnss=True, **KIND)
     draw(given.run, processing.drive(scenario, given.run), given.path)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from kind_drives import KIND
 from road_prior_changes import (
     STOP_M,
     Change,
@@ -20,11 +21,7 @@ from road_prior_changes import (
 from floatref_conformance.proving_ground.scenario import Scenario
 
 DWELL_S = 5.8
-PLAIN = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
-"""Slip and place of the laser of every case; `bench_streets.py` has others."""
-STOP = Scenario(
-    manoeuvre="stop", event_at_m=STOP_M, dwell_s=DWELL_S, imu=False, gnss=False, **PLAIN
-)
+STOP = Scenario(manoeuvre="stop", event_at_m=STOP_M, dwell_s=DWELL_S, imu=False, gnss=False, **KIND)
 CREEP_M = 300.0
 """Creeping half an hour is simulated on this length, and at `SLOW_RATE_HZ`."""
 SLOW_RATE_HZ = 2000.0
