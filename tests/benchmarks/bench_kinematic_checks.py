@@ -47,8 +47,6 @@ DRIVES: Mapping[str, Mapping[str, object]] = {
     "slippery": {**STOP, "slip_percent_per_g": 10.0},
 }  # fmt: skip
 """Numbers of the scenarios."""
-PLAIN = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
-"""What all have that do not state other numbers."""
 DEGREES = 180.0 / np.pi
 RPQ = ("roll_rate", "pitch_rate", "yaw_rate")
 ANGLES = ("gnss_roll", "gnss_pitch")

@@ -34,8 +34,6 @@ COUNT = round(WINDOW_S * RATE_HZ)
 HOLD_S = 0.5 / 3240.0
 SHIFTS_MS = (-3.0, -1.0, 0.0, 0.3, 1.0, 3.0)
 DRAWN = 40
-PLAIN = {"slip_percent_per_g": 0.3, "laser_ahead_m": 0.0}
-"""A laser elsewhere sees the pitching at a stop, and leaves the skew open."""
 
 
 def parts(recording: Recording) -> tuple[Channel, Channel, Channel]:
