@@ -29,9 +29,10 @@ def test_grade_and_curvature_are_the_derivatives_of_the_height(found):
     step = x[1] - x[0]
     rise = np.diff(alignment.height(x)) / step
     middle = (x[1:] + x[:-1]) / 2
-    np.testing.assert_allclose(rise, alignment.grade(middle), atol=1e-4)
+    # The curvature jumps at the ends of a feature, by up to 2π²·0.15/4² = 0.19 /m, and three may
+    # end at once: the grade in the middle of a step differs by up to an eighth of that step.
+    np.testing.assert_allclose(rise, alignment.grade(middle), atol=3 * 0.19 * step / 8 + 1e-6)
     bend = np.diff(alignment.grade(x)) / step
-    # The curvature itself jumps at the ends of a feature.
     apart = np.abs(bend - alignment.curvature(middle)) > 1e-3
     assert np.count_nonzero(apart) <= 2 * len(found)
 
