@@ -97,14 +97,19 @@ def _with_features(scenario: Scenario, road: Road, seed: int) -> Road:
 
 
 def alignment_of(scenario: Scenario) -> Alignment:
-    """Return the crown and the break of grade of the scenario's road."""
-    s = scenario
-    features: list[Feature] = []
+    """Return the crown and the break of grade of the scenario's road.
+
+    Raises InputError for one that begins behind the end of the drive.
+    """
+    s, features = scenario, dict[str, Feature]()
     if s.crown_mm:
-        features.append(Crown(s.crown_at_m, s.crown_length_m, s.crown_mm / 1000))
+        features["crown_at_m"] = Crown(s.crown_at_m, s.crown_length_m, s.crown_mm / 1000)
     if s.break_percent:
-        features.append(GradeBreak(s.break_at_m, s.break_length_m, s.break_percent / 100))
-    return Alignment(tuple(features))
+        features["break_at_m"] = GradeBreak(s.break_at_m, s.break_length_m, s.break_percent / 100)
+    for name, each in features.items():
+        if each.centre_m - each.length_m / 2 >= s.length_m:
+            raise InputError(f"{name} is {each.centre_m:g}; the drive ends at {s.length_m:g} m")
+    return Alignment(tuple(features.values()))
 
 
 def _with_distress(s: Scenario, road: Road, seed: int) -> Road:

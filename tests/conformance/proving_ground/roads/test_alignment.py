@@ -14,6 +14,7 @@ from floatref_conformance.proving_ground.roads.road import flat_road
 from floatref_conformance.proving_ground.roads.shaping import with_alignment
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.proving_ground.staging import alignment_of
 
 lengths = st.floats(4.0, 60.0)
 features = st.one_of(
@@ -83,3 +84,17 @@ def test_a_feature_without_length_is_refused(length):
     for made in (Crown, GradeBreak):
         with pytest.raises(InputError, match="must be above zero"):
             made(100.0, length, 0.01)
+
+
+@given(at_m=st.floats(0.0, 400.0), length_m=st.floats(4.0, 60.0), crown=st.booleans())
+def test_a_shape_behind_the_end_of_the_drive_is_refused(at_m, length_m, crown):
+    """A stop on a crown that is not there must not go unseen."""
+    name = "crown" if crown else "break"
+    size = {"crown_mm": 50.0} if crown else {"break_percent": 2.0}
+    place = {f"{name}_at_m": at_m, f"{name}_length_m": length_m}
+    scenario = Scenario(road="flat", length_m=200.0, **size, **place)
+    if at_m - length_m / 2 >= 200.0:
+        with pytest.raises(InputError, match=rf"^{name}_at_m is .*; the drive ends at 200 m$"):
+            alignment_of(scenario)
+    else:
+        assert alignment_of(scenario).features

@@ -89,7 +89,7 @@ def test_brake_and_launch_to_the_same_speed_cancel_and_the_error_is_about_the_st
 @given(
     slip=slips, growth=st.floats(0.0, 0.01), row=st.sampled_from([(72, 54, 0.037), (72, 49, 0.048)])
 )
-def test_a_coast_misplaces_features_by_at_most_2_m_and_the_two_effects_compete(slip, growth, row):
+def test_in_a_coast_slip_loses_its_integral_and_the_radius_gives_some_of_it_back(slip, growth, row):
     speed, final, g = row
     coast = Scenario(
         manoeuvre="coasting", speed_kmh=speed, final_speed_kmh=final, deceleration_g=g,
@@ -105,15 +105,19 @@ def test_a_coast_misplaces_features_by_at_most_2_m_and_the_two_effects_compete(s
     )
     assert both == pytest.approx(slipping + growing, abs=1e-6)
     assert slipping > 0.0 >= growing
-    assert abs(both) < 2.0
+    lost = slip * ((speed / 3.6) ** 2 - (final / 3.6) ** 2) / (2 * STANDARD_GRAVITY)
+    # One of the coasts takes 241 m: print's section ends before it.
+    assert slipping == pytest.approx(lost, rel=0.05, abs=1e-3)
+    assert both <= slipping
 
 
-def test_the_largest_slip_of_print_moves_the_end_of_a_coast_by_more_than_a_metre():
+def test_the_largest_slip_of_print_explains_1_35_m_of_the_2_that_a_coast_may_lose():
+    """Print's 235 m of 3.3.1.2; docs/scenario.md says that the rest is not there."""
     coast = Scenario(
         manoeuvre="coasting", speed_kmh=72.5, final_speed_kmh=49.0, deceleration_g=0.048,
         event_at_m=222.0, length_m=520.0,
     )  # fmt: skip
-    assert 1.0 < at_the_end(coast, slip_per_g=0.12) < 2.0
+    assert at_the_end(coast, slip_per_g=0.12) == pytest.approx(1.35, abs=0.03)
 
 
 @pytest.mark.parametrize(("kmh", "sign"), [(97.0, 1.0), (16.1, -1.0)])
