@@ -15,7 +15,6 @@ from floatref_conformance.proving_ground.drives.runs import KMH, RUNS, run_drive
 from floatref_conformance.proving_ground.roads.alignment import (
     Alignment,
     Crown,
-    Feature,
     GradeBreak,
 )
 from floatref_conformance.proving_ground.roads.distress import with_joints, with_patches
@@ -101,7 +100,7 @@ def alignment_of(scenario: Scenario) -> Alignment:
 
     Raises InputError for one that begins behind the end of the drive.
     """
-    s, features = scenario, dict[str, Feature]()
+    s, features = scenario, dict[str, Crown | GradeBreak]()
     if s.crown_mm:
         features["crown_at_m"] = Crown(s.crown_at_m, s.crown_length_m, s.crown_mm / 1000)
     if s.break_percent:
