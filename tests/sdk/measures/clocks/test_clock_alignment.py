@@ -65,7 +65,7 @@ def test_jitter_alone_is_seldom_taken_for_a_curve() -> None:
 
 @FEW
 @given(
-    seed=seeds, offset=offsets, drift=drifts, ahead=st.integers(0, 30), behind=st.integers(0, 30)
+    seed=seeds, offset=offsets, drift=drifts, ahead=st.integers(0, 40), behind=st.integers(0, 40)
 )
 def test_streams_begin_and_end_where_they_like(seed, offset, drift, ahead, behind) -> None:
     rng = np.random.default_rng(seed)
