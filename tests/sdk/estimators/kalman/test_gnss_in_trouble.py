@@ -4,45 +4,53 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
-from hypothesis import Phase, given, settings
+from hypothesis import Phase, example, given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.kalman import KalmanFilter, KalmanSmoother, Noise, Plan
 from floatref.measures import high_pass
+from floatref.values.channels import ChannelId
+from floatref_reference.chapter_6.section_6_3_6_system import h as measured
 
+SIGMA, REFERENCE = (ChannelId(n, "left") for n in ("elevation_sigma", "floating_reference_height"))
 RATE, SECONDS = 200, 30.0
-laws = settings(deadline=None, max_examples=3, phases=[Phase.generate])
+laws = settings(deadline=None, max_examples=3, phases=[Phase.explicit, Phase.generate])
 SEEDS = st.integers(0, 2**32 - 1)
 PLANS = st.sampled_from([Plan(), Plan(attitude=False)])
 STOP = (14.0, 16.0)
 
 
-def change(drive, disturbed, height_of, plan):
-    """Return what a disturbance changes in the reference height, over time and over distance."""
-    ours, expected = (height_of(KalmanSmoother(plan, Noise()), d) for d in (disturbed, drive))
+def over_distance(drive, samples):
+    """Return what belongs to every half metre."""
     place, first = np.unique(drive.distance, return_index=True)
-    even = np.arange(0.0, place[-1], 0.5)
-    moved = ours - expected
-    return moved, high_pass(np.interp(even, place, moved[first]), 0.5)
+    return np.interp(np.arange(0.0, place[-1], 0.5), place, samples[first])
 
 
-def assert_smooth(drive, disturbed, height_of, plan):
+def assert_smooth(drive, moved):
     """A centimetre a second, and three millimetres after the filter, are no step."""
-    moved, delivered = change(drive, disturbed, height_of, plan)
     assert np.abs(np.diff(moved)).max() * RATE < 0.01
-    assert np.abs(delivered).max() < 0.003
+    assert np.abs(high_pass(over_distance(drive, moved), 0.5)).max() < 0.003
+
+
+def wrong_by(drive, lost):
+    """Return by how many σ the constant height and velocity (6.65) are wrong in an outage."""
+    samples = range(drive.at[lost.start - 1] + RATE // 2, drive.at[lost.stop])
+    true = np.array([measured(drive.x[k], drive.u[k], drive.lever)[:2] for k in samples])
+    squares = (true - [true[0, 0], 0.0]) ** 2 / Noise().constants(1.0 / RATE)[:2]
+    return np.sqrt(squares.sum())
+
+
+OUTAGES = {
+    "seed": SEEDS,
+    "plan": PLANS,
+    "begin": st.integers(100, 400),
+    "lasts": st.integers(11, 100),
+}
 
 
 @laws
-@given(
-    seed=SEEDS,
-    plan=PLANS,
-    begin=st.integers(100, 400),
-    lasts=st.integers(11, 100),
-    rise=st.floats(-9.0, 9.0),
-    quality=st.sampled_from([0.0, 1.0, 5.0]),
-)
-def test_an_outage_and_another_datum_leave_no_step(
+@given(**OUTAGES, rise=st.floats(-9.0, 9.0), quality=st.sampled_from([0.0, 1.0, 5.0]))
+def test_readings_without_a_fix_and_another_datum_are_an_outage_and_no_more(
     drive, height_of, seed, plan, begin, lasts, rise, quality
 ):
     """For up to five seconds, at speed or about a stop; heights without a fix are metres off."""
@@ -51,7 +59,34 @@ def test_an_outage_and_another_datum_leave_no_step(
     lost = slice(begin, begin + lasts)
     disturbed.quality[lost], disturbed.y[lost] = quality, disturbed.y[lost] + 7.0
     disturbed.y[lost.stop :, 0] += rise
-    assert_smooth(drawn, disturbed, height_of, plan)
+    both = disturbed, drawn.without(lost)
+    ours, expected = (height_of(KalmanSmoother(plan, Noise()), d) for d in both)
+    np.testing.assert_allclose(ours, expected, rtol=0, atol=1e-6)
+
+
+@laws
+@given(**OUTAGES)
+@example(seed=6024, plan=Plan(attitude=False), begin=175, lasts=98)
+def test_an_outage_leaves_no_step(drive, through, seed, plan, begin, lasts):
+    """A micrometre between two samples is none, nor is what constants can do by being wrong.
+
+    The elevation is a sum of what is observed: g_i d_i for errors d_i of 1-σ s_i, and its own σ²
+    is the sum of (g_i s_i)² over all. So the constants, whose errors are the vehicle's true motion
+    in the outage, move it by no more than σ √(Σ (d_i / s_i)²) (Cauchy and Schwarz). What sensors
+    and receiver read wrong differs by 5 σ between the two at most. Attitude is as well known
+    before and behind as in the outage, or a constant in both, and has no part in it.
+    """
+    drawn = drive(seed, SECONDS, RATE, STOP)
+    lost = slice(begin, begin + lasts)
+    ours, expected = (
+        through(KalmanSmoother(plan, Noise()), d) for d in (drawn.without(lost), drawn)
+    )
+    moved = ours[REFERENCE] - expected[REFERENCE]
+    assert np.abs(np.diff(moved, 2)).max() < 1e-6
+    delivered = np.abs(high_pass(over_distance(drawn, moved), 0.5))
+    assert (delivered < over_distance(drawn, ours[SIGMA]) * (5.0 + wrong_by(drawn, lost))).all()
+    if plan.attitude:
+        assert_smooth(drawn, moved)
 
 
 @laws
@@ -61,7 +96,8 @@ def test_a_leap_of_the_height_leaves_no_step(drive, height_of, seed, plan, at, l
     drawn = drive(seed, SECONDS, RATE, STOP)
     disturbed = deepcopy(drawn)
     disturbed.y[at:, 0] += leap if up else -leap
-    assert_smooth(drawn, disturbed, height_of, plan)
+    ours, expected = (height_of(KalmanSmoother(plan, Noise()), d) for d in (disturbed, drawn))
+    assert_smooth(drawn, ours - expected)
 
 
 @pytest.mark.parametrize("stage", [KalmanFilter, KalmanSmoother])
