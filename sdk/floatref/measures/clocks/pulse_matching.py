@@ -11,18 +11,17 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.clocks.pulse_pattern import FASTEST_DRIFT, Fits, fit_pattern
 from floatref.values.arrays import FloatArray, IndexArray
 
-FASTEST_DRIFT = 3e-4
-"""Largest drift between two clocks, as a ratio; 200 ppm and a margin."""
 JITTER_SHARE, MOST_JITTER_S = 0.05, 0.02
 """Largest error of a pulse as a share of the usual interval, and in s."""
-ANCHORS, NEIGHBOURS = 12, 24
-"""Number of anchor pulses, and of neighbours on either side of each that have to fit."""
+ANCHORS = 12
+"""Number of anchor pulses; nearly twice as many if none of them fits."""
 GOOD = 0.6
 """Fit of a place relative to the best one, above which the two are ambiguous."""
-FEW, LEAST_FIT = 10, 0.2
-"""Least number of pulses, and least share of them that fit, for a fit that is not by chance."""
+FEW, CHANCE = 10, 1e-3
+"""Of this number of pulses on, a place is one that less than this share of strangers have."""
 LEAST_SHARE = 0.35
 """Least share of the pulses in the common time that are found in both trains."""
 IN_A_ROW = 12
@@ -31,8 +30,6 @@ UNSURE = 0.4
 """Largest distance of a shift from the stated one, as a share of a period."""
 FOLLOWED = 7
 """Pulses whose median predicts the next one."""
-HELD = 1 << 20
-"""Differences calculated together."""
 
 
 class Matching(NamedTuple):
@@ -76,7 +73,8 @@ def _interval(times: FloatArray) -> float:
 
 
 def _anchors(count: int) -> IndexArray:
-    return np.unique(np.linspace(0, count - 1, min(ANCHORS, count)).round().astype(np.int64))
+    most = min(2 * ANCHORS - 1, count)
+    return np.unique(np.linspace(0, count - 1, most).round().astype(np.int64))
 
 
 def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
@@ -84,39 +82,27 @@ def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
 
     Later ones would fit as well, at a shift that drift has changed.
     """
-    anchors = _anchors(own.size)
-    shares = [_fits(own, base, int(i), jitter) for i in anchors]
-    best = max(float(share.max()) for share, _ in shares)
-    most = max(float(share.max()) * count for share, count in shares)
-    around = max(count for _, count in shares)
-    if most < min(own.size, base.size, 2) - 0.5 or (around >= FEW and best < LEAST_FIT):
+    anchors, needed = _anchors(own.size), 0.0
+    if own.size >= FEW:
+        needed = float(np.log(2 * anchors.size * base.size / CHANCE))
+    found: dict[int, Fits] = {}
+    # Every second pulse is nearly always enough.
+    for part in (anchors[::2], anchors[1::2]):
+        found |= {int(i): fit_pattern(own, base, int(i), jitter) for i in part}
+        most = max(float(each.evidence.max()) for each in found.values())
+        if most > needed or min(own.size, base.size) == 1:
+            break
+    else:
         raise InputError(_nothing(own, base, "no pattern of intervals is the same in both"))
-    first = next(n for n, (share, _) in enumerate(shares) if share.max() >= GOOD * best)
+    best = max(float(each.share_beyond(needed).max()) for each in found.values())
+    first = min(i for i in found if found[i].share_beyond(needed).max() >= GOOD * best)
     mine, others = [], []
-    for i in range(int(anchors[first]), min(int(anchors[first]) + FOLLOWED, own.size)):
-        share, _ = _fits(own, base, i, jitter)
+    for i in range(first, min(first + FOLLOWED, own.size)):
+        share = fit_pattern(own, base, i, jitter).share_beyond(needed)
         there = np.flatnonzero(share >= GOOD * best)
         mine.append(np.full(there.size, i))
         others.append(there)
     return Matching(np.concatenate(mine), np.concatenate(others), ())
-
-
-def _fits(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -> tuple[FloatArray, int]:
-    """Return the share of pulses around ``anchor`` that fit if it is each pulse of ``base``.
-
-    Also return the number of pulses around it, itself included.
-    """
-    around = own[max(anchor - NEIGHBOURS, 0) : anchor + NEIGHBOURS + 1] - own[anchor]
-    allowed = jitter + FASTEST_DRIFT * np.abs(around)
-    fits = np.zeros(base.size)
-    step = max(1, HELD // around.size)
-    for first in range(0, base.size, step):
-        expected = base[first : first + step, None] + around
-        after = np.searchsorted(base, expected).clip(1, max(base.size - 1, 1))
-        off = np.abs(base[after.clip(max=base.size - 1)] - expected)
-        off = np.minimum(off, np.abs(base[after - 1] - expected))
-        fits[first : first + step] = (off <= allowed).sum(axis=1)
-    return fits / around.size, around.size
 
 
 def _nearest(

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
@@ -67,12 +67,26 @@ def test_jitter_alone_is_seldom_taken_for_a_curve() -> None:
 @given(
     seed=seeds, offset=offsets, drift=drifts, ahead=st.integers(0, 40), behind=st.integers(0, 40)
 )
+@example(seed=410, offset=0.0, drift=0.0, ahead=38, behind=38)
 def test_streams_begin_and_end_where_they_like(seed, offset, drift, ahead, behind) -> None:
+    """Five pulses in common are enough; without them a refusal is right as well.
+
+    The few that the longest pieces share are far from most times: the error there is that of the
+    drift, six of its own σ at most.
+    """
     rng = np.random.default_rng(seed)
     trains = Trains(rng, irregular(rng, 100), offset, drift, 1e-4)
-    found = align_by_pulses(trains.own[ahead:], trains.base[: trains.base.size - behind])
+    own, base = trains.own[ahead:], trains.base[: trains.base.size - behind]
+    try:
+        found = align_by_pulses(own, base)
+    except InputError:
+        again = (base - offset) / (1 + drift)
+        assert np.count_nonzero(np.abs(own[:, None] - again).min(axis=1) < 1e-3) < 5
+        return
+    error = found.to_base(trains.true_own) - (offset + (1 + drift) * trains.true_own)
+    away_s = np.abs(trains.true_own - np.mean(found.between_s))
     # What is taken for a curve goes on in its own direction beyond the pulses, with a warning.
-    assert found.warnings or off(found, trains.true_own, offset, drift) <= 1e-3
+    assert found.warnings or (np.abs(error) <= 1e-3 + 6 * found.drift_sigma * away_s).all()
 
 
 @pytest.mark.slow
