@@ -124,6 +124,8 @@ def test_the_first_edition_asks_for_slow_points_too():
 
 
 def test_slow_points_that_are_not_flagged_count():
+    measured = measure(wrong(8.0, 316.0, 500.0), scenario=ROLLS_ON)
+    assert failing(measured) == {WHOLE, VALID_PART, UNFLAGGED}
     for valid in (EVERYWHERE, flagged(400.0, 500.0)):
         measured = measure(wrong(8.0, 316.0, 400.0), valid, ROLLS_ON)
         assert failing(measured) == {WHOLE, VALID_PART, UNFLAGGED}

@@ -81,12 +81,12 @@ def test_the_near_stop_coasts_over_its_published_stretch() -> None:
 
 @pytest.mark.slow
 def test_constant_runs_keep_their_speed() -> None:
-    for name, kmh in [("const_16", 16), ("ref_72", 72)]:
-        speed = sampled(name)[1].speed * 3.6
-        assert np.ptp(speed) == 0.0
-        assert round(speed[0]) == kmh
-    # Print: local suppression, which begins below 10 mph, was not activated (5.6).
-    assert sampled("const_16")[1].speed.min() > V_ON
+    slow, fast = (sampled(name)[1].speed for name in ("const_16", "ref_72"))
+    assert np.ptp(slow) == np.ptp(fast) == 0.0
+    assert fast[0] * 3.6 == pytest.approx(72.0, rel=0.01)
+    # Print calls it 16 km/h, but local suppression, which begins below 10 mph (16.09 km/h), was not
+    # activated (5.6): it is what rounds to 16 and lies above, not 16 within 1 %.
+    assert V_ON < slow[0] < 16.5 / 3.6
     creep = sampled("const_5")[1].speed * 3.6
     assert creep.min() == pytest.approx(4.0)
     assert creep.max() == pytest.approx(5.0)
