@@ -17,8 +17,8 @@ from floatref import (
 )
 from floatref_adapters.views import recording_to_pandas, recording_to_xarray, to_pandas, to_xarray
 
-pytest.importorskip("pandas")
-pytest.importorskip("xarray")
+pytest.importorskip("pandas", reason="views are pandas frames; it comes with floatref[adapters]")
+pytest.importorskip("xarray", reason="views are xarray sets; it comes with floatref[adapters]")
 
 LEFT = ProfileTrack.of("left", [0.5, np.nan, 1.5], None, [0.1, 0.2, 0.3])
 RIGHT = ProfileTrack.of("right", [1.0, 2.0, 3.0], [True, False, True])

@@ -7,6 +7,7 @@ import can
 import numpy as np
 
 from floatref import Channel, Recording
+from floatref_adapters.testing.can_log import ANY_NODE
 
 STEPS = {
     "height": ("mm", 1e-3, 1e-6),
@@ -46,7 +47,7 @@ def database(recording: Recording) -> str:
         for place, channel in enumerate(channels):
             unit = STEPS[channel.id.name][0]
             spot = f"{32 * place}|32@1- ({quantum(channel):.0e},0) [0|0]"
-            lines.append(f' SG_ {signal(channel)} : {spot} "{unit}" Vector__XXX')
+            lines.append(f' SG_ {signal(channel)} : {spot} "{unit}" {ANY_NODE}')
     return "\n".join(lines) + "\n"
 
 

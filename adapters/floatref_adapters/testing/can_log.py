@@ -5,7 +5,9 @@ from collections.abc import Sequence
 WHEELS_ID = 0x4B0
 QUANTUM_KMH = 0.01
 WHEELS = ("FrontLeft", "FrontRight", "RearLeft", "RearRight")
-WHEELS_DBC = """VERSION ""
+ANY_NODE = "Vector__XXX"
+"""The name that the DBC format gives to a receiver that is none of the nodes listed in the file."""
+WHEELS_DBC = f"""VERSION ""
 
 NS_ :
 
@@ -14,18 +16,18 @@ BS_:
 BU_: Brakes
 
 BO_ 1200 WheelSpeeds: 8 Brakes
- SG_ FrontLeft : 0|16@1+ (0.01,0) [0|655.35] "km/h" Vector__XXX
- SG_ FrontRight : 16|16@1+ (0.01,0) [0|655.35] "km/h" Vector__XXX
- SG_ RearLeft : 39|16@0+ (0.01,0) [0|655.35] "km/h" Vector__XXX
- SG_ RearRight : 55|16@0+ (0.01,0) [0|655.35] "km/h" Vector__XXX
+ SG_ FrontLeft : 0|16@1+ (0.01,0) [0|655.35] "km/h" {ANY_NODE}
+ SG_ FrontRight : 16|16@1+ (0.01,0) [0|655.35] "km/h" {ANY_NODE}
+ SG_ RearLeft : 39|16@0+ (0.01,0) [0|655.35] "km/h" {ANY_NODE}
+ SG_ RearRight : 55|16@0+ (0.01,0) [0|655.35] "km/h" {ANY_NODE}
 
 BO_ 2566834709 Multiplexed: 4 Brakes
- SG_ Kind M : 0|8@1+ (1,0) [0|255] "" Vector__XXX
- SG_ Pressure m0 : 8|16@1- (0.5,-40) [0|0] "bar" Vector__XXX
- SG_ Temperature m1 : 8|16@1- (0.1,0) [0|0] "degC" Vector__XXX
+ SG_ Kind M : 0|8@1+ (1,0) [0|255] "" {ANY_NODE}
+ SG_ Pressure m0 : 8|16@1- (0.5,-40) [0|0] "bar" {ANY_NODE}
+ SG_ Temperature m1 : 8|16@1- (0.1,0) [0|0] "degC" {ANY_NODE}
 
 BO_ 1210 Fast: 16 Brakes
- SG_ Last : 120|8@1+ (1,0) [0|255] "" Vector__XXX
+ SG_ Last : 120|8@1+ (1,0) [0|255] "" {ANY_NODE}
 
 CM_ SG_ 1200 FrontLeft "of the front axle, left";
 """

@@ -58,6 +58,7 @@ class DeviceChecks:
         """Run one check and fail with its reason and the command that reproduces it."""
         registry = load_registry(self.edition)
         if self.checks and check not in self.checks:
+            # Every registered check is a test; the class attribute ``checks`` names those to run.
             pytest.skip("not selected")
         spec, device = self._resolve(registry)
         plan = Plan(
@@ -73,6 +74,7 @@ class DeviceChecks:
         result = run(plan, _ignore)
         (judged,) = result.checks
         if judged.outcome in (Outcome.SKIP, Outcome.NOT_APPLICABLE):
+            # The judge tells why: no sensors for it, no package for it, or the device declined.
             pytest.skip(judged.reason)
         if judged.outcome is not Outcome.PASS:
             again = self._reproduction(result, request.node)

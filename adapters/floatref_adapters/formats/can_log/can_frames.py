@@ -21,6 +21,8 @@ LONGEST = 64
 NEUTRAL = "no internal events logged\n"
 """A line that a reader may take for the end of a header; else it would take a frame."""
 RELATIVE = re.compile(r"\s*base\s+\w+\s+timestamps\s+relative", re.IGNORECASE)
+NOT_READ_BY_PYTHON_CAN = NotImplementedError
+"""What python-can raises at a version of a log that it does not read: a name of Python, no task."""
 TROUBLE: tuple[type[Exception], ...] = (
     ValueError,
     IndexError,
@@ -28,8 +30,8 @@ TROUBLE: tuple[type[Exception], ...] = (
     KeyError,
     AttributeError,
     ArithmeticError,
+    NOT_READ_BY_PYTHON_CAN,
 )
-TROUBLE += (NotImplementedError,)
 """What python-can raises at a line that it cannot read."""
 
 

@@ -12,8 +12,12 @@ from floatref import InputError, Profile, ProfileTrack
 from floatref_adapters.formats.arrow import parquet_profile
 from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
 
-pa = pytest.importorskip("pyarrow")
-pq = pytest.importorskip("pyarrow.parquet")
+pa = pytest.importorskip(
+    "pyarrow", reason="pyarrow writes Parquet; it comes with floatref[adapters]"
+)
+pq = pytest.importorskip(
+    "pyarrow.parquet", reason="pyarrow writes Parquet; it comes with floatref[adapters]"
+)
 
 NAMES = st.text(max_size=6) | st.sampled_from(["a.b", "a", "a_valid", "distance_m", "."])
 numbers = st.floats(allow_infinity=False, width=64)

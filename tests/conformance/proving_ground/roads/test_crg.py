@@ -13,7 +13,9 @@ from floatref_conformance.proving_ground.roads.crg import crg_road
 from floatref_conformance.proving_ground.roads.road import FULL_FROM_M
 from floatref_conformance.proving_ground.roads.wander import Line
 
-pycrg = pytest.importorskip("pycrg")
+pycrg = pytest.importorskip(
+    "pycrg", reason="pycrg writes the surfaces; it comes with floatref[conformance]"
+)
 
 STEP_M, ACROSS_M, HALF_M = 0.05, 0.02, 1.2
 SECTIONS = 801

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from floatref.engine import formats
 from floatref.errors import InputError
 from floatref.files import write_profile, write_profile_csv
 from floatref.values.arrays import FloatArray
@@ -39,7 +40,6 @@ def test_each_wheel_path_has_the_elevation_of_its_track_less_one_line(
     if suffix == ".csv":
         write_profile_csv(profile(**z), path)
     elif suffix == ".erd":
-        formats = pytest.importorskip("floatref.engine.formats")
         formats.write_as(formats.format_of(path), profile(**z), path)
     else:
         write_profile(profile(**z), path)

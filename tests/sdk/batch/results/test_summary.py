@@ -18,7 +18,9 @@ from floatref.batch.results import summary
 from floatref.batch.results.record import Record, Row
 from floatref.batch.results.summary import COLUMNS, CSV, PARQUET, write_summary
 
-parquet = pytest.importorskip("pyarrow.parquet")
+parquet = pytest.importorskip(
+    "pyarrow.parquet", reason="pyarrow writes Parquet; it comes with floatref[batch]"
+)
 
 number = st.floats(allow_infinity=False)
 words = st.text(st.characters(exclude_categories=["Cs"])) | st.sampled_from(
