@@ -17,29 +17,23 @@ OF_PUBLISHED_RUNS = ("runs", "roads", "seeds")
 """What makes no sense with drawn stops."""
 
 
+def _count_option(
+    name: str, default: int, text: str, least: int = 1
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Return the option ``name``, a whole number of ``least`` or more, whose help is ``text``."""
+    kind = click.IntRange(min=least)
+    return click.option(name, type=kind, default=default, show_default=True, help=text)
+
+
 @click.command()
 @click.option("--plot", type=click.Path(path_type=Path), help="Draw the table to FILE.png.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-@click.option(
-    "--roads",
-    type=click.IntRange(min=1),
-    default=TableSettings.roads,
-    show_default=True,
-    help="How many roads.",
+@_count_option("--roads", TableSettings.roads, "How many roads.")
+@_count_option(
+    "--seeds", TableSettings.seeds, "Sets of passes on each road, with other sensor errors."
 )
-@click.option(
-    "--seeds",
-    type=click.IntRange(min=1),
-    default=TableSettings.seeds,
-    show_default=True,
-    help="Sets of passes on each road, with other sensor errors.",
-)
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=TableSettings.seed,
-    show_default=True,
-    help="Draws the roads, all sensor errors, and drawn stops.",
+@_count_option(
+    "--seed", TableSettings.seed, "Draws the roads, all sensor errors, and drawn stops.", least=0
 )
 @click.option(
     "--vehicle",
@@ -58,25 +52,18 @@ OF_PUBLISHED_RUNS = ("runs", "roads", "seeds")
     multiple=True,
     help="This one alone; may be repeated.",
 )
-@click.option(
+@_count_option(
     "--stops",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    help="Drawn stops of each vehicle on each of three roads in place of the runs; 0: the runs.",
+    0,
+    "Drawn stops of each vehicle on each of three roads in place of the runs; 0: the runs.",
+    least=0,
 )
 @click.option(
     "--family",
     type=click.Choice((*FAMILIES, ALL)),
     help="Drawn drives of this family of roads, vehicles and sensors in place of the runs.",
 )
-@click.option(
-    "--drives",
-    type=click.IntRange(min=1),
-    default=FamilySettings.drives,
-    show_default=True,
-    help="With --family: drives of each condition.",
-)
+@_count_option("--drives", FamilySettings.drives, "With --family: drives of each condition.")
 def table(
     plot: Path | None,
     as_json: bool,
@@ -164,7 +151,7 @@ def _show_drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Pa
     """Make and show the table of drawn stops."""
     from floatref_conformance.table.making import PassProgress
     from floatref_conformance.table.stops import StopSettings, make_stop_table
-    from floatref_conformance.table.stops.stop_table import stop_document
+    from floatref_conformance.table.stops.stop_document import stop_document
     from floatref_conformance.table.stops.stops_picture import draw_stops
     from floatref_conformance.table.stops.stops_text import print_stops
 

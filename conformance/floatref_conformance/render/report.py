@@ -2,15 +2,14 @@
 
 import json
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from floatref_conformance.checks.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import Event, RunFinished
+from floatref_conformance.render.json_values import finite
 from floatref_conformance.render.wording import margin
 from floatref_conformance.schemas import enforce
 
@@ -44,14 +43,14 @@ def as_json(result: RunResult) -> dict[str, Any]:
     return {
         "format": "conformance-report/1",
         "edition": result.edition,
-        "device": _plain(result.device),
+        "device": finite(result.device),
         "class": result.device_class.value,
         "class_reached": _name(result.class_reached),
         "seed": result.seed,
         "effort": result.effort,
         "verdict": result.verdict.value,
         "checks": [_check(check, result.device_class) for check in result.checks],
-        "replayed": [_plain(replayed) for replayed in result.replayed],
+        "replayed": [finite(replayed) for replayed in result.replayed],
     }
 
 
@@ -80,14 +79,14 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
         "clause": check.clause,
         "flagged_m": check.flagged_m,
         **early,
-        "counterexample": _plain(check.counterexample),
+        "counterexample": finite(check.counterexample),
     }
 
 
 def _worst(worst: Measurement, case: str, device_class: DeviceClass) -> dict[str, Any]:
     """Return the worst value; its limit is null in a class that does not limit it."""
     return {
-        "value": _plain(worst.value),
+        "value": finite(worst.value),
         "limit": worst.limits.get(device_class),
         "unit": worst.unit,
         "quantity": worst.quantity,
@@ -99,13 +98,3 @@ def _worst(worst: Measurement, case: str, device_class: DeviceClass) -> dict[str
 
 def _name(device_class: DeviceClass | None) -> str | None:
     return None if device_class is None else device_class.value
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, float) and not isfinite(value):
-        return None
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    return value

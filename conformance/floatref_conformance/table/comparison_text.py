@@ -1,6 +1,5 @@
 """The published tables beside ours, in the terminal."""
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
@@ -9,10 +8,9 @@ from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import FITTED, SLIP_PERCENT_PER_G, slip_of
 from floatref_conformance.table.published import PublishedFigures, published_table
 from floatref_conformance.table.rank import RankCorrelation, rank_correlations
+from floatref_conformance.table.text_blocks import begin_block
 
 FIGURES = ("peak,\nm/km", "IRI\nerror, %", "cross\ncorr.")
-CELL_PADDING = (0, 1, 0, 0)
-"""One space behind a column, so that the default table fits 80 columns."""
 
 
 def print_comparison(table: ComparisonTable, console: Console) -> None:
@@ -56,15 +54,7 @@ def closing_lines(table: ComparisonTable) -> list[str]:
 def _block(pipeline: str, cells: tuple[Cell, ...]) -> Table:
     number = published_table(pipeline)
     source = "not published" if number is None else f"Table {number}"
-    block = Table(
-        title=f"{pipeline} ({source})",
-        title_justify="left",
-        title_style="bold",
-        box=SIMPLE_HEAD,
-        padding=CELL_PADDING,
-        pad_edge=False,
-        show_edge=False,
-    )
+    block = begin_block(f"{pipeline} ({source})", show_edge=False)
     block.add_column("run", no_wrap=True)
     for figure in FIGURES:
         block.add_column(figure, justify="right", no_wrap=True)

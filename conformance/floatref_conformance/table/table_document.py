@@ -1,9 +1,9 @@
 """The table as one JSON object, ``conformance-table/1``."""
 
 from dataclasses import asdict
-from math import isfinite
 from typing import Any
 
+from floatref_conformance.render.json_values import finite
 from floatref_conformance.schemas import enforce
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import FITTED, ROADS, SLIP_PERCENT_PER_G, slip_of
@@ -44,8 +44,8 @@ def _cell(cell: Cell) -> dict[str, Any]:
         "run": cell.run,
         "passes": len(cell.passes),
     }
-    for name, value in asdict(cell.mean).items():
-        named[name] = value if value is not None and isfinite(value) else None
+    for name, value in finite(asdict(cell.mean)).items():
+        named[name] = value
         if name != BESIDE:
             named[f"published_{name}"] = published and getattr(published.scores, name)
     named["slip_percent_per_g"] = slip_of(cell.pipeline)

@@ -1,41 +1,28 @@
 """`conformance table`: output, options and refusals in one line."""
 
-import json
-
 import pytest
-from click.testing import CliRunner
-from jsonschema import Draft202012Validator
 
 from floatref.errors import InputError
 from floatref_conformance import table as table_package
-from floatref_conformance.cli.main import main
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.schemas import read_schema
 from floatref_conformance.table import Scores, TableSettings, comparison_picture
 
 
 @pytest.fixture
-def call(monkeypatch, hand_table):
-    """Return a function that calls the command; every cell it makes is the same."""
-    made = []
+def call(command_making, hand_table):
+    """Return a function that calls the command, every cell the same, and what it was to make."""
 
-    def quick(settings, watch):
-        made.append(settings)
-        watch("road 1, noise 1: ref_72")
+    def make(settings):
         keys = [(p, r) for p in settings.pipelines for r in settings.runs]
         return hand_table(dict.fromkeys(keys, Scores(3.0, 5.0, 0.9)), settings)
 
-    monkeypatch.setattr(table_package, "make_table", quick)
-    return (lambda *words: CliRunner().invoke(main, ["table", *map(str, words)])), made
+    return command_making(table_package, "make_table", make, "road 1, noise 1: ref_72")
 
 
-def test_json_is_all_there_is_on_stdout(call):
+def test_json_is_all_there_is_on_stdout(call, assert_json):
     answer = call[0]("--json", "--run", "const_16", "--pipeline", "spatial-basic")
-    assert answer.exit_code == 0, answer.output
-    made = json.loads(answer.stdout)
-    Draft202012Validator(read_schema("conformance-table-1")).validate(made)
+    made = assert_json(answer, "conformance-table/1", "road 1, noise 1")
     assert [(c["pipeline"], c["run"]) for c in made["cells"]] == [("spatial-basic", "const_16")]
-    assert answer.stderr.splitlines() == ["road 1, noise 1 …"]
 
 
 def test_the_terminal_gets_a_block_for_each_pipeline(call):
@@ -94,14 +81,10 @@ def test_an_interrupted_table_does_not_speak_of_a_verdict(call, monkeypatch):
         (("--roads", "0"), "'--roads': 0 is not in the range x>=1"),
     ],
 )
-def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(call, words, said):
-    command, made = call
-    answer = command(*words)
-    assert answer.exit_code == 2
-    assert said in answer.stderr.splitlines()[-1]
-    assert sum(line.startswith("Error") for line in answer.stderr.splitlines()) == 1
-    assert "Traceback" not in answer.output
-    assert made == []
+def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(
+    call, assert_refused, words, said
+):
+    assert_refused(call, words, said)
 
 
 def test_a_fault_of_the_suite_is_exit_3_and_leaves_no_picture(call, monkeypatch, tmp_path):

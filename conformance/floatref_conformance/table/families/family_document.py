@@ -1,9 +1,9 @@
 """A table of families as one JSON object, ``conformance-families/1``."""
 
 from dataclasses import asdict
-from math import isfinite
 from typing import Any
 
+from floatref_conformance.render.json_values import finite
 from floatref_conformance.schemas import enforce
 from floatref_conformance.table.families.family_table import (
     FamilyPath,
@@ -28,7 +28,7 @@ def family_document(table: FamilyTable) -> dict[str, Any]:
                 "pipeline": pipeline,
                 "family": condition.family,
                 "condition": condition.name,
-                **_finite(asdict(summarize(table.of(pipeline, condition)))),
+                **finite(asdict(summarize(table.of(pipeline, condition)))),
             }
             for pipeline in settings.pipelines
             for condition in settings.conditions
@@ -56,15 +56,4 @@ def _place(path: FamilyPath) -> dict[str, Any]:
 
 
 def _scores(path: FamilyPath) -> dict[str, Any] | None:
-    return None if path.scores is None else _finite(asdict(path.scores))
-
-
-def _finite(figures: dict[str, Any]) -> dict[str, Any]:
-    """Return ``figures`` with null in place of a number that JSON does not have."""
-    return {name: _plain(value) for name, value in figures.items()}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return _finite(value)
-    return None if isinstance(value, float) and not isfinite(value) else value
+    return None if path.scores is None else finite(asdict(path.scores))

@@ -1,13 +1,8 @@
 """Families in the terminal: a block for each pipeline, then where what is valid is wrong."""
 
-import json
-from dataclasses import fields
-
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.table.families.conditions import FAMILIES
 from floatref_conformance.table.families.family_table import (
@@ -17,6 +12,7 @@ from floatref_conformance.table.families.family_table import (
     error_of_valid,
     summarize,
 )
+from floatref_conformance.table.text_blocks import begin_block, describe_drive
 
 FIGURES = ("median", "10 %", "lowest", "IRI 90 %", "right %")
 WIDTH = 132
@@ -51,25 +47,13 @@ def closing_lines(table: FamilyTable) -> list[str]:
 
 
 def _describe_wrong(path: FamilyPath) -> str:
-    numbers = {
-        field.name: getattr(path.scenario, field.name)
-        for field in fields(Scenario)
-        if getattr(path.scenario, field.name) != field.default
-    }
     where = f"{path.condition.family}, {path.condition.name}"
     error = error_of_valid(path) or 0.0
-    return f"{path.pipeline}: {where}: {path.track}, {error:.1f} %: {json.dumps(numbers)}"
+    return f"{path.pipeline}: {where}: {path.track}, {error:.1f} %: {describe_drive(path.scenario)}"
 
 
 def _block(table: FamilyTable, pipeline: str) -> Table:
-    block = Table(
-        title=pipeline,
-        title_justify="left",
-        title_style="bold",
-        box=SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-    )
+    block = begin_block(pipeline)
     block.add_column("condition", no_wrap=True)
     for axis in ("true", "enc."):
         for figure in FIGURES:

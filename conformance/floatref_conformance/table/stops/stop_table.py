@@ -1,21 +1,17 @@
-"""The table of drawn stops: made, summed up, and as JSON, ``conformance-stops/1``."""
+"""The table of drawn stops: made and summed up."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
-from itertools import groupby
-from math import isfinite
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.proving_ground.scenario import Scenario
-from floatref_conformance.schemas import enforce
 from floatref_conformance.table.making import Watch
 from floatref_conformance.table.passes import Processing
-from floatref_conformance.table.stops.stop_scores import STRETCH_M, StopScores, stop_scores
-from floatref_conformance.table.stops.stop_settings import STOP_ROADS, StopSettings
+from floatref_conformance.table.stops.stop_scores import StopScores, stop_scores
+from floatref_conformance.table.stops.stop_settings import StopSettings
 
 
 @dataclass(frozen=True)
@@ -128,70 +124,6 @@ def _ends(values: Sequence[float | None]) -> Ends | None:
     if not known:
         return None
     return Ends(min(known), float(np.median(known)), max(known))
-
-
-FORMAT = "conformance-stops/1"
-
-
-def stop_document(table: StopTable) -> dict[str, Any]:
-    """Return the JSON object of ``table``; SuiteError if it breaks its own schema."""
-    settings = table.settings
-    made = {
-        "format": FORMAT,
-        "seed": settings.seed,
-        "stops": settings.stops,
-        "vehicles": list(settings.vehicles),
-        "roads": [asdict(road) for road in STOP_ROADS],
-        "stretch_m": list(STRETCH_M),
-        "pipelines": [_pipeline(table, name) for name in settings.pipelines],
-        "passes": list(_passes(table)),
-    }
-    enforce("conformance-stops-1", made)
-    return made
-
-
-def _pipeline(table: StopTable, name: str) -> dict[str, Any]:
-    """Return the summaries of one pipeline, and where its lowest cross correlation is."""
-    lowest = table.lowest(name)
-    return {
-        "pipeline": name,
-        "all": _finite(asdict(summary(table.of(name)))),
-        "vehicles": {
-            vehicle: _finite(asdict(summary(table.of(name, vehicle=vehicle))))
-            for vehicle in table.settings.vehicles
-        },
-        "roads": {
-            road.name: _finite(asdict(summary(table.of(name, road=road.kind))))
-            for road in STOP_ROADS
-        },
-        "lowest": {"track": lowest.track, "scenario": lowest.scenario.to_dict()},
-    }
-
-
-def _passes(table: StopTable) -> Iterator[dict[str, Any]]:
-    """Yield every drive with the scores of each wheel path through each pipeline."""
-    for _, group in groupby(table.paths, key=lambda path: path.scenario.seed):
-        paths = tuple(group)
-        yield {
-            "scenario": paths[0].scenario.to_dict(),
-            "wheel_paths": [_wheel_path(path) for path in paths],
-        }
-
-
-def _wheel_path(path: WheelPath) -> dict[str, Any]:
-    return {
-        "pipeline": path.pipeline,
-        "track": path.track,
-        **_finite(asdict(path.scores)),
-    }
-
-
-def _finite(figures: dict[str, Any]) -> dict[str, Any]:
-    """Return ``figures`` with null in place of a number that JSON does not have."""
-    return {
-        name: None if isinstance(value, float) and not isfinite(value) else value
-        for name, value in figures.items()
-    }
 
 
 def make_stop_table(settings: StopSettings | None = None, watch: Watch | None = None) -> StopTable:

@@ -1,18 +1,15 @@
 """Drawn stops in the terminal: one block for each pipeline, then all of them in one."""
 
-import json
 from collections.abc import Iterator
-from dataclasses import fields
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.table.stops.stop_scores import STRETCH_M
 from floatref_conformance.table.stops.stop_settings import STOP_ROADS
 from floatref_conformance.table.stops.stop_table import StopSummary, StopTable, summary
+from floatref_conformance.table.text_blocks import begin_block, describe_drive
 
 SCORES = ("cross\ncorr.\nmedian", "1st\nperc.", "lowest", "IRI\nerror, %\nmedian", "largest")
 SHARES = ("% in\n2 sigma\nlowest", "median", "highest")
@@ -65,12 +62,7 @@ def _beside(found: StopSummary) -> list[str]:
 def lowest_line(table: StopTable, pipeline: str) -> str:
     """Return the scenario file of the lowest cross correlation, without what is usual in it."""
     lowest = table.lowest(pipeline)
-    text = {
-        field.name: getattr(lowest.scenario, field.name)
-        for field in fields(Scenario)
-        if getattr(lowest.scenario, field.name) != field.default
-    }
-    return f"lowest ({lowest.track}): {json.dumps(text)}"
+    return f"lowest ({lowest.track}): {describe_drive(lowest.scenario)}"
 
 
 def closing_line(table: StopTable) -> str:
@@ -109,14 +101,7 @@ def _together_along_encoder(table: StopTable) -> Table:
 
 
 def _empty(title: str, of_what: str, *figures: str) -> Table:
-    block = Table(
-        title=title,
-        title_justify="left",
-        title_style="bold",
-        box=SIMPLE_HEAD,
-        padding=0,
-        pad_edge=False,
-    )
+    block = begin_block(title, padding=0)
     block.add_column(of_what, no_wrap=True, vertical="bottom")
     for figure in figures:
         block.add_column(figure, justify="right", no_wrap=True, vertical="bottom")

@@ -1,37 +1,23 @@
 """`conformance table --family`: output, options and refusals in one line."""
 
-import json
-
 import pytest
-from click.testing import CliRunner
 
-from floatref_conformance import table as table_package
-from floatref_conformance.cli.main import main
 from floatref_conformance.table.families import FamilySettings, family_table
 
 
 @pytest.fixture
-def call(monkeypatch, hand_families):
+def call(command_making, hand_families):
     """Return a function that calls the command without any drive, and what it was to make."""
-    made = []
 
-    def quick(settings, watch):
-        made.append(settings)
-        watch("urban: stop 1")
+    def make(settings):
         return hand_families({}, settings.pipelines, settings.family)
 
-    monkeypatch.setattr(family_table, "make_family_table", quick)
-    monkeypatch.setattr(table_package, "make_table", lambda *_: made.append("runs"))
-    return (lambda *words: CliRunner().invoke(main, ["table", *map(str, words)])), made
+    return command_making(family_table, "make_family_table", make, "urban: stop 1")
 
 
-def test_json_is_all_there_is_on_stdout(call):
-    answer = call[0](
-        *["--family", "urban", "--drives", "1", "--json", "--pipeline", "spatial-basic"]
-    )
-    assert answer.exit_code == 0, answer.output
-    assert json.loads(answer.stdout)["format"] == "conformance-families/1"
-    assert answer.stderr.splitlines() == ["urban …"]
+def test_json_is_all_there_is_on_stdout(call, assert_json):
+    words = "--family urban --drives 1 --json --pipeline spatial-basic"
+    assert_json(call[0](*words.split()), "conformance-families/1", "urban")
 
 
 def test_options_reach_the_settings(call):
@@ -65,18 +51,12 @@ def test_text_and_picture(call, tmp_path):
         (("--family", "urben"), "'--family': 'urben' is not one of 'single', 'urban', 'rural'"),
     ],
 )
-def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(call, words, message):
-    command, made = call
-    answer = command("--family", "urban", *words)
-    assert answer.exit_code == 2
-    assert message in answer.stderr.splitlines()[-1]
-    assert made == []
+def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(
+    call, assert_refused, words, message
+):
+    assert_refused(call, ("--family", "urban", *words), message)
 
 
-def test_drives_without_a_family_are_refused(call):
-    command, made = call
-    for words in (("--drives", "2"), ("--stops", "1", "--drives", "2")):
-        answer = command(*words)
-        assert answer.exit_code == 2
-        assert "--drives: only with --family" in answer.stderr.splitlines()[-1]
-    assert made == []
+@pytest.mark.parametrize("words", [("--drives", "2"), ("--stops", "1", "--drives", "2")])
+def test_drives_without_a_family_are_refused(call, assert_refused, words):
+    assert_refused(call, words, "--drives: only with --family")

@@ -1,36 +1,24 @@
 """`conformance table --stops`: output, options and refusals in one line."""
 
-import json
-
 import pytest
-from click.testing import CliRunner
 
-from floatref_conformance import table as table_package
-from floatref_conformance.cli.main import main
 from floatref_conformance.table import stops as stops_package
 from floatref_conformance.table.stops import StopScores, StopSettings
 
 
 @pytest.fixture
-def call(monkeypatch, hand_stops):
-    """Return a function that calls the command; every score that it makes is the same."""
-    made = []
+def call(command_making, hand_stops):
+    """Return a function that calls the command, every score the same, and what it was to make."""
 
-    def quick(settings, watch):
-        made.append(settings)
-        watch("minivan, fair road: stop 1")
+    def make(settings):
         return hand_stops([StopScores(0.9, 1.0, 2.0)], settings)
 
-    monkeypatch.setattr(stops_package, "make_stop_table", quick)
-    monkeypatch.setattr(table_package, "make_table", lambda *_: made.append("runs"))
-    return (lambda *words: CliRunner().invoke(main, ["table", *map(str, words)])), made
+    return command_making(stops_package, "make_stop_table", make, "minivan, fair road: stop 1")
 
 
-def test_json_is_all_there_is_on_stdout(call):
+def test_json_is_all_there_is_on_stdout(call, assert_json):
     answer = call[0]("--stops", "1", "--json", "--pipeline", "spatial-basic")
-    assert answer.exit_code == 0, answer.output
-    assert json.loads(answer.stdout)["format"] == "conformance-stops/1"
-    assert answer.stderr.splitlines() == ["minivan, fair road …"]
+    assert_json(answer, "conformance-stops/1", "minivan, fair road")
 
 
 def test_options_reach_the_settings(call):
@@ -67,10 +55,7 @@ def test_text_and_picture(call, tmp_path):
         (("--stops", "-1"), "'--stops': -1 is not in the range x>=0"),
     ],
 )
-def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(call, words, said):
-    command, made = call
-    answer = command("--stops", "1", *words)
-    assert answer.exit_code == 2
-    assert said in answer.stderr.splitlines()[-1]
-    assert sum(line.startswith("Error") for line in answer.stderr.splitlines()) == 1
-    assert made == []
+def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(
+    call, assert_refused, words, said
+):
+    assert_refused(call, ("--stops", "1", *words), said)

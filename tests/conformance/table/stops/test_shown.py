@@ -10,7 +10,7 @@ from rich.console import Console
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.schemas import read_schema
 from floatref_conformance.table.stops import StopScores, StopSettings
-from floatref_conformance.table.stops.stop_table import stop_document
+from floatref_conformance.table.stops.stop_document import stop_document
 from floatref_conformance.table.stops.stops_picture import draw_stops
 from floatref_conformance.table.stops.stops_text import print_stops
 
