@@ -11,7 +11,12 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.clocks.pulse_pattern import FASTEST_DRIFT, Fits, fit_pattern
+from floatref.measures.clocks.pulse_pattern import (
+    FASTEST_DRIFT,
+    NEIGHBOURS,
+    Fits,
+    fit_pattern,
+)
 from floatref.values.arrays import FloatArray, IndexArray
 
 JITTER_SHARE, MOST_JITTER_S = 0.05, 0.02
@@ -21,7 +26,10 @@ ANCHORS = 12
 GOOD = 0.6
 """Fit of a place relative to the best one, above which the two are ambiguous."""
 FEW, CHANCE = 10, 1e-3
-"""Of this number of pulses on, a place is one that less than this share of strangers have."""
+"""From this number of pulses on, a place is one that less than this share of strangers have."""
+LEAST_FIT, CLEAR = 0.2, 0.4
+"""Or else, in trains that repeat, the least share of the pulses about one that fit; from which
+share on no evidence is asked for."""
 LEAST_SHARE = 0.35
 """Least share of the pulses in the common time that are found in both trains."""
 IN_A_ROW = 12
@@ -82,18 +90,7 @@ def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
 
     Later ones would fit as well, at a shift that drift has changed.
     """
-    anchors, needed = _anchors(own.size), 0.0
-    if own.size >= FEW:
-        needed = float(np.log(2 * anchors.size * base.size / CHANCE))
-    found: dict[int, Fits] = {}
-    # Every second pulse is nearly always enough.
-    for part in (anchors[::2], anchors[1::2]):
-        found |= {int(i): fit_pattern(own, base, int(i), jitter) for i in part}
-        most = max(float(each.evidence.max()) for each in found.values())
-        if most > needed or min(own.size, base.size) == 1:
-            break
-    else:
-        raise InputError(_nothing(own, base, "no pattern of intervals is the same in both"))
+    found, needed = _search(own, base, jitter)
     best = max(float(each.share_beyond(needed).max()) for each in found.values())
     first = min(i for i in found if found[i].share_beyond(needed).max() >= GOOD * best)
     mine, others = [], []
@@ -103,6 +100,27 @@ def _places(own: FloatArray, base: FloatArray, jitter: float) -> Matching:
         mine.append(np.full(there.size, i))
         others.append(there)
     return Matching(np.concatenate(mine), np.concatenate(others), ())
+
+
+def _search(own: FloatArray, base: FloatArray, jitter: float) -> tuple[dict[int, Fits], float]:
+    """Return how the pattern about each anchor fits, and the evidence that a place needs."""
+    anchors, needed = _anchors(own.size), 0.0
+    if own.size >= FEW:
+        needed = float(np.log(2 * anchors.size * base.size / CHANCE))
+    least = min(own.size, base.size, 2) / min(own.size, 2 * NEIGHBOURS + 1)
+    least = max(least, LEAST_FIT) if own.size >= FEW else least
+    found = {int(i): fit_pattern(own, base, int(i), jitter) for i in anchors[::2]}
+    share = max(float(each.share.max()) for each in found.values())
+    if share >= max(CLEAR, least):
+        return found, 0.0
+    # Every second pulse is nearly always enough.
+    for part in ((), anchors[1::2]):
+        found |= {int(i): fit_pattern(own, base, int(i), jitter) for i in part}
+        if max(float(each.evidence.max()) for each in found.values()) > needed:
+            return found, needed
+    if share < least - 1e-9:
+        raise InputError(_nothing(own, base, "no pattern of intervals is the same in both"))
+    return found, 0.0
 
 
 def _nearest(

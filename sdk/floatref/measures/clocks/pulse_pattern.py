@@ -37,7 +37,8 @@ def fit_pattern(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -
 
     Evidence counts those that lie in the time of both trains, however few. If m are expected to
     fit by chance, k or more do with a probability of exp(m - k) (m / k)^k at most (Chernoff's bound
-    for Poisson's distribution), with errors up to ``jitter`` or up to a small part of it.
+    for Poisson's distribution), with errors up to ``jitter`` or up to a small part of it. So trains
+    that repeat are no evidence, though all their pulses fit.
     """
     around = own[max(anchor - NEIGHBOURS, 0) : anchor + NEIGHBOURS + 1] - own[anchor]
     others = around[around != 0.0]
@@ -50,7 +51,7 @@ def fit_pattern(own: FloatArray, base: FloatArray, anchor: int, jitter: float) -
         off, inside = _off(base, base[part, None] + others)
         for most in (FINE * jitter + drifts, jitter + drifts):
             fits = off <= most
-            chance = (fits | inside) @ np.minimum(2.0 * rate * most, 1.0)
+            chance = _chance(fits, fits | inside, np.minimum(2.0 * rate * most, 1.0))
             count = fits.sum(axis=1)
             evidence[part] = np.maximum(evidence[part], _surprise(count, chance))
             share[part] = (count + 1) / around.size
@@ -63,6 +64,16 @@ def _off(base: FloatArray, expected: FloatArray) -> tuple[FloatArray, BoolArray]
     off = np.abs(base[after.clip(max=base.size - 1)] - expected)
     inside = np.asarray((expected >= base[0]) & (expected <= base[-1]))
     return np.minimum(off, np.abs(base[after - 1] - expected)), inside
+
+
+def _chance(fits: BoolArray, there: BoolArray, least: FloatArray) -> FloatArray:
+    """Return how many pulses are expected to fit at each place: as often as they do elsewhere.
+
+    Of those that are ``there``, and no less than the ``least`` of pulses at any times.
+    """
+    elsewhere = np.maximum(there.sum(axis=0) - there, 1)
+    often = np.maximum((fits.sum(axis=0) - fits) / elsewhere, least)
+    return np.asarray(np.sum(often, axis=1, where=there))
 
 
 def _surprise(fits: IndexArray, chance: FloatArray) -> FloatArray:
