@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+from floatref.builtin_pipelines.laser_place import bring_abeam, record_laser
 from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
@@ -159,7 +160,8 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
         ends_m=source.ends_m,
     )
     flow_of = SIGNAL_FLOWS[order.pipeline.architecture]
-    return flow_of(lambda point: order.plugins.ask(context(point=point)))
+    stages = flow_of(lambda point: order.plugins.ask(context(point=point)))
+    return [*stages, *bring_abeam(source.header.setup, source.header.tracks)]
 
 
 def _run_and_collect(
@@ -169,6 +171,8 @@ def _run_and_collect(
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
+    laser = record_laser(header.setup, header.tracks, stages)
+    profile = replace(profile, provenance={**profile.provenance, "laser": laser})
     if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
     return profile

@@ -1,0 +1,67 @@
+"""A laser beside its accelerometer: its height is carried there, and that is recorded."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from floatref.estimators.kalman.inputs import IMU
+from floatref.interfaces.pipeline import Context
+from floatref.stages.protocol import Stage
+from floatref.values.recording import Setup
+from floatref.vehicle_response.stages import Abeam
+
+
+def carry_height(context: Context) -> Sequence[Stage]:
+    """Carry the height to the accelerometer: by the measured attitude, else by a modelled pitch.
+
+    Nothing is done where every laser is under its accelerometer. A modelled pitch has no roll, so
+    that a lever to the side counts only where the attitude is measured.
+    """
+    offsets = {t: context.header.setup.track(t).laser_offset_m for t in context.header.tracks}
+    if set(IMU) <= set(context.pipeline.channels):
+        if any(x or y for x, y, _ in offsets.values()):
+            from floatref.estimators.laser_place import HeightByAttitude
+
+            return (HeightByAttitude({t: (x, y) for t, (x, y, _) in offsets.items()}),)
+    elif any(x for x, _, _ in offsets.values()):
+        from floatref.estimators.laser_place import HeightByModel
+
+        return (HeightByModel({t: x for t, (x, _, _) in offsets.items()}),)
+    return ()
+
+
+def bring_abeam(setup: Setup, tracks: Sequence[str]) -> Sequence[Stage]:
+    """Return what puts all wheel paths on the axis of the first laser; nothing if they are abeam.
+
+    Each laser is over a place when the encoder reads less by as much as it is ahead.
+    """
+    shifts = _shifts_m(setup, tracks)
+    return (Abeam(shifts),) if any(shifts.values()) else ()
+
+
+def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -> Mapping[str, Any]:
+    """Return what was done about the place of each wheel path's laser, for the profile's record.
+
+    ``pitch`` is how its lever was overcome: "measured", "modelled", "ignored", or "not needed".
+    """
+    names = {stage.name for stage in stages}
+    how = "measured" if "HeightByAttitude" in names else "ignored"
+    how = "modelled" if "HeightByModel" in names else how
+    found = {}
+    for track, shift_m in _shifts_m(setup, tracks).items():
+        place = setup.track(track)
+        lever_m = place.laser_offset_m[0]
+        found[track] = {
+            "ahead_m": place.reference_point_m[0] + lever_m,
+            "shift_m": shift_m,
+            "lever_m": lever_m,
+            "pitch": how if lever_m else "not needed",
+        }
+        if how == "modelled" and lever_m:
+            found[track]["axles"] = "usual" if setup.axles is None else "setup"
+    return found
+
+
+def _shifts_m(setup: Setup, tracks: Sequence[str]) -> dict[str, float]:
+    places = [setup.track(t) for t in tracks]
+    ahead = [place.reference_point_m[0] + place.laser_offset_m[0] for place in places]
+    return {track: x - ahead[0] for track, x in zip(tracks, ahead, strict=True)}
