@@ -5,12 +5,11 @@ than it by l sin θ. Without a sensor of pitch, θ is that of a half car over th
 disturbing forces are found from the accelerometer, by a Kalman smoother of constant gain.
 """
 
+from math import sin
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-
-from floatref_reference.signals import Real
 
 Array = npt.NDArray[np.float64]
 STATES, BODY = 10, 4
@@ -41,8 +40,8 @@ class HalfCar(NamedTuple):
 
     Attributes:
         front, rear: the axles.
-        index: squared radius of gyration over the product of the axles' distances a, b from the
-            centre of gravity.
+        dynamic_index: squared radius of gyration over the product of the axles' distances a, b
+            from the centre of gravity.
         arm: height of the centre of gravity in m, less what the links carry.
         disturbance, corner: standard deviation in m/s² of what the model misses at each axle, and
             the reciprocal of its time constant in 1/s.
@@ -51,21 +50,21 @@ class HalfCar(NamedTuple):
 
     front: Axle
     rear: Axle
-    index: float
+    dynamic_index: float
     arm: float
     disturbance: float
     corner: float
     reading: float
 
 
-def height_under_accelerometer(height: Real, pitch: Real, lever: Real) -> Real:
+def height_under_accelerometer(height: float, pitch: float, lever: float) -> float:
     """Return what the laser would read in the accelerometer's place, of the same point of the road.
 
     Equation:
         range = r + l sin θ - z, in which r is the accelerometer's height and z the road's
         elevation under the laser; hence r - z = range - l sin θ.
     """
-    return height - lever * np.sin(pitch)
+    return height - lever * sin(pitch)
 
 
 def equations(car: HalfCar) -> tuple[Array, Array]:
@@ -75,11 +74,11 @@ def equations(car: HalfCar) -> tuple[Array, Array]:
         State: heave z, pitch θ (nose up), wheels u_f, u_r, their rates, disturbances d_f, d_r.
         Inputs: road under front and rear wheels in m, acceleration along the road in m/s².
         With s_i the share of axle i, y_i = z + x_i θ and F_i = s_i(ω_i²(u_i - y_i) + c_i(u_i' -
-        y_i') + d_i): z'' = F_f + F_r; I θ'' = x_f F_f + x_r F_r + h a, I = index·x_f·|x_r|;
+        y_i') + d_i): z'' = F_f + F_r; I θ'' = x_f F_f + x_r F_r + h a, I = dynamic_index·x_f·|x_r|;
         m_i u_i'' = -(F_i - s_i d_i)/s_i + t_i (w_i - u_i); d_i' = -corner·d_i.
     """
     A, B = np.zeros((STATES, STATES)), np.zeros((STATES, 3))
-    inertia = car.index * car.front.x * abs(car.rear.x)
+    inertia = car.dynamic_index * car.front.x * abs(car.rear.x)
     for i in range(BODY):
         A[i, BODY + i] = 1.0
     for i, axle in enumerate((car.front, car.rear)):

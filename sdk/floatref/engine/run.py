@@ -16,6 +16,7 @@ from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
+from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
@@ -114,12 +115,14 @@ def _make_profile(
     order: _Order, known: Screening | None = None, progress: Progress | None = None
 ) -> tuple[Result, Source]:
     """Process a recording into a profile whose gaps are bridged by straight lines."""
+    aligned = align_heights(order.recording)
+    order = replace(order, recording=aligned.recording)
     screening = _screen(order, known)
     cautions = screening.cautions  # Raises if the recording cannot be processed.
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
-    profile = _run_and_collect(order, source, stages, progress)
-    lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
+    profile = _run_and_collect(order, source, stages, aligned, progress)
+    lines = (*aligned.warnings, *cautions, *source.warnings, *flow.collect_warnings(stages))
     return Result(profile, lines, screening), source
 
 
@@ -165,13 +168,17 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
 
 
 def _run_and_collect(
-    order: _Order, source: Source, stages: list[Stage], progress: Progress | None
+    order: _Order,
+    source: Source,
+    stages: list[Stage],
+    aligned: Aligned,
+    progress: Progress | None,
 ) -> Profile:
     """Pass the blocks through the stages and return the resulting profile."""
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
-    laser = record_laser(header.setup, header.tracks, stages)
+    laser = record_laser(header.setup, header.tracks, stages, aligned.later_s)
     profile = replace(profile, provenance={**profile.provenance, "laser": laser})
     if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})

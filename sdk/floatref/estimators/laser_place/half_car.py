@@ -123,4 +123,5 @@ def _discretize(car: HalfCar, step: float) -> tuple[FloatArray, FloatArray, Floa
     wide[n : n + m, n + m :] = np.eye(m)
     found = expm(wide)
     now = found[:n, n + m :]
-    return tuple(map(np.ascontiguousarray, (found[:n, :n], found[:n, n : n + m] - now, now)))
+    phi, before = found[:n, :n], found[:n, n : n + m] - now
+    return np.ascontiguousarray(phi), before, np.ascontiguousarray(now)
