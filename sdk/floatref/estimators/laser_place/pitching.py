@@ -133,7 +133,7 @@ def _second_derivative(distance: FloatArray, step: float) -> FloatArray:
     steps = np.arange(1, half + 1)
     before = distance[0] - steps[::-1] * (distance[half] - distance[0]) / half
     after = distance[-1] + steps * (distance[-1] - distance[-1 - half]) / half
-    return np.convolve(np.concatenate((before, distance, after)), weights, "valid")
+    return np.asarray(np.convolve(np.concatenate((before, distance, after)), weights, "valid"))
 
 
 class _Band:

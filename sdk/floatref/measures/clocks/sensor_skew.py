@@ -100,7 +100,8 @@ def skew_at_stops(force: Channel, height: Channel, distance: Channel) -> Skew:
         return Skew.none(f"a sensor has less than {SLOWEST_HZ:g} Hz")
     start_s = max(force.span_s[0], height.span_s[0])
     seconds = min(force.span_s[1], height.span_s[1]) - start_s
-    grid: FloatArray = start_s + STEP_S * np.arange(max(0, int(seconds * RATE_HZ) + 1))
+    points_s = STEP_S * np.arange(max(0.0, int(seconds * RATE_HZ) + 1.0))
+    grid: FloatArray = start_s + points_s
     found: list[Stretch] = []
     for first, last in stretches(find_standing(distance, grid, STANDS_M, STANDS_S)):
         last = min(last, first + round(SWINGS_S * RATE_HZ))
