@@ -38,13 +38,10 @@ def bring_abeam(setup: Setup, tracks: Sequence[str]) -> Sequence[Stage]:
     return (Abeam(shifts),) if any(shifts.values()) else ()
 
 
-def record_laser(
-    setup: Setup, tracks: Sequence[str], stages: Sequence[Stage], later_s: Mapping[str, float]
-) -> Mapping[str, Any]:
+def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -> Mapping[str, Any]:
     """Return what was done about each wheel path's laser, for the profile's record.
 
-    ``pitch`` is how its lever was overcome: "measured", "modelled", "ignored", or "not needed";
-    ``later_s`` by how much its readings were later than the accelerometer's, where it was found.
+    ``pitch`` is how its lever was overcome: "measured", "modelled", "ignored", or "not needed".
     """
     names = {stage.name for stage in stages}
     how = "measured" if "HeightByAttitude" in names else "ignored"
@@ -59,8 +56,6 @@ def record_laser(
             "lever_m": lever_m,
             "pitch": how if lever_m else "not needed",
         }
-        if track in later_s:
-            found[track]["later_s"] = later_s[track]
         if how == "modelled" and lever_m:
             found[track]["axles"] = "usual" if setup.axles is None else "setup"
     return found

@@ -18,6 +18,7 @@ from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
+from floatref.engine.road_distance import RoadDistance, correct_distance
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
 from floatref.interfaces.drop_out import DropOut
@@ -105,24 +106,37 @@ def run(
     Results of ``known``, the screening of an earlier run, for the same channels are reused.
     """
     order = _settle(plugins(), recording, pipeline, settings)
+    along = correct_distance(order.recording, order.settings.get("slip_per_g"))
+    aligned = align_heights(along.recording)
+    order = replace(order, recording=aligned.recording)
     result, source = _make_profile(order, known, progress)
     if order.pipeline.architecture == "temporal":
         result = _bridge_gaps(order, result, source)
-    return replace(result, warnings=(*result.warnings, *order.plugins.reports))
+    profile = _record_preparation(result.profile, along, aligned)
+    lines = (*aligned.warnings, *result.warnings, *order.plugins.reports)
+    return replace(result, profile=profile, warnings=lines)
+
+
+def _record_preparation(profile: Profile, along: RoadDistance, aligned: Aligned) -> Profile:
+    """Return ``profile`` with what was done to distance and heights in its record."""
+    laser = {
+        track: {**own, "later_s": aligned.later_s[track]} if track in aligned.later_s else own
+        for track, own in profile.provenance["laser"].items()
+    }
+    done = {"laser": laser, "distance": along.record}
+    return replace(profile, provenance={**profile.provenance, **done})
 
 
 def _make_profile(
     order: _Order, known: Screening | None = None, progress: Progress | None = None
 ) -> tuple[Result, Source]:
     """Process a recording into a profile whose gaps are bridged by straight lines."""
-    aligned = align_heights(order.recording)
-    order = replace(order, recording=aligned.recording)
     screening = _screen(order, known)
     cautions = screening.cautions  # Raises if the recording cannot be processed.
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
-    profile = _run_and_collect(order, source, stages, aligned, progress)
-    lines = (*aligned.warnings, *cautions, *source.warnings, *flow.collect_warnings(stages))
+    profile = _run_and_collect(order, source, stages, progress)
+    lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
     return Result(profile, lines, screening), source
 
 
@@ -168,17 +182,13 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
 
 
 def _run_and_collect(
-    order: _Order,
-    source: Source,
-    stages: list[Stage],
-    aligned: Aligned,
-    progress: Progress | None,
+    order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
     """Pass the blocks through the stages and return the resulting profile."""
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
-    laser = record_laser(header.setup, header.tracks, stages, aligned.later_s)
+    laser = record_laser(header.setup, header.tracks, stages)
     profile = replace(profile, provenance={**profile.provenance, "laser": laser})
     if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
