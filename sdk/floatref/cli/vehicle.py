@@ -91,7 +91,7 @@ def combine_estimates(learned: Sequence[Mapping[str, float]]) -> dict[str, float
 
 
 def _read_slip(passes: tuple[Path, Path]) -> dict[str, float]:
-    """Return the slip between a brake and a pass at speed, its 1-σ, and how many stretches agree."""
+    """Return the slip of two passes, its 1-σ, and how many stretches agree."""
     from floatref.measures.slip.two_passes import slip_of_passes
 
     with name_errors(f"{passes[0]} and {passes[1]}"):

@@ -57,6 +57,8 @@ class Wheel:
         ``motion`` is that of the vehicle.
         """
         v = motion.speed
+        if not v.size:
+            return v
         rate = (self.scale + self.growth * ((v / FAST_MPS) ** 2 - 1.0)) * v
         grown = STEP_S * (np.cumsum(rate) - 0.5 * (rate + rate[0]))
         return np.asarray(self.slip_per_g * motion.gain_m() + grown)

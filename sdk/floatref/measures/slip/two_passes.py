@@ -36,10 +36,11 @@ def slip_of_passes(brake: Profile, other: Profile) -> LearnedSlip:
     """Return the slip that explains the offsets between two profiles along one road.
 
     Stretches of the ``brake`` are found in the ``other`` by cross correlation after the IRI filter.
-    An offset is a constant, a share of the distance by which both encoders' scales differ, and
-    s v²/2g of the other less that of the brake; speeds are those in the profiles' records. Raises InputError, which names what is missing, for profiles
-    without a record of speed, that were corrected already, of different intervals, without a
-    common wheel path or without a brake, and where too few stretches agree.
+    An offset is a constant, a share of the distance by which both encoders' scales differ, and s
+    v²/2g of the other less that of the brake; speeds are those in the profiles' records. Raises
+    InputError, which names what is missing, for profiles without a record of speed, that were
+    corrected already, of different intervals, without a common wheel path or without a brake, and
+    where too few stretches agree.
     """
     if not np.isclose(brake.interval_m, other.interval_m, rtol=1e-6):
         raise InputError(
