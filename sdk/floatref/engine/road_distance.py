@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from floatref.measures.slip.encoder_motion import Motion
 from floatref.measures.slip.knots import knots_of
-from floatref.measures.slip.motion import Motion
 from floatref.measures.slip.second_source import Wheel, find_wheel
 from floatref.stages.signals import DISTANCE
 from floatref.values.channels import ChannelId
@@ -35,7 +35,8 @@ def correct_distance(recording: Recording, slip_per_g: float | None = None) -> R
 
     Every channel `distance` is corrected, and never decreases for that.
     """
-    corrected, record = {}, {}
+    corrected: dict[ChannelId, Channel] = {}
+    record: dict[str, Any] = {}
     for distance in (c for c in recording.channels if c.id.name == DISTANCE):
         motion = Motion.of(distance)
         wheel = _wheel(recording, distance, motion, slip_per_g)

@@ -156,7 +156,7 @@ class _Band:
         x = acceleration - acceleration.mean()
         for _ in range(2):
             x = self._both_ways(self.slow, np.cumsum(x) * self.step)
-        return x
+        return np.asarray(x)
 
     def _both_ways(self, sections: FloatArray, x: FloatArray) -> FloatArray:
         from scipy.signal import sosfiltfilt

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.measures.slip.motion import STEP_S, Motion, derivatives
+from floatref.measures.slip.encoder_motion import STEP_S, Motion, derivatives
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel, Recording

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.engine.road_distance import UNKNOWN_PER_G, correct_distance
+from floatref.measures.slip.encoder_motion import Motion, derivatives
 from floatref.measures.slip.knots import OFF, knots_of
-from floatref.measures.slip.motion import Motion, derivatives
 from floatref.measures.slip.second_source import find_wheel
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import StampedClock, UniformClock

@@ -59,7 +59,8 @@ class Motion(NamedTuple):
         """Return what a wheel that slips by 1 per g has counted too much, (v² - v₀²)/2g, in m."""
         if not self.speed.size:
             return self.speed
-        return (self.speed**2 - self.speed[0] ** 2) / (2.0 * STANDARD_GRAVITY)
+        gained = self.speed**2 - self.speed[0] ** 2
+        return np.asarray(gained / (2.0 * STANDARD_GRAVITY))
 
 
 def derivatives(values: FloatArray) -> tuple[FloatArray, FloatArray]:
