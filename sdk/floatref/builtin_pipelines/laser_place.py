@@ -6,6 +6,7 @@ from typing import Any
 from floatref.estimators.kalman.inputs import IMU
 from floatref.interfaces.pipeline import Context
 from floatref.stages.protocol import Stage
+from floatref.values.block import Header
 from floatref.values.recording import Setup
 from floatref.vehicle_response.stages import Abeam
 
@@ -16,17 +17,23 @@ def carry_height(context: Context) -> Sequence[Stage]:
     Nothing is done where every laser is under its accelerometer. A modelled pitch has no roll, so
     that a lever to the side counts only where the attitude is measured.
     """
-    offsets = {t: context.header.setup.track(t).laser_offset_m for t in context.header.tracks}
+    levers = levers_of(context.header)
     if set(IMU) <= set(context.pipeline.channels):
-        if any(x or y for x, y, _ in offsets.values()):
+        if any(map(any, levers.values())):
             from floatref.estimators.laser_place import HeightByAttitude
 
-            return (HeightByAttitude({t: (x, y) for t, (x, y, _) in offsets.items()}),)
-    elif any(x for x, _, _ in offsets.values()):
+            return (HeightByAttitude(levers),)
+    elif any(x for x, _ in levers.values()):
         from floatref.estimators.laser_place import HeightByModel
 
-        return (HeightByModel({t: x for t, (x, _, _) in offsets.items()}),)
+        return (HeightByModel({t: x for t, (x, _) in levers.items()}),)
     return ()
+
+
+def levers_of(header: Header) -> dict[str, tuple[float, float]]:
+    """Return each wheel path's laser ahead of and to the left of its accelerometer, in m."""
+    offsets = {track: header.setup.track(track).laser_offset_m for track in header.tracks}
+    return {track: (x, y) for track, (x, y, _) in offsets.items()}
 
 
 def bring_abeam(setup: Setup, tracks: Sequence[str]) -> Sequence[Stage]:
@@ -43,9 +50,9 @@ def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -
 
     ``pitch`` is how its lever was overcome: "measured", "modelled", "ignored", or "not needed".
     """
-    names = {stage.name for stage in stages}
-    how = "measured" if "HeightByAttitude" in names else "ignored"
-    how = "modelled" if "HeightByModel" in names else how
+    carried = {stage.name for stage in stages if getattr(stage, "levers_m", None)}
+    how = "measured" if carried else "ignored"
+    how = "modelled" if "HeightByModel" in carried else how
     found = {}
     for track, shift_m in _shifts_m(setup, tracks).items():
         place = setup.track(track)

@@ -1,26 +1,27 @@
 """The height carried to the accelerometer by the attitude that an inertial unit measures."""
 
-from collections.abc import Mapping
-
-import numpy as np
+from collections.abc import Mapping, Sequence
 
 from floatref.estimators.levelling.attitude import Attitude
-from floatref.estimators.levelling.attitude_stage import BLENDED_S, AttitudeStage, Own
+from floatref.estimators.levelling.attitude_stage import (
+    BLENDED_S,
+    AttitudeStage,
+    Lever,
+    Own,
+    raise_by,
+)
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import HEIGHT
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FlagArray, FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
-
-Lever = tuple[float, float]
 
 
 class HeightByAttitude(AttitudeStage):
     """Replaces `height` by what the laser would read in the accelerometer's place.
 
-    The body is rigid, so a laser at (x, y) ahead of and to the left of its accelerometer is higher
-    by -x sin θ + y cos θ sin φ at the pitch θ, nose down positive, and the roll φ, left side up
-    (6.23). Where the attitude is not known, the height is flagged as the sensors behind it are.
+    The body is rigid, so a laser on a lever is higher by `raise_by` than its accelerometer. The
+    attitude is that by the inertial unit of the first wheel path, whose flags all heights get.
     """
 
     source = made = HEIGHT
@@ -30,16 +31,27 @@ class HeightByAttitude(AttitudeStage):
         super().__init__(blended_s)
         self.levers_m = dict(levers_m)
 
+    def tracks_of(self, header: Header) -> Sequence[str]:
+        """Return the first wheel path: one body has one attitude."""
+        return header.tracks[:1]
+
     def open(self, header: Header) -> Header:
-        """Ask for the inertial unit of every track, the encoder and the heights, in time."""
+        """Ask for the inertial unit, the encoder and all heights, in time."""
+        header.require(self.name, *(ChannelId(HEIGHT, track) for track in self.levers_m))
         return super().open(header)
 
     def compute(
         self, track: str, block: Block, attitude: Attitude, turned: FloatArray, at: int
     ) -> Own:
-        """Return the height at the accelerometer, in m."""
-        (x_m, y_m), channel = self.levers_m[track], ChannelId(HEIGHT, track)
-        (pitch, roll), _ = attitude.angles(turned, at)
-        raised = y_m * np.cos(pitch) * np.sin(roll) - x_m * np.sin(pitch)
-        marks = flags_of(block, *self.channels[track])
-        return {channel: block[channel] - raised}, {} if marks is None else {channel: marks}
+        """Return the heights of all wheel paths at their accelerometers, in m."""
+        x, y, _, *rates = self.channels[track]
+        angles, _ = attitude.angles(turned, at)
+        values: dict[ChannelId, FloatArray] = {}
+        flags: dict[ChannelId, FlagArray] = {}
+        for name, lever in self.levers_m.items():
+            height = ChannelId(HEIGHT, name)
+            values[height] = block[height] - raise_by(lever, angles)
+            marks = flags_of(block, height, x, y, *rates)
+            if marks is not None:
+                flags[height] = marks
+        return values, flags

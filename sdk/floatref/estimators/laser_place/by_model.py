@@ -47,7 +47,7 @@ class HeightByModel(Stage):
         self._header = header
         self._every = max(1, round(1.0 / (BINS_HZ * header.step)))
         means = Means(self._every, len(own) + 1)
-        self.memory = {"means": means, "bins": [], "begin": None, "pitch": None}
+        self.memory = {"means": means, "bins": [], "begin": None, "raised": None}
         return header
 
     def survey(self, block: Block) -> None:
@@ -65,11 +65,11 @@ class HeightByModel(Stage):
 
         if len(block) == 0:
             return block
-        if self.memory["pitch"] is None:
+        if self.memory["raised"] is None:
             self._find_pitch()
-        first, pitch = block.first - self.memory["begin"], np.empty(len(block))
-        kernel.between_bins(self.memory["pitch"], first, self._every, pitch)
-        values, flags, raised = {}, {}, np.sin(pitch)
+        values, flags, raised = {}, {}, np.empty(len(block))
+        first = block.first - self.memory["begin"]
+        kernel.between_bins(self.memory["raised"], first, self._every, raised)
         for track, lever_m in self.levers_m.items():
             height = ChannelId(HEIGHT, track)
             values[height] = block[height] - lever_m * raised
@@ -79,11 +79,11 @@ class HeightByModel(Stage):
         return block.setting(values, flags)
 
     def _find_pitch(self) -> None:
-        """Find the pitch in rad, nose up, of every bin, from all that was surveyed."""
+        """Find sin θ of every bin from all that was surveyed."""
         bins = np.concatenate([*self.memory["bins"], self.memory["means"].rest()], axis=1)
         self.memory["bins"] = []
         force, height = _middle(bins[:-1:2]) - STANDARD_GRAVITY, _middle(bins[1:-1:2])
-        self.memory["pitch"] = model_pitch(force, height, bins[-1], self._places())
+        self.memory["raised"] = np.sin(model_pitch(force, height, bins[-1], self._places()))
 
     def _places(self) -> Places:
         """Return where the middle of the sensors is, and the axles."""

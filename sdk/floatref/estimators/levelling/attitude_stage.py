@@ -1,7 +1,7 @@
 """What stages by the measured attitude have in common: blocks wait until it is known."""
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -20,6 +20,20 @@ BLENDED_S = 3.0
 Turned = list[tuple[Block, dict[str, FloatArray]]]
 Own = tuple[Mapping[ChannelId, FloatArray], Mapping[ChannelId, FlagArray]]
 """New samples and flags of a wheel path."""
+Lever = tuple[float, float]
+"""A laser ahead of and to the left of its accelerometer, in m."""
+
+
+def raise_by(lever: Lever, angles: FloatArray) -> FloatArray:
+    """Return by how much a laser on a ``lever`` is higher than its accelerometer, in m.
+
+    That is -x sin θ + y cos θ sin φ of (6.23), for pitch and roll in rad, shape (2, n).
+    """
+    pitch, roll = angles
+    raised = np.sin(pitch) * -lever[0]
+    if lever[1]:
+        raised += lever[1] * np.cos(pitch) * np.sin(roll)
+    return np.asarray(raised)
 
 
 class AttitudeStage(Stage):
@@ -57,17 +71,21 @@ class AttitudeStage(Stage):
         ``turned``, shape (2, n), are the integrated rates of pitch and roll.
         """
 
+    def tracks_of(self, header: Header) -> Sequence[str]:
+        """Return the wheel paths whose inertial unit is read, and for which `compute` is called."""
+        return header.tracks
+
     def open(self, header: Header) -> Header:
-        """Ask for the inertial unit of every track and the encoder, in time."""
+        """Ask for the inertial unit of these tracks and the encoder, in time."""
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
-        for track in header.tracks:
+        for track in self.tracks_of(header):
             forces = [channel_of(header, name, track) for name in FORCES]
             rates = [channel_of(header, name, track) for name in RATES]
             own = *forces, ChannelId(self.source, track), *rates
             header.require(self.name, *own, ChannelId(DISTANCE))
             self.channels[track] = own
-        attitudes = {t: Attitude.of(header.step, self.blended_s) for t in header.tracks}
+        attitudes = {t: Attitude.of(header.step, self.blended_s) for t in self.channels}
         self.memory = {"attitudes": attitudes, "begin": None, "seen": [], "turned": []}
         out = header.replacing(self.source, self.made).without(*self.dropped)
         self._made = out.channels

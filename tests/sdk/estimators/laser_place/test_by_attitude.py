@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from floatref.estimators.kalman.inputs import IMU
 from floatref.estimators.laser_place import HeightByAttitude
+from floatref.estimators.levelling import Level
+from floatref.values.arrays import Flag
 from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref_conformance.testing import StageLaws
@@ -59,6 +61,26 @@ def test_a_laser_on_a_lever_is_as_high_as_the_rigid_body_says(
     out = join_blocks([b for b in (*parts, *stage.finish()) if len(b)])
     raised = -lever[0] * np.sin(pitch) + lever[1] * np.cos(pitch) * np.sin(roll)
     np.testing.assert_allclose(out[HEIGHT], 0.3 - raised, atol=2e-4)
+
+
+@pytest.mark.slow
+def test_levelling_carries_the_heights_by_the_same_attitude() -> None:
+    """One stage in place of two, bit for bit; a height keeps its own flags."""
+    values, pitch, roll = swinging(0.7, 0.4, 0.01)
+    force = STANDARD_GRAVITY * np.cos(pitch) * np.cos(roll)
+    values[ChannelId("vertical_specific_force", "left")] = force
+    marks = np.zeros(force.size, np.uint8)
+    marks[4000] = Flag.MISSING
+    channels, found = frozenset(values), []
+    for stage in (HeightByAttitude({"left": (0.3, 0.1)}), Level(levers_m={"left": (0.3, 0.1)})):
+        stage.start(Header(Axis.TIME, 1 / RATE, 0.0, Fraction(RATE), channels, ("left",)))
+        parts = [stage.push(Block(0, values, {}, {HEIGHT: marks})), *stage.finish()]
+        found.append(join_blocks([b for b in parts if len(b)]))
+    np.testing.assert_array_equal(found[0][HEIGHT], found[1][HEIGHT])
+    for out in found:
+        np.testing.assert_array_equal(out.flags[HEIGHT], marks)
+    level = found[1][ChannelId("vertical_acceleration", "left")]
+    assert np.abs(level[1000:-1000]).max() < 0.01
 
 
 class TestHeightByAttitude(StageLaws):
