@@ -148,15 +148,17 @@ class _Band:
         self.fast = butter(ORDER, fast, "low", fs=1.0 / step, output="sos")
 
     def pass_band(self, x: FloatArray) -> FloatArray:
-        """Return ``x`` between both frequencies."""
-        return self._both_ways(self.fast, self._both_ways(self.slow, x))
+        """Return ``x`` between both frequencies, filtered as `height_of` does."""
+        for _ in range(2):
+            x = self._both_ways(self.slow, x)
+        return self._both_ways(self.fast, x)
 
     def height_of(self, acceleration: FloatArray) -> FloatArray:
         """Return the second integral of ``acceleration``, less what is slower than the band."""
         x = acceleration - acceleration.mean()
         for _ in range(2):
             x = self._both_ways(self.slow, np.cumsum(x) * self.step)
-        return np.asarray(x)
+        return self._both_ways(self.fast, np.asarray(x))
 
     def _both_ways(self, sections: FloatArray, x: FloatArray) -> FloatArray:
         from scipy.signal import sosfiltfilt
