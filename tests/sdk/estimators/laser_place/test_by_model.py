@@ -58,7 +58,7 @@ def share_off(found: np.ndarray, pitch: np.ndarray) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_pitch_of_a_usual_vehicle_is_found(seed: int) -> None:
-    """Its own vehicle, perfect sensors: within a sixth; twice as far off with its axles elsewhere."""
+    """Its own vehicle, perfect sensors: within a sixth; twice as far off with other axles."""
     drive = Drive(seed)
     series = drive.force, drive.height, drive.distance
     found = model_pitch(*series, Places(AT_M, AT_M + AHEAD_M, AXLES, STEP))
