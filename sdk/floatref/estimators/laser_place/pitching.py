@@ -21,6 +21,9 @@ PASSES = 3
 """The pitch changes the road that makes it by its lever over the wheelbase, at most a fifth; so
 three passes leave less than a hundredth."""
 LEAST_SAMPLES = 64
+LEAST_EXPLAINED = 0.25
+"""Least share of the accelerometer's motion that road and brakes have to give the half car. Below
+it something else moves the body, as in a bounce test: its pitch is unknown."""
 WINDOW_S, SHARED_S = 600.0, 30.0
 """A long run is modelled in windows, so that memory is bounded; each shares its end with the next,
 and there one passes into the other."""
@@ -50,7 +53,8 @@ def model_pitch(
 
     All three have shape (n,), NaN where unknown: vertical specific force less 1 g in m/s², the
     laser's height in m and the encoder's distance in m. A run too short or without one of them has
-    pitch 0. Frequencies below `SLOW_HZ` are the model's answer to acceleration along the road.
+    pitch 0, and so has one in which something else than the road moves the body. Frequencies below
+    `SLOW_HZ` are the model's answer to acceleration along the road.
     """
     known = [~np.isnan(x) for x in (force, height, distance)]
     if force.size < LEAST_SAMPLES or any(not each.any() for each in known):
@@ -83,9 +87,23 @@ def _model_window(
         vertical = force + along * pitch
         road = level.height_of(vertical) - height
         road += (places.laser_m - places.accelerometer_m) * level.pass_band(pitch)
-        u = _inputs(road, distance, along, places)
-        pitch = smooth_states(car, gains, u, level.pass_band(vertical))[:, PITCH]
+        u, measured = _inputs(road, distance, along, places), level.pass_band(vertical)
+        if np.std(_explained(car, gains, u)) < LEAST_EXPLAINED * np.std(measured):
+            return np.zeros(force.size)
+        pitch = smooth_states(car, gains, u, measured)[:, PITCH]
     return pitch
+
+
+def _explained(car: HalfCar, gains: Gains, u: FloatArray) -> FloatArray:
+    """Return the acceleration in m/s² that road and brakes alone give the body, shape (n,)."""
+    from floatref.estimators.laser_place import kernel
+
+    predicted, filtered = np.empty((2, u.shape[0], STATES))
+    filtered[0] = car.at_rest(u[0])
+    none = np.zeros(STATES)
+    model = gains.transition, gains.before, gains.now, none, car.reading, car.direct
+    kernel.filter_forward(*model, u, np.zeros(u.shape[0]), predicted, filtered)
+    return np.asarray(predicted @ car.reading + u @ car.direct)
 
 
 def smooth_states(car: HalfCar, gains: Gains, u: FloatArray, force: FloatArray) -> FloatArray:

@@ -82,6 +82,16 @@ def test_windows_of_a_long_run_pass_into_each_other(monkeypatch: pytest.MonkeyPa
     assert np.std(step[NEAR_END]) < 0.2 * scale
 
 
+def test_a_bounce_test_has_no_pitch_that_could_be_known() -> None:
+    """The body moves by 10 mm at 1.5 Hz over one point, an artificial encoder says 20 m/s."""
+    t, omega = STEP * np.arange(3000), 2 * np.pi * 1.5
+    rng = np.random.default_rng(0)
+    moved = 0.01 * np.sin(omega * t)
+    height = 0.3 + moved + 1e-5 * rng.normal(size=t.size)
+    places = Places(AT_M, AT_M + AHEAD_M, AXLES, STEP)
+    assert not model_pitch(-(omega**2) * moved, height, SPEED * t, places).any()
+
+
 @pytest.mark.parametrize("lost", ["force", "height", "distance", "short"])
 def test_without_a_sensor_there_is_no_pitch(lost: str) -> None:
     n = 20 if lost == "short" else 500
