@@ -7,7 +7,7 @@ from floatref.estimators.kalman.inputs import IMU
 from floatref.interfaces.pipeline import Context
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
-from floatref.values.recording import Setup
+from floatref.values.recording import Setup, TrackSetup
 from floatref.vehicle_response.stages import Abeam
 
 
@@ -58,7 +58,7 @@ def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -
         place = setup.track(track)
         lever_m = place.laser_offset_m[0]
         found[track] = {
-            "ahead_m": place.reference_point_m[0] + lever_m,
+            "ahead_m": _ahead_m(place),
             "shift_m": shift_m,
             "lever_m": lever_m,
             "pitch": how if lever_m else "not needed",
@@ -69,6 +69,11 @@ def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -
 
 
 def _shifts_m(setup: Setup, tracks: Sequence[str]) -> dict[str, float]:
-    places = [setup.track(t) for t in tracks]
-    ahead = [place.reference_point_m[0] + place.laser_offset_m[0] for place in places]
-    return {track: x - ahead[0] for track, x in zip(tracks, ahead, strict=True)}
+    """Return by how much each laser is ahead of the first one; 0 for a place that is not stated."""
+    ahead = {track: _ahead_m(setup.track(track)) for track in tracks if track in setup.tracks}
+    first = next(iter(ahead.values()), 0.0)
+    return {track: ahead.get(track, first) - first for track in tracks}
+
+
+def _ahead_m(place: TrackSetup) -> float:
+    return place.reference_point_m[0] + place.laser_offset_m[0]

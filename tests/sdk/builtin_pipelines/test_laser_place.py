@@ -102,13 +102,18 @@ def test_lasers_that_are_not_abeam_are_brought_onto_one_axis(constant: Simulatio
         if c.id.track == "left"
     )  # fmt: skip
     others = tuple(c for c in constant.recording.channels if c.id.track != "right")
-    far = Setup(0.05, tracks={"right": TrackSetup((1.0, 0.0, 0.0))})
+    places = {"left": TrackSetup(), "right": TrackSetup((1.0, 0.0, 0.0))}
+    far = Setup(0.05, tracks=places)
     profile = run(Recording((*others, *same), far), "temporal-basic").profile
     left, right = (profile.track(t) for t in ("left", "right"))
     np.testing.assert_array_equal(right.elevation[20:], left.elevation[:-20])
     assert np.isnan(right.elevation[:20]).all()
     assert not right.valid[:20].any()
     assert profile.provenance["laser"]["right"]["shift_m"] == 1.0
+    unknown = Setup(0.05, tracks={"right": places["right"]})
+    profile = run(Recording((*others, *same), unknown), "temporal-basic").profile
+    left, right = (profile.track(t) for t in ("left", "right"))
+    np.testing.assert_array_equal(right.elevation, left.elevation)
 
 
 def replace_track(channel: Channel):  # type: ignore[no-untyped-def]  # A ChannelId.
