@@ -69,6 +69,7 @@ if TYPE_CHECKING:
     from floatref.stages.protocol import Direction as Direction
     from floatref.stages.protocol import Stage as Stage
     from floatref.values.arrays import Flag as Flag
+    from floatref.values.axle_setup import AxleSetup as AxleSetup
     from floatref.values.block import Axis as Axis
     from floatref.values.block import Block as Block
     from floatref.values.block import Event as Event
@@ -106,6 +107,7 @@ _PUBLIC = {
     "AdaptiveCutOff": "retrofit",
     "AdaptiveHighPass": "retrofit",
     "Axis": "values.block",
+    "AxleSetup": "values.axle_setup",
     "Block": "values.block",
     "Channel": "values.recording",
     "ChannelId": "values.channels",

@@ -1,7 +1,7 @@
 """A separate engine for mutants with an internal error: plain arrays, stages from the SDK.
 
 Only the elevations come from it; interval, validity and everything else are those of the sound
-pipeline.
+pipeline. It takes every laser to be under its accelerometer.
 """
 
 from collections.abc import Callable

@@ -71,7 +71,7 @@ IN_PROCESSING = (
     Mutation(
         "tilt-ignored",
         "does not suppress the acceleration that tilt adds under braking",
-        ("throttle", "braking", "near-stop", "stop", "invariance"),
+        ("braking", "near-stop", "stop", "invariance"),
         pipeline="temporal-basic",
     ),
     Mutation(

@@ -39,7 +39,7 @@ from floatref_conformance.proving_ground.tracking import Ground, follow_line
 from floatref_conformance.proving_ground.vehicles.kinematics import Course
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 from floatref_conformance.proving_ground.vehicles.response import count_steps
-from floatref_conformance.proving_ground.vehicles.suspended import Suspended
+from floatref_conformance.proving_ground.vehicles.suspended import Suspended, axles_of
 
 BUMP_LENGTH_M = 3.0
 SCALED_OVER_M = 100.0
@@ -164,7 +164,7 @@ def suite_of(scenario: Scenario) -> SensorSuite:
 
 
 def setup_of(scenario: Scenario, vehicle: Suspended, lateral_m: Mapping[str, float]) -> Setup:
-    """Return where the sensors sit: above the wheel paths, from the point below the CG."""
+    """Return where sensors and axles are: above the wheel paths, from the point below the CG."""
     tracks = {
         name: TrackSetup(
             (vehicle.sensor_x_m, lateral_m[name], vehicle.sensor_z_m),
@@ -172,7 +172,7 @@ def setup_of(scenario: Scenario, vehicle: Suspended, lateral_m: Mapping[str, flo
         )
         for name in scenario.tracks
     }
-    return Setup(scenario.profile_interval_m, vehicle.antenna_m, tracks)
+    return Setup(scenario.profile_interval_m, vehicle.antenna_m, tracks, axles=axles_of(vehicle))
 
 
 def _check_samples(s: Scenario, duration_s: float) -> None:

@@ -1,6 +1,6 @@
 """Every stage of the SDK, registered by the name of its class."""
 
-from floatref.estimators import kalman, levelling, road_prior
+from floatref.estimators import kalman, laser_place, levelling, road_prior
 from floatref.stages import (
     conditioning,
     integration,
@@ -31,6 +31,8 @@ STAGES: tuple[type[Stage], ...] = (
     marks.MarkDrive,
     conditioning.Drop,
     integration.Integrate,
+    laser_place.HeightByAttitude,
+    laser_place.HeightByModel,
     kalman.KalmanFilter,
     kalman.KalmanSmoother,
     lateness.Advance,
@@ -40,6 +42,7 @@ STAGES: tuple[type[Stage], ...] = (
     timer_distortion.IntegrateReflecting,
     resampling.TimeStep,
     resampling.ToDistance,
+    stages.Abeam,
     stages.CompareTravel,
     stages.Denoise,
     stages.EstimateRoad,

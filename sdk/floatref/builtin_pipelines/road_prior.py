@@ -5,6 +5,7 @@ from math import pi
 
 from floatref.builtin_pipelines import basic_steps
 from floatref.builtin_pipelines.chapter_6 import condition
+from floatref.builtin_pipelines.laser_place import levers_of
 from floatref.estimators.kalman.inputs import IMU
 from floatref.estimators.levelling import Level
 from floatref.estimators.levelling.level import BLENDED_S
@@ -129,8 +130,9 @@ NOTHING = 1e-9
 
 
 def _condition_levelled(context: Context) -> Sequence[Stage]:
-    """Level; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
-    stages: list[Stage] = [Level(context.setting("attitude_blend_s"))]
+    """Level, carry heights; LPF_B3 at 1000 Hz on both where the rate allows it; add the speed."""
+    levers = levers_of(context.header)
+    stages: list[Stage] = [Level(context.setting("attitude_blend_s"), levers)]
     if context.header.rate > basic_steps.LEAST_RATE_HZ:
         cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
@@ -148,7 +150,11 @@ ROAD_PRIOR_IMU = (
             "attitude_blend_s": BLENDED_S,
             "tilt_sigma": NOTHING,
         },
-        {**ROAD_PRIOR[0].answers, "temporal_condition": _condition_levelled},
+        {
+            **ROAD_PRIOR[0].answers,
+            "temporal_laser": (),
+            "temporal_condition": _condition_levelled,
+        },
         channels=IMU,
         capabilities=("imu",),
         signed=EXPECTED,

@@ -1,11 +1,11 @@
 """The three architectures: each is a signal flow with named points, and a default answer for each.
 
-`temporal` processes in time until the profile is projected to distance: condition → first
+`temporal` processes in time until the profile is projected to distance: laser → condition → first
 integration → second integration (or one estimator in place of both) → combine with height →
 project → finish. Its defaults are those of section 5.3.
 
-`spatial` takes one sample per profile interval, which the encoder triggers: trigger → time step →
-first integration → second integration (or one estimator in place of these three) → combine →
+`spatial` takes one sample per profile interval, which the encoder triggers: laser → trigger → time
+step → first integration → second integration (or one estimator in place of these three) → combine →
 finish. Before the trigger the signals are analog; `spatial_condition` models this part. Its
 defaults are those of section 5.8.
 
@@ -16,12 +16,14 @@ defaults are those of `response-joint-input-state`.
 """
 
 from floatref.builtin_pipelines import basic_steps, response
+from floatref.builtin_pipelines.laser_place import carry_height
 from floatref.interfaces.pipeline import Ask, Defaults
 from floatref.stages.protocol import Stage
 from floatref.values.needs import nominal_needs
 from floatref.vehicle_response.needs import response_needs
 
 TEMPORAL: Defaults = {
+    "temporal_laser": carry_height,
     "temporal_condition": basic_steps.condition,
     "temporal_first_integration": basic_steps.first_integration,
     "temporal_second_integration": basic_steps.second_integration,
@@ -31,6 +33,7 @@ TEMPORAL: Defaults = {
     "temporal_finish": basic_steps.finish,
 }
 SPATIAL: Defaults = {
+    "spatial_laser": carry_height,
     "spatial_condition": basic_steps.condition,
     "spatial_trigger": basic_steps.trigger,
     "spatial_time_step": basic_steps.time_step,
@@ -53,7 +56,7 @@ RESPONSE: Defaults = {
 
 def flow_in_time(ask: Ask) -> list[Stage]:
     """Return all stages in order, from the answers of ``ask`` at each point of `temporal`."""
-    flow = list(ask("temporal_condition"))
+    flow = [*ask("temporal_laser"), *ask("temporal_condition")]
     estimator = ask("temporal_estimate")
     if estimator:
         flow += estimator
@@ -67,7 +70,7 @@ def flow_in_time(ask: Ask) -> list[Stage]:
 
 def flow_over_distance(ask: Ask) -> list[Stage]:
     """Return all stages in order, from the answers of ``ask`` at each point of `spatial`."""
-    flow = [*ask("spatial_condition"), *ask("spatial_trigger")]
+    flow = [*ask("spatial_laser"), *ask("spatial_condition"), *ask("spatial_trigger")]
     estimator = ask("spatial_estimate")
     if estimator:
         flow += estimator

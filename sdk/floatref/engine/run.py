@@ -11,11 +11,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
+from floatref.builtin_pipelines.laser_place import bring_abeam, record_laser
 from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
+from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
+from floatref.engine.road_distance import RoadDistance, correct_distance
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
 from floatref.interfaces.drop_out import DropOut
@@ -103,10 +106,25 @@ def run(
     Results of ``known``, the screening of an earlier run, for the same channels are reused.
     """
     order = _settle(plugins(), recording, pipeline, settings)
+    along = correct_distance(order.recording, order.settings.get("slip_per_g"))
+    aligned = align_heights(along.recording)
+    order = replace(order, recording=aligned.recording)
     result, source = _make_profile(order, known, progress)
     if order.pipeline.architecture == "temporal":
         result = _bridge_gaps(order, result, source)
-    return replace(result, warnings=(*result.warnings, *order.plugins.reports))
+    profile = _record_preparation(result.profile, along, aligned)
+    lines = (*aligned.warnings, *result.warnings, *order.plugins.reports)
+    return replace(result, profile=profile, warnings=lines)
+
+
+def _record_preparation(profile: Profile, along: RoadDistance, aligned: Aligned) -> Profile:
+    """Return ``profile`` with what was done to distance and heights in its record."""
+    laser = {
+        track: {**own, "later_s": aligned.later_s[track]} if track in aligned.later_s else own
+        for track, own in profile.provenance["laser"].items()
+    }
+    done = {"laser": laser, "distance": along.record}
+    return replace(profile, provenance={**profile.provenance, **done})
 
 
 def _make_profile(
@@ -159,7 +177,8 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
         ends_m=source.ends_m,
     )
     flow_of = SIGNAL_FLOWS[order.pipeline.architecture]
-    return flow_of(lambda point: order.plugins.ask(context(point=point)))
+    stages = flow_of(lambda point: order.plugins.ask(context(point=point)))
+    return [*stages, *bring_abeam(source.header.setup, source.header.tracks)]
 
 
 def _run_and_collect(
@@ -169,6 +188,8 @@ def _run_and_collect(
     header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
+    laser = record_laser(header.setup, header.tracks, stages)
+    profile = replace(profile, provenance={**profile.provenance, "laser": laser})
     if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
     return profile

@@ -13,12 +13,20 @@ from floatref.files.sources import document_path, name_errors
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording, Setup, TrackSetup, VehicleSetup
+from floatref.values.recording import (
+    AxleSetup,
+    Channel,
+    Recording,
+    Setup,
+    TrackSetup,
+    VehicleSetup,
+)
 
 DOCUMENT = "recording.json"
 """Name of the JSON file of a recording directory."""
 FORMAT = "floatref-recording/1"
 SCHEMA = "floatref-recording-1"
+AXLE_FIELDS = "wheelbase_m", "front_axle_m"
 
 
 def read_recording(path: Path) -> Recording:
@@ -109,7 +117,8 @@ def setup_of(entry: Mapping[str, Any]) -> Setup:
         for name, track in entry.get("tracks", {}).items()
     }
     known = _select(entry, "profile_interval_m", "gnss_antenna_offset_m")
-    return Setup(**known, tracks=tracks, vehicle=_vehicle(entry.get("vehicle")))
+    axles = AxleSetup(**_select(entry["axles"], *AXLE_FIELDS)) if "axles" in entry else None
+    return Setup(**known, tracks=tracks, vehicle=_vehicle(entry.get("vehicle")), axles=axles)
 
 
 def _vehicle(entry: Mapping[str, Any] | None) -> VehicleSetup | None:
@@ -140,6 +149,7 @@ def _describe(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArra
             "gnss_antenna_offset_m": setup.gnss_antenna_offset_m,
             "tracks": {name: vars(track) for name, track in setup.tracks.items()},
             **_describe_vehicle(setup.vehicle),
+            **({} if setup.axles is None else {"axles": vars(setup.axles)}),
         },
         "channels": entries,
     }

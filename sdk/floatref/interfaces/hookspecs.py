@@ -41,6 +41,11 @@ def floatref_register_pipelines(register: Callable[[Pipeline], None]) -> None:
 
 
 @hookspec
+def temporal_laser(context: Context) -> Answer:
+    """From the `height` under the laser to that in its accelerometer's place; both are raw."""
+
+
+@hookspec
 def temporal_condition(context: Context) -> Answer:
     """From raw channels in time to `vertical_acceleration` and `height`."""
 
@@ -78,6 +83,11 @@ def temporal_finish(context: Context) -> Answer:
 @hookspec
 def temporal_fall_back(context: DropOut) -> Profile | None:
     """Another profile of the recording, for where its height sensor dropped out."""
+
+
+@hookspec
+def spatial_laser(context: Context) -> Answer:
+    """As `temporal_laser`, in time, before the analog signals are processed."""
 
 
 @hookspec

@@ -16,6 +16,8 @@ Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall
 calls."""
 Ask = Callable[[str], Sequence[Stage]]
 Defaults = Mapping[str, Answer]
+OF_ALL = ("slip_per_g",)
+"""Settings that every pipeline has, of any sign; the recording decides where they are not given."""
 
 
 @dataclass(frozen=True)
@@ -43,16 +45,16 @@ class Pipeline:
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
         """Return the settings, with the ``given`` ones replaced; InputError if one is not possible.
 
-        A setting given as None keeps its default.
+        A setting given as None keeps its default. Those of `OF_ALL` are in the result if given.
         """
         for name in given:
-            if name not in self.settings:
-                known = ", ".join(self.settings) or "no settings"
+            if name not in self.settings and name not in OF_ALL:
+                known = ", ".join((*self.settings, *OF_ALL))
                 raise InputError(
                     f"setting {name}: pipeline {self.name} has no such setting; it has {known}"
                 )
         chosen = {
-            name: _number(name, value, name in self.signed)
+            name: _number(name, value, name in self.signed or name in OF_ALL)
             for name, value in given.items()
             if value is not None
         }

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
+from floatref.values.axle_setup import AxleSetup
 from floatref.values.channels import ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.scanning import first_where
@@ -45,17 +46,29 @@ class TrackSetup:
 
 @dataclass(frozen=True)
 class Setup:
-    """Geometry of the installation and the profile interval, in m, and the vehicle if known."""
+    """Geometry of the installation and the profile interval, in m, and the vehicle if known.
+
+    ``vehicle`` is its model, for an estimate from its response; ``axles`` are where its wheels are.
+    """
 
     profile_interval_m: float = 0.00508
     gnss_antenna_offset_m: Vector = ORIGIN
     tracks: Mapping[str, TrackSetup] = field(default_factory=dict)
     vehicle: VehicleSetup | None = None
+    axles: AxleSetup | None = None
 
     def __post_init__(self) -> None:
         """Refuse an impossible interval; make the tracks read-only."""
         check_interval(self.profile_interval_m, "setup.profile_interval_m")
         object.__setattr__(self, "tracks", MappingProxyType(dict(self.tracks)))
+
+    def track(self, name: str) -> TrackSetup:
+        """Return where the sensors of wheel path ``name`` sit; at the vehicle point if unknown."""
+        return self.tracks.get(name, TrackSetup())
+
+    def axles_about(self, track: str) -> AxleSetup:
+        """Return the axles, or the usual ones about the accelerometer of ``track`` if unknown."""
+        return self.axles or AxleSetup.usual(self.track(track).reference_point_m[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,6 +182,7 @@ class Recording:
 
 __all__ = [
     "ONLY_TRACK",
+    "AxleSetup",
     "Channel",
     "Clock",
     "Recording",

@@ -115,7 +115,7 @@ def simulated():
     def make(**changes):
         nominal = {"imu": False, "gnss": False, "response": False}
         nominal |= {"rate_hz": 4000.0, "length_m": 300.0, "seed": 3}
-        return simulate(Scenario(**{**nominal, **changes})).recording
+        return simulate(Scenario(**{"laser_ahead_m": 0.0, **nominal, **changes})).recording
 
     return make
 

@@ -160,3 +160,34 @@ def test_a_profile_that_cannot_be_taken_is_refused_in_a_line(
 
 def test_a_run_counts_once(runs: Path, tmp_path: Path, refused) -> None:
     assert "twice" in refused("vehicle", *[runs / "first"] * 2, "--out", tmp_path / "v.json")
+
+
+@pytest.mark.slow
+def test_two_passes_tell_the_slip_that_the_next_run_takes_off(tmp_path: Path, ran) -> None:
+    """A brake and a pass at speed over one road, 6 % per g; the next run's axis is the road's."""
+    passes = {"brake": ("braking", 1), "pass": ("constant", 2)}
+    drive = {"rate_hz": 1000.0, "length_m": 420.0, "profile_interval_m": 0.05, "tracks": ["left"],
+             "slip_percent_per_g": 6.0, "road_seed": 3, "speed_kmh": 72.0, "laser_ahead_m": 0.0,
+             "event_at_m": 200.0, "deceleration_g": 0.3}  # fmt: skip
+    for name, (manoeuvre, seed) in passes.items():
+        made = simulate(Scenario.from_dict({**drive, "manoeuvre": manoeuvre, "seed": seed}))
+        write_recording(made.recording, tmp_path / f"{name}.run")
+        ran("process", tmp_path / f"{name}.run", "--out", tmp_path / name)
+    out = tmp_path / "van.json"
+    both = ("--slip", tmp_path / "brake", tmp_path / "pass")
+    report = json.loads(ran("vehicle", *both, "--out", out, "--json").stdout)
+    assert report["settings"]["slip_per_g"] == pytest.approx(0.06, abs=0.005)
+    assert report["slip"]["stretches"] > 10
+    assert "stretches" in ran("vehicle", *both, "--out", out, "--overwrite").stdout
+    given = ("--settings", out, "--out", tmp_path / "again")
+    ran("process", tmp_path / "brake.run", *given)
+    before, after = (read_profile(tmp_path / n).length_m for n in ("brake", "again"))
+    assert after - before == pytest.approx(0.06 * (20.0**2 - (11 / 3.6) ** 2) / 19.6, abs=0.15)
+    record = read_profile(tmp_path / "again").provenance["distance"]
+    assert record["source"] == "setting"
+
+
+def test_neither_profiles_nor_passes_is_refused(tmp_path: Path, invoke) -> None:
+    result = invoke("vehicle", "--out", tmp_path / "van.json")
+    assert result.exit_code == 2
+    assert "give PROFILEs, or --slip BRAKE PASS" in result.stderr

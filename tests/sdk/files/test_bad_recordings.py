@@ -92,6 +92,10 @@ DOCUMENTS: list[tuple[str, Change, str]] = [
     ("parameter missing", lambda d: vehicle(d)["parameters"].update(sprung_kg=None),
      "setup.vehicle.parameters.sprung_kg is null; expected a number"),
     ("parameter true", lambda d: vehicle(d)["parameters"].update(sprung_kg=True), "is true; ex"),
+    ("axles without a place", lambda d: d["setup"].update(axles={"wheelbase_m": 3}),
+     "setup.axles has no front_axle_m"),
+    ("wheelbase in mm", lambda d: d["setup"].update(axles={"wheelbase_m": 3430, "front_axle_m": 0}),
+     "setup.axles.wheelbase_m is 3430; expected the distance between the axles in m, between 0.5"),
     ("vendor a number", lambda d: d["device"].update(vendor=3), "device.vendor is 3; expected"),
 ]  # fmt: skip
 

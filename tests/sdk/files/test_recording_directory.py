@@ -15,7 +15,7 @@ from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native, read_recording, write_recording
 from floatref.values.channels import CHANNELS
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.recording import Channel, Recording, Setup, TrackSetup, VehicleSetup
+from floatref.values.recording import AxleSetup, Channel, Recording, Setup, TrackSetup, VehicleSetup
 
 METRES = st.floats(-100, 100)
 OFFSET = st.tuples(METRES, METRES, METRES)
@@ -64,6 +64,7 @@ def recordings(draw: st.DrawFn) -> Recording:
         draw(OFFSET),
         draw(st.dictionaries(TRACKS, st.builds(TrackSetup, OFFSET, OFFSET), max_size=3)),
         draw(st.none() | VEHICLES),
+        draw(st.none() | st.builds(AxleSetup, st.floats(0.5, 20), st.floats(-100, 100))),
     )
     return Recording(tuple(channels), setup, draw(st.text()), draw(st.text()))
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from floatref.values.arrays import FloatArray
-from floatref.values.recording import Vector
+from floatref.values.recording import AxleSetup, Vector
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref_conformance.proving_ground.vehicles.corner_forces import CornerForces
 
@@ -112,3 +112,10 @@ class Suspended(Protocol):
     def make_setup(self) -> VehicleSetup:
         """Return the true parameters of the model that an estimator of the road uses."""
         ...
+
+
+def axles_of(vehicle: Suspended) -> AxleSetup | None:
+    """Return where the axles are, from the point below the CG; None for a vehicle on one."""
+    places = [x for x, _ in vehicle.contacts()]
+    wheelbase_m = max(places) - min(places)
+    return AxleSetup(wheelbase_m, max(places)) if wheelbase_m > 0 else None

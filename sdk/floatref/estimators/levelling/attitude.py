@@ -132,6 +132,19 @@ class Attitude:
         of_bin = np.arange(at, last + 1) // self.every - self.more.first
         return found, more[2][of_bin] > 0.0
 
+    def angles(self, turned: FloatArray, at: int) -> tuple[FloatArray, BoolArray]:
+        """Return pitch and roll in rad from sample ``at`` on, shape (2, n), and where unknown."""
+        from floatref.estimators.levelling import kernel
+
+        found, count = turned.copy(), turned.shape[1]
+        self.more.drop_before(at // self.every - 1)
+        begin, added = at - self.more.first * self.every, np.empty(count)
+        for angle, bins in zip(found, self.more.values, strict=False):
+            kernel.between_bins(bins.copy(), begin, self.every, added)
+            angle += added
+        of_bin = np.arange(at, at + count) // self.every - self.more.first
+        return found, self.more.values[2][of_bin] > 0.0
+
     def _tell(self, means: FloatArray) -> None:
         """Compute the angles by gravity up to the bin before the last of ``means``."""
         wide = np.concatenate((self.latest, means), axis=1)

@@ -167,3 +167,16 @@ def level(
         if y != y:
             y = gravity * c_t * s_p
         found[k] = -x * s_t + y * c_t * s_p + force[2, k] * c_t * c_p - gravity
+
+
+@compiled
+def between_bins(bins: FloatArray, first: int, every: int, found: FloatArray) -> None:
+    """Write the lines through ``bins``, at their centres, at samples ``first`` on; flat outside."""
+    last, whole = bins.size - 1, 2 * every
+    for k in range(found.size):
+        # In whole numbers, so that the share is the same however the samples are split.
+        halves = 2 * (first + k) - every + 1
+        b = halves // whole
+        share = (halves - whole * b) / whole
+        low, high = min(max(b, 0), last), min(max(b + 1, 0), last)
+        found[k] = bins[low] + share * (bins[high] - bins[low])

@@ -98,6 +98,7 @@ def _head(source: Path, adapter: str, dbc: str | None) -> Iterator[str]:
     yield "profile_interval_m = 0.00508"
     yield "# gnss_antenna_offset_m = [0.0, 0.0, 0.0]"
     yield "# tracks.left = { reference_point_m = [0, 0, 0], laser_offset_m = [0, 0, 0] }"
+    yield "# axles = { wheelbase_m = 3.0, front_axle_m = 1.5 }"
 
 
 def _clocks(native: NativeFile, used: set[str]) -> Iterator[str]:

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S, find_standing, on_grid, stretches
-from floatref.measures.clocks.skew_windows import SkewWindow, skew_window
+from floatref.measures.clocks.skew_windows import LARGEST, SkewWindow, skew_window
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel
 
@@ -27,6 +27,10 @@ BOUNCE_COHERENCE, BOUNCE_OFF = 0.9999, 0.03
 FEWEST_BOUNCES = 2
 """Least number of such windows in a row."""
 LEAST_MOTION_M = 2e-5
+AROUND = 2 * LARGEST
+"""Points on either side of a stop that its windows may be moved by."""
+SWINGS_S = 4.5
+"""Length in s of three windows, after which hardly a body swings any more at a stop."""
 SLOWEST_HZ, SHORTEST_S = 100.0, 2.0
 LARGEST_SIGMA_S = 5e-4
 """Largest standard deviation of a skew that is reported, in s."""
@@ -87,11 +91,39 @@ def sensor_skew(force: Channel, height: Channel, distance: Channel | None = None
     return combine_stretches([*_at_stops(*series, stands), *_in_bounces(*series, stands)])
 
 
+def skew_at_stops(force: Channel, height: Channel, distance: Channel) -> Skew:
+    """Return `sensor_skew` from stops alone, of which the first `SWINGS_S` are read.
+
+    It costs little where a drive has few stops. A bounce test is not looked for.
+    """
+    if min(force.mean_rate_hz, height.mean_rate_hz) < SLOWEST_HZ:
+        return Skew.none(f"a sensor has less than {SLOWEST_HZ:g} Hz")
+    start_s = max(force.span_s[0], height.span_s[0])
+    seconds = min(force.span_s[1], height.span_s[1]) - start_s
+    points_s = STEP_S * np.arange(max(0.0, int(seconds * RATE_HZ) + 1.0))
+    grid: FloatArray = start_s + points_s
+    found: list[Stretch] = []
+    for first, last in stretches(find_standing(distance, grid, STANDS_M, STANDS_S)):
+        last = min(last, first + round(SWINGS_S * RATE_HZ))
+        begin, end = max(0, first - AROUND), min(grid.size, last + AROUND)
+        stands = np.zeros(end - begin, dtype=np.bool_)
+        stands[first - begin : last - begin] = True
+        points = grid[begin:end]
+        found += _at_stops(on_grid(force, points), on_grid(height, points), stands)
+    return combine_stretches(found)
+
+
+def is_certain(skew: Skew) -> bool:
+    """Return whether a skew is known, above 0.5 ms and above three standard deviations."""
+    size = abs(skew.skew_s)
+    return skew.known and size > WORTH_S and size > CERTAIN * skew.sigma_s
+
+
 def skew_warning(skew: Skew, force: Channel, height: Channel) -> str | None:
     """Return a warning with the remedy for a significant skew above 0.5 ms, else None."""
-    size = abs(skew.skew_s)
-    if not (skew.known and size > WORTH_S and size > CERTAIN * skew.sigma_s):
+    if not is_certain(skew):
         return None
+    size = abs(skew.skew_s)
     late, other = (height, force) if skew.skew_s > 0 else (force, height)
     return (
         f"channel {late.id}: {1e3 * size:.2f} ± {1e3 * skew.sigma_s:.2f} ms later than {other.id}, "

@@ -9,6 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import ELEVATION, SIGMA
 from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
@@ -80,6 +81,23 @@ class ShiftAlong(Stage):
             {c: frozen(x) for c, x in values.items()},
             flags={c: f for c, f in flags.items() if f.any()},
         )
+
+
+class Abeam(ShiftAlong):
+    """Shifts elevation and 1-σ of each wheel path, so that all lie on the axis of one laser."""
+
+    def __init__(self, shifts_m: Mapping[str, float]) -> None:
+        """Shift each wheel path by its value in ``shifts_m``, in m, forward if above zero."""
+        super().__init__({})
+        self.by_track = dict(shifts_m)
+
+    def open(self, header: Header) -> Header:
+        """Ask for the elevations; the 1-σ is shifted where there is one."""
+        header.require(self.name, *(ChannelId(ELEVATION, track) for track in self.by_track))
+        found = (ChannelId(n, t) for n in (ELEVATION, SIGMA) for t in self.by_track)
+        own = [channel for channel in found if channel in header.channels]
+        self.shifts_m = {c: self.by_track[c.track] for c in own if c.track is not None}
+        return super().open(header)
 
 
 def _split(shift: float) -> tuple[int, float]:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.mapping import read_map
 from floatref.mapping.channel_map.entries import ChannelEntry, ClockEntry
-from floatref.values.recording import TrackSetup, VehicleSetup
+from floatref.values.recording import AxleSetup, TrackSetup, VehicleSetup
 
 HEAD = 'format = "floatref-map/1"\n'
 LASER = '[[channels]]\nnative = "laser"\nchannel = "height"\n'
@@ -38,6 +38,7 @@ model = "P1"
 profile_interval_m = 0.025
 gnss_antenna_offset_m = [0, 0.5, 2]
 tracks.left = { reference_point_m = [1, 2, 3], laser_offset_m = [0.0, 0.1, 0.2] }
+axles = { wheelbase_m = 3, front_axle_m = -1.5 }
 [setup.vehicle]
 model = "quarter-car"
 x_m = 1.75
@@ -101,6 +102,7 @@ def test_everything_that_a_map_can_say(save: Save) -> None:
     assert chart.setup.profile_interval_m == 0.025
     assert chart.setup.gnss_antenna_offset_m == (0.0, 0.5, 2.0)
     assert chart.setup.tracks == {"left": TrackSetup((1.0, 2.0, 3.0), (0.0, 0.1, 0.2))}
+    assert chart.setup.axles == AxleSetup(3.0, -1.5)
     parameters = {"sprung_kg": 700.0, "tyre_n_per_m": 320_000.0}
     assert chart.setup.vehicle == VehicleSetup("quarter-car", parameters, 1.75)
 

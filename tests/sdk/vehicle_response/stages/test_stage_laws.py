@@ -17,6 +17,7 @@ from floatref.vehicle_response.estimators.estimate import Estimate
 from floatref.vehicle_response.estimators.gains import default_gains
 from floatref.vehicle_response.estimators.observer import UnknownInputObserver
 from floatref.vehicle_response.stages import (
+    Abeam,
     Denoise,
     EstimateRoad,
     Group,
@@ -72,6 +73,16 @@ class TestShiftAlong(StageLaws):
 
     def make(self) -> ShiftAlong:
         return ShiftAlong(SHIFTS)
+
+
+class TestAbeam(StageLaws):
+    """Wheel paths on the axis of one laser: elevations and their 1-σ move together."""
+
+    reads = "elevation", "elevation_sigma"
+    axis = Axis.DISTANCE
+
+    def make(self) -> Abeam:
+        return Abeam({"left": 0.0, "right": 0.0325})
 
 
 class TestDenoise(StageLaws):

@@ -1,0 +1,114 @@
+"""The height carried to the accelerometer by a pitch that the road under the axles explains."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.estimators.laser_place.pitching import Places, model_pitch
+from floatref.estimators.levelling.lines import Means
+from floatref.stages.conditioning import SPECIFIC_FORCE
+from floatref.stages.marks import flags_of
+from floatref.stages.protocol import Declared, Stage
+from floatref.stages.signals import DISTANCE, HEIGHT
+from floatref.values.arrays import FloatArray
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+
+BINS_HZ = 100.0
+"""Readings per second of the model, for pitch up to 20 Hz."""
+
+
+class HeightByModel(Stage):
+    """Replaces `height` by what the laser would read in the accelerometer's place.
+
+    A laser x ahead of its accelerometer is higher by x sin θ at the pitch θ, nose up. θ is that of
+    `model_pitch`, for which the engine shows this stage the whole run first. The body has one
+    pitch, so sensors of all wheel paths have a part in it, and roll has none. A height has the
+    flags of its own accelerometer, too; a sample that is missing is bridged in the pitch.
+    """
+
+    surveys = True
+    declared = Declared(linear=False, zero_in_zero_out=False)
+
+    def __init__(self, levers_m: Mapping[str, float]) -> None:
+        """Carry by ``levers_m`` of each wheel path: its laser ahead of its accelerometer."""
+        super().__init__()
+        self.levers_m = dict(levers_m)
+        self._header: Header | None = None
+        self._every = 1
+
+    def open(self, header: Header) -> Header:
+        """Ask for force and height of every track and the encoder, in time."""
+        if header.axis is not Axis.TIME:
+            raise InputError(f"stage {self.name}: the stream is not on the time axis")
+        own = [channel for track in header.tracks for channel in _own(track)]
+        header.require(self.name, *own, ChannelId(DISTANCE))
+        self._header = header
+        self._every = max(1, round(1.0 / (BINS_HZ * header.step)))
+        means = Means(self._every, len(own) + 1)
+        self.memory = {"means": means, "bins": [], "begin": None, "raised": None}
+        return header
+
+    def survey(self, block: Block) -> None:
+        """Add the block to the means of the bins."""
+        assert self._header is not None
+        names = [channel for track in self._header.tracks for channel in _own(track)]
+        rows = [_trusted_samples(block, name) for name in (*names, ChannelId(DISTANCE))]
+        self.memory["bins"].append(self.memory["means"].take(np.stack(rows)))
+        if self.memory["begin"] is None and len(block):
+            self.memory["begin"] = block.first
+
+    def advance(self, block: Block) -> Block:
+        """Carry the heights of the block."""
+        from floatref.estimators.levelling import kernel
+
+        if len(block) == 0:
+            return block
+        if self.memory["raised"] is None:
+            self._find_pitch()
+        values, flags, raised = {}, {}, np.empty(len(block))
+        first = block.first - self.memory["begin"]
+        kernel.between_bins(self.memory["raised"], first, self._every, raised)
+        for track, lever_m in self.levers_m.items():
+            height = ChannelId(HEIGHT, track)
+            values[height] = block[height] - lever_m * raised
+            marks = flags_of(block, *_own(track))
+            if marks is not None:
+                flags[height] = marks
+        return block.setting(values, flags)
+
+    def _find_pitch(self) -> None:
+        """Find sin θ of every bin from all that was surveyed."""
+        bins = np.concatenate([*self.memory["bins"], self.memory["means"].rest()], axis=1)
+        self.memory["bins"] = []
+        force, height = _middle(bins[:-1:2]) - STANDARD_GRAVITY, _middle(bins[1:-1:2])
+        self.memory["raised"] = np.sin(model_pitch(force, height, bins[-1], self._places()))
+
+    def _places(self) -> Places:
+        """Return where the middle of the sensors is, and the axles."""
+        assert self._header is not None
+        setup, tracks = self._header.setup, self._header.tracks
+        at_m = float(np.mean([setup.track(t).reference_point_m[0] for t in tracks]))
+        laser_m = at_m + float(np.mean([self.levers_m[t] for t in tracks]))
+        step = self._every * self._header.step
+        return Places(at_m, laser_m, setup.axles_about(tracks[0]), step)
+
+
+def _own(track: str) -> tuple[ChannelId, ChannelId]:
+    return ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
+
+
+def _middle(rows: FloatArray) -> FloatArray:
+    """Return the mean of the wheel paths, shape (n,); a path that is unknown is a line there."""
+    places = np.arange(rows.shape[1])
+    known = [row for row in rows if not np.isnan(row).all()]
+    if not known:
+        return np.full(places.size, np.nan)
+    bridged = [np.interp(places, places[~np.isnan(r)], r[~np.isnan(r)]) for r in known]
+    return np.asarray(np.mean(bridged, axis=0))
+
+
+def _trusted_samples(block: Block, channel: ChannelId) -> FloatArray:
+    flags = block.flags.get(channel)
+    return block[channel] if flags is None else np.where(flags == 0, block[channel], np.nan)
