@@ -1,0 +1,125 @@
+"""One series as a sum of others, by least squares over the windows in which they agree."""
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floatref.screening.second_sensor.fast_series import STEP_S
+from floatref.values.arrays import BoolArray, FloatArray
+
+WINDOW_S = 0.5
+"""Length of a window in s: a period of the body at 2 Hz."""
+OUTLYING = 4.0
+"""A window with this number of times the usual residual is left out of the fit."""
+ROUNDS = 3
+FEWEST_WINDOWS = 8
+"""Fewest windows of a fit, 4 s."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A series as a sum of others.
+
+    Attributes:
+        weights: of the others, in their order.
+        explained: share of the series' power that they explain, in windows that agree; 1 at most.
+        left_over: share that they leave unexplained in all windows that count.
+        residual: root mean square of what they leave in every window, shape (w,).
+        power: the same of the series itself.
+        counted: windows in which all is known, shape (w,).
+        agree: those of them that agree, shape (w,).
+    """
+
+    weights: FloatArray
+    explained: float
+    left_over: float
+    residual: FloatArray
+    power: FloatArray
+    counted: BoolArray
+    agree: BoolArray
+
+    def loud(self, times: float, share: float) -> BoolArray:
+        """Return the windows that count and do not agree, shape (w,).
+
+        They leave ``times`` the usual residual, and ``share`` of the usual size of the series.
+        """
+        usual, size = (float(np.median(x[self.agree])) for x in (self.residual, self.power))
+        return np.asarray(self.counted & (self.residual > max(times * usual, share * size)))
+
+    @property
+    def agreeing(self) -> float:
+        """Share of the windows that count that agree."""
+        return float(self.agree.sum()) / float(self.counted.sum())
+
+
+T = TypeVar("T", np.float64, np.bool_)
+
+
+def windowed(rows: NDArray[T]) -> NDArray[T]:
+    """Return ``rows``, shape (k, n), as windows, shape (k, w, m); the end of the run is cut."""
+    size = round(WINDOW_S / STEP_S)
+    count = rows.shape[1] // size
+    return rows[:, : count * size].reshape(rows.shape[0], count, size)
+
+
+def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float = 0.0) -> Fit | None:
+    """Return ``series``, shape (n,), as a sum of ``others``, shape (k, n).
+
+    Windows with a point that is not ``known`` do not count. None if fewer than `FEWEST_WINDOWS` do.
+    Where less than ``least`` is explained, the best third of the run gives the weights: a sensor
+    that fails midway still works before.
+    """
+    rows = np.concatenate([series[None], others])
+    parts, whole = windowed(rows), windowed(known[None]).all(axis=2)[0]
+    products = np.einsum("iwm,jwm->wij", parts, parts) / parts.shape[2]
+    found = _fit(products, whole, whole)
+    if found is None or found.explained >= least:
+        return found
+    thirds = np.array_split(np.flatnonzero(whole), 3)
+    tried = [_fit(products, whole, np.isin(np.arange(whole.size), third)) for third in thirds]
+    return max([f for f in (found, *tried) if f is not None], key=lambda f: f.explained)
+
+
+def _fit(products: FloatArray, whole: BoolArray, first: BoolArray) -> Fit | None:
+    """Return the fit that begins with the windows ``first`` and grows to all that agree.
+
+    ``products``, shape (w, 1 + k, 1 + k), are the mean products of the series and the others.
+    """
+    if first.sum() < FEWEST_WINDOWS:
+        return None
+    agree = first
+    for _ in range(ROUNDS):
+        weights = _solve(products[agree].sum(axis=0))
+        signed = np.concatenate([[1.0], -weights])
+        residual = np.sqrt(np.maximum(products @ signed @ signed, 0.0))
+        usual = float(np.median(residual[agree]))
+        agree = whole & (residual <= OUTLYING * usual)
+    power = np.sqrt(products[:, 0, 0])
+    explained, left_over = 1.0 - _share(residual, power, agree), _share(residual, power, whole)
+    return Fit(weights, explained, left_over, residual, power, whole, agree)
+
+
+def _share(residual: FloatArray, power: FloatArray, where: BoolArray) -> float:
+    """Return the share of the power that is left over in the windows ``where``."""
+    total = float(np.sum(power[where] ** 2))
+    return float(np.sum(residual[where] ** 2)) / total if total > 0 else 1.0
+
+
+def _solve(products: FloatArray) -> FloatArray:
+    """Return the weights of the others, of their ``products``; each is scaled to one size."""
+    sizes = np.sqrt(np.maximum(np.diag(products), 1e-30))
+    scaled = products / np.outer(sizes, sizes)
+    weights, *_ = np.linalg.lstsq(scaled[1:, 1:], scaled[1:, 0], rcond=1e-9)
+    return np.asarray(weights * sizes[0] / sizes[1:])
+
+
+def shifted(series: FloatArray, steps: int) -> FloatArray:
+    """Return ``series`` with the value of ``steps`` later at every point; 0 beyond its ends."""
+    found = np.zeros_like(series)
+    if steps >= 0:
+        found[: series.size - steps] = series[steps:]
+    else:
+        found[-steps:] = series[: series.size + steps]
+    return found
