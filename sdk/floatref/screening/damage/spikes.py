@@ -9,7 +9,7 @@ from floatref.values.recording import Channel
 from floatref.values.scanning import chunks
 
 SLOWEST_HZ = 1000.0
-"""At this rate and above, an accelerometer's own bandwidth spreads any shock over several samples."""
+"""At this rate and above, an accelerometer's own bandwidth spreads a shock over several samples."""
 LEAST = {"height": 0.05}
 LEAST_FORCE = 0.5 * STANDARD_GRAVITY
 """Smallest spike of a height in m, deeper than a crack, and of an accelerometer in m/s²."""

@@ -5,6 +5,7 @@ Hz: means over 5 ms lose nothing of either.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -36,7 +37,7 @@ class FastGrid:
         """Return grids of about ``length_s`` that follow one another."""
         many = max(1, round(self.count * STEP_S / length_s))
         edges = np.linspace(0, self.count, many + 1).astype(int).tolist()
-        begins = [(a, b - a) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        begins = [(a, b - a) for a, b in pairwise(edges)]
         return [FastGrid(self.begin_s + STEP_S * a, size) for a, size in begins]
 
 

@@ -13,6 +13,8 @@ WINDOW_S = 0.5
 """Length of a window in s: a period of the body at 2 Hz."""
 OUTLYING = 4.0
 """A window with this number of times the usual residual is left out of the fit."""
+MOVING = 0.1
+"""Share of the motion of lively windows with which a window counts."""
 ROUNDS = 3
 FEWEST_WINDOWS = 8
 """Fewest windows of a fit, 4 s."""
@@ -28,7 +30,7 @@ class Fit:
         left_over: share that they leave unexplained in all windows that count.
         residual: root mean square of what they leave in every window, shape (w,).
         power: the same of the series itself.
-        counted: windows in which all is known, shape (w,).
+        counted: windows in which all is known and something moves, shape (w,).
         agree: those of them that agree, shape (w,).
     """
 
@@ -43,10 +45,11 @@ class Fit:
     def loud(self, times: float, share: float) -> BoolArray:
         """Return the windows that count and do not agree, shape (w,).
 
-        They leave ``times`` the usual residual, and ``share`` of the usual size of the series.
+        They leave ``times`` the usual residual, and ``share`` of the series, usual and own.
         """
         usual, size = (float(np.median(x[self.agree])) for x in (self.residual, self.power))
-        return np.asarray(self.counted & (self.residual > max(times * usual, share * size)))
+        least = np.maximum(times * usual, share * np.maximum(size, self.power))
+        return np.asarray(self.counted & (self.residual > least))
 
     @property
     def agreeing(self) -> float:
@@ -74,12 +77,20 @@ def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float =
     rows = np.concatenate([series[None], others])
     parts, whole = windowed(rows), windowed(known[None]).all(axis=2)[0]
     products = np.einsum("iwm,jwm->wij", parts, parts) / parts.shape[2]
+    whole = whole & _is_moving(products)
     found = _fit(products, whole, whole)
     if found is None or found.explained >= least:
         return found
     thirds = np.array_split(np.flatnonzero(whole), 3)
     tried = [_fit(products, whole, np.isin(np.arange(whole.size), third)) for third in thirds]
     return max([f for f in (found, *tried) if f is not None], key=lambda f: f.explained)
+
+
+def _is_moving(products: FloatArray) -> BoolArray:
+    """Return the windows in which any of the series moves: a standstill shows noise alone."""
+    power = np.sqrt(np.diagonal(products, axis1=1, axis2=2))
+    usual = np.percentile(power, 90, axis=0)
+    return np.asarray(np.any(power > MOVING * usual, axis=1))
 
 
 def _fit(products: FloatArray, whole: BoolArray, first: BoolArray) -> Fit | None:

@@ -26,7 +26,7 @@ LOWEST, HIGHEST = 0.5, 1.5
 LATE_S, APART_S = 0.03, 0.008
 """Lag in s of a laser alone that is no latency, and of one against the other."""
 MORE, FLOOR = 3.0, 0.02
-"""A laser leaves this number of times more unexplained than the other, and more, if it is faulty."""
+"""A faulty laser leaves this number of times more unexplained than the other, and more."""
 LOUD, SHARE = 8.0, 0.5
 """A window is faulty above this number of usual residuals and above this share of usual motion."""
 QUIET = 4.0
@@ -60,11 +60,15 @@ def _whole_run(track: str, own: LaserFit, other: LaserFit | None) -> Doubt | Non
         return None if _is_sound(own) else _unlike(track, own) if _is_better(other, own) else None
     name = ChannelId(HEIGHT, track)
     if own.gain < 0 and own.fit.explained >= NOTHING:
-        return Doubt((name,), f"channel {name}: gives the road of the wheel with its sign inverted "
-                     f"(gain {own.gain:.2f}); multiply changes of the range by -1", True)  # fmt: skip
+        return _inverted(name, own.gain)
     if own.fit.explained < COHERENT or _leaves_more(own, other):
         return _unlike(track, own)
     return _scaled(name, own, other) or _late(name, own, other)
+
+
+def _inverted(name: ChannelId, gain: float) -> Doubt:
+    line = f"channel {name}: shows the wheel's road with its sign inverted (gain {gain:.2f})"
+    return Doubt((name,), f"{line}; multiply changes of the range by -1", True)
 
 
 def _is_sound(own: LaserFit) -> bool:
@@ -86,8 +90,8 @@ def _unlike(track: str, own: LaserFit) -> Doubt:
     name, share = ChannelId(HEIGHT, track), 100.0 * max(own.fit.explained, 0.0)
     return Doubt(
         (name,),
-        f"channel {name}: it and its accelerometer explain {share:.0f} % of the road that the wheel "
-        "rolls on; the laser is noise, stuck, filtered, of another scale or on another clock: "
+        f"channel {name}: it and its accelerometer explain {share:.0f} % of the road under the "
+        "wheel; the laser is noise, stuck, filtered, of another scale or on another clock: "
         "repair it, or leave the track out",
         own.fit.explained < NOTHING,
     )
@@ -150,6 +154,8 @@ def _stretches(
     loud: BoolArray = own.on_time.loud(LOUD, SHARE)
     if other is not None:
         loud = loud & ~other.on_time.loud(QUIET, 0.0)
+    # A joint or a patch that the tyre bridges lasts for less.
+    loud = loud & (np.append(loud[1:], False) | np.append(False, loud[:-1]))
     spans = window_spans(loud, grid)
     if not spans:
         return

@@ -16,7 +16,7 @@ from floatref.values.scanning import chunks
 
 SLOWEST_HZ = 1000.0
 LEAST = {"vertical_specific_force": 0.3, "height": 5e-4}
-"""Noise that matters, as 1-σ of a sample: ten times that of a profiler's sensors (4.3, Table 6.1)."""
+"""Noise that matters, as 1-σ of a sample: ten times that of usual sensors (4.3, Table 6.1)."""
 NOISIER = 8.0
 """How many times noisier than the other side a faulty sensor is: textures differ by less."""
 MOST = 16

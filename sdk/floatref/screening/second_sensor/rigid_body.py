@@ -1,9 +1,9 @@
 """Accelerometers on one body: each is a sum of the others and of the body's turning.
 
-A rigid body has three vertical freedoms: heave, pitch and roll. So one of three accelerometers on it
-is a sum of the other two and of the rates of the angular velocities, whatever the places, and as a
-body that heaves without turning moves all alike, the weights of the accelerometers sum up to 1. What
-leaves out the faulty one still holds, and no other sum does.
+A rigid body has three vertical freedoms: heave, pitch and roll. So one of three accelerometers on
+it is a sum of the other two and of the rates of the angular velocities, whatever the places. A body
+that heaves without turning moves all alike: so the weights of the accelerometers sum up to 1. Sums
+without the faulty one hold, and no other does.
 """
 
 from collections.abc import Mapping, Sequence

@@ -3,8 +3,8 @@
 The laser and the accelerometer beside it give the road as a profiler has it: height of the sensor
 less range. The wheel follows the same road below some 5 Hz, which the accelerometer on its carrier
 measures. All are integrated over a band, and the wheel's is moved along the road to the laser. The
-wheel follows late, by damping over the stiffness of the tyre: 5 to 25 ms. So the wheel's road is the
-sum of the sensor's height and of the range, and the ratio of both weights is the laser's scale.
+wheel follows late, by damping over the stiffness of the tyre: 5 to 25 ms. So the wheel's road is
+the sensor's height less the range, and the ratio of their weights is the laser's scale.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ SLOWEST_MPS = 4.0
 WHEEL_LATE = -3
 """Usual lag of the wheel, in steps of the grid: 15 ms."""
 WHEELS_LATE = range(-7, 2)
-SEARCH = ((4, 14), (1, 3))
+SEARCH = ((4, 14), (1, 3), (1, 3))
 """Lags of wheel and laser that are searched where the usual ones explain little: of the laser how
 many steps apart, and how many to either side; 0.3 s in all."""
 SMALL_S, GOOD = 0.02, 0.9
@@ -98,7 +98,7 @@ class LaserFit:
 
 
 def fit_laser(roads: TwoRoads) -> LaserFit | None:
-    """Return how the laser follows, with the lags that explain most; None if too little is known."""
+    """Return how the laser follows, by the lags that explain most; None if too little is known."""
     lags = roads.lags()
     wheel, late_s, steps = _search(roads) if lags is None else _near(*lags)
     on_time = roads.relate(wheel, 0, COHERENT)

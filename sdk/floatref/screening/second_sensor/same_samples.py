@@ -1,4 +1,4 @@
-"""Two wheel paths with the samples of one sensor: a cable that feeds two inputs, or a copied file."""
+"""Two wheel paths with the samples of one sensor: one cable on two inputs, or a copied file."""
 
 from collections.abc import Iterator
 from itertools import combinations

@@ -1,8 +1,8 @@
 """Bias of an accelerometer that changes, against the others of the body.
 
-Over some seconds all vertical accelerometers of a body have one mean: that of a rigid body differs by
-lever times the change of its angular velocity over that time only. What is left is their bias, which
-a thermal drift changes in minutes.
+Over some seconds all vertical accelerometers of a rigid body have one mean, but for lever times the
+change of its angular velocity over that time. What is left is their bias, which temperature changes
+in minutes.
 """
 
 from collections.abc import Iterator, Mapping

@@ -53,7 +53,7 @@ def travel_doubts(track: str, found: Fit | None) -> Iterator[Doubt]:
     )
     yield Doubt(
         (name,),
-        f"channel {name}: {gain:.3g} times the motion by the other sensors of the suspension; {what}",
+        f"channel {name}: {gain:.3g} times the motion by the suspension's other sensors; {what}",
         True,
     )
 

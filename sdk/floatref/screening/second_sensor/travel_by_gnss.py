@@ -113,8 +113,8 @@ def _off(ways: Ways, ratio: float) -> BoolArray:
 def _scaled(name: ChannelId, ratio: float) -> Doubt:
     return Doubt(
         (name,),
-        f"channel {name}: {ratio:.3g} times the distance by the places of GNSS; correct its unit or "
-        f"calibrate it, dividing by {ratio:.4g}",
+        f"channel {name}: {ratio:.3g} times the distance by the places of GNSS; correct its unit, "
+        f"or calibrate it and divide by {ratio:.4g}",
         abs(ratio - 1.0) > UNUSABLE,
     )
 

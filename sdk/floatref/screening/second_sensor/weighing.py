@@ -20,6 +20,7 @@ from floatref.screening.second_sensor.fast_series import (
     shared_grid,
 )
 from floatref.screening.second_sensor.fitting import Fit
+from floatref.screening.second_sensor.height_at_stops import stop_doubts
 from floatref.screening.second_sensor.laser_faults import laser_doubts
 from floatref.screening.second_sensor.noisier_side import noise_doubts
 from floatref.screening.second_sensor.rigid_body import BAND_HZ, Body
@@ -55,13 +56,15 @@ SETTLED_S = 1.0
 """Time in s at either end of a piece, and beside missing samples, that does not count."""
 WHEEL_MODEL = "quarter-car"
 """The model whose point is the wheel's place."""
+ALONE = (same_doubts, encoder_doubts, noise_doubts, stop_doubts)
+"""Comparisons that need no grid."""
 MAJORITY = 0.5
 """Share of the pieces of a long run in which a fault is one of the whole run."""
 
 
 def weigh_recording(recording: Recording) -> tuple[Doubt, ...]:
     """Return all doubts about ``recording``, those about the encoder first."""
-    found = [*same_doubts(recording), *encoder_doubts(recording), *noise_doubts(recording)]
+    found = [doubt for compare in ALONE for doubt in compare(recording)]
     channels = [c for c in recording.channels if _is_compared(c)]
     if not channels:
         return tuple(found)
