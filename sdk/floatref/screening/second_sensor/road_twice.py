@@ -22,9 +22,11 @@ SLOWEST_MPS = 4.0
 WHEEL_LATE = -3
 """Usual lag of the wheel, in steps of the grid: 15 ms."""
 WHEELS_LATE = range(-7, 2)
-SEARCH = ((4, 14), (1, 3), (1, 3))
+SEARCH = ((4, 14), (1, 3))
 """Lags of wheel and laser that are searched where the usual ones explain little: of the laser how
 many steps apart, and how many to either side; 0.3 s in all."""
+ROUNDS = 3
+"""How often both lags are moved together by one step, if that explains more."""
 SMALL_S, GOOD = 0.02, 0.9
 """Lag in s up to which the first derivative of a signal of 5 Hz or less makes up for it, and the
 share that has to be explained then."""
@@ -123,6 +125,9 @@ def _search(roads: TwoRoads) -> tuple[int, float, int]:
         # The first of equals is the one that was best so far.
         late = max((late, *steps), key=lambda step: explained(wheel, step))
         wheel = max((wheel, *WHEELS_LATE), key=lambda step: explained(step, late))
+    for _ in range(ROUNDS):
+        both = [(wheel + a, late + b) for a in (0, -1, 1) for b in (0, -1, 1)]
+        wheel, late = max(both, key=lambda pair: explained(*pair))
     return wheel, late * STEP_S, late
 
 
