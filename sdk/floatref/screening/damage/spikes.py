@@ -1,16 +1,19 @@
 """Single samples that leave their neighbours: a bad contact, a bit that flips, dust in a beam."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.needs import HEIGHT, VERTICAL_FORCES
 from floatref.values.recording import Channel
 from floatref.values.scanning import chunks
 
 SLOWEST_HZ = 1000.0
 """At this rate and above, an accelerometer's own bandwidth spreads a shock over several samples."""
-LEAST = {"height": 0.05}
+LEAST = {HEIGHT: 0.05}
 LEAST_FORCE = 0.5 * STANDARD_GRAVITY
 """Smallest spike of a height in m, deeper than a crack, and of an accelerometer in m/s²."""
 UNUSUAL = 15.0
@@ -34,6 +37,16 @@ def find_spikes(channel: Channel) -> Damage:
     spans: IndexArray = np.stack([at, at + 1], axis=1)
     line = describe_damage(channel, spans, "leaves its neighbours and returns at once")
     return Damage(spans, NONE, warnings=(line,))
+
+
+def without_spikes(channel: Channel) -> Channel:
+    """Return ``channel`` with its spikes missing; itself if it has none."""
+    spans = find_spikes(channel).gone if channel.id.name in (HEIGHT, *VERTICAL_FORCES) else NONE
+    if not spans.size:
+        return channel
+    values = np.array(channel.values)
+    values[spans[:, 0]] = np.nan
+    return replace(channel, values=values)
 
 
 def _usual(values: FloatArray) -> float:

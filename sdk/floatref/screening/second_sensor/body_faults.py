@@ -12,9 +12,9 @@ from floatref.screening.second_sensor.rigid_body import COHERENT, Body, Relation
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.channels import ChannelId
 
-SCALE_OFF, UNUSABLE = 0.07, 0.3
-"""Deviation of a gain from 1 that makes a profile wrong by more than 5 %, with the tolerances of
-two sensors; and one that is no tolerance but a wrong unit."""
+SCALE_OFF, UNUSABLE = 0.06, 0.3
+"""Deviation of a gain from 1 that makes a profile wrong by more than 5 %, with 0.5 % for the scale
+of each of two sensors; and one that is no tolerance but a wrong unit."""
 LATE_STEPS = 2
 """Lag in steps of the grid, 10 ms, that is no latency of a recorder: it shifts the body's motion
 at 1.5 Hz by 10 % of its size."""

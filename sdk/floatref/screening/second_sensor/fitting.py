@@ -76,9 +76,11 @@ def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float =
     """
     rows = np.concatenate([series[None], others])
     parts, whole = windowed(rows), windowed(known[None]).all(axis=2)[0]
+    if whole.sum() < FEWEST_WINDOWS:
+        return None
     products = np.einsum("iwm,jwm->wij", parts, parts) / parts.shape[2]
     whole = whole & _is_moving(products)
-    found = _fit(products, whole, whole)
+    found = _fit(products, whole, whole & _is_usual(products, whole))
     if found is None or found.explained >= least:
         return found
     thirds = np.array_split(np.flatnonzero(whole), 3)
@@ -91,6 +93,12 @@ def _is_moving(products: FloatArray) -> BoolArray:
     power = np.sqrt(np.diagonal(products, axis1=1, axis2=2))
     usual = np.percentile(power, 90, axis=0)
     return np.asarray(np.any(power > MOVING * usual, axis=1))
+
+
+def _is_usual(products: FloatArray, whole: BoolArray) -> BoolArray:
+    """Return the windows in which no series is much larger than in half of those that count."""
+    power = np.sqrt(np.diagonal(products, axis1=1, axis2=2))
+    return np.asarray(np.all(power <= OUTLYING * np.median(power[whole], axis=0), axis=1))
 
 
 def _fit(products: FloatArray, whole: BoolArray, first: BoolArray) -> Fit | None:

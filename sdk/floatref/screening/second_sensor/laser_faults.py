@@ -18,16 +18,16 @@ from floatref.values.arrays import BoolArray
 from floatref.values.channels import ChannelId
 
 FORCE, HEIGHT = "vertical_specific_force", "height"
-SCALE_APART = 0.08
-"""Largest difference of the gains of two lasers: what the tolerances of their sensors and a body
-that is not symmetrical leave; a profile that is wrong by more than 5 % differs by more."""
+SCALE_APART = 0.06
+"""Largest difference of the gains of two lasers: beyond it the profile of one is wrong by more than
+5 %, with 0.5 % for the scale of each of two sensors."""
 LOWEST, HIGHEST = 0.5, 1.5
 """Gain of a laser alone: a wheel that rubs or rolls beside its line takes up to 0.3 off it."""
 LATE_S, APART_S = 0.03, 0.008
 """Lag in s of a laser alone that is no latency, and of one against the other."""
 MORE, FLOOR = 3.0, 0.02
 """A faulty laser leaves this number of times more unexplained than the other, and more."""
-LOUD, SHARE = 8.0, 0.5
+LOUD, SHARE = 6.0, 0.5
 """A window is faulty above this number of usual residuals and above this share of usual motion."""
 QUIET = 4.0
 """The other wheel path is at most at this number of usual residuals in such a window."""

@@ -51,9 +51,8 @@ def _means(series: FloatArray) -> FloatArray:
 
 def _doubt(suspects: tuple[ChannelId, ...], off: BoolArray, grid: FastGrid) -> Doubt:
     edges = np.flatnonzero(np.diff(off.astype(np.int8), prepend=0, append=0)).reshape(-1, 2)
-    spans = tuple(
-        (grid.begin_s + SPAN_S * (a - 1.0), grid.begin_s + SPAN_S * (b + 1.0)) for a, b in edges
-    )
+    times = grid.begin_s + SPAN_S * (edges + np.array([-1.0, 1.0]))
+    spans = tuple((begin, end) for begin, end in times.tolist())
     what = "channel" if len(suspects) == 1 else "channels"
     return Doubt(
         suspects,

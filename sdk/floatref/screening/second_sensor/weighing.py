@@ -9,8 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from floatref.screening.damage.spikes import without_spikes
 from floatref.screening.second_sensor.body_faults import body_doubts
 from floatref.screening.second_sensor.doubts import Doubt
+from floatref.screening.second_sensor.encoder_steps import step_doubts
 from floatref.screening.second_sensor.fast_series import (
     STEP_S,
     FastGrid,
@@ -56,7 +58,7 @@ SETTLED_S = 1.0
 """Time in s at either end of a piece, and beside missing samples, that does not count."""
 WHEEL_MODEL = "quarter-car"
 """The model whose point is the wheel's place."""
-ALONE = (same_doubts, encoder_doubts, noise_doubts, stop_doubts)
+ALONE = (same_doubts, encoder_doubts, step_doubts, noise_doubts, stop_doubts)
 """Comparisons that need no grid."""
 MAJORITY = 0.5
 """Share of the pieces of a long run in which a fault is one of the whole run."""
@@ -73,7 +75,8 @@ def weigh_recording(recording: Recording) -> tuple[Doubt, ...]:
         return tuple(found)
     distrusted = {name for doubt in found if doubt.whole_run for name in doubt.suspects}
     pieces = grid.pieces(PIECE_S)
-    by_piece = [tuple(_Piece(recording, piece, distrusted).doubts()) for piece in pieces]
+    partial = [doubt for doubt in found if not doubt.whole_run]
+    by_piece = [tuple(_Piece(recording, piece, distrusted, partial).doubts()) for piece in pieces]
     return (*found, *_join(by_piece, pieces))
 
 
@@ -84,16 +87,36 @@ def _is_compared(channel: Channel) -> bool:
 class _Piece:
     """A piece of a run on one grid; series are made when they are first read."""
 
-    def __init__(self, recording: Recording, grid: FastGrid, distrusted: set[ChannelId]) -> None:
+    def __init__(
+        self,
+        recording: Recording,
+        grid: FastGrid,
+        distrusted: set[ChannelId],
+        partial: list[Doubt],
+    ) -> None:
         self._recording, self._grid, self._distrusted = recording, grid, set(distrusted)
         self._series: dict[ChannelId, FloatArray] = {}
+        for doubt in partial:
+            self._leave_out(doubt)
 
     def doubts(self) -> Iterator[Doubt]:
         """Yield the doubts; what is in doubt does not count as a second sensor."""
-        for doubts in (self._of_body, self._of_suspension, self._of_lasers):
+        for doubts in (self._of_body, self._of_bias, self._of_suspension, self._of_lasers):
             for doubt in doubts():
-                self._distrusted.update(doubt.suspects if doubt.whole_run else ())
+                if doubt.whole_run:
+                    self._distrusted.update(doubt.suspects)
+                else:
+                    self._leave_out(doubt)
                 yield doubt
+
+    def _leave_out(self, doubt: Doubt) -> None:
+        """Count the stretches of ``doubt`` as unknown in the series of its suspects."""
+        times = self._grid.times
+        for channel in (c for c in self._recording.channels if c.id in doubt.suspects):
+            series = np.array(self._read(channel))
+            for begin, end in doubt.spans:
+                series[(times >= begin) & (times <= end)] = np.nan
+            self._series[channel.id] = series
 
     def _of_body(self) -> Iterator[Doubt]:
         rows = [c for c in self._recording.channels if c.id.name in (FORCE, BODY)]
@@ -109,8 +132,10 @@ class _Piece:
         known = _known(series)
         body = Body(forces, np.array(turning).reshape(len(gyros), known.size), known)
         yield from body_doubts(body, self._grid)
-        whole = dict(zip(forces, series, strict=False))
-        sound = {name: each for name, each in whole.items() if name not in self._distrusted}
+
+    def _of_bias(self) -> Iterator[Doubt]:
+        rows = [c for c in self._recording.channels if c.id.name in (FORCE, BODY, WHEEL)]
+        sound = {c.id: self._read(c) for c in rows if c.id not in self._distrusted}
         yield from bias_doubts(sound, self._grid)
 
     def _of_suspension(self) -> Iterator[Doubt]:
@@ -158,7 +183,7 @@ class _Piece:
 
     def _read(self, channel: Channel) -> FloatArray:
         if channel.id not in self._series:
-            self._series[channel.id] = series_of(channel, self._grid)
+            self._series[channel.id] = series_of(without_spikes(channel), self._grid)
         return self._series[channel.id]
 
 
