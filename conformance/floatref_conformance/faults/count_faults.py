@@ -19,7 +19,7 @@ def count(factor: float, length_s: float = np.inf) -> Effect:
     def apply(values: FloatArray, times: FloatArray, source: np.random.Generator) -> FloatArray:
         steps = np.diff(values, prepend=values[:1])
         steps[times < times[0] + length_s] *= factor
-        return values[0] + np.cumsum(steps)
+        return np.asarray(values[0] + np.cumsum(steps))
 
     return apply
 
@@ -36,7 +36,7 @@ def leap(size_m: float) -> Effect:
 
 def descend(values: FloatArray, times: FloatArray, source: np.random.Generator) -> FloatArray:
     """Count backwards: both lines of the encoder are exchanged."""
-    return 2.0 * values[0] - values
+    return np.asarray(2.0 * values[0] - values)
 
 
 def wrap(count_m: float) -> Effect:

@@ -5,6 +5,7 @@ returns the samples of the faulty sensor, shape (n,).
 """
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 
@@ -151,12 +152,14 @@ def smooth(cutoff_hz: float) -> Effect:
     return _filter("lowpass", cutoff_hz, 2, 0.0)
 
 
-def _filter(kind: str, cutoff_hz: float, order: int, level: float | None) -> Effect:
+def _filter(
+    kind: Literal["highpass", "lowpass"], cutoff_hz: float, order: int, level: float | None
+) -> Effect:
     def apply(values: FloatArray, times: FloatArray, source: np.random.Generator) -> FloatArray:
         from scipy.signal import butter, sosfilt, sosfilt_zi
 
-        rate = (times.size - 1) / (times[-1] - times[0])
-        sections = butter(order, cutoff_hz, kind, fs=rate, output="sos")
+        rate = float((times.size - 1) / (times[-1] - times[0]))
+        sections = butter(order, cutoff_hz, kind, output="sos", fs=rate)
         middle = float(np.nanmedian(values)) if level is None else level
         passed, _ = sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])
         return np.asarray(passed + middle)

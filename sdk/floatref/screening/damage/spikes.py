@@ -7,15 +7,20 @@ import numpy as np
 from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.needs import HEIGHT, VERTICAL_FORCES
+from floatref.values.needs import FORCE, HEIGHT
 from floatref.values.recording import Channel
 from floatref.values.scanning import chunks
 
 SLOWEST_HZ = 1000.0
 """At this rate and above, an accelerometer's own bandwidth spreads a shock over several samples."""
-LEAST = {HEIGHT: 0.05}
-LEAST_FORCE = 0.5 * STANDARD_GRAVITY
-"""Smallest spike of a height in m, deeper than a crack, and of an accelerometer in m/s²."""
+LEAST = {
+    HEIGHT: 0.05,
+    **dict.fromkeys(
+        (FORCE, "sprung_specific_force", "equipment_specific_force"), 0.5 * STANDARD_GRAVITY
+    ),
+}
+"""Smallest spike of a height in m, deeper than a crack, and of an accelerometer on the body in
+m/s². On a wheel carrier an impact may take a single sample."""
 UNUSUAL = 15.0
 """A spike is this number of usual distances from the neighbours: white noise of a million samples
 reaches 8."""
@@ -27,9 +32,10 @@ MOST = 0.01
 
 def find_spikes(channel: Channel) -> Damage:
     """Return the single samples of ``channel`` that leave both neighbours and return at once."""
-    if channel.mean_rate_hz < SLOWEST_HZ or channel.values.size < 3:
+    least = LEAST.get(channel.id.name)
+    if least is None or channel.mean_rate_hz < SLOWEST_HZ or channel.values.size < 3:
         return Damage()
-    least = max(LEAST.get(channel.id.name, LEAST_FORCE), UNUSUAL * _usual(channel.values))
+    least = max(least, UNUSUAL * _usual(channel.values))
     found = [first + 1 + _spikes(part, least) for first, part in chunks(channel.values, overlap=2)]
     at = np.concatenate(found)
     if not 0 < at.size <= MOST * channel.values.size:
@@ -41,7 +47,7 @@ def find_spikes(channel: Channel) -> Damage:
 
 def without_spikes(channel: Channel) -> Channel:
     """Return ``channel`` with its spikes missing; itself if it has none."""
-    spans = find_spikes(channel).gone if channel.id.name in (HEIGHT, *VERTICAL_FORCES) else NONE
+    spans = find_spikes(channel).gone
     if not spans.size:
         return channel
     values = np.array(channel.values)

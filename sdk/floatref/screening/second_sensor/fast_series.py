@@ -56,7 +56,7 @@ def series_of(channel: Channel, grid: FastGrid) -> FloatArray:
         if not known.any():
             return np.full(grid.count, np.nan)
         return np.interp(grid.times, times[known], values[known])
-    edges = grid.begin_s + STEP_S * np.arange(grid.count + 1)
+    edges: FloatArray = grid.begin_s + STEP_S * np.arange(grid.count + 1.0)
     return mean_between(channel, edges)
 
 

@@ -75,7 +75,7 @@ def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float =
     that fails midway still works before.
     """
     rows = np.concatenate([series[None], others])
-    parts, whole = windowed(rows), windowed(known[None]).all(axis=2)[0]
+    parts, whole = windowed(rows), np.all(windowed(known[None])[0], axis=1)
     if whole.sum() < FEWEST_WINDOWS:
         return None
     products = np.einsum("iwm,jwm->wij", parts, parts) / parts.shape[2]

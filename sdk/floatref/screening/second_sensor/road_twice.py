@@ -141,7 +141,7 @@ def wheel_road(
     road = band(carrier, *BAND_HZ, integrals=2)
     forward = np.maximum.accumulate(distance) + 1e-9 * np.arange(distance.size)
     passed = np.interp(forward - ahead_m, forward, grid.times)
-    return np.interp(passed, grid.times, road)
+    return np.asarray(np.interp(passed, grid.times, road))
 
 
 def lift_of(force: FloatArray, pitch_rate: FloatArray | None, ahead_m: float) -> FloatArray:

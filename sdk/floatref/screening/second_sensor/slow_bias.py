@@ -46,7 +46,7 @@ def _means(series: FloatArray) -> FloatArray:
     """Return means over `SPAN_S`, shape (m,); NaN with a missing value."""
     size = round(SPAN_S / STEP_S)
     count = series.size // size
-    return series[: count * size].reshape(count, size).mean(axis=1)
+    return np.asarray(series[: count * size].reshape(count, size).mean(axis=1))
 
 
 def _doubt(suspects: tuple[ChannelId, ...], off: BoolArray, grid: FastGrid) -> Doubt:

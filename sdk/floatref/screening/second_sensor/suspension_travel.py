@@ -36,7 +36,7 @@ def is_consistent(found: Fit | None) -> bool:
     if found is None or found.explained < COHERENT:
         return False
     body, wheel = found.weights.tolist()
-    return max(abs(body - 1.0), abs(wheel + 1.0)) <= UNUSABLE
+    return bool(max(abs(body - 1.0), abs(wheel + 1.0)) <= UNUSABLE)
 
 
 def travel_doubts(track: str, found: Fit | None) -> Iterator[Doubt]:

@@ -70,10 +70,9 @@ def encoder_doubts(recording: Recording) -> Iterator[Doubt]:
 
 def ways_of(recording: Recording) -> Ways | None:
     """Return the ways of a run by encoder and receiver, None without places."""
-    found = [recording.find(f"gnss_{axis}") for axis in ("latitude", "longitude")]
-    if found[0] is None or found[1] is None or found[0].values.size != found[1].values.size:
+    latitude, longitude = recording.find("gnss_latitude"), recording.find("gnss_longitude")
+    if latitude is None or longitude is None or latitude.values.size != longitude.values.size:
         return None
-    latitude, longitude = found
     encoder = recording.channel("distance", recording.tracks[0])
     times = latitude.times_s
     stride = max(1, round(APART_S * latitude.mean_rate_hz))
