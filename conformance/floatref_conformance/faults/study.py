@@ -8,7 +8,7 @@ from multiprocessing import get_context
 
 from floatref.errors import FloatrefError, InputError
 from floatref.values.recording import Recording
-from floatref_conformance.devices.builtin import process_with_warnings
+from floatref_conformance.devices.builtin import make, process_with_warnings
 from floatref_conformance.faults.fault_list import FAULTS, find_fault
 from floatref_conformance.faults.outcomes import Outcome, Truth, judge
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -59,6 +59,8 @@ class StudySettings:
         """Refuse unknown names."""
         for name in self.faults:
             find_fault(name)
+        for name in self.pipelines:
+            make(name)
         for name in self.drives:
             if name not in DRIVES:
                 raise InputError(f"drive {name}: unknown; known: {', '.join(DRIVES)}")

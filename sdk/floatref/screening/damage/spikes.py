@@ -35,9 +35,13 @@ def find_spikes(channel: Channel) -> Damage:
     least = LEAST.get(channel.id.name)
     if least is None or channel.mean_rate_hz < SLOWEST_HZ or channel.values.size < 3:
         return Damage()
+    steep = [
+        (first, part) for first, part in chunks(channel.values, overlap=2) if _leaps(part, least)
+    ]
+    if not steep:
+        return Damage()
     least = max(least, UNUSUAL * _usual(channel.values))
-    found = [first + 1 + _spikes(part, least) for first, part in chunks(channel.values, overlap=2)]
-    at = np.concatenate(found)
+    at = np.concatenate([first + 1 + _spikes(part, least) for first, part in steep])
     if not 0 < at.size <= MOST * channel.values.size:
         return Damage()
     spans: IndexArray = np.stack([at, at + 1], axis=1)
@@ -62,6 +66,12 @@ def _usual(values: FloatArray) -> float:
     off = np.abs(values[index] - 0.5 * (values[index - 1] + values[index + 1]))
     off = off[np.isfinite(off) & (off > 0)]
     return float(np.median(off)) if off.size else 0.0
+
+
+def _leaps(part: FloatArray, least: float) -> bool:
+    """Return whether any step is larger than ``least``: on most channels no step is."""
+    steps = np.diff(part)
+    return bool(np.fmax.reduce(np.abs(steps, out=steps), initial=0.0) > least)
 
 
 def _spikes(part: FloatArray, least: float) -> IndexArray:

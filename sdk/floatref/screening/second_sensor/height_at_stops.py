@@ -5,40 +5,99 @@ the accelerometer beside it measure one motion. This needs no other sensor.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
 from floatref.measures.clocks.sensor_gain import sensor_gain
-from floatref.measures.clocks.sensor_skew import sensor_skew
+from floatref.measures.clocks.sensor_skew import Skew, sensor_skew
 from floatref.screening.second_sensor.doubts import Doubt
+from floatref.values.arrays import FloatArray
+from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording, TrackSetup
+from floatref.values.scanning import every
 
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
-SCALE_OFF, UNUSABLE = 0.07, 0.3
-"""Deviation of the gain from 1 that makes a profile wrong by more than 5 %, with the tolerances of
-both sensors; and one that is no tolerance but a wrong unit."""
+SCALE_OFF, UNUSABLE = 0.06, 0.3
+"""Deviation of the gain from 1 that makes a profile wrong by more than 5 %, with 0.5 % for the
+scale of either sensor; and one that is no tolerance but a wrong unit."""
 PITCHES_ABOUT_M = 1.5
 """Shortest distance in m from the sensors to the point that a body pitches about, half a wheelbase:
 a laser ahead of its accelerometer by a part of it moves by as much more or less."""
 LATE_S, CERTAIN = 0.005, 3.0
 """Lag in s beyond the latency of a laser, up to 3 ms, and in standard deviations of it."""
+LOOK_S, STANDS_S, STANDS_M = 0.05, 0.7, 0.002
+"""The encoder is read this often, in s; a vehicle stands that travels less than the last in m
+during the second in s."""
+BEFORE_S, SWINGS_S = 1.0, 6.0
+"""What is compared of a stop: from before it, until the swing has decayed, in s."""
+MOST_STOPS = 8
+"""Number of stops that are compared: more say nothing new."""
 
 
 def stop_doubts(recording: Recording) -> Iterator[Doubt]:
     """Yield the doubts about the height of every wheel path that stops of the vehicle show."""
-    for track in recording.tracks:
-        found = [recording.find(name, track) for name in (FORCE, HEIGHT, DISTANCE)]
-        if all(channel is not None for channel in found):
-            force, height, distance = (c for c in found if c is not None)
+    encoder = recording.channel(DISTANCE, recording.tracks[0])
+    stops = list(islice(stops_of(encoder), MOST_STOPS))
+    for track in recording.tracks if stops else ():
+        force, height = recording.find(FORCE, track), recording.find(HEIGHT, track)
+        if force is not None and height is not None:
             ahead_m = recording.setup.tracks.get(track, TrackSetup()).laser_offset_m[0]
-            yield from _scale(force, height, distance, abs(ahead_m) / PITCHES_ABOUT_M)
-            yield from _lag(force, height, distance)
+            parts = [[cut(c, *stop) for c in (force, height, encoder)] for stop in stops]
+            known = [[c for c in part if c is not None] for part in parts]
+            whole = [(part[0], part[1], part[2]) for part in known if len(part) == 3]
+            yield from _scale(whole, abs(ahead_m) / PITCHES_ABOUT_M)
+            yield from _lag(whole)
 
 
-def _scale(force: Channel, height: Channel, distance: Channel, lever: float) -> Iterator[Doubt]:
-    gain = sensor_gain(force, height, distance)
-    if not abs(gain - 1.0) > SCALE_OFF + lever:
+Part = tuple[Channel, Channel, Channel]
+"""Accelerometer, laser and encoder around a stop."""
+
+
+def stops_of(encoder: Channel) -> Iterator[tuple[float, float]]:
+    """Yield begin and end in s of what is compared of every stop, in order."""
+    places, apart_s = _places(encoder)
+    ahead = max(1, round(STANDS_S / apart_s))
+    if places.size <= ahead:
         return
+    stands = np.abs(places[ahead:] - places[:-ahead]) < STANDS_M
+    begins = np.flatnonzero(stands & ~np.append(False, stands[:-1]))
+    for begin in begins.tolist():
+        at_s = encoder.span_s[0] + begin * apart_s
+        yield at_s - BEFORE_S, at_s + SWINGS_S
+
+
+def _places(encoder: Channel) -> tuple[FloatArray, float]:
+    """Return the distance about every `LOOK_S`, and the time in s between two of them."""
+    if isinstance(encoder.clock, StampedClock):
+        times = np.arange(*encoder.span_s, LOOK_S)
+        return np.interp(times, encoder.clock.times_s, encoder.values), LOOK_S
+    stride = max(1, round(LOOK_S * encoder.mean_rate_hz))
+    return every(stride, encoder.values), stride / encoder.mean_rate_hz
+
+
+def cut(channel: Channel, begin_s: float, end_s: float) -> Channel | None:
+    """Return ``channel`` between two times, None where it has no sample."""
+    clock = channel.clock
+    if isinstance(clock, StampedClock):
+        low, high = np.searchsorted(clock.times_s, [begin_s, end_s]).tolist()
+        part = StampedClock.of(clock.times_s[low:high]) if high > low + 1 else None
+    else:
+        ends = np.ceil((np.array([begin_s, end_s]) - clock.start_s) * float(clock.rate))
+        low, high = np.clip(ends, 0, channel.values.size).astype(int).tolist()
+        part = UniformClock(clock.rate, clock.start_s + low / float(clock.rate))
+    if part is None or high <= low + 1:
+        return None
+    return replace(channel, values=channel.values[low:high], clock=part)
+
+
+def _scale(parts: list[Part], lever: float) -> Iterator[Doubt]:
+    gains = [gain for part in parts if np.isfinite(gain := sensor_gain(*part))]
+    gain = float(np.median(gains)) if gains else 1.0
+    if abs(gain - 1.0) <= SCALE_OFF + lever:
+        return
+    force, height, _ = parts[0]
     what = (
         "its sign, or that of the accelerometer, is inverted; multiply its changes by -1"
         if gain < 0
@@ -52,11 +111,15 @@ def _scale(force: Channel, height: Channel, distance: Channel, lever: float) -> 
     )
 
 
-def _lag(force: Channel, height: Channel, distance: Channel) -> Iterator[Doubt]:
-    skew = sensor_skew(force, height, distance)
-    size = np.nan_to_num(abs(skew.skew_s))
-    if not (skew.known and size > LATE_S and size > CERTAIN * skew.sigma_s):
+def _lag(parts: list[Part]) -> Iterator[Doubt]:
+    skews = [skew for part in parts if (skew := sensor_skew(*part)).known]
+    if not skews:
         return
+    skew: Skew = min(skews, key=lambda each: each.sigma_s)
+    size = abs(skew.skew_s)
+    if size <= max(LATE_S, CERTAIN * skew.sigma_s):
+        return
+    force, height, _ = parts[0]
     late, other = (height, force) if skew.skew_s > 0 else (force, height)
     yield Doubt(
         (late.id,),
