@@ -19,7 +19,6 @@ from floatref.intake.aligned import AlignedChannel, Stretch, bridge
 from floatref.intake.gnss_events import GnssEvents
 from floatref.intake.steady_rate import report_holes, steady_clock
 from floatref.screening.damage.damaged_samples import Damage
-from floatref.screening.damage.doubtful_samples import replaced_by_doubt
 from floatref.screening.damage.encoder_damage import encoder_damage
 from floatref.screening.damage.saturation import find_saturation
 from floatref.screening.damage.spikes import find_spikes
@@ -29,6 +28,7 @@ from floatref.screening.damage.stuck_sensors import (
     find_stuck_height,
 )
 from floatref.screening.findings import Screening
+from floatref.screening.second_sensor.doubtful_samples import replaced_by_doubt
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import Flag, FlagArray, FloatArray

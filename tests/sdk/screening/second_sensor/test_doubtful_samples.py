@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from floatref.screening.damage.damaged_samples import Damage
-from floatref.screening.damage.doubtful_samples import replaced_by_doubt
+from floatref.screening.second_sensor.doubtful_samples import replaced_by_doubt
 from floatref.screening.second_sensor.doubts import Doubt
 from floatref.values.channels import ChannelId
 from floatref.values.clock import Clock, StampedClock, UniformClock
