@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from multiprocessing import get_context
 
@@ -30,6 +30,11 @@ PIPELINES = (
 )
 """Without suppression; the best suppression of chapter 5; the default device and its spatial form;
 IMU and GNSS; no height sensor."""
+NOMINAL = ("distance", "vertical_specific_force", "height")
+NOMINAL_PIPELINES = PIPELINES[:4]
+NOMINAL_SENSORS = ("accelerometer", "laser", "sides", "encoder")
+"""Channels of a profiler without IMU, GNSS and response, pipelines that need no more, and what can
+be faulty then."""
 HEALTHY = ""
 """Name of the recording without a fault."""
 
@@ -47,13 +52,17 @@ class Trial:
 
 @dataclass(frozen=True)
 class StudySettings:
-    """Which faults, drives and pipelines; all by default. InputError for an unknown name."""
+    """Which faults, drives and pipelines; all by default. InputError for an unknown name.
+
+    ``nominal`` recordings have accelerometers, lasers and an encoder alone.
+    """
 
     faults: tuple[str, ...] = tuple(FAULTS)
     drives: tuple[str, ...] = tuple(DRIVES)
     pipelines: tuple[str, ...] = PIPELINES
     jobs: int = 1
     seed: int = 0
+    nominal: bool = False
 
     def __post_init__(self) -> None:
         """Refuse unknown names."""
@@ -98,7 +107,8 @@ def make_study(settings: StudySettings, watch: Callable[[str], None] | None = No
 def _try_all(
     settings: StudySettings, work: Sequence[tuple[str, str]]
 ) -> Iterator[tuple[Trial, ...]]:
-    try_one = partial(try_fault, pipelines=settings.pipelines, seed=settings.seed)
+    fixed = {"seed": settings.seed, "nominal": settings.nominal}
+    try_one = partial(try_fault, pipelines=settings.pipelines, **fixed)
     if settings.jobs == 1:
         yield from map(try_one, *zip(*work, strict=True))
         return
@@ -106,10 +116,18 @@ def _try_all(
         yield from workers.map(try_one, *zip(*work, strict=True))
 
 
-def try_fault(fault: str, drive: str, pipelines: Sequence[str], seed: int = 0) -> tuple[Trial, ...]:
-    """Return what each of ``pipelines`` makes of ``drive`` with ``fault``, by their names."""
+def try_fault(
+    fault: str, drive: str, pipelines: Sequence[str], seed: int = 0, nominal: bool = False
+) -> tuple[Trial, ...]:
+    """Return what each of ``pipelines`` makes of ``drive`` with ``fault``, by their names.
+
+    ``nominal`` recordings have the channels of `NOMINAL` alone.
+    """
     recording, truth = drive_healthy(drive)
     faulty = FAULTS[fault].damage(recording, seed) if fault else recording
+    if nominal:
+        kept = tuple(c for c in faulty.channels if c.id.name in NOMINAL)
+        faulty = replace(faulty, channels=kept)
     return tuple(_try(fault, drive, name, faulty, truth) for name in pipelines)
 
 

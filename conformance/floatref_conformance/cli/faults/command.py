@@ -5,7 +5,14 @@ from pathlib import Path
 
 import click
 
-from floatref_conformance.faults.study import DRIVES, PIPELINES, Study, StudySettings
+from floatref_conformance.faults.study import (
+    DRIVES,
+    NOMINAL_PIPELINES,
+    NOMINAL_SENSORS,
+    PIPELINES,
+    Study,
+    StudySettings,
+)
 
 
 @click.command()
@@ -36,6 +43,7 @@ from floatref_conformance.faults.study import DRIVES, PIPELINES, Study, StudySet
 @click.option(
     "--jobs", type=click.IntRange(min=1), default=1, show_default=True, help="Processes at a time."
 )
+@click.option("--nominal", is_flag=True, help="Record accelerometers, lasers and an encoder alone.")
 @click.option("--out", type=click.Path(path_type=Path), help="Also write the JSON object to FILE.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.option(
@@ -52,6 +60,7 @@ def faults(
     drives: tuple[str, ...],
     seed: int,
     jobs: int,
+    nominal: bool,
     out: Path | None,
     as_json: bool,
     clean: int,
@@ -75,8 +84,14 @@ def faults(
     if clean:
         _try_clean(clean, seed, jobs, pipelines or PIPELINES)
         return
+    concerned = [f.name for f in FAULTS.values() if not nominal or f.sensor in NOMINAL_SENSORS]
     settings = StudySettings(
-        faults or tuple(FAULTS), drives or tuple(DRIVES), pipelines or PIPELINES, jobs, seed
+        faults or tuple(concerned),
+        drives or tuple(DRIVES),
+        pipelines or (NOMINAL_PIPELINES if nominal else PIPELINES),
+        jobs,
+        seed,
+        nominal,
     )
     total = len(settings.drives) * (1 + len(settings.faults))
     with PassProgress(total) as progress:

@@ -12,7 +12,9 @@ import numpy as np
 from floatref.screening.damage.spikes import without_spikes
 from floatref.screening.second_sensor.body_faults import body_doubts
 from floatref.screening.second_sensor.doubts import Doubt
-from floatref.screening.second_sensor.encoder_steps import step_doubts
+from floatref.screening.second_sensor.encoder.encoder_steps import step_doubts
+from floatref.screening.second_sensor.encoder.travel_by_force import force_doubts
+from floatref.screening.second_sensor.encoder.travel_by_gnss import encoder_doubts
 from floatref.screening.second_sensor.fast_series import (
     STEP_S,
     FastGrid,
@@ -45,7 +47,6 @@ from floatref.screening.second_sensor.suspension_travel import (
     is_consistent,
     travel_doubts,
 )
-from floatref.screening.second_sensor.travel_by_gnss import encoder_doubts
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Channel, Recording, TrackSetup
@@ -58,7 +59,7 @@ SETTLED_S = 1.0
 """Time in s at either end of a piece, and beside missing samples, that does not count."""
 WHEEL_MODEL = "quarter-car"
 """The model whose point is the wheel's place."""
-ALONE = (same_doubts, encoder_doubts, step_doubts, noise_doubts, stop_doubts)
+ALONE = (same_doubts, encoder_doubts, force_doubts, step_doubts, noise_doubts, stop_doubts)
 """Comparisons that need no grid."""
 MAJORITY = 0.5
 """Share of the pieces of a long run in which a fault is one of the whole run."""

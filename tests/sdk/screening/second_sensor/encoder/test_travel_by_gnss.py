@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.screening.second_sensor.doubts import Doubt
-from floatref.screening.second_sensor.travel_by_gnss import RADIUS_M, encoder_doubts
+from floatref.screening.second_sensor.encoder.travel_by_gnss import RADIUS_M, encoder_doubts
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording
