@@ -1,7 +1,7 @@
 """Which accelerometer of a body does not move with it: its sign, scale, lag, clock or stretches."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -101,7 +101,28 @@ def _whole_run(body: Body, suspect: Suspect) -> Doubt | None:
         return _incoherent(suspect, relation)
     if abs(relation.gain - 1.0) > SCALE_OFF:
         return _scaled(suspect, relation.gain)
-    return _late(suspect, late) if late else None
+    return _late(suspect, late) if late else _drifting(body, suspect)
+
+
+def _drifting(body: Body, suspect: Suspect) -> Doubt | None:
+    """Return the doubt about a sensor whose lag grows along the run, None if it does not."""
+    thirds = np.array_split(np.arange(body.known.size), 3)
+    lags = []
+    for third in (thirds[0], thirds[-1]):
+        inside = np.isin(np.arange(body.known.size), third)
+        steps, found = replace(body, known=body.known & inside).lag(suspect.channels[0])
+        if found is None or found.fit.explained < COHERENT:
+            return None
+        lags.append(steps)
+    if abs(lags[1] - lags[0]) < LATE_STEPS:
+        return None
+    return _doubt(
+        suspect,
+        f"its lag behind the other accelerometers of the body changes by "
+        f"{1e3 * STEP_S * (lags[1] - lags[0]):.0f} ms along the run; it is on another clock, "
+        "correct its rate_hz",
+        False,
+    )
 
 
 def _incoherent(suspect: Suspect, relation: Relation) -> Doubt:

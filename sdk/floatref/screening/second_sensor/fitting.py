@@ -71,8 +71,8 @@ def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float =
     """Return ``series``, shape (n,), as a sum of ``others``, shape (k, n).
 
     Windows with a point that is not ``known`` do not count. None if fewer than `FEWEST_WINDOWS` do.
-    Where less than ``least`` is explained, the best third of the run gives the weights: a sensor
-    that fails midway still works before.
+    Where less than ``least`` is explained, the first third of the run that explains as much gives
+    the weights: a sensor that fails midway still works before.
     """
     rows = np.concatenate([series[None], others])
     parts, whole = windowed(rows), np.all(windowed(known[None])[0], axis=1)
@@ -80,12 +80,15 @@ def fit(series: FloatArray, others: FloatArray, known: BoolArray, least: float =
         return None
     products = np.einsum("iwm,jwm->wij", parts, parts) / parts.shape[2]
     whole = whole & _is_moving(products)
-    found = _fit(products, whole, whole & _is_usual(products, whole))
+    found = _fit(products, whole, whole & _is_usual(products, whole), whole)
     if found is None or found.explained >= least:
         return found
-    thirds = np.array_split(np.flatnonzero(whole), 3)
-    tried = [_fit(products, whole, np.isin(np.arange(whole.size), third)) for third in thirds]
-    return max([f for f in (found, *tried) if f is not None], key=lambda f: f.explained)
+    for third in np.array_split(np.flatnonzero(whole), 3):
+        within = np.isin(np.arange(whole.size), third)
+        tried = _fit(products, whole, within, within)
+        if tried is not None and tried.explained >= least:
+            return tried
+    return found
 
 
 def _is_moving(products: FloatArray) -> BoolArray:
@@ -101,8 +104,8 @@ def _is_usual(products: FloatArray, whole: BoolArray) -> BoolArray:
     return np.asarray(np.all(power <= OUTLYING * np.median(power[whole], axis=0), axis=1))
 
 
-def _fit(products: FloatArray, whole: BoolArray, first: BoolArray) -> Fit | None:
-    """Return the fit that begins with the windows ``first`` and grows to all that agree.
+def _fit(products: FloatArray, whole: BoolArray, first: BoolArray, within: BoolArray) -> Fit | None:
+    """Return the fit that begins with the windows ``first`` and grows to all ``within`` that agree.
 
     ``products``, shape (w, 1 + k, 1 + k), are the mean products of the series and the others.
     """
@@ -114,9 +117,10 @@ def _fit(products: FloatArray, whole: BoolArray, first: BoolArray) -> Fit | None
         signed = np.concatenate([[1.0], -weights])
         residual = np.sqrt(np.maximum(products @ signed @ signed, 0.0))
         usual = float(np.median(residual[agree]))
-        agree = whole & (residual <= OUTLYING * usual)
+        agree = within & (residual <= OUTLYING * usual)
     power = np.sqrt(products[:, 0, 0])
     explained, left_over = 1.0 - _share(residual, power, agree), _share(residual, power, whole)
+    agree = whole & (residual <= OUTLYING * usual)
     return Fit(weights, explained, left_over, residual, power, whole, agree)
 
 
@@ -132,6 +136,12 @@ def _solve(products: FloatArray) -> FloatArray:
     scaled = products / np.outer(sizes, sizes)
     weights, *_ = np.linalg.lstsq(scaled[1:, 1:], scaled[1:, 0], rcond=1e-9)
     return np.asarray(weights * sizes[0] / sizes[1:])
+
+
+def points_of(windows: BoolArray, count: int) -> BoolArray:
+    """Return which of ``count`` points lie in ``windows``, shape (w,)."""
+    found = np.repeat(windows, round(WINDOW_S / STEP_S))
+    return np.append(found, np.zeros(count - found.size, np.bool_))
 
 
 def shifted(series: FloatArray, steps: int) -> FloatArray:

@@ -4,7 +4,7 @@ After a stop the body swings on its springs over a road that does not move, so t
 the accelerometer beside it measure one motion. This needs no other sensor.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from itertools import islice
 
@@ -19,9 +19,9 @@ from floatref.values.recording import Channel, Recording, TrackSetup
 from floatref.values.scanning import every
 
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
-SCALE_OFF, UNUSABLE = 0.06, 0.3
-"""Deviation of the gain from 1 that makes a profile wrong by more than 5 %, with 0.5 % for the
-scale of either sensor; and one that is no tolerance but a wrong unit."""
+SCALE_OFF, UNUSABLE = 0.25, 0.3
+"""Deviation of the gain from 1 that tolerances and the few swings of a stop do not make, as in
+`sensor_gain`; and one that is no tolerance but a wrong unit."""
 PITCHES_ABOUT_M = 1.5
 """Shortest distance in m from the sensors to the point that a body pitches about, half a wheelbase:
 a laser ahead of its accelerometer by a part of it moves by as much more or less."""
@@ -36,11 +36,11 @@ MOST_STOPS = 8
 """Number of stops that are compared: more say nothing new."""
 
 
-def stop_doubts(recording: Recording) -> Iterator[Doubt]:
-    """Yield the doubts about the height of every wheel path that stops of the vehicle show."""
+def stop_doubts(recording: Recording, tracks: Collection[str]) -> Iterator[Doubt]:
+    """Yield the doubts about the height of each of ``tracks`` that stops of the vehicle show."""
     encoder = recording.channel(DISTANCE, recording.tracks[0])
-    stops = list(islice(stops_of(encoder), MOST_STOPS))
-    for track in recording.tracks if stops else ():
+    stops = list(islice(stops_of(encoder), MOST_STOPS)) if tracks else []
+    for track in tracks if stops else ():
         force, height = recording.find(FORCE, track), recording.find(HEIGHT, track)
         if force is not None and height is not None:
             ahead_m = recording.setup.tracks.get(track, TrackSetup()).laser_offset_m[0]

@@ -8,6 +8,7 @@ import numpy as np
 from floatref.screening.second_sensor.body_faults import UNUSABLE, window_spans
 from floatref.screening.second_sensor.doubts import Doubt, names
 from floatref.screening.second_sensor.fast_series import FastGrid
+from floatref.screening.second_sensor.fitting import FEWEST_WINDOWS, Fit
 from floatref.screening.second_sensor.road_twice import (
     COHERENT,
     LaserFit,
@@ -18,19 +19,27 @@ from floatref.values.arrays import BoolArray
 from floatref.values.channels import ChannelId
 
 FORCE, HEIGHT = "vertical_specific_force", "height"
-SCALE_APART = 0.06
-"""Largest difference of the gains of two lasers: beyond it the profile of one is wrong by more than
-5 %, with 0.5 % for the scale of each of two sensors."""
+SCALE_APART = 0.1
+"""Largest difference of the gains of two lasers: 5 % of a profile, 0.5 % for the scale of each of
+four sensors, and 3 % for springs that rub on one side more than on the other."""
 LOWEST, HIGHEST = 0.5, 1.5
 """Gain of a laser alone: a wheel that rubs or rolls beside its line takes up to 0.3 off it."""
 LATE_S, APART_S = 0.03, 0.008
 """Lag in s of a laser alone that is no latency, and of one against the other."""
-MORE, FLOOR = 3.0, 0.02
+MORE, FLOOR = 3.0, 0.05
 """A faulty laser leaves this number of times more unexplained than the other, and more."""
 LOUD, SHARE = 6.0, 0.5
 """A window is faulty above this number of usual residuals and above this share of usual motion."""
 QUIET = 4.0
 """The other wheel path is at most at this number of usual residuals in such a window."""
+MOSTLY = 0.6
+"""Share of the windows behind a place that disagree, and of those before it that do not, if a laser
+fails there."""
+FAILS, WORKS = 0.8, 0.9
+"""A laser fails if fewer than the first share of its windows agree, and more than the second share
+of the other's: humps disturb both."""
+LEAST = 0.65
+"""Least share that is explained for a working laser: rubbing springs leave 0.8."""
 NOTHING = 0.7
 """A laser of which less is explained is of no use; of noise alone, accelerometers explain 0.5."""
 
@@ -49,7 +58,7 @@ def laser_doubts(roads: Mapping[str, TwoRoads], grid: FastGrid) -> Iterator[Doub
         doubt = _whole_run(track, own, other)
         if doubt is not None:
             yield doubt
-        elif own.on_time.explained >= COHERENT:
+        elif own.on_time.explained >= LEAST:
             yield from _stretches(track, own, other, grid)
 
 
@@ -61,7 +70,7 @@ def _whole_run(track: str, own: LaserFit, other: LaserFit | None) -> Doubt | Non
     name = ChannelId(HEIGHT, track)
     if own.gain < 0 and own.fit.explained >= NOTHING:
         return _inverted(name, own.gain)
-    if own.fit.explained < COHERENT or _leaves_more(own, other):
+    if own.fit.explained < LEAST or _leaves_more(own, other):
         return _unlike(track, own)
     return _scaled(name, own, other) or _late(name, own, other)
 
@@ -72,7 +81,7 @@ def _inverted(name: ChannelId, gain: float) -> Doubt:
 
 
 def _is_sound(own: LaserFit) -> bool:
-    return own.fit.explained >= COHERENT and own.on_time.explained >= COHERENT and own.gain > 0
+    return min(own.fit.explained, own.on_time.explained) >= LEAST and own.gain > 0
 
 
 def _is_better(one: LaserFit, other: LaserFit) -> bool:
@@ -147,6 +156,23 @@ def _exchanged(roads: Mapping[str, TwoRoads], own: Mapping[str, LaserFit]) -> Do
     return None
 
 
+def _to_the_end(own: Fit, other: Fit | None) -> BoolArray:
+    """Return the windows from which on the laser mostly disagrees, if it mostly agreed before.
+
+    Windows in which the other laser disagrees, too, are the road's.
+    """
+    sound = np.ones(own.agree.size, np.bool_) if other is None else other.agree
+    index = np.flatnonzero(own.counted & sound)
+    off = ~own.agree[index]
+    behind = np.cumsum(off[::-1])[::-1] / np.arange(off.size, 0, -1)
+    before = (np.cumsum(off) - off) / np.maximum(np.arange(off.size), 1)
+    changes = off & (behind >= MOSTLY) & (before <= 1.0 - MOSTLY)
+    changes[: FEWEST_WINDOWS // 2] = changes[max(off.size - FEWEST_WINDOWS, 0) :] = False
+    if not changes.any():
+        return np.zeros(own.agree.size, np.bool_)
+    return np.asarray(np.arange(own.agree.size) >= index[int(np.argmax(changes))])
+
+
 def _stretches(
     track: str, own: LaserFit, other: LaserFit | None, grid: FastGrid
 ) -> Iterator[Doubt]:
@@ -156,8 +182,11 @@ def _stretches(
         loud = loud & ~other.on_time.loud(QUIET, 0.0)
     # A joint or a patch that the tyre bridges lasts for less.
     loud = loud & (np.append(loud[1:], False) | np.append(False, loud[:-1]))
+    loud = loud | _to_the_end(own.on_time, None if other is None else other.on_time)
     spans = window_spans(loud, grid)
     if not spans:
+        if own.on_time.agreeing < FAILS and (other is None or other.on_time.agreeing > WORKS):
+            yield replace(_unlike(track, own), fatal=False)
         return
     name = ChannelId(HEIGHT, track)
     seconds = sum(end - begin for begin, end in spans)

@@ -70,7 +70,7 @@ class TwoRoads:
         measured = self.height
         wheel = shifted(self.wheel, -WHEEL_LATE)
         rows = [self.lift, -measured, -np.gradient(measured, STEP_S), np.gradient(wheel, STEP_S)]
-        found = fit(wheel, np.stack(rows), self.known)
+        found = fit(wheel, np.stack(rows), self.known, GOOD)
         if found is None or found.explained < GOOD:
             return None
         _, own, faster, turned = found.weights.tolist()

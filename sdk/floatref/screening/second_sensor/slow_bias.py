@@ -19,6 +19,8 @@ SPAN_S = 4.0
 places 4 m apart by 0.1 m/s²."""
 CHANGED = 0.3
 """Change of the bias in m/s² that no body and no temperature makes within a run."""
+WHEELS, ON_WHEEL = ("unsprung_specific_force", "rear_unsprung_specific_force"), 1.0
+"""Sensors on wheel carriers, which turn in a brake and take impacts, and their limit in m/s²."""
 FEWEST = 3
 """Fewest means of a run, and accelerometers by which the changed one is known."""
 
@@ -37,7 +39,7 @@ def bias_doubts(forces: Mapping[ChannelId, FloatArray], grid: FastGrid) -> Itera
         return
     apart = own - np.nanmedian(own, axis=0)
     for name, row in zip(forces, apart, strict=True):
-        off = np.abs(row) > CHANGED
+        off = np.abs(row) > (ON_WHEEL if name.name in WHEELS else CHANGED)
         if off.any():
             yield _doubt((name,), off, grid)
 

@@ -18,6 +18,9 @@ from floatref.values.channels import ChannelId
 BAND_HZ = (0.8, 5.0)
 """Above the drift of two integrations, below the noise of a potentiometer differentiated twice."""
 COHERENT = 0.9
+LOUD, SHARE = 4.0, 0.3
+"""In a window with more than this number of usual residuals, and more than this share of the usual
+motion, one of the sensors measures something else."""
 UNUSABLE = 0.3
 """Largest deviation of a weight that is a tolerance, not a wrong unit or sign."""
 BODY, WHEEL, TRAVEL = "sprung_specific_force", "unsprung_specific_force", "suspension_deflection"

@@ -23,7 +23,7 @@ from floatref.screening.second_sensor.fast_series import (
     series_of,
     shared_grid,
 )
-from floatref.screening.second_sensor.fitting import Fit
+from floatref.screening.second_sensor.fitting import Fit, points_of
 from floatref.screening.second_sensor.height_at_stops import stop_doubts
 from floatref.screening.second_sensor.laser_faults import laser_doubts
 from floatref.screening.second_sensor.noisier_side import noise_doubts
@@ -41,6 +41,8 @@ from floatref.screening.second_sensor.same_samples import same_doubts
 from floatref.screening.second_sensor.slow_bias import bias_doubts
 from floatref.screening.second_sensor.suspension_travel import (
     BODY,
+    LOUD,
+    SHARE,
     TRAVEL,
     WHEEL,
     fit_travel,
@@ -59,7 +61,7 @@ SETTLED_S = 1.0
 """Time in s at either end of a piece, and beside missing samples, that does not count."""
 WHEEL_MODEL = "quarter-car"
 """The model whose point is the wheel's place."""
-ALONE = (same_doubts, encoder_doubts, force_doubts, step_doubts, noise_doubts, stop_doubts)
+ALONE = (same_doubts, encoder_doubts, force_doubts, step_doubts, noise_doubts)
 """Comparisons that need no grid."""
 MAJORITY = 0.5
 """Share of the pieces of a long run in which a fault is one of the whole run."""
@@ -68,17 +70,17 @@ MAJORITY = 0.5
 def weigh_recording(recording: Recording) -> tuple[Doubt, ...]:
     """Return all doubts about ``recording``, those about the encoder first."""
     found = [doubt for compare in ALONE for doubt in compare(recording)]
-    channels = [c for c in recording.channels if _is_compared(c)]
-    if not channels:
-        return tuple(found)
-    grid = shared_grid(channels)
+    grid = shared_grid([c for c in recording.channels if _is_compared(c)])
     if grid.count * STEP_S < SHORTEST_S:
-        return tuple(found)
+        return (*found, *stop_doubts(recording, recording.tracks))
     distrusted = {name for doubt in found if doubt.whole_run for name in doubt.suspects}
     pieces = grid.pieces(PIECE_S)
     partial = [doubt for doubt in found if not doubt.whole_run]
-    by_piece = [tuple(_Piece(recording, piece, distrusted, partial).doubts()) for piece in pieces]
-    return (*found, *_join(by_piece, pieces))
+    compared = [_Piece(recording, piece, distrusted, partial) for piece in pieces]
+    by_piece = [tuple(piece.doubts()) for piece in compared]
+    # While it moves, a laser is compared all the time; a stop says what the others leave open.
+    open_ = [t for t in recording.tracks if not any(t in piece.roads for piece in compared)]
+    return (*found, *stop_doubts(recording, open_), *_join(by_piece, pieces))
 
 
 def _is_compared(channel: Channel) -> bool:
@@ -97,6 +99,7 @@ class _Piece:
     ) -> None:
         self._recording, self._grid, self._distrusted = recording, grid, set(distrusted)
         self._series: dict[ChannelId, FloatArray] = {}
+        self.roads: dict[str, TwoRoads] = {}
         for doubt in partial:
             self._leave_out(doubt)
 
@@ -152,8 +155,8 @@ class _Piece:
 
     def _of_lasers(self) -> Iterator[Doubt]:
         found = {track: self._roads(track) for track in self._recording.tracks}
-        roads = {track: each for track, each in found.items() if each is not None}
-        yield from laser_doubts(roads, self._grid)
+        self.roads = {track: each for track, each in found.items() if each is not None}
+        yield from laser_doubts(self.roads, self._grid)
 
     def _roads(self, track: str) -> TwoRoads | None:
         """Return the road twice, None where a sensor is missing or in doubt."""
@@ -162,7 +165,8 @@ class _Piece:
         found = [c for n in names if (c := self._trusted(n, track)) is not None]
         if len(found) < len(names) or vehicle is None or vehicle.model != WHEEL_MODEL:
             return None
-        if self._trusted(TRAVEL, track) and not is_consistent(self._fit_travel(track)):
+        travel = self._fit_travel(track)
+        if self._trusted(TRAVEL, track) and not is_consistent(travel):
             return None
         force, height, wheel, distance = (self._read(c) for c in found)
         setup = self._recording.setup.tracks.get(track, TrackSetup())
@@ -170,6 +174,8 @@ class _Piece:
         gyro = self._recording.find("pitch_rate")
         pitch = None if gyro is None else self._read(gyro)
         known = _known([force, height, wheel, distance]) & is_moving(_bridged(distance))
+        if travel is not None:
+            known &= ~dilate(points_of(travel.loud(LOUD, SHARE), known.size), SETTLED_S)
         to_wheel_m = vehicle.x_m - setup.reference_point_m[0] - ahead_m
         return TwoRoads(
             lift_of(force, pitch, ahead_m),

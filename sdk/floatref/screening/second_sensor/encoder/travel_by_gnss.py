@@ -17,7 +17,7 @@ APART_S = 1.0
 are 1 mm longer than their chord."""
 GOOD = (2.0, 4.0, 5.0)
 """Values of gnss_quality with places to a metre or better against each other within seconds."""
-FEWEST = 8
+FEWEST = 5
 LEAST_M = 2.0
 """Shortest way in m between two places that gives a ratio."""
 SCALE_OFF, UNUSABLE = 0.04, 0.3
@@ -44,11 +44,17 @@ class Ways:
 
     @property
     def ratio(self) -> float:
-        """Median of counted over travelled, NaN if the vehicle hardly moves."""
-        far = self.travelled >= LEAST_M
-        if far.sum() < FEWEST:
+        """Median of counted over travelled, NaN if the vehicle hardly moves.
+
+        Of the whole run and its thirds the one nearest to 1: an encoder that loses counts was
+        calibrated before.
+        """
+        far = np.flatnonzero(self.travelled >= LEAST_M)
+        if far.size < FEWEST:
             return np.nan
-        return float(np.median(self.counted[far] / self.travelled[far]))
+        parts = [far, *(part for part in np.array_split(far, 3) if part.size >= FEWEST)]
+        found = [float(np.median(self.counted[p] / self.travelled[p])) for p in parts]
+        return min(found, key=lambda ratio: abs(ratio - 1.0))
 
 
 def encoder_doubts(recording: Recording) -> Iterator[Doubt]:
