@@ -107,8 +107,9 @@ def make_study(settings: StudySettings, watch: Callable[[str], None] | None = No
 def _try_all(
     settings: StudySettings, work: Sequence[tuple[str, str]]
 ) -> Iterator[tuple[Trial, ...]]:
-    fixed = {"seed": settings.seed, "nominal": settings.nominal}
-    try_one = partial(try_fault, pipelines=settings.pipelines, **fixed)
+    try_one = partial(
+        try_fault, pipelines=settings.pipelines, seed=settings.seed, nominal=settings.nominal
+    )
     if settings.jobs == 1:
         yield from map(try_one, *zip(*work, strict=True))
         return

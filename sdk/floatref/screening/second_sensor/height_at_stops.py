@@ -11,10 +11,10 @@ from itertools import islice
 import numpy as np
 
 from floatref.measures.clocks.sensor_gain import sensor_gain
-from floatref.measures.clocks.sensor_skew import Skew, sensor_skew
+from floatref.measures.clocks.sensor_skew import sensor_skew
 from floatref.screening.second_sensor.doubts import Doubt
 from floatref.values.arrays import FloatArray
-from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording, TrackSetup
 from floatref.values.scanning import every
 
@@ -82,14 +82,19 @@ def cut(channel: Channel, begin_s: float, end_s: float) -> Channel | None:
     clock = channel.clock
     if isinstance(clock, StampedClock):
         low, high = np.searchsorted(clock.times_s, [begin_s, end_s]).tolist()
-        part = StampedClock.of(clock.times_s[low:high]) if high > low + 1 else None
     else:
         ends = np.ceil((np.array([begin_s, end_s]) - clock.start_s) * float(clock.rate))
         low, high = np.clip(ends, 0, channel.values.size).astype(int).tolist()
-        part = UniformClock(clock.rate, clock.start_s + low / float(clock.rate))
-    if part is None or high <= low + 1:
+    if high <= low + 1:
         return None
-    return replace(channel, values=channel.values[low:high], clock=part)
+    return replace(channel, values=channel.values[low:high], clock=_cut(clock, low, high))
+
+
+def _cut(clock: Clock, low: int, high: int) -> Clock:
+    """Return the clock of samples ``low`` to ``high - 1``."""
+    if isinstance(clock, StampedClock):
+        return StampedClock.of(clock.times_s[low:high])
+    return UniformClock(clock.rate, clock.start_s + low / float(clock.rate))
 
 
 def _scale(parts: list[Part], lever: float) -> Iterator[Doubt]:
@@ -112,10 +117,10 @@ def _scale(parts: list[Part], lever: float) -> Iterator[Doubt]:
 
 
 def _lag(parts: list[Part]) -> Iterator[Doubt]:
-    skews = [skew for part in parts if (skew := sensor_skew(*part)).known]
-    if not skews:
+    known = [each for each in (sensor_skew(*part) for part in parts) if each.known]
+    if not known:
         return
-    skew: Skew = min(skews, key=lambda each: each.sigma_s)
+    skew = min(known, key=lambda each: each.sigma_s)
     size = abs(skew.skew_s)
     if size <= max(LATE_S, CERTAIN * skew.sigma_s):
         return
