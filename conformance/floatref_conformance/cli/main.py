@@ -16,6 +16,7 @@ COMMANDS = {
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),
     "certify": ("floatref_conformance.cli.certify:certify", "judge a profiler from recorded runs"),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
+    "faults": ("floatref_conformance.cli.faults.command:faults", "put faults into drives"),
 }
 
 

@@ -15,6 +15,7 @@ FAULT_OF_THE_SUITE = 3
 INTERRUPTED = 130
 MISSING = {
     "table": "no table",
+    "faults": "no study",
     "simulate": "no recording",
     "selftest": "no counts",
     "certify": "no worksheet",

@@ -60,6 +60,15 @@ def process_quietly(
         return floatref.process(recording, pipeline, settings)
 
 
+def process_with_warnings(recording: Recording, pipeline: str) -> tuple[Profile, tuple[str, ...]]:
+    """Return the profile that ``pipeline`` makes of ``recording``, and its warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", floatref.FloatrefWarning)
+        profile = floatref.process(recording, pipeline)
+    ours = (w for w in caught if issubclass(w.category, floatref.FloatrefWarning))
+    return profile, tuple(str(w.message) for w in ours)
+
+
 def make(pipeline: str) -> BuiltinDevice:
     """Return the device of ``pipeline``; InputError if floatref has no such pipeline."""
     names = tuple(floatref.pipelines())

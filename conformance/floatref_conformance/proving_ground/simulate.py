@@ -54,9 +54,11 @@ class Simulation:
 
 
 def simulate(
-    scenario: Scenario, road: Road | None = None, suite: SensorSuite | None = None
+    scenario: Scenario, road: Road | Ground | None = None, suite: SensorSuite | None = None
 ) -> Simulation:
     """Simulate a scenario, on ``road`` and with ``suite`` in place of its own if given.
+
+    A `Ground` gives the tyres and the lasers a road each.
 
     Raises InputError for numbers that do not make a drive, or a road without the scenario's
     wheel paths or too short for the drive.
@@ -156,8 +158,10 @@ def _more_distances(scenario: Scenario, chain: Chain, setup: Setup) -> Iterator[
         yield optical_distance(chain, standing)
 
 
-def _ground(scenario: Scenario, road: Road) -> Ground:
+def _ground(scenario: Scenario, road: Road | Ground) -> Ground:
     """Return the ground on a given road, which a vehicle follows without wander."""
+    if isinstance(road, Ground):
+        return road
     if scenario.laser_line_mm == 0:
         return Ground(road, road)
     seed = scenario.seed if scenario.road_seed < 0 else scenario.road_seed

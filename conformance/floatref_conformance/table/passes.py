@@ -136,7 +136,7 @@ class Processing:
         """
         simulation = simulate(scenario, road=road)
         truth, recording = simulation.truth, simulation.recording
-        encoder_m = _encoder_m(simulation)
+        encoder_m = encoder_along_truth(simulation)
         # The motion takes more memory than all that follows.
         del simulation
         kinds = list({each.channels for each in self._about.values()})
@@ -188,7 +188,7 @@ def draw_seed(seed: int, name: str, *numbers: int) -> int:
     return int(np.random.SeedSequence([seed, *name.encode(), *numbers]).generate_state(1)[0])
 
 
-def _encoder_m(simulation: Simulation) -> FloatArray:
+def encoder_along_truth(simulation: Simulation) -> FloatArray:
     """Return the distance in m by the encoder at the points of the truth."""
     truth, motion = simulation.truth, simulation.motion
     encoder = simulation.recording.channel("distance")

@@ -19,6 +19,8 @@ from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.road_distance import RoadDistance, correct_distance
+from floatref.engine.validity_and_sigma import Reach
+from floatref.engine.withdrawing import withdraw
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
 from floatref.interfaces.drop_out import DropOut
@@ -136,6 +138,8 @@ def _make_profile(
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
     profile = _run_and_collect(order, source, stages, progress)
+    reach_m = Reach.of(order.settings).drift_m
+    profile = withdraw(profile, order.recording, screening.doubts, reach_m)
     lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
     return Result(profile, lines, screening), source
 

@@ -21,12 +21,14 @@ from floatref.intake.steady_rate import report_holes, steady_clock
 from floatref.screening.damage.damaged_samples import Damage
 from floatref.screening.damage.encoder_damage import encoder_damage
 from floatref.screening.damage.saturation import find_saturation
+from floatref.screening.damage.spikes import find_spikes
 from floatref.screening.damage.stuck_sensors import (
     combine_damage,
     find_stuck_force,
     find_stuck_height,
 )
 from floatref.screening.findings import Screening
+from floatref.screening.second_sensor.doubtful_samples import replaced_by_doubt
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import Flag, FlagArray, FloatArray
@@ -111,6 +113,9 @@ class Source:
             if channel.id not in found:
                 found[channel.id] = extend_to_cover(channel, begin_s, end_s)
         damage = {name: _damage(name, found, needs.force) for name in found}
+        damage |= {
+            name: replaced_by_doubt(found[name], d, screening.doubts) for name, d in damage.items()
+        }
         holes = [line for name, c in found.items() if _is_force(name) for line in report_holes(c)]
         self.gone = {name: each.gone for name, each in damage.items()}
         self.warnings = (*holes, *(line for d in damage.values() for line in d.warnings))
@@ -193,14 +198,15 @@ def _damage(name: ChannelId, found: Mapping[ChannelId, Channel], force: str) -> 
     if name.name == DISTANCE:
         return encoder_damage(found[name])
     if _is_force(name):
-        damage = find_saturation(found[name])
+        damage = combine_damage(find_saturation(found[name]), find_spikes(found[name]))
         if name.name == SPECIFIC_FORCE:
             return damage
         return combine_damage(damage, find_stuck_force(found[name], found[ChannelId(DISTANCE)]))
     if name.name not in RANGES:
         return Damage()
     beside = found[ChannelId(force, name.track)]
-    return find_stuck_height(found[name], beside, found[ChannelId(DISTANCE)])
+    stuck = find_stuck_height(found[name], beside, found[ChannelId(DISTANCE)])
+    return combine_damage(stuck, find_spikes(found[name])) if name.name == HEIGHT else stuck
 
 
 def _is_force(name: ChannelId) -> bool:

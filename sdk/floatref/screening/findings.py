@@ -3,9 +3,12 @@
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 
+from floatref.errors import InputError
 from floatref.screening.gnss_height import gnss_faults
 from floatref.screening.imu_and_gnss import ImuUse, check_kinematics
 from floatref.screening.plausibility import Examine, examine, examine_channel
+from floatref.screening.second_sensor.doubts import Doubt
+from floatref.screening.second_sensor.weighing import weigh_recording
 from floatref.screening.travel import Travel
 from floatref.values.arrays import IndexArray
 from floatref.values.needs import Needs, nominal_needs
@@ -27,6 +30,11 @@ class Facts:
     def travel(self) -> Travel:
         """The travel speed along the run."""
         return Travel.of(self.recording)
+
+    @cached_property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """Faults that sensors of the same motion show, of whatever channel."""
+        return weigh_recording(self.recording)
 
     @cached_property
     def examined(self) -> Examine:
@@ -79,12 +87,23 @@ class Screening:
         return self.facts.travel
 
     @cached_property
+    def doubts(self) -> tuple[Doubt, ...]:
+        """The doubts about channels that the pipeline reads."""
+        read = {channel.id for channel in self.needs.channels(self.recording)}
+        return tuple(d for d in self.facts.doubts if read.intersection(d.suspects))
+
+    @cached_property
     def cautions(self) -> tuple[str, ...]:
         """One line for each thing that a user should know, each once.
 
         Raises InputError for a recording that cannot be processed.
         """
         lines = examine(self.recording, self.needs, self.facts.examined)
+        read = {channel.id for channel in self.needs.channels(self.recording)}
+        for doubt in self.doubts:
+            if doubt.fatal and read.issuperset(doubt.suspects):
+                raise InputError(doubt.line)
+        lines = (*lines, *(doubt.line for doubt in self.doubts))
         if self.imu is None:
             return lines
         return (*lines, *check_kinematics(self.recording, self.imu, self.gnss_faults))

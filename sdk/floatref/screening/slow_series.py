@@ -126,8 +126,16 @@ class Motion:
 
 def means(channel: Channel, grid: Grid) -> FloatArray:
     """Return the mean of ``channel`` over every stretch of ``grid``, NaN where it has no sample."""
-    first = _first_samples(channel, grid.edges)
-    found = np.full(grid.count, np.nan)
+    return mean_between(channel, grid.edges)
+
+
+def mean_between(channel: Channel, edges: FloatArray) -> FloatArray:
+    """Return the mean of ``channel`` between neighbouring ``edges``, shape (n + 1,) in s.
+
+    The result has shape (n,) and is NaN where there is no sample.
+    """
+    first = first_samples(channel, edges)
+    found = np.full(edges.size - 1, np.nan)
     for low, high in _groups(first):
         chunk, lengths = channel.values[first[low] : first[high]], np.diff(first[low : high + 1])
         filled = lengths > 0
@@ -147,8 +155,8 @@ def _mean(chunk: FloatArray, starts: IndexArray, lengths: IndexArray) -> FloatAr
     return np.where(lengths > 0, sums / np.maximum(lengths, 1), np.nan)
 
 
-def _first_samples(channel: Channel, edges: FloatArray) -> IndexArray:
-    """Return the index of the first sample from each of ``edges`` on."""
+def first_samples(channel: Channel, edges: FloatArray) -> IndexArray:
+    """Return the index of the first sample from each of ``edges`` on, in s."""
     clock = channel.clock
     if isinstance(clock, StampedClock):
         return np.searchsorted(clock.times_s, edges)

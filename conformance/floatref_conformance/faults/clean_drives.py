@@ -1,0 +1,97 @@
+"""Healthy drives of the families: whatever the screening reports of them is a false alarm."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import islice
+from multiprocessing import get_context
+
+from floatref.errors import FloatrefError
+from floatref_conformance.devices.builtin import process_with_warnings
+from floatref_conformance.devices.interface import CAPABILITIES
+from floatref_conformance.faults.study import PIPELINES
+from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.table.families.conditions import CONDITIONS
+from floatref_conformance.table.families.family_settings import draw_drive
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """What a pipeline reported of a healthy drive."""
+
+    drive: str
+    pipeline: str
+    line: str
+    refused: bool
+
+
+@dataclass
+class CleanDrives:
+    """Healthy drives that were tried, and the false alarms."""
+
+    drives: int = 0
+    alarms: list[Alarm] = field(default_factory=list)
+
+    @property
+    def alarmed(self) -> int:
+        """Number of drives with an alarm."""
+        return len({alarm.drive for alarm in self.alarms})
+
+
+def clean_scenarios(count: int, seed: int = 0) -> Iterator[tuple[str, Scenario]]:
+    """Yield ``count`` drives by name: all conditions of the families in turn, drawn anew."""
+    yield from islice(_scenarios(seed), count)
+
+
+def _scenarios(seed: int) -> Iterator[tuple[str, Scenario]]:
+    number = 0
+    while True:
+        for condition in CONDITIONS:
+            name = f"{condition.full_name} {number + 1}"
+            yield name, draw_drive(seed, condition, number, frozenset(CAPABILITIES))
+        number += 1
+
+
+def try_clean_drives(
+    count: int,
+    seed: int = 0,
+    jobs: int = 1,
+    pipelines: tuple[str, ...] = PIPELINES,
+    watch: Callable[[str], None] | None = None,
+) -> CleanDrives:
+    """Return the false alarms of ``count`` healthy drives; ``watch`` is called after each."""
+    made = CleanDrives()
+    names, scenarios = zip(*clean_scenarios(count, seed), strict=True)
+    for name, alarms in _try_all(names, scenarios, pipelines, jobs):
+        made.drives += 1
+        made.alarms += alarms
+        if watch is not None:
+            watch(name)
+    return made
+
+
+def _try_all(
+    names: tuple[str, ...], scenarios: tuple[Scenario, ...], pipelines: tuple[str, ...], jobs: int
+) -> Iterator[tuple[str, list[Alarm]]]:
+    try_one = partial(try_drive, pipelines=pipelines)
+    if jobs == 1:
+        yield from zip(names, map(try_one, names, scenarios), strict=True)
+        return
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as workers:
+        yield from zip(names, workers.map(try_one, names, scenarios), strict=True)
+
+
+def try_drive(name: str, scenario: Scenario, pipelines: tuple[str, ...]) -> list[Alarm]:
+    """Return the false alarms of every one of ``pipelines`` about a healthy ``scenario``."""
+    from floatref_conformance.proving_ground.simulate import simulate
+
+    recording, alarms = simulate(scenario).recording, []
+    for pipeline in pipelines:
+        try:
+            _, lines = process_with_warnings(recording, pipeline)
+        except FloatrefError as refusal:
+            alarms.append(Alarm(name, pipeline, str(refusal), True))
+        else:
+            alarms += [Alarm(name, pipeline, line, False) for line in lines]
+    return alarms

@@ -1,0 +1,1 @@
+"""A fault is found by a second sensor that measures the same motion."""

@@ -1,0 +1,1 @@
+"""The encoder against places of GNSS, the longitudinal force, and itself."""
