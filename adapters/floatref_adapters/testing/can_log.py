@@ -6,7 +6,7 @@ WHEELS_ID = 0x4B0
 QUANTUM_KMH = 0.01
 WHEELS = ("FrontLeft", "FrontRight", "RearLeft", "RearRight")
 ANY_NODE = "Vector__XXX"
-"""The name that the DBC format gives to a receiver that is none of the nodes listed in the file."""
+"""The name that the DBC format gives to a receiver that is not a node listed in the file."""
 WHEELS_DBC = f"""VERSION ""
 
 NS_ :

@@ -22,7 +22,7 @@ from floatref.values.arrays import FloatArray, IndexArray
 JITTER_SHARE, MOST_JITTER_S = 0.05, 0.02
 """Largest error of a pulse as a share of the usual interval, and in s."""
 ANCHORS = 12
-"""Number of anchor pulses; nearly twice as many if none of them fits."""
+"""Number of anchor pulses; nearly twice as many where no anchor fits."""
 GOOD = 0.6
 """Fit of a place relative to the best one, above which the two are ambiguous."""
 FEW, CHANCE = 10, 1e-3
