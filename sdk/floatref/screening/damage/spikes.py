@@ -50,7 +50,7 @@ def find_spikes(channel: Channel) -> Damage:
 
 
 def without_spikes(channel: Channel) -> Channel:
-    """Return ``channel`` with its spikes missing; itself if it has none."""
+    """Return ``channel`` with its spikes missing; itself without any."""
     spans = find_spikes(channel).gone
     if not spans.size:
         return channel
