@@ -19,6 +19,7 @@ from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.road_distance import RoadDistance, correct_distance
+from floatref.engine.steps_back import leave_out_steps_back
 from floatref.engine.validity_and_sigma import Reach
 from floatref.engine.withdrawing import withdraw
 from floatref.errors import InputError
@@ -108,14 +109,16 @@ def run(
     Results of ``known``, the screening of an earlier run, for the same channels are reused.
     """
     order = _settle(plugins(), recording, pipeline, settings)
-    along = correct_distance(order.recording, order.settings.get("slip_per_g"))
+    forward = leave_out_steps_back(order.recording)
+    along = correct_distance(forward.recording, order.settings.get("slip_per_g"))
     aligned = align_heights(along.recording)
     order = replace(order, recording=aligned.recording)
     result, source = _make_profile(order, known, progress)
     if order.pipeline.architecture == "temporal":
         result = _bridge_gaps(order, result, source)
     profile = _record_preparation(result.profile, along, aligned)
-    lines = (*aligned.warnings, *result.warnings, *order.plugins.reports)
+    profile = withdraw(profile, order.recording, forward.doubts, Reach.of(order.settings).drift_m)
+    lines = (*forward.lines, *aligned.warnings, *result.warnings, *order.plugins.reports)
     return replace(result, profile=profile, warnings=lines)
 
 

@@ -7,7 +7,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
-from floatref.values.encoder import check_direction, check_distance
+from floatref.values.encoder import check_distance
+from floatref.values.encoder_direction import check_direction
 from floatref.values.needs import DISTANCE, HEIGHT, VERTICAL_FORCES, Needs, nominal_needs
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import Summary, every, first_where, longest_gap
@@ -97,7 +98,7 @@ def examine(
     ``look`` examines each channel. Raises InputError with one line naming the channel, the value
     and what to do for missing channels, channels without samples or with more than half of them
     missing, implausible units and signs, impossible samples, an accelerometer that is constant, a
-    distance that goes backwards, jumps or is constant, and truncated channels.
+    distance that mostly goes backwards, jumps or is constant, and truncated channels.
     """
     needed = (nominal_needs(recording) if needs is None else needs).channels(recording)
     interval_m = recording.setup.profile_interval_m
@@ -126,7 +127,7 @@ def _check_second_distances(recording: Recording, needed: Sequence[Channel]) -> 
     for channel in recording.channels:
         if channel.id.name in SECOND_DISTANCES and channel.id not in read:
             try:
-                check_direction(channel)
+                check_direction(channel, most=0.0)
             except InputError as error:
                 yield f"{error}; it is not used"
 

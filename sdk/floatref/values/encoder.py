@@ -6,6 +6,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
+from floatref.values.encoder_direction import MOST, check_direction, forward_chunks
 from floatref.values.profile import FARTHEST_M
 from floatref.values.recording import Channel
 from floatref.values.scanning import Summary, chunks, every, first_where
@@ -16,8 +17,6 @@ SLOWEST_MPS = 0.1
 """A mean speed below this over more than ten seconds is worth a warning, in m/s."""
 AVERAGED_S = 0.5
 """Speed is averaged over this time, in s: counts come in bursts."""
-ROLLS_BACK_M = 1.0
-"""Largest roll-back of a vehicle that stops, in m; a reversed encoder exceeds it."""
 MOST_POINTS = 1e9
 FINEST_STEP = 1e-3
 """Largest rounding error of float64, as a part of the profile interval."""
@@ -27,11 +26,12 @@ def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Ite
     """Yield warnings about the distance ``channel``, one line each.
 
     Raises InputError with one line naming the channel, the value and what to do for a distance
-    beyond what float64 holds at ``interval_m``, that goes back by more than `ROLLS_BACK_M`, that
-    is too short or too long for ``interval_m``, or that is faster than any profiler.
+    beyond what float64 holds at ``interval_m``, that `check_direction` refuses, that is too short
+    or too long for ``interval_m``, or that is faster than any profiler.
     """
     _check_range(channel, summary, interval_m)
-    check_direction(channel)
+    # What nothing repairs must not go back at all.
+    check_direction(channel, MOST if channel.id.name == "distance" else 0.0)
     _check_length(channel, summary, interval_m)
     _check_speed(channel)
     length = summary.greatest - summary.least
@@ -68,50 +68,6 @@ def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
         )
 
 
-def check_direction(channel: Channel) -> None:
-    """Raise InputError for a distance that goes back farther than a vehicle rolls; a spike may."""
-    if _goes_back(chunks(channel.values)) is None:
-        return
-    found = _goes_back(_without_spikes(channel.values))
-    if found is not None:
-        back, by_m = found
-        raise InputError(
-            f"channel {channel.id}: sample {back} goes back by {by_m:.4g} m to "
-            f"{channel.values[back]:.10g} m; invert the sign of a reversed encoder, "
-            "or cut the run where the vehicle rolled back"
-        )
-
-
-def _goes_back(stretches: Iterator[tuple[int, FloatArray]]) -> tuple[int, float] | None:
-    """Return the first sample that goes back by too much and by how many m, or None."""
-    reached, back = -np.inf, None
-    for first, chunk in stretches:
-        if chunk[0] >= reached and (chunk[1:] >= chunk[:-1]).all():
-            reached = float(chunk[-1])
-            continue
-        farthest = np.fmax.accumulate(np.append(reached, chunk))
-        behind = farthest[:-1] - chunk
-        if back is None and (behind > 0).any():
-            at = int(np.argmax(behind > 0))
-            back = first + at, float(behind[at])
-        if (behind > ROLLS_BACK_M).any():
-            return back
-        reached = float(farthest[-1])
-    return None
-
-
-def _without_spikes(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-    """Yield stretches of ``values``; a single sample that jumps and returns at once becomes NaN."""
-    before = np.nan
-    for first, chunk in chunks(values):
-        after = values[first + chunk.size : first + chunk.size + 1]
-        wide = np.concatenate(([before], chunk, after if after.size else [np.nan]))
-        up, down = wide[1:-1] - wide[:-2], wide[1:-1] - wide[2:]
-        spike = np.minimum(np.abs(up), np.abs(down)) > ROLLS_BACK_M
-        before = float(chunk[-1])
-        yield first, np.where(spike & ((up > 0) == (down > 0)), np.nan, chunk)
-
-
 def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None:
     """Refuse a distance that gives no point of the profile, or more points than fit in memory."""
     length = summary.greatest - summary.least
@@ -135,7 +91,7 @@ def _check_speed(channel: Channel) -> None:
     times = channel.clock.times(distance.size, step=stride)
     advance, elapsed, since_s = _speeds(times, distance)
     if (advance > FASTEST_MPS * np.maximum(elapsed, AVERAGED_S)).any():
-        pieces = [x[-first % stride :: stride] for first, x in _without_spikes(channel.values)]
+        pieces = [x[-first % stride :: stride] for first, x in forward_chunks(channel.values)]
         advance, elapsed, since_s = _speeds(times, np.concatenate(pieces))
     speed = advance / np.maximum(elapsed, AVERAGED_S)
     if (speed > FASTEST_MPS).any():

@@ -16,7 +16,7 @@ class Doubt:
     Attributes:
         suspects: the channels of which one is faulty.
         line: one line that names channel, value and what to do.
-        fatal: whether no profile can be made of these channels.
+        fatal: whether no profile can be made of these channels; never for a fault on a stretch.
         spans: begin and end in s of each faulty stretch, in order.
         replaced: whether samples of the spans measure nothing and count as missing; else the
             profile there is not valid.
@@ -27,6 +27,11 @@ class Doubt:
     fatal: bool = False
     spans: tuple[tuple[float, float], ...] = (WHOLE,)
     replaced: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for a fault on a stretch that refuses the recording."""
+        if self.fatal and not self.whole_run:
+            raise ValueError(f"a fault on a stretch refuses no recording: {self.line}")
 
     @property
     def whole_run(self) -> bool:
