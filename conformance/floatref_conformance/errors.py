@@ -12,6 +12,10 @@ class DeviceHung(DeviceError):
     """The device did not answer in time."""
 
 
+class DeviceRefused(DeviceError):
+    """The device answered an error in place of a profile."""
+
+
 class DeviceSkipped(Exception):
     """The device does not process this recording; the text is its reason, in one line."""
 

@@ -24,11 +24,13 @@ class Taken:
         recording: the channels that the device may receive.
         truth: unfiltered elevation in m along the laser's path, one track per wheel path.
         scenario: the simulated scenario.
+        healthy: whether no sensor is faulty; to refuse such a recording is a false alarm.
     """
 
     recording: Recording
     truth: Profile
     scenario: Scenario
+    healthy: bool = True
 
 
 class Bench(Protocol):

@@ -108,6 +108,7 @@ class CaseResult:
         early_m: largest length by which a profile ended before its recording, in m.
         passes: what it processed, stored for the pictures of a failing case.
         again: outcome of a second run of a failing case, if that run did not fail.
+        false_alarms: number of healthy recordings that the device refused.
     """
 
     name: str
@@ -120,6 +121,7 @@ class CaseResult:
     early_m: float = 0.0
     passes: tuple[Pass, ...] = ()
     again: str = ""
+    false_alarms: int = 0
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return the largest ratio of value to limit; infinite for a faulty device."""
@@ -150,6 +152,7 @@ class CheckResult:
         counterexample: the simplest case found that fails: ``case``, ``parameters``,
             ``reason``, and ``file``, its name in a report directory.
         flagged_m, early_m: the largest values of its cases.
+        false_alarms: number of healthy recordings that the device refused in its cases.
         passes: of the counterexample.
         worst_track: the wheel path that fails it, empty without measurements.
         scored_m: start and end of each stretch that it scores, in m.
@@ -169,6 +172,7 @@ class CheckResult:
     passes: tuple[Pass, ...] = ()
     scored_m: tuple[tuple[float, float], ...] = ()
     worst_track: str = ""
+    false_alarms: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,6 +200,11 @@ class RunResult:
         """FAIL if a check or a kept case failed, INCOMPLETE if one was left out, else PASS."""
         outcomes = [check.outcome for check in self.checks]
         return verdict_on([*outcomes, *(Outcome(case["outcome"]) for case in self.replayed)])
+
+    @property
+    def false_alarms(self) -> int:
+        """Number of healthy recordings that the device refused."""
+        return sum(check.false_alarms for check in self.checks)
 
     @property
     def class_reached(self) -> DeviceClass | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from floatref_conformance.devices.process import Child, readable, start
-from floatref_conformance.errors import DeviceError, DeviceSkipped
+from floatref_conformance.errors import DeviceError, DeviceRefused, DeviceSkipped
 
 VERSION = 1
 START_S = 10.0
@@ -47,8 +47,8 @@ class Session:
     def run(self, recording: Path, profile: Path, limit_s: float) -> None:
         """Let the device process ``recording`` into ``profile`` within ``limit_s``.
 
-        Raises DeviceSkipped if the device skips it, DeviceError if it fails, in one
-        line, or DeviceHung.
+        Raises DeviceSkipped if the device skips it, DeviceRefused if it answers an error,
+        DeviceError if it fails, in one line, or DeviceHung.
         """
         self._child.conceal(str(Path(profile).parent))
         with self._step("run"):
@@ -59,7 +59,7 @@ class Session:
             if failed is None and skipped is None and answer.get("ok") is not True:
                 raise DeviceError("answered neither ok, nor skipped, nor error")
         if failed is not None:
-            raise DeviceError(f"run: answered an error: {failed}{self._child.describe_stderr()}")
+            raise DeviceRefused(f"run: answered an error: {failed}{self._child.describe_stderr()}")
         if skipped is not None:
             raise DeviceSkipped(skipped)
 

@@ -16,7 +16,7 @@ from floatref_conformance.checks.interface import Taken
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.editions.edition import Edition, find_edition
-from floatref_conformance.errors import DeviceError
+from floatref_conformance.errors import DeviceError, DeviceRefused
 from floatref_conformance.judge.exercise import Delivery, early_end_m, exercise
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -49,6 +49,7 @@ class DeviceBench:
         edition: says where a profile may end.
         early_m: the largest length in m by which a profile has ended before its recording.
         passes: recordings that the device has processed, in order.
+        false_alarms: number of healthy recordings for which it has answered an error.
     """
 
     device: Device
@@ -57,6 +58,7 @@ class DeviceBench:
     edition: Edition = field(default_factory=find_edition)
     early_m: float = 0.0
     passes: list[Pass] = field(default_factory=list)
+    false_alarms: int = 0
 
     def simulate(self, scenario: Scenario) -> Taken:
         """Return the recording of ``scenario`` with the channels that the device may receive."""
@@ -68,7 +70,11 @@ class DeviceBench:
         true_end_m = taken.truth.length_m if self.edition.true_axis else None
         delivery = Delivery(self.edition.early_end_m, true_end_m)
         guarded = GuardedDevice(self.device)
-        profile = exercise(guarded, self.description, taken.recording, delivery)
+        try:
+            profile = exercise(guarded, self.description, taken.recording, delivery)
+        except DeviceRefused:
+            self.false_alarms += taken.healthy
+            raise
         self.early_m = max(self.early_m, early_end_m(profile, taken.recording, true_end_m))
         self.passes.append(Pass(label, taken.truth, profile, taken.scenario))
         return profile

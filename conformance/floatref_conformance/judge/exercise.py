@@ -9,12 +9,13 @@ from typing import TypeVar
 
 import numpy as np
 
+from floatref.errors import FloatrefError
 from floatref.files import read_profile, write_recording
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
 from floatref_conformance.devices.interface import Description, Device, visible
-from floatref_conformance.errors import DeviceError, DeviceSkipped
+from floatref_conformance.errors import DeviceError, DeviceRefused, DeviceSkipped
 
 MAX_INTERVAL_M = 0.25
 """Largest profile interval from which the IRI can be computed, in m."""
@@ -51,7 +52,8 @@ def exercise(
     """Return the profile that ``device`` makes of ``recording``.
 
     Raises DeviceError if the profile is unusable, DeviceHung if it does not come in time,
-    DeviceSkipped if the device does not process the recording.
+    DeviceRefused for an error in its place, DeviceSkipped if the device does not process the
+    recording.
 
     The device sees a new folder with a neutral name and the channels that it may receive.
     """
@@ -73,7 +75,8 @@ def exercise(
 def _ask(question: Callable[[], Answer]) -> Answer:
     """Return the device's answer; DeviceError for any exception, sys.exit included.
 
-    DeviceError, DeviceHung and DeviceSkipped are passed on unchanged.
+    DeviceRefused for an error of floatref. DeviceError with its kinds and DeviceSkipped are passed
+    on unchanged.
     """
     try:
         return question()
@@ -81,7 +84,8 @@ def _ask(question: Callable[[], Answer]) -> Answer:
         raise
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
-        raise DeviceError(f"raised {type(error).__name__}: {text}") from error
+        kind = DeviceRefused if isinstance(error, FloatrefError) else DeviceError
+        raise kind(f"raised {type(error).__name__}: {text}") from error
 
 
 def _read(target: Path) -> Profile:

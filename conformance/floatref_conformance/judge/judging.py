@@ -48,6 +48,7 @@ def check_result(
         counterexample=_counterexample(*simpler, device_class) if failed and simpler else None,
         flagged_m=max(case.flagged_m for case in cases),
         early_m=max(case.early_m for case in cases),
+        false_alarms=sum(case.false_alarms for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
         scored_m=find_scored(check, simpler[0]) if failed and simpler else (),
         worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",

@@ -24,8 +24,13 @@ def judge_case(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
     except DeviceSkipped as skipped:
         return replace(result, skipped=str(skipped))
     except DeviceError as error:
-        hung, passes = isinstance(error, DeviceHung), tuple(bench.passes)
-        return replace(result, fault=str(error), hung=hung, passes=passes)
+        return replace(
+            result,
+            fault=str(error),
+            hung=isinstance(error, DeviceHung),
+            passes=tuple(bench.passes),
+            false_alarms=bench.false_alarms,
+        )
     return replace(
         result,
         measurements=tuple(measured),

@@ -1,5 +1,6 @@
 """Mutations of one kind of drive only."""
 
+from floatref.errors import InputError
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.mutants import profiles as p
@@ -45,6 +46,14 @@ def _stops_from_high_speed(drive: Drive) -> bool:
 
 def _sets_off(drive: Drive) -> bool:
     return drive.begins_standing
+
+
+def _refuse_a_stop(recording: Recording) -> Recording:
+    """Return ``recording``; InputError where the vehicle stands, as if the encoder were stuck."""
+    drive = Drive.of(recording)
+    if _stops(drive) or _sets_off(drive):
+        raise InputError("channel distance: stuck; connect the encoder")
+    return recording
 
 
 def _scale_by_speed(profile: Profile, recording: Recording) -> Profile:
@@ -110,6 +119,12 @@ IN_DRIVES = (
         "loses 0.3 m of road at a stop",
         ("distance",),
         after=apply_when(_stops, p.lose_at_slowest(0.3)),
+    ),
+    Mutation(
+        "stop-refused",
+        "refuses a recording in which the vehicle stands: a false alarm of its screening",
+        ("stop", "dead-start"),
+        before=_refuse_a_stop,
     ),
     Mutation(
         "wrong-with-speed",

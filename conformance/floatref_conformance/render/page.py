@@ -181,11 +181,11 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
     )
     worst = check.worst
     if worst is None:
-        return row
+        return replace(row, notes=_alarms(check))
     unlimited = wording.why_unlimited(check, device_class)
     if unlimited:
         flagged = (wording.describe_flagged(check),) if check.flagged_m else ()
-        return replace(row, value="no limit", notes=(unlimited, *flagged))
+        return replace(row, value="no limit", notes=(unlimited, *flagged, *_alarms(check)))
     ratio = worst.ratio(device_class)
     return replace(
         row,
@@ -204,8 +204,12 @@ def _notes(check: CheckResult, worst: Measurement) -> tuple[str, ...]:
     case = f"case {check.worst_case}" if check.worst_case else ""
     flagged = wording.describe_flagged(check) if check.flagged_m else ""
     early = wording.describe_early(check) if check.early_m else ""
-    notes = (f"{worst.quantity}, track {worst.track}", case, flagged, early)
+    notes = (f"{worst.quantity}, track {worst.track}", case, flagged, early, *_alarms(check))
     return tuple(note for note in notes if note)
+
+
+def _alarms(check: CheckResult) -> tuple[str, ...]:
+    return (wording.describe_false_alarms(check),) if check.false_alarms else ()
 
 
 def _percent(ratio: float) -> str:

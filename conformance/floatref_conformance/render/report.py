@@ -69,6 +69,7 @@ def write(document: dict[str, Any], path: Path) -> None:
 
 def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
     early = {"early_m": check.early_m} if check.early_m else {}
+    alarms = {"false_alarms": check.false_alarms} if check.false_alarms else {}
     return {
         "id": check.id,
         "outcome": check.outcome.value,
@@ -79,6 +80,7 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
         "clause": check.clause,
         "flagged_m": check.flagged_m,
         **early,
+        **alarms,
         "counterexample": finite(check.counterexample),
     }
 

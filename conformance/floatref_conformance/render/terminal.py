@@ -130,6 +130,8 @@ def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
         lines.append(f"{check.id}: {wording.describe_flagged(check)}")
     if check.early_m:
         lines.append(f"{check.id}: {wording.describe_early(check)}")
+    if check.false_alarms:
+        lines.append(f"{check.id}: {wording.describe_false_alarms(check)}")
     if check.counterexample is not None:
         lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
     return lines

@@ -93,6 +93,12 @@ def describe_early(check: CheckResult) -> str:
     return f"warning: a profile ends {check.early_m:.3f} m before its recording"
 
 
+def describe_false_alarms(check: CheckResult) -> str:
+    """Return how many healthy recordings were refused."""
+    recordings = "recording" if check.false_alarms == 1 else "recordings"
+    return f"false alarm: {check.false_alarms} healthy {recordings} refused"
+
+
 def not_run_lines(result: RunResult) -> list[str]:
     """Return one line per reason for which checks were left out or skipped, naming them."""
     reasons: dict[str, list[str]] = {}
@@ -114,6 +120,9 @@ def summary(result: RunResult) -> str:
     left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
     if left_out:
         parts.append(f"{left_out} {_be(left_out)} not run and not judged")
+    if result.false_alarms:
+        alarms = "false alarm" if result.false_alarms == 1 else "false alarms"
+        parts.append(f"{result.false_alarms} {alarms}")
     again = sum(case["outcome"] in FAILED for case in result.replayed)
     if again:
         verb = "fails" if again == 1 else "fail"

@@ -9,7 +9,9 @@ from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.classes import Effort
-from floatref_conformance.judge.bench import make_taken
+from floatref_conformance.judge.bench import DeviceBench, make_taken
+from floatref_conformance.judge.exercise import describe
+from floatref_conformance.judge.replaying import judge_case
 from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.engine import in_time, over_distance, replace_elevations
 from floatref_conformance.mutants.hostile import HOSTILE
@@ -27,7 +29,7 @@ KNOWN = {
     *("carry-leaking", "road-lost-at-a-stop", "held-at-the-stop", "reflection-sign", "all-zeros"),
     *("over-smoothed", "previous-result", "nan-at-the-end", "vouches-never", "vouches-always"),
     *("in-mm", "in-feet", "height-in-mm", "height-in-feet", "distance-in-feet", "force-in-g"),
-    *("out-of-order", "hang", "crash", "flood", "garbage"),
+    *("out-of-order", "hang", "crash", "flood", "garbage", "stop-refused"),
 }
 SHORT = {
     *("laser-high", "missing-height-zero", "height-in-mm", "cut-off-short", "stop-uncontained"),
@@ -87,6 +89,16 @@ def test_programs_that_behave_badly_are_mutants_too():
     assert {hostile.name for hostile in HOSTILE} <= {entry.name for entry in ENTRIES}
     assert "out-of-order" in {entry.name for entry in ENTRIES}
     assert "seq" in attempt(Try("mutant:out-of-order", "quiescent", 0)).fails
+
+
+@pytest.mark.slow
+def test_refusing_a_healthy_stop_is_a_false_alarm():
+    check = load_registry().check("stop")
+    case = check.cases(0, Effort.QUICK)[0]
+    device = KIND.make("stop-refused")
+    found = judge_case(check, case, DeviceBench(device, describe(device)))
+    assert found.false_alarms == 1
+    assert "raised InputError: channel distance: stuck" in found.fault
 
 
 @pytest.mark.slow

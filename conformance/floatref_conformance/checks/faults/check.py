@@ -145,7 +145,7 @@ class FaultsCheck:
         inject, fault = fault_of(case.variation), str(case.variation["fault"])
         check_equipped(taken.recording, needs_of(fault), f"fault {fault}")
         faulty = inject(taken.recording, case.variation)
-        changed = replace(taken, recording=faulty.recording)
+        changed = replace(taken, recording=faulty.recording, healthy=False)
         after = bench.run(changed, "with the fault")
         before = bench.run(taken, "without the fault")
         part = fault.partition("-")[0]
