@@ -40,9 +40,10 @@ def recording():
         "height": 0.3 + 0.01 * np.sin(times),
     }
     channels = [
-        Channel.of(name, values, UniformClock.of(RATE_HZ), track)
+        # No two sensors have the same samples.
+        Channel.of(name, values + own, UniformClock.of(RATE_HZ), track)
         for name, values in samples.items()
-        for track in ("left", "right")
+        for track, own in (("left", 0.0), ("right", 0.001))
     ]
     channels.append(Channel.of("distance", SPEED_MPS * times, UniformClock.of(RATE_HZ)))
     return Recording(tuple(channels), Setup(INTERVAL_M))

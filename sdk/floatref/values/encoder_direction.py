@@ -37,8 +37,8 @@ def check_direction(channel: Channel, most: float = MOST) -> None:
 def stretches_behind(values: FloatArray) -> IndexArray:
     """Return first index and the one behind of each stretch behind the farthest, shape (k, 2).
 
-    Only those that lie behind by more than `ROLLS_BACK_M`; single samples that jump and return at
-    once are none. Missing (NaN) samples beside them belong to them.
+    Only those that lie behind by more than `ROLLS_BACK_M`, and no single samples that jump and
+    return at once. Missing (NaN) samples beside them belong to them.
     """
     if not _goes_back(values):
         return np.empty((0, 2), np.int64)

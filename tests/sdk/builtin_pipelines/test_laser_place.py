@@ -9,7 +9,7 @@ from floatref import AxleSetup, Setup, TrackSetup, pipelines
 from floatref.engine.run import run
 from floatref.measures import cross_correlation, high_pass, iri_trace
 from floatref.values.profile import Profile
-from floatref.values.recording import Channel, Recording
+from floatref.values.recording import Recording
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
 
@@ -96,25 +96,16 @@ def test_without_a_lever_the_axles_change_nothing(constant: Simulation) -> None:
 
 @pytest.mark.slow
 def test_lasers_that_are_not_abeam_are_brought_onto_one_axis(constant: Simulation) -> None:
-    """Both wheel paths read one sensor; the one that is said to be 1 m ahead lies 1 m farther."""
-    same = tuple(
-        Channel(replace_track(c), c.values, c.clock) for c in constant.recording.channels
-        if c.id.track == "left"
-    )  # fmt: skip
-    others = tuple(c for c in constant.recording.channels if c.id.track != "right")
-    places = {"left": TrackSetup(), "right": TrackSetup((1.0, 0.0, 0.0))}
-    far = Setup(0.05, tracks=places)
-    profile = run(Recording((*others, *same), far), "temporal-basic").profile
-    left, right = (profile.track(t) for t in ("left", "right"))
-    np.testing.assert_array_equal(right.elevation[20:], left.elevation[:-20])
+    """A wheel path whose laser is said to be 1 m ahead of the other one's lies 1 m farther."""
+    ahead = TrackSetup((1.0, 0.0, 0.0))
+    beside, far, unknown = (
+        run(recorded(constant, Setup(0.05, tracks=places)), "temporal-basic").profile
+        for places in ({}, {"left": TrackSetup(), "right": ahead}, {"right": ahead})
+    )
+    right, plain = far.track("right"), beside.track("right")
+    np.testing.assert_array_equal(far.track("left").elevation, beside.track("left").elevation)
+    np.testing.assert_array_equal(right.elevation[20:], plain.elevation[:-20])
     assert np.isnan(right.elevation[:20]).all()
     assert not right.valid[:20].any()
-    assert profile.provenance["laser"]["right"]["shift_m"] == 1.0
-    unknown = Setup(0.05, tracks={"right": places["right"]})
-    profile = run(Recording((*others, *same), unknown), "temporal-basic").profile
-    left, right = (profile.track(t) for t in ("left", "right"))
-    np.testing.assert_array_equal(right.elevation, left.elevation)
-
-
-def replace_track(channel: Channel):  # type: ignore[no-untyped-def]  # A ChannelId.
-    return channel.id._replace(track="right")
+    assert far.provenance["laser"]["right"]["shift_m"] == 1.0
+    np.testing.assert_array_equal(unknown.track("right").elevation, plain.elevation)

@@ -192,9 +192,15 @@ def test_each_wheel_path_goes_its_own_way(drive):
     setup = replace(known.setup, tracks=tracks)
     profile = run(Recording((*known.channels, *other), setup), JOINT).profile
     alone = run(replace(known, setup=replace(known.setup, tracks={})), JOINT).profile
+    setup = replace(known.setup, tracks={"right": tracks["right"]})
+    own = run(Recording((known.channel("distance"), *other), setup), JOINT).profile
     assert [t.name for t in profile.tracks] == ["left", "right"]
     np.testing.assert_array_equal(profile.tracks[0].elevation, alone.tracks[0].elevation)
-    assert np.isnan(profile.tracks[1].elevation[-10:]).all()
+    # Alone it lies on the axis of its own laser, 0.5 m ahead; beside the left one on that one's.
+    assert np.isnan(own.tracks[0].elevation[-10:]).all()
+    right = profile.tracks[1].elevation
+    assert np.isnan(right[:10]).all()
+    np.testing.assert_array_equal(right[10:], own.tracks[0].elevation[:-10])
 
 
 def test_slow_travel_is_not_vouched_for(drive):

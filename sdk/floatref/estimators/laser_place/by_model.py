@@ -24,7 +24,7 @@ class HeightByModel(Stage):
 
     A laser x ahead of its accelerometer is higher by x sin θ at the pitch θ, nose up. θ is that of
     `model_pitch`, for which the engine shows this stage the whole run first. The body has one
-    pitch, so sensors of all wheel paths have a part in it, and roll has none. A height has the
+    pitch, so sensors of all wheel paths have a part in it, and roll has no part. A height has the
     flags of its own accelerometer, too; a sample that is missing is bridged in the pitch.
     """
 

@@ -22,23 +22,25 @@ CHANGED = 0.3
 WHEELS, ON_WHEEL = ("unsprung_specific_force", "rear_unsprung_specific_force"), 1.0
 """Sensors on wheel carriers, which turn in a brake and take impacts, and their limit in m/s²."""
 FEWEST = 3
-"""Fewest means of a run, and accelerometers by which the changed one is known."""
+"""Fewest means of an accelerometer, and accelerometers by which the changed one is known."""
 
 
 def bias_doubts(forces: Mapping[ChannelId, FloatArray], grid: FastGrid) -> Iterator[Doubt]:
     """Yield the accelerometers, of shape (n,) in m/s² on ``grid``, whose bias changes."""
     means = {name: _means(series) for name, series in forces.items()}
-    rows = np.stack(list(means.values()))
-    if rows.shape[1] < FEWEST or len(forces) < 2:
+    means = {name: each for name, each in means.items() if np.isfinite(each).sum() >= FEWEST}
+    if len(means) < 2:
         return
+    rows = np.stack(list(means.values()))
     own = rows - np.nanmedian(rows, axis=1, keepdims=True)
-    if len(forces) < FEWEST:
+    if len(means) < FEWEST:
         off = np.abs(own[0] - own[1]) > CHANGED
         if off.any():
-            yield _doubt(tuple(forces), off, grid)
+            yield _doubt(tuple(means), off, grid)
         return
-    apart = own - np.nanmedian(own, axis=0)
-    for name, row in zip(forces, apart, strict=True):
+    apart, known = np.full(own.shape, np.nan), np.isfinite(own).any(axis=0)
+    apart[:, known] = own[:, known] - np.nanmedian(own[:, known], axis=0)
+    for name, row in zip(means, apart, strict=True):
         off = np.abs(row) > (ON_WHEEL if name.name in WHEELS else CHANGED)
         if off.any():
             yield _doubt((name,), off, grid)

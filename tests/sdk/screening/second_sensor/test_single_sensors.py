@@ -72,6 +72,17 @@ def test_a_constant_bias_is_no_fault() -> None:
     assert not list(bias_doubts(forces(), GRID))
 
 
+def test_sensors_of_which_nothing_is_known_are_no_second_ones() -> None:
+    assert not list(bias_doubts({}, GRID))
+    rows = forces()
+    lost = next(iter(rows))
+    rows[lost] = np.full_like(rows[lost], np.nan)
+    assert not list(bias_doubts(rows, GRID))
+    for name, row in rows.items():
+        rows[name] = np.where(np.arange(row.size) % 1000 < 300, np.nan, row)
+    assert not list(bias_doubts(rows, GRID))
+
+
 @pytest.mark.parametrize("many", [2, 3, 4])
 def test_a_bias_that_changes_is_flagged_where_it_does(many: int) -> None:
     rows = forces(many)
