@@ -32,6 +32,10 @@ SMALL_S, GOOD = 0.02, 0.9
 share that has to be explained then."""
 EDGE_S = 1.5
 """Time in s at either end of a run in which the filter of the band settles."""
+LEAST_ROAD = 0.25
+"""Least share that the wheel's road has of what both sensors of the body measure: springs with a
+third of the critical damping heave by twice the road where they resonate. A body that swings more
+is moved by brakes, on a road too flat to be compared."""
 COHERENT = 0.8
 """Least share of the wheel's road that laser and accelerometer explain."""
 
@@ -51,6 +55,14 @@ class TwoRoads:
     height: FloatArray
     wheel: FloatArray
     known: BoolArray
+
+    @property
+    def moves_the_body(self) -> bool:
+        """Whether the road is what moves the body."""
+        if not self.known.any():
+            return False
+        of_body = min(float(np.std(x[self.known])) for x in (self.lift, self.height))
+        return float(np.std(self.wheel[self.known])) >= LEAST_ROAD * of_body
 
     def relate(
         self,

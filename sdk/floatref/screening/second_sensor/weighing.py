@@ -159,7 +159,7 @@ class _Piece:
         yield from laser_doubts(self.roads, self._grid)
 
     def _roads(self, track: str) -> TwoRoads | None:
-        """Return the road twice, None where a sensor is missing or in doubt."""
+        """Return the road twice; None without a sensor that is not in doubt, or on a flat road."""
         vehicle = self._recording.setup.vehicle
         names = (FORCE, HEIGHT, WHEEL, DISTANCE)
         found = [c for n in names if (c := self._trusted(n, track)) is not None]
@@ -177,12 +177,13 @@ class _Piece:
         if travel is not None:
             known &= ~dilate(points_of(travel.loud(LOUD, SHARE), known.size), SETTLED_S)
         to_wheel_m = vehicle.x_m - setup.reference_point_m[0] - ahead_m
-        return TwoRoads(
+        roads = TwoRoads(
             lift_of(force, pitch, ahead_m),
             band(height, *ROAD_HZ),
             wheel_road(wheel, _bridged(distance), to_wheel_m, self._grid),
             known,
         )
+        return roads if roads.moves_the_body else None
 
     def _trusted(self, name: str, track: str) -> Channel | None:
         channel = self._recording.find(name, track)

@@ -20,10 +20,8 @@ def step_doubts(recording: Recording) -> Iterator[Doubt]:
     encoder = recording.channel("distance", recording.tracks[0])
     if not isinstance(encoder.clock, UniformClock):
         return
-    found = [np.diff(part) for _, part in chunks(encoder.values, overlap=1)]
-    steps = np.concatenate([each[each > 0] for each in found])
-    usual = _usual(steps)
-    if not usual > LONGEST_M:
+    usual = _usual(encoder.values)
+    if usual <= LONGEST_M:
         return
     yield Doubt(
         (encoder.id,),
@@ -32,10 +30,18 @@ def step_doubts(recording: Recording) -> Iterator[Doubt]:
     )
 
 
-def _usual(steps: FloatArray) -> float:
-    """Return the step in which half of the distance, or more, is travelled; 0 without any."""
-    if not steps.size:
+def _usual(values: FloatArray) -> float:
+    """Return the step in m in which half of the distance ``values``, or more, is travelled.
+
+    Only steps of more than `LONGEST_M` are held in memory; 0 if the step is not one of these.
+    """
+    travelled, long = 0.0, [np.empty(0)]
+    for _, part in chunks(values, overlap=1):
+        steps = np.diff(part)
+        travelled += float(np.sum(steps, where=steps > 0))
+        long.append(steps[steps > LONGEST_M])
+    steps = np.sort(np.concatenate(long))
+    in_short = travelled - float(steps.sum())
+    if not steps.size or in_short >= travelled / 2:
         return 0.0
-    steps = np.sort(steps)
-    travelled = np.cumsum(steps)
-    return float(steps[np.searchsorted(travelled, travelled[-1] / 2)])
+    return float(steps[np.searchsorted(in_short + np.cumsum(steps), travelled / 2)])
