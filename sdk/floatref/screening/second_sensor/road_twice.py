@@ -11,14 +11,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.screening.second_sensor.fast_series import STEP_S, FastGrid, band
+from floatref.screening.second_sensor.fast_series import STEP_S, FastGrid, band, dilate
 from floatref.screening.second_sensor.fitting import Fit, fit, shifted
 from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.channels import STANDARD_GRAVITY
 
 BAND_HZ = (0.8, 5.0)
 """Band in Hz in which a wheel follows the road, above the drift of two integrations."""
 SLOWEST_MPS = 4.0
 """Below this speed the tilt of the body in a brake is as large as the road in the band."""
+HARDEST = 0.4 * STANDARD_GRAVITY
+"""Above this acceleration in m/s² a body that pitches by 3 degrees per g tilts its accelerometer by
+0.08 m/s² where a brake begins or ends: 1 mm in the band, as a road of 2 m/km."""
 WHEEL_LATE = -3
 """Usual lag of the wheel, in steps of the grid: 15 ms."""
 WHEELS_LATE = range(-7, 2)
@@ -166,10 +170,11 @@ def lift_of(force: FloatArray, pitch_rate: FloatArray | None, ahead_m: float) ->
 
 
 def is_moving(distance: FloatArray) -> BoolArray:
-    """Return the points, shape (n,), at which the vehicle is faster than `SLOWEST_MPS`."""
+    """Return the points, shape (n,), at which the vehicle rolls: not slow, and not braking hard."""
     second = min(round(1.0 / STEP_S), distance.size)
     speed = np.gradient(np.convolve(distance, np.ones(second) / second, "same"), STEP_S)
     moving = np.asarray(speed > SLOWEST_MPS)
     edge = round(EDGE_S / STEP_S)
     moving[:edge] = moving[max(moving.size - edge, 0) :] = False
-    return moving
+    gained = np.gradient(np.convolve(speed, np.ones(second) / second, "same"), STEP_S)
+    return moving & ~dilate(moving & (np.abs(gained) > HARDEST), EDGE_S)
