@@ -30,7 +30,9 @@ STOP: dict[str, Any] = {
     "dwell_s": 1.2,
     "event_at_m": 90.0,
     "final_speed_kmh": 25.0,
+    "slip_percent_per_g": 0.0,
 }
+"""The encoder does not slip: a road that is displaced by a brake is nothing that settings mend."""
 GIVEN = {"cutoff_wavelength_m": 30.0, "acceleration_walk": 0.5}
 """With the first 160 m of road are enough; the second is far too large for a stop."""
 
