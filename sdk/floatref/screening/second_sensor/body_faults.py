@@ -84,14 +84,14 @@ def _own(body: Body, name: ChannelId) -> Relation | None:
 
 
 def _holds(relation: Relation) -> bool:
-    return relation.fit.explained >= COHERENT and abs(relation.gain - 1.0) <= SCALE_OFF
+    return relation.fit.explained >= COHERENT and not relation.is_off(SCALE_OFF)
 
 
 def _whole_run(body: Body, suspect: Suspect) -> Doubt | None:
     """Return the fault that lasts for the whole run, None if there is no such fault."""
     own = suspect.own
     limit = FLOOR + SUSPICIOUS * suspect.usual
-    if 1.0 - own.fit.explained <= limit and abs(own.gain - 1.0) <= SCALE_OFF:
+    if 1.0 - own.fit.explained <= limit and not own.is_off(SCALE_OFF):
         return None
     steps, best = body.lag(suspect.channels[0])
     sharper = best is not None and 1.0 - own.fit.explained >= SHARPER * (1.0 - best.fit.explained)
@@ -99,7 +99,7 @@ def _whole_run(body: Body, suspect: Suspect) -> Doubt | None:
     relation = best if late and best is not None else own
     if relation.fit.agreeing < 1.0 - WHOLE_RUN or relation.fit.explained < COHERENT:
         return _incoherent(suspect, relation)
-    if abs(relation.gain - 1.0) > SCALE_OFF:
+    if relation.is_off(SCALE_OFF):
         return _scaled(suspect, relation.gain)
     return _late(suspect, late) if late else _drifting(body, suspect)
 

@@ -32,6 +32,8 @@ class Fit:
         power: the same of the series itself.
         counted: windows in which all is known and something moves, shape (w,).
         agree: those of them that agree, shape (w,).
+        inverse: of the products of the others in windows that agree, times the power of the series,
+            shape (k, k).
     """
 
     weights: FloatArray
@@ -41,6 +43,15 @@ class Fit:
     power: FloatArray
     counted: BoolArray
     agree: BoolArray
+    inverse: FloatArray
+
+    def leverage(self, count: int) -> float:
+        """Return by how much the sum of the first ``count`` weights may be wrong.
+
+        Times the share of the series' size that its sensors are wrong by. Large where the others
+        move together, so that the weights cannot be separated.
+        """
+        return float(np.sqrt(self.inverse[:count, :count].sum()))
 
     def loud(self, times: float, share: float) -> BoolArray:
         """Return the windows that count and do not agree, shape (w,).
@@ -121,7 +132,8 @@ def _fit(products: FloatArray, whole: BoolArray, first: BoolArray, within: BoolA
     power = np.sqrt(products[:, 0, 0])
     explained, left_over = 1.0 - _share(residual, power, agree), _share(residual, power, whole)
     agree = whole & (residual <= OUTLYING * usual)
-    return Fit(weights, explained, left_over, residual, power, whole, agree)
+    inverse = _inverse(products[agree].sum(axis=0))
+    return Fit(weights, explained, left_over, residual, power, whole, agree, inverse)
 
 
 def _share(residual: FloatArray, power: FloatArray, where: BoolArray) -> float:
@@ -136,6 +148,14 @@ def _solve(products: FloatArray) -> FloatArray:
     scaled = products / np.outer(sizes, sizes)
     weights, *_ = np.linalg.lstsq(scaled[1:, 1:], scaled[1:, 0], rcond=1e-9)
     return np.asarray(weights * sizes[0] / sizes[1:])
+
+
+def _inverse(products: FloatArray) -> FloatArray:
+    """Return the inverse of the others' part of ``products`` times the series' own product."""
+    sizes = np.sqrt(np.maximum(np.diag(products), 1e-30))
+    scaled = products / np.outer(sizes, sizes)
+    inverse = np.linalg.pinv(scaled[1:, 1:], rcond=1e-9, hermitian=True)
+    return np.asarray(inverse * np.outer(sizes[0] / sizes[1:], sizes[0] / sizes[1:]))
 
 
 def points_of(windows: BoolArray, count: int) -> BoolArray:

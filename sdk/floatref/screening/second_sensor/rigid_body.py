@@ -19,6 +19,9 @@ BAND_HZ = (0.5, 8.0)
 """Band in Hz in which a body is rigid, above the drift of accelerometers."""
 COHERENT = 0.9
 """Least share of an accelerometer's power that the others of a rigid body explain."""
+SEPARATE = 10.0
+"""Largest leverage of a gain that is known: scales off by 0.5 % make it wrong by 5 %. A body that
+moves in one way alone, as in a bounce test, tells no gain."""
 SEARCH = ((8, 7), (2, 3), (1, 1))
 """Lags that are searched: how many steps of the grid apart, and how many to either side; 0.28 s in
 all."""
@@ -30,11 +33,16 @@ class Relation:
 
     Attributes:
         fit: the sum.
-        gain: sum of the weights of the accelerometers; 1 for working sensors.
+        gain: sum of the weights of the accelerometers; 1 for working sensors, NaN where the body
+            moves in too few ways to tell.
     """
 
     fit: Fit
     gain: float
+
+    def is_off(self, by: float) -> bool:
+        """Return whether the gain is known and differs from 1 by more than ``by``."""
+        return abs(self.gain - 1.0) > by
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +70,8 @@ class Body:
         found = fit(series, np.concatenate([rows, self.turning]), self.known, COHERENT)
         if found is None:
             return None
-        return Relation(found, float(found.weights[: len(others)].sum()))
+        is_known = found.leverage(len(others)) <= SEPARATE
+        return Relation(found, float(found.weights[: len(others)].sum()) if is_known else np.nan)
 
     def without(self, left_out: ChannelId) -> tuple[Relation, ...]:
         """Return how each accelerometer except ``left_out`` follows from the rest.

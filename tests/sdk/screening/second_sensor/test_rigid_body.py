@@ -119,3 +119,36 @@ def test_of_two_accelerometers_either_may_be_faulty() -> None:
     (doubt,) = doubts(0.5 * left(), many=2)
     assert len(doubt.suspects) == 2
     assert doubt.fatal
+
+
+@pytest.mark.parametrize("many", [2, 3, 4])
+def test_a_body_that_moves_in_one_way_alone_tells_no_gain(many: int) -> None:
+    """As in a bounce test: the left side moves by as much more as its place makes it."""
+    heave = motion(0)[0]
+    source = np.random.default_rng(3)
+    rows = {
+        name: heave * (1.0 + 0.05 * x + 0.1 * y) + NOISE * source.standard_normal(COUNT)
+        for name, (x, y) in list(PLACES.items())[:many]
+    }
+    forces = {name: band(row, *BAND_HZ) for name, row in rows.items()}
+    raw = (-0.05 * heave, 0.1 * heave)
+    turning = np.stack([band(row + 1e-3 * source.standard_normal(COUNT), *BAND_HZ) for row in raw])
+    swinging = Body(forces, turning, body().known)
+    others = [name for name in forces if name != LEFT]
+    relation = swinging.relate(LEFT, others)
+    assert relation is not None
+    assert relation.fit.explained > 0.99
+    assert np.isnan(relation.gain)
+    assert list(body_doubts(swinging, GRID)) == []
+
+
+def test_the_leverage_is_what_an_error_of_the_series_does_to_the_gain() -> None:
+    whole = body(many=2)
+    right = next(name for name in whole.forces if name != LEFT)
+    relation = whole.relate(LEFT, [right])
+    assert relation is not None
+    others = np.stack([whole.forces[right], *whole.turning])[:, whole.known]
+    series = whole.forces[LEFT][whole.known]
+    inverse = np.linalg.inv(others @ others.T)
+    worst = np.sqrt(inverse[0, 0] * np.sum(series**2))
+    assert relation.fit.leverage(1) == pytest.approx(worst, rel=0.02)
