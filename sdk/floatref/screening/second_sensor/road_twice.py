@@ -23,6 +23,8 @@ SLOWEST_MPS = 4.0
 HARDEST = 0.4 * STANDARD_GRAVITY
 """Above this acceleration in m/s² a body that pitches by 3 degrees per g tilts its accelerometer by
 0.08 m/s² where a brake begins or ends: 1 mm in the band, as a road of 2 m/km."""
+BRAKE_S = 0.5
+"""Time in s of the means of place and speed for it: a shorter brake hardly swings a body."""
 WHEEL_LATE = -3
 """Usual lag of the wheel, in steps of the grid: 15 ms."""
 WHEELS_LATE = range(-7, 2)
@@ -171,10 +173,14 @@ def lift_of(force: FloatArray, pitch_rate: FloatArray | None, ahead_m: float) ->
 
 def is_moving(distance: FloatArray) -> BoolArray:
     """Return the points, shape (n,), at which the vehicle rolls: not slow, and not braking hard."""
-    second = min(round(1.0 / STEP_S), distance.size)
-    speed = np.gradient(np.convolve(distance, np.ones(second) / second, "same"), STEP_S)
-    moving = np.asarray(speed > SLOWEST_MPS)
+    moving = np.asarray(_rate(distance, 1.0) > SLOWEST_MPS)
     edge = round(EDGE_S / STEP_S)
     moving[:edge] = moving[max(moving.size - edge, 0) :] = False
-    gained = np.gradient(np.convolve(speed, np.ones(second) / second, "same"), STEP_S)
-    return moving & ~dilate(moving & (np.abs(gained) > HARDEST), EDGE_S)
+    gained = np.abs(_rate(_rate(distance, BRAKE_S), BRAKE_S))
+    return moving & ~dilate(moving & (gained > HARDEST), EDGE_S)
+
+
+def _rate(series: FloatArray, over_s: float) -> FloatArray:
+    """Return the derivative of ``series``, shape (n,), by its means ``over_s``."""
+    size = min(round(over_s / STEP_S), series.size)
+    return np.gradient(np.convolve(series, np.ones(size) / size, "same"), STEP_S)

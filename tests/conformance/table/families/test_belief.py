@@ -23,9 +23,9 @@ KNOWN = {(name, condition) for name, found in MEASURED["wrong"].items() for cond
 """Pipelines and conditions with wrong wheel paths."""
 DRAWN = {
     "single": ("plain stop", "crown 50 mm"),
-    "urban": ("stop, crown", "stop, hump"),
+    "urban": ("stop", "stop, crown"),
     "rural": ("constant, shape", "light brake"),
-    "harsh": ("hard brake", "stop, line laser"),
+    "harsh": ("three stops", "stop, line laser"),
 }
 """Conditions in which what is not listed is at least 1.7 % of IRI within the limit of 5 %."""
 
