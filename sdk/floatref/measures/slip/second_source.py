@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floatref.measures.slip.encoder_motion import STEP_S, Motion, derivatives
+from floatref.measures.slip.encoder_motion import SMOOTHED_S, STEP_S, Motion, derivatives
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel, Recording
@@ -67,30 +67,48 @@ class Wheel:
 def find_wheel(recording: Recording, distance: Channel, motion: Motion) -> Wheel | None:
     """Return what the best second source of ``recording`` shows; None if there is nothing certain.
 
-    By least squares, v_encoder - v is what `Wheel` says and τ·a, τ the source's lateness. The
-    ``motion`` is the encoder's own; slip and growth act on that of the vehicle, which is found in
-    `PASSES`.
+    By least squares, v_encoder - v is what `Wheel` says and τ·a, τ the source's lateness. v and a
+    are those of an optical wheel itself, which has no slip in it; a speed by GNSS is too noisy for
+    that, and the encoder's motion without the slip found before takes their place, in `PASSES`.
     """
     for name in SOURCES:
         source = recording.find(name, distance.id.track)
         if source is not None and motion.speed.size:
-            wheel = _compare(name, source, motion, motion)
-            for _ in range(PASSES if wheel is not None else 0):
-                wheel = wheel and _compare(name, source, motion, wheel.on_road(motion))
+            road = _road_by(name, source, motion.times_s)
+            optical = name == "optical_distance"
+            wheel = _compare(name, motion, road, road) if optical else _settle(name, motion, road)
             if wheel is not None:
                 return wheel
     return None
 
 
-def _compare(name: str, source: Channel, motion: Motion, road: Motion) -> Wheel | None:
-    speed = _speed_of(name, source, motion.times_s)
-    used = np.isfinite(speed) & (road.speed > MOVING_MPS)
+def _settle(name: str, motion: Motion, source: Motion) -> Wheel | None:
+    """Return what ``source`` shows after `PASSES`; None if it is not certain or does not settle.
+
+    In one short brake v a and a are alike, so that slip and lateness can hardly be separated: what
+    one has too little the other takes, and each pass goes farther from the truth.
+    """
+    found = [_compare(name, motion, source, motion)]
+    for _ in range(PASSES):
+        last = found[-1]
+        found.append(last and _compare(name, motion, source, last.on_road(motion)))
+    before, wheel = found[-2:]
+    if wheel is None or before is None:
+        return None
+    is_steady = abs(wheel.slip_per_g - before.slip_per_g) <= wheel.slip_sigma_per_g
+    return wheel if is_steady else None
+
+
+def _compare(name: str, motion: Motion, source: Motion, road: Motion) -> Wheel | None:
+    """Return how the encoder's ``motion`` differs from ``source``; ``road`` has v and a."""
+    slips = _gain_rate(road)
+    used = np.isfinite(slips) & np.isfinite(source.speed) & (motion.speed > MOVING_MPS)
     if used.sum() < FEWEST:
         return None
     v, a = road.speed[used], road.acceleration[used]
-    columns = np.stack([v, v * a / STANDARD_GRAVITY, v * ((v / FAST_MPS) ** 2 - 1.0), a])
+    columns = np.stack([v, slips[used], v * ((v / FAST_MPS) ** 2 - 1.0), a])
     own = columns if np.ptp(v) > 0.2 * v.mean() else columns[[0, 1, 3]]
-    off = motion.speed[used] - speed[used]
+    off = motion.speed[used] - source.speed[used]
     found, sigmas = _least_squares(own, off)
     slip, sigma = float(found[1]), float(sigmas[1])
     growth, unsure = (float(x[2]) if own.size == columns.size else 0.0 for x in (found, sigmas))
@@ -98,6 +116,15 @@ def _compare(name: str, source: Channel, motion: Motion, road: Motion) -> Wheel 
         return None
     scale = float(found[0]) if name == "gnss_speed" else 0.0
     return Wheel(name, slip, sigma, growth, scale)
+
+
+def _gain_rate(road: Motion) -> FloatArray:
+    """Return v a / g in m/s, shape (n,), smoothed as a whole, as a speed of the encoder is.
+
+    The mean of v² in a bell of σ is the square of the mean and σ² a².
+    """
+    squares = road.speed**2 + (SMOOTHED_S * road.acceleration) ** 2
+    return np.gradient(0.5 * squares / STANDARD_GRAVITY, STEP_S)
 
 
 def _least_squares(columns: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -114,18 +141,17 @@ def _least_squares(columns: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
     return np.asarray(found / scale), np.asarray(sigmas / scale)
 
 
-def _speed_of(name: str, source: Channel, times_s: FloatArray) -> FloatArray:
-    """Return the source's speed at ``times_s``, smoothed as the encoder's, NaN where unknown."""
+def _road_by(name: str, source: Channel, times_s: FloatArray) -> Motion:
+    """Return the motion by ``source`` at ``times_s``, smoothed as the encoder's, NaN if unknown."""
     known = ~np.isnan(source.values)
     if known.sum() < 2:
-        return np.full(times_s.size, np.nan)
+        return Motion(times_s, *np.full((3, times_s.size), np.nan))
     times, values = source.times_s[known], source.values[known]
     if name == "gnss_speed":
         steps = np.diff(times, prepend=times[0])
         values = np.cumsum(np.append(0.0, 0.5 * (values[1:] + values[:-1])) * steps)
     there = np.interp(times_s, times, values)
-    slope, _ = derivatives(there)
-    gap = np.diff(times)
-    far = np.interp(times_s, 0.5 * (times[1:] + times[:-1]), gap) > 1.0
-    outside = (times_s < times[0]) | (times_s > times[-1])
-    return np.where(far | outside, np.nan, slope)
+    far = np.interp(times_s, 0.5 * (times[1:] + times[:-1]), np.diff(times)) > 1.0
+    unknown = far | (times_s < times[0]) | (times_s > times[-1])
+    slope, bend = (np.where(unknown, np.nan, each) for each in derivatives(there))
+    return Motion(times_s, there, slope, bend)

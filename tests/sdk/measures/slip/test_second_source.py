@@ -31,6 +31,18 @@ def brake(slip: float, growth: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.
     return times, np.array(true), np.array(counted)
 
 
+def short_brake(slip: float) -> Recording:
+    """Return a brake of 0.56 g from 15.8 to 9.8 m/s, within 1.4 s, and an optical wheel."""
+    times = np.arange(30 * RATE) / RATE
+    a = -8.6 * np.sin(np.pi * np.clip((times - 10.0) / 1.4, 0.0, 1.0)) ** 2
+    speed = 15.8 + np.cumsum(a) / RATE
+    true = np.cumsum(speed) / RATE
+    counted = np.cumsum(speed * (1.0 + slip * a / STANDARD_GRAVITY)) / RATE
+    clock = UniformClock.of(RATE)
+    sources = (("distance", counted), ("optical_distance", true))
+    return Recording(tuple(Channel.of(name, values, clock) for name, values in sources))
+
+
 def recorded(slip: float, growth: float, kind: str, late_s: float = 0.0) -> Recording:
     times, true, counted = brake(slip, growth)
     clock = UniformClock.of(RATE)
@@ -58,6 +70,16 @@ def test_an_optical_wheel_shows_slip_and_growth(slip: float, growth: float) -> N
     _, true, _ = brake(slip, growth)
     fixed = correct_distance(recording).recording.channel("distance").values
     assert np.ptp(fixed - true) < 0.02 + 0.1 * np.ptp(distance.values - true)
+
+
+@laws
+@given(st.floats(0.01, 0.12))
+def test_one_short_brake_shows_it_though_speed_and_acceleration_are_alike(slip: float) -> None:
+    recording = short_brake(slip)
+    distance = recording.channel("distance")
+    wheel = find_wheel(recording, distance, Motion.of(distance))
+    assert wheel is not None
+    assert wheel.slip_per_g == pytest.approx(slip, abs=0.005 + 0.05 * slip)
 
 
 @laws
