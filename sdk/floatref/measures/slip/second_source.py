@@ -16,7 +16,7 @@ MOVING_MPS = 0.5
 CERTAIN = 3.0
 """Standard deviations of a slip that is believed."""
 FEWEST = 100
-CORRELATED = 2.0 * 0.15 / STEP_S
+CORRELATED = 2.0 * SMOOTHED_S / STEP_S
 """Neighbours that smoothing makes alike, by which there are fewer readings than samples."""
 PASSES = 3
 """A slip changes the speed that it acts on by some percent, so an error falls so fast by a pass."""
