@@ -1,6 +1,6 @@
 """Every stage of the SDK, registered by the name of its class."""
 
-from floatref.estimators import kalman, laser_place, levelling, road_prior
+from floatref.estimators import kalman, laser_place, levelling, road_prior, road_slope
 from floatref.stages import (
     conditioning,
     integration,
@@ -51,6 +51,7 @@ STAGES: tuple[type[Stage], ...] = (
     stages.ShiftAlong,
     stages.ToRate,
     road_prior.RoadPriorSmoother,
+    road_slope.LevelByRoad,
     schedule.ScheduleCutOff,
     schedule.ScheduleWaveNumber,
     seams.Seams,

@@ -47,9 +47,13 @@ EXPECTED = "lean_expected_rad", "tilt_expected"
 _USUAL = vars(RoadPrior())
 
 
+def _constants(context: Context) -> RoadPrior:
+    names = (name for name in CONSTANTS if name in context.pipeline.settings)
+    return RoadPrior(**{CONSTANTS[name]: context.setting(name) for name in names})
+
+
 def _estimate(context: Context) -> Sequence[Stage]:
-    constants = RoadPrior(**{field: context.setting(name) for name, field in CONSTANTS.items()})
-    smoother = RoadPriorSmoother(constants, context.setting("cutoff_wavelength_m"))
+    smoother = RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m"))
     return smoother, Seams(), Drop(TRAVEL_SPEED)
 
 
@@ -103,10 +107,9 @@ def _condition(context: Context) -> Sequence[Stage]:
 
 def _estimate_triggered(context: Context) -> Sequence[Stage]:
     """Change to the time axis, estimate there, and sample the result at the triggers."""
-    known = {CONSTANTS[name]: context.setting(name) for name in SETTINGS if name in CONSTANTS}
     return (
         ToTime(context.setting("unknown_after_s")),
-        RoadPriorSmoother(RoadPrior(**known), context.setting("cutoff_wavelength_m")),
+        RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m")),
         Seams(),
         Drop(MISSING_SHARE),
         ToDistance(context.setting("interval_m"), context.origin_m),

@@ -30,3 +30,8 @@ TRUE_TIME_STEP = "true_time_step"
 """Time in s from the trigger before, where `time_step` has been adjusted; shared by all tracks."""
 MISSING_SHARE = "missing_share"
 """Share of the acceleration that is unknown, from 0 to 1; shared by all tracks."""
+LEVELLED = "levelled"
+"""Share, from 0 to 1, to which the vertical specific force is that of a level axis; shared by all
+tracks."""
+LEVELLING_SIGMA = "levelling_sigma"
+"""1-σ in m that this leaves in the elevation as it is delivered; shared by all tracks."""

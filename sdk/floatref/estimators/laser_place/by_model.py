@@ -61,15 +61,14 @@ class HeightByModel(Stage):
 
     def advance(self, block: Block) -> Block:
         """Carry the heights of the block."""
-        from floatref.estimators.levelling import kernel
-
         if len(block) == 0:
             return block
         if self.memory["raised"] is None:
-            self._find_pitch()
-        values, flags, raised = {}, {}, np.empty(len(block))
-        first = block.first - self.memory["begin"]
-        kernel.between_bins(self.memory["raised"], first, self._every, raised)
+            bins = np.concatenate([*self.memory["bins"], self.memory["means"].rest()], axis=1)
+            self.memory["bins"] = []
+            self.memory["raised"] = self.find_pitch(bins)
+        values, flags = {}, {}
+        raised = self.between_bins(block, self.memory["raised"])
         for track, lever_m in self.levers_m.items():
             height = ChannelId(HEIGHT, track)
             values[height] = block[height] - lever_m * raised
@@ -78,14 +77,20 @@ class HeightByModel(Stage):
                 flags[height] = marks
         return block.setting(values, flags)
 
-    def _find_pitch(self) -> None:
-        """Find sin θ of every bin from all that was surveyed."""
-        bins = np.concatenate([*self.memory["bins"], self.memory["means"].rest()], axis=1)
-        self.memory["bins"] = []
-        force, height = _middle(bins[:-1:2]) - STANDARD_GRAVITY, _middle(bins[1:-1:2])
-        self.memory["raised"] = np.sin(model_pitch(force, height, bins[-1], self._places()))
+    def between_bins(self, block: Block, bins: FloatArray) -> FloatArray:
+        """Return the lines through ``bins`` at the samples of ``block``, shape (n,)."""
+        from floatref.estimators.levelling import kernel
 
-    def _places(self) -> Places:
+        found = np.empty(len(block))
+        kernel.between_bins(bins, block.first - self.memory["begin"], self._every, found)
+        return found
+
+    def find_pitch(self, bins: FloatArray) -> FloatArray:
+        """Return sin θ of every bin of all that was surveyed, rows as in `survey`."""
+        force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
+        return np.sin(model_pitch(force, height, bins[-1], self.places()))
+
+    def places(self) -> Places:
         """Return where the middle of the sensors is, and the axles."""
         assert self._header is not None
         setup, tracks = self._header.setup, self._header.tracks
@@ -99,7 +104,7 @@ def _own(track: str) -> tuple[ChannelId, ChannelId]:
     return ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
 
 
-def _middle(rows: FloatArray) -> FloatArray:
+def middle(rows: FloatArray) -> FloatArray:
     """Return the mean of the wheel paths, shape (n,); a path that is unknown is a line there."""
     places = np.arange(rows.shape[1])
     known = [row for row in rows if not np.isnan(row).all()]

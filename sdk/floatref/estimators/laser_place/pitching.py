@@ -78,7 +78,7 @@ def _model_window(
     force: FloatArray, height: FloatArray, distance: FloatArray, places: Places
 ) -> FloatArray:
     """Return the pitch of one window, in which nothing is unknown."""
-    along = _second_derivative(distance, places.step)
+    along = second_derivative(distance, places.step)
     pitch, level = np.zeros(force.size), _Band(places.step)
     car = HalfCar.usual(places.axles, places.accelerometer_m)
     gains = Gains.of(car, places.step)
@@ -141,7 +141,7 @@ def _bridge(x: FloatArray, known: BoolArray) -> FloatArray:
     return np.interp(np.arange(x.size), places, x[places])
 
 
-def _second_derivative(distance: FloatArray, step: float) -> FloatArray:
+def second_derivative(distance: FloatArray, step: float) -> FloatArray:
     """Return the acceleration in m/s² of a smoothed ``distance``, at a constant speed before it."""
     half = max(2, round(REACH * SMOOTHED_S / step))
     place = np.arange(-half, half + 1) * step

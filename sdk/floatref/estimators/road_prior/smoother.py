@@ -8,11 +8,12 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.estimators.kalman.inputs import Quiet
 from floatref.estimators.models.road_prior_values import ENDS, Inputs
-from floatref.estimators.road_prior.constants import RoadPrior
+from floatref.estimators.road_prior.constants import LEVELLED_LEAN, LEVELLED_WALK, RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.leaps import lines, mark_leaps
 from floatref.estimators.road_prior.learned import pool
 from floatref.estimators.road_prior.track import RoadTrack, sub_block
+from floatref.estimators.road_prior.uncertain import flag_uncertain
 from floatref.estimators.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.estimators.smoothing.line import Closing
 from floatref.estimators.smoothing.nodes import Filtered
@@ -22,14 +23,14 @@ from floatref.stages.signals import (
     ACCELERATION,
     DISTANCE,
     HEIGHT,
+    LEVELLED,
+    LEVELLING_SIGMA,
     MISSING_SHARE,
     REFERENCE_HEIGHT,
     SIGMA,
 )
 from floatref.values.arrays import (
     BoolArray,
-    Flag,
-    FlagArray,
     FloatArray,
     IndexArray,
     Records,
@@ -40,6 +41,7 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 UNKNOWN = ChannelId(MISSING_SHARE)
+LEVEL = ChannelId(LEVELLED)
 LONGEST_S = 180.0
 """What is known of a bias grows for kilometres; little of it remains after this time."""
 
@@ -96,8 +98,10 @@ class RoadPriorSmoother(Stage):
             "travelled": np.nan,
             "pace": 0.0,
             "missing": dict.fromkeys(header.tracks, 0),
+            "levelled": False,
         }
-        out = header.replacing(ACCELERATION, REFERENCE_HEIGHT)
+        out = header.without(LEVELLED, LEVELLING_SIGMA)
+        out = out.replacing(ACCELERATION, REFERENCE_HEIGHT)
         out = out.adding(*(ChannelId(SIGMA, track) for track in header.tracks))
         self._made = out.channels
         return out
@@ -135,7 +139,12 @@ class RoadPriorSmoother(Stage):
         return tuple(map(self._flag_uncertain, backlog.come_out()))
 
     def list_learned(self) -> Mapping[str, float]:
-        """Return the estimate of lean and tilt from all wheel paths, see `pool`."""
+        """Return the estimate of lean and tilt from all wheel paths, see `pool`.
+
+        Where stretches are levelled, what has levelled them knows both.
+        """
+        if self.memory["levelled"]:
+            return {}
         filters: dict[str, RoadTrack] = self.memory["filters"]
         return pool([b for each in filters.values() for b in each.all_brakes()], self.constants)
 
@@ -148,16 +157,10 @@ class RoadPriorSmoother(Stage):
 
     def _flag_uncertain(self, block: Block) -> Block:
         """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
-        flags: dict[ChannelId, FlagArray] = {}
         assert self._header is not None
-        for track in self._header.tracks:
-            height, sigma = ChannelId(REFERENCE_HEIGHT, track), ChannelId(SIGMA, track)
-            bend_m = self.memory["filters"][track].bends_of(block.first, len(block))
-            doubtful = block[sigma] > self.constants.most_sigma_share * bend_m
-            if doubtful.any():
-                own = doubtful * np.uint8(Flag.UNCERTAIN)
-                flags[height] = flags[sigma] = own | block.flags.get(height, np.uint8(0))
-        return block.setting({}, flags)
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        bends = {name: each.bends_of(block.first, len(block)) for name, each in filters.items()}
+        return flag_uncertain(block, bends, self.constants.most_sigma_share)
 
     def _nodes(self, block: Block) -> IndexArray:
         """Return the places in ``block`` that are nodes."""
@@ -208,7 +211,11 @@ class RoadPriorSmoother(Stage):
         if nodes.size == 0:
             return ends
         a, response = known
-        ends["leaning"], ends["tilting"], ends["along"] = a, a * response, a
+        level = block[LEVEL][nodes] if LEVEL in block.values else np.zeros(nodes.size)
+        self.memory["levelled"] |= bool(level.any())
+        ends["leaning"] = a * (1.0 - level * (1.0 - LEVELLED_LEAN))
+        ends["tilting"] = a * response * (1.0 - level)
+        ends["along"] = a * (1.0 - level * (1.0 - LEVELLED_WALK))
         ends["travel"] = self._travel(distance[nodes])
         if UNKNOWN in block.values:
             ends["missing"] = block[UNKNOWN][nodes]

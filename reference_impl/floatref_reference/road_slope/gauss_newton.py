@@ -1,0 +1,150 @@
+"""Least squares by dense matrices, pass by pass, and the covariance of all unknowns."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from floatref_reference.road_slope.bends import first_intensity, intensity_by_slopes
+from floatref_reference.road_slope.rows import misfits
+from floatref_reference.road_slope.symbols import Matrix, Stretch, Vector
+from floatref_reference.road_slope.unknowns import (
+    Unknowns,
+    as_vector,
+    by_name,
+    kept_in_range,
+    start,
+)
+from floatref_reference.road_slope.wheels import road_points
+
+TINY = 1e-30
+"""Complex step: its square is nothing beside 1, so that no digits are lost."""
+TRIES = 5
+FEWEST_PASSES, MOST_PASSES = 4, 12
+SETTLED = 3e-4
+"""Change of θ in rad."""
+
+
+class Answer(NamedTuple):
+    """What least squares found.
+
+    Equation:
+        cov = (JᵀJ)⁻¹
+
+    Attributes:
+        unknowns: by name.
+        intensity: g_j after the last pass, 1/m, shape (N-1,).
+        covariance: of the unknown vector, shape (M, M); `unknowns.by_name` of numpy.arange(M) has
+            the indices.
+        passes: how many were made.
+        change: largest |Δθ| of the last pass's step before it was halved, rad.
+    """
+
+    unknowns: Unknowns
+    intensity: Vector
+    covariance: Matrix
+    passes: int
+    change: float
+
+
+def jacobian(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
+    """Return the derivatives of all misfits by the complex step.
+
+    Equation:
+        ∂m/∂x_i = Im m(x + iε e_i)/ε
+
+    Args:
+        vector: unknowns, shape (M,).
+        stretch: what is known.
+        intensity: g_j, 1/m, shape (N-1,).
+
+    Returns:
+        J, shape (R, M).
+    """
+    stepped = vector[:, np.newaxis] + 1j * TINY * np.eye(len(vector))
+    return np.asarray(np.imag(misfits(stepped, stretch, intensity)) / TINY)
+
+
+def full_step(vector: Vector, stretch: Stretch, intensity: Vector) -> Vector:
+    """Return the step of Gauss and Newton.
+
+    Equation:
+        min |m + J δ|² by J = QR: R δ = -Qᵀ m
+
+    Args:
+        vector: unknowns, shape (M,).
+        stretch: what is known.
+        intensity: g_j, 1/m, shape (N-1,).
+
+    Returns:
+        δ, shape (M,).
+    """
+    Q, R = np.linalg.qr(jacobian(vector, stretch, intensity))
+    return np.asarray(np.linalg.solve(R, -Q.T @ misfits(vector, stretch, intensity)))
+
+
+def squares(vector: Vector, stretch: Stretch, intensity: Vector) -> float:
+    """Return the sum of squares of all misfits."""
+    return float(np.sum(misfits(vector, stretch, intensity) ** 2))
+
+
+def after_step(vector: Vector, step: Vector, stretch: Stretch, intensity: Vector) -> Vector:
+    """Go along a step as far as the sum of squares does not grow.
+
+    Equation:
+        x + δ/2ⁿ in its ranges, with the least n of 0 to 3 of which S ≤ 1.001 S(x) + 1, else n = 4
+
+    Args:
+        vector: unknowns, shape (M,).
+        step: δ, shape (M,).
+        stretch: what is known.
+        intensity: g_j, 1/m, shape (N-1,).
+
+    Returns:
+        New unknowns, shape (M,).
+    """
+    N, K = len(intensity) + 1, len(stretch.readings.place)
+    most = 1.001 * squares(vector, stretch, intensity) + 1
+    for halvings in range(TRIES):
+        new = as_vector(kept_in_range(by_name(vector + step / 2**halvings, N, K)))
+        if squares(new, stretch, intensity) <= most:
+            break
+    return new
+
+
+def covariance(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
+    """Return the covariance of all unknowns.
+
+    Equation:
+        (JᵀJ)⁻¹ = R⁻¹ R⁻ᵀ with J = QR
+
+    Args:
+        vector: unknowns, shape (M,).
+        stretch: what is known.
+        intensity: g_j, 1/m, shape (N-1,).
+
+    Returns:
+        Shape (M, M).
+    """
+    root = np.linalg.inv(np.linalg.qr(jacobian(vector, stretch, intensity), "r"))
+    return np.asarray(root @ root.T)
+
+
+def least_squares(stretch: Stretch) -> Answer:
+    """Find all unknowns of a stretch.
+
+    Equation:
+        Pass by pass a step, and then g_j of the new slopes, which the next pass holds; until no θ
+        changes by 0.3 mrad in the fourth pass or later, or twelve are made
+
+    Args:
+        stretch: what is known; the work grows with the cube of its length.
+    """
+    N, K = road_points(stretch).number, len(stretch.readings.place)
+    x, g = start(stretch), first_intensity(N, stretch.constants)
+    passes, change = 0, np.inf
+    while passes < FEWEST_PASSES or (passes < MOST_PASSES and change >= SETTLED):
+        step = full_step(x, stretch, g)
+        x = after_step(x, step, stretch, g)
+        g = intensity_by_slopes(by_name(x, N, K).slope, stretch.constants)
+        passes, change = passes + 1, float(np.max(np.abs(by_name(step, N, K).pitch)))
+    return Answer(by_name(x, N, K), g, covariance(x, stretch, g), passes, change)

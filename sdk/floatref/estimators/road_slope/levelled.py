@@ -1,0 +1,118 @@
+"""The pitch of all fits over a run: what the smoother gets, bin by bin."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from floatref.estimators.road_slope.constants import Places, SlopeModel
+from floatref.estimators.road_slope.gauss_newton import Fit, fit
+from floatref.estimators.road_slope.readings import Drive, Readings
+from floatref.estimators.road_slope.rows import Stretch
+from floatref.estimators.road_slope.stretches import find_stretches
+from floatref.values.arrays import FloatArray
+
+UNSETTLED_RAD = 3e-3
+"""Change of a pitch by the last pass with which nothing is known of a stretch."""
+UNKNOWN_M = 0.05
+"""1-σ of the elevation there, so that it is flagged."""
+RAMP_S = 1.0
+"""Time in which the correction comes and goes at the ends of a stretch."""
+MARKS_M = 8.0
+"""Distance between places at which the 1-σ is found."""
+
+
+@dataclass(eq=False)
+class Levelled:
+    """What was found of a run, each of shape (n,) for its bins.
+
+    Attributes:
+        share: 1 where the pitch is known, 0 where it is not.
+        pitch: θ in rad, nose up, where ``share`` is not 0.
+        lean: λ in rad there.
+        grade: the mean slope of the road there, which a high-pass removes.
+        sigma_m: 1-σ of the high-passed elevation that comes from both.
+        fits: of all stretches.
+    """
+
+    share: FloatArray
+    pitch: FloatArray
+    lean: FloatArray
+    grade: FloatArray
+    sigma_m: FloatArray
+    fits: list[Fit]
+
+    @classmethod
+    def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
+        """Fit every stretch of ``drive`` and blend those that share their ends."""
+        share, pitch, lean, grade, sigma_m, fitted = np.zeros((6, drive.force.size))
+        found = cls(share, pitch, lean, grade, sigma_m, [])
+        for pieces in find_stretches(drive):
+            inside = slice(pieces[0].start, pieces[-1].stop)
+            weight = _ramp(inside.stop - inside.start, drive.step)
+            fitted[inside] += weight
+            result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
+            found.fits.append(result)
+            sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
+            found.sigma_m[inside] += weight * sigma_m
+            if is_settled(result):
+                found._add(result, inside, weight)
+        known = np.maximum(found.share, np.finfo(np.float64).tiny)
+        for each in (found.pitch, found.lean, found.grade):
+            each /= known
+        found.sigma_m /= np.maximum(fitted, 1.0)
+        found.share = np.minimum(found.share, 1.0)
+        return found
+
+    def _add(self, result: Fit, inside: slice, weight: FloatArray) -> None:
+        """Add one fit with its ``weight`` in the bins ``inside``."""
+        bins, nodes = np.arange(inside.start, inside.stop), result.stretch.readings.bins
+        pitch = result.unknowns[result.stretch.layout.pitch]
+        self.pitch[inside] += weight * np.interp(bins, nodes, pitch)
+        self.lean[inside] += weight * result.of("lean")
+        self.grade[inside] += weight * result.grade
+        self.share[inside] += weight
+
+    def hold(self, values: FloatArray, outside: FloatArray) -> FloatArray:
+        """Return ``values`` where they are known, and ``outside`` bent to meet them elsewhere."""
+        known = np.flatnonzero(self.share > 0.0)
+        if known.size == 0:
+            return outside
+        bins = np.arange(values.size)
+        off = np.interp(bins, known, values[known] - outside[known])
+        return outside + off
+
+
+def is_settled(result: Fit) -> bool:
+    """Return whether the pitch of a fit is known."""
+    return result.changed_rad < UNSETTLED_RAD
+
+
+def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray:
+    """Return 1-σ of the high-passed elevation at every ``distance``, shape (n,), in m."""
+    if not is_settled(result):
+        return np.full(distance.size, UNKNOWN_M)
+    begin, end = float(distance[0]), float(distance[-1])
+    marks = np.linspace(begin, end, max(2, round((end - begin) / MARKS_M) + 1))
+    return np.interp(distance, marks, result.elevation_sigma(marks, wavelength_m))
+
+
+def _ramp(size: int, step: float) -> FloatArray:
+    """Return weights that rise to 1 at the begin and fall from it at the end, shape (size,)."""
+    width = max(1, round(RAMP_S / step))
+    places = np.arange(size)
+    rise = np.minimum(places, places[::-1]) + 1.0
+    return np.minimum(rise / width, 1.0)
+
+
+def known_gains(fits: Sequence[Fit]) -> list[tuple[FloatArray, FloatArray]]:
+    """Return -λ and -κ of every settled fit, shape (2,), with their covariance, shape (2, 2)."""
+    found = []
+    for each in fits:
+        if is_settled(each):
+            size, place = each.stretch.layout.size, each.stretch.layout.place
+            weights = np.zeros((2, size))
+            weights[0, place("lean")] = weights[1, place("gain")] = -1.0
+            estimate = np.array([-each.of("lean"), -each.of("gain")])
+            found.append((estimate, each.covariance(weights)))
+    return found

@@ -1,0 +1,142 @@
+"""The stage that gives the smoother what a level accelerometer would read through a stop."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from floatref.estimators.laser_place import pitching
+from floatref.estimators.laser_place.by_model import HeightByModel, middle
+from floatref.estimators.laser_place.pitching import model_pitch, second_derivative
+from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
+from floatref.estimators.road_prior.learned import Brake, pool
+from floatref.estimators.road_slope.constants import Places, SlopeModel
+from floatref.estimators.road_slope.levelled import Levelled, known_gains
+from floatref.estimators.road_slope.readings import Drive
+from floatref.stages.conditioning import SPECIFIC_FORCE
+from floatref.stages.marks import flags_of
+from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
+from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
+from floatref.values.block import Block, Header
+from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+
+SHARE, SIGMA = ChannelId(LEVELLED), ChannelId(LEVELLING_SIGMA)
+
+
+class LevelByRoad(HeightByModel):
+    """Levels `vertical_specific_force`, and carries `height` to the accelerometer, through stops.
+
+    The pitch of the body is that of `Levelled`, from the road that the sensors measure themselves;
+    between the stretches heights are carried as by `HeightByModel`, if a laser is on a lever. Adds
+    `levelled`, the share to which a sample is levelled, and `levelling_sigma`, the 1-σ in m that
+    this leaves in the high-passed elevation.
+    """
+
+    def __init__(
+        self,
+        levers_m: Mapping[str, float],
+        constants: RoadPrior | None = None,
+        wavelength_m: float = 105.91,
+    ) -> None:
+        """Carry by ``levers_m`` of each wheel path; ``constants`` are those of the smoother."""
+        super().__init__(levers_m)
+        self.constants = RoadPrior() if constants is None else constants
+        self.wavelength_m = wavelength_m
+
+    def open(self, header: Header) -> Header:
+        """Ask for force and height of every track and the encoder, in time."""
+        out = super().open(header).adding(SHARE, SIGMA)
+        self.memory["added"] = self.memory["levelled"] = None
+        return out
+
+    def advance(self, block: Block) -> Block:
+        """Level the forces of the block and carry its heights."""
+        block = super().advance(block)
+        if len(block) == 0:
+            return block.setting({SHARE: np.empty(0), SIGMA: np.empty(0)}, {})
+        added, found = self.memory["added"], self.memory["levelled"]
+        known = {SHARE: found.share, SIGMA: found.sigma_m}
+        values = {name: self.between_bins(block, bins) for name, bins in known.items()}
+        more, flags = self.between_bins(block, added), {}
+        for track in self.levers_m:
+            force, height = ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
+            values[force] = block[force] + more
+            flags[force] = _with_bridged(block, force, height)
+        return block.setting(values, {c: marks for c, marks in flags.items() if marks is not None})
+
+    def list_learned(self) -> Mapping[str, float]:
+        """Return the estimate of lean and tilt from all stretches, see `learned.pool`."""
+        found: Levelled | None = self.memory["levelled"]
+        gains = [] if found is None else known_gains(found.fits)
+        return pool([Brake(*each) for each in gains], self.constants)
+
+    def find_pitch(self, bins: FloatArray) -> FloatArray:
+        """Return sin θ of every bin, and keep what the forces have to be raised by."""
+        drive, places = self._drive(bins), self.places()
+        found = Levelled.of(drive, _from_laser(places), self._model(), self.wavelength_m)
+        pitch = np.zeros(drive.force.size)
+        if any(self.levers_m.values()):
+            pitch = model_pitch(drive.force, drive.height, bins[-1], places)
+        pitch = found.hold(found.pitch, pitch)
+        lean = found.hold(found.lean, np.zeros(pitch.size))
+        # The smoother finds the rest of the lean of each wheel path about this mean.
+        expected = -LEVELLED_LEAN * self.constants.lean_expected_rad
+        along = found.share * drive.along * (pitch + lean - found.grade - expected)
+        climb = 0.5 * STANDARD_GRAVITY * (np.square(pitch + lean) - np.square(lean))
+        self.memory["added"], self.memory["levelled"] = along + climb, found
+        return np.sin(pitch)
+
+    def _drive(self, bins: FloatArray) -> Drive:
+        """Return the mean of the wheel paths; where one is unknown there is none."""
+        force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
+        lost, unseen = (_any_unknown(rows) for rows in (bins[:-1:2], bins[1:-1:2]))
+        step = self.places().step
+        distance = np.maximum.accumulate(middle(bins[-1:]))
+        speed = np.gradient(distance, step) if distance.size > 1 else np.zeros(distance.size)
+        along = second_derivative(distance, step)
+        height = np.where(unseen, np.nan, height)
+        return Drive(np.nan_to_num(force), lost, height, distance, speed, along, step)
+
+    def _model(self) -> SlopeModel:
+        """Return the constants of the fit from those of the smoother."""
+        c, usual = self.constants, SlopeModel()
+        weights = np.array([usual.gain_sigma, c.tilt_sigma]) ** -2.0
+        gain = float(weights @ [usual.gain, -c.tilt_expected] / weights.sum())
+        return SlopeModel(
+            road=c.road,
+            bends=c.long_waves,
+            acceleration=c.acceleration,
+            missing_acceleration=c.missing_acceleration,
+            bias=c.acceleration_bias,
+            walk=c.acceleration_walk,
+            gain=gain,
+            gain_sigma=float(weights.sum() ** -0.5),
+            lean_rad=-c.lean_expected_rad,
+            lean_sigma_rad=c.lean_sigma_rad / len(self.levers_m) ** 0.5,
+            hz=c.pitch_hz,
+            damping=c.pitch_damping,
+        )
+
+
+def _with_bridged(block: Block, force: ChannelId, height: ChannelId) -> FlagArray | None:
+    """Return the flags of ``force`` and, as one that is bridged, of the ``height`` beside it."""
+    marks, more = flags_of(block, force), flags_of(block, height)
+    if more is None:
+        return marks
+    bridged: FlagArray = (more != 0) * np.uint8(Flag.MISSING)
+    return bridged if marks is None else marks | bridged
+
+
+def _from_laser(places: pitching.Places) -> Places:
+    """Return the places of a vehicle as seen from its laser."""
+    front_m = places.axles.front_axle_m - places.laser_m
+    lever_m = places.laser_m - places.accelerometer_m
+    return Places(front_m, front_m - places.axles.wheelbase_m, lever_m)
+
+
+def _any_unknown(rows: FloatArray) -> BoolArray:
+    """Return where a wheel path is unknown that is known elsewhere, or all are."""
+    lost = np.isnan(rows)
+    dead = lost.all(axis=1)
+    if dead.all():
+        return np.ones(rows.shape[1], np.bool_)
+    return np.asarray(lost[~dead].any(axis=0))

@@ -1,0 +1,66 @@
+"""What is found of stretches is blended where they share their ends, and is held between."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from floatref.estimators.road_slope.constants import Places, SlopeModel
+from floatref.estimators.road_slope.levelled import RAMP_S, Levelled, known_gains
+from floatref.estimators.road_slope.readings import Drive
+
+STEP, PLACES = 0.01, Places(4.0, 0.6, 0.0)
+
+
+def drive_over_bumps(stops: int, seed: int = 0) -> Drive:
+    """Return some brakes to a standstill from 8 m/s on a rough road; its body does not pitch."""
+    fast, rng = 8.0, np.random.default_rng(seed)
+    one = ((3.0, 0.0), (2.0, 0.0), (3.0, fast), (40.0, fast))
+    corners = [(20.0, fast), *one * stops]
+    times = np.cumsum([0.0, *(duration for duration, _ in corners)])
+    t = np.arange(0.0, times[-1], STEP)
+    speed = np.interp(t, times, [fast, *(v for _, v in corners)])
+    noise = 1e-3 * rng.normal(size=(t.size, 2)).T
+    distance, along = np.cumsum(speed) * STEP, np.gradient(speed, STEP)
+    return Drive(noise[0], t < 0, 0.3 + 0.1 * noise[1], distance, speed, along, STEP)
+
+
+def test_each_stop_is_levelled_for_itself() -> None:
+    model = SlopeModel()
+    both, alone = (drive_over_bumps(count) for count in (2, 1))
+    two, one = (Levelled.of(drive, PLACES, model, 30.0) for drive in (both, alone))
+    assert len(two.fits) == 2
+    end = alone.force.size
+    np.testing.assert_allclose(two.pitch[: end - 3000], one.pitch[: end - 3000], atol=1e-12)
+    assert np.abs(two.pitch).max() < 1e-2
+    assert set(np.unique(two.share > 0)) == {False, True}
+    assert (two.sigma_m[two.share >= 1.0] > 0.0).all()
+    assert not two.sigma_m[two.share == 0.0].any()
+
+
+def test_its_share_comes_and_goes_within_a_second() -> None:
+    found = Levelled.of(drive_over_bumps(1), PLACES, SlopeModel(), 30.0)
+    rising = np.diff(found.share)
+    assert np.abs(rising).max() <= 1.01 * STEP / RAMP_S
+    assert found.share.max() == 1.0
+
+
+@given(outside=st.floats(-1, 1), inside=st.floats(-1, 1))
+def test_between_stretches_values_are_bent_to_meet_what_is_known(
+    outside: float, inside: float
+) -> None:
+    share = np.array([0, 0, 1, 1, 0, 0, 1, 0.0])
+    found = Levelled(share, *np.zeros((4, 8)), [])
+    values = np.where(share > 0, inside, 99.0)
+    held = found.hold(values, np.full(8, outside))
+    np.testing.assert_allclose(held, np.full(8, inside), atol=1e-12)
+    nothing = Levelled(np.zeros(8), *np.zeros((4, 8)), [])
+    np.testing.assert_array_equal(nothing.hold(values, np.full(8, outside)), np.full(8, outside))
+
+
+def test_gains_have_the_sign_of_the_smoother_and_their_covariance() -> None:
+    model = SlopeModel(gain=0.001, gain_sigma=1e-7, lean_rad=-0.0001, lean_sigma_rad=1e-7)
+    found = Levelled.of(drive_over_bumps(1), PLACES, model, 30.0)
+    ((estimate, covariance),) = known_gains(found.fits)
+    assert estimate == pytest.approx([0.0001, -0.001], abs=1e-6)
+    assert np.sqrt(np.diag(covariance)) == pytest.approx([1e-7, 1e-7], rel=1e-2)

@@ -1,0 +1,212 @@
+"""A stop on a hump is levelled; a run without brakes, and a stretch not understood, are left."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar
+
+import numpy as np
+import pytest
+from scipy.signal import StateSpace, lsim
+
+from floatref import AxleSetup, Setup, TrackSetup
+from floatref.errors import InputError
+from floatref.estimators.road_prior import RoadPrior
+from floatref.estimators.road_slope import LevelByRoad, levelled
+from floatref.values.block import Axis, Block, Header
+from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+from floatref_conformance.testing import StageLaws
+
+FORCE, HEIGHT = (ChannelId(n, "left") for n in ("vertical_specific_force", "height"))
+SHARE, SIGMA = ChannelId("levelled"), ChannelId("levelling_sigma")
+DISTANCE = ChannelId("distance")
+LEVEL = {"left": 0.0, "right": 0.0}
+STEP, G = 0.01, STANDARD_GRAVITY
+FRONT_M, BASE_M, LASER_M = 1.7, 3.4, -2.6
+HZ, DAMPING, GAIN = 1.5, 0.3, 0.006
+
+
+@dataclass(frozen=True, eq=False)
+class Stop:
+    """What moves and what is read, each of shape (n,), 100 times a second; see `stop_on_hump`."""
+
+    distance: np.ndarray
+    pitch: np.ndarray
+    level: np.ndarray
+    force: np.ndarray
+    height: np.ndarray
+
+    @property
+    def header(self):
+        """The sensors of two wheel paths in time, and an encoder."""
+        names = ("vertical_specific_force", "height")
+        channels = {ChannelId(name, track) for name in names for track in LEVEL}
+        place = TrackSetup((LASER_M, 0.0, 0.0))
+        setup = Setup(tracks=dict.fromkeys(LEVEL, place), axles=AxleSetup(BASE_M, FRONT_M))
+        rate, channels = Fraction(round(1 / STEP)), frozenset({*channels, DISTANCE})
+        return Header(Axis.TIME, STEP, 0.0, rate, channels, tuple(LEVEL), setup)
+
+    def block(self, lost="", where=slice(0)):
+        """Return all of it; the channel ``lost`` has no reading at the samples ``where``."""
+        series = {"vertical_specific_force": self.force, "height": self.height}
+        values = {DISTANCE: self.distance}
+        for name, read in series.items():
+            kept = read.copy()
+            kept[where if name == lost else slice(0)] = np.nan
+            values |= {ChannelId(name, track): kept.copy() for track in LEVEL}
+        return Block(0, values)
+
+
+def stop_on_hump(height_m=0.1, seed=0):
+    """Return a stop from 15 m/s with the front axle on top of a hump that is 30 m long."""
+    speed = _speeds()
+    distance, along = np.cumsum(speed) * STEP, np.gradient(speed, STEP)
+    front_m = FRONT_M - LASER_M
+    top = distance[np.flatnonzero(speed == 0)[0]] + front_m
+    under = distance + front_m, distance + front_m - BASE_M, distance
+    front, rear, laser = (height_m * np.exp(-np.square((x - top) / 8.0)) for x in under)
+    pitch = _swing((front - rear) / BASE_M, along)
+    # The sensors are LASER_M from the middle between the axles, about which the body bounces.
+    body = 0.5 * (front + rear) + LASER_M * pitch + 0.3
+    level = np.gradient(np.gradient(body, STEP), STEP) + G
+    rng = np.random.default_rng(seed)
+    noise, texture = rng.normal(size=(2, speed.size)) * [[2e-3], [1e-4]]
+    force = level * np.cos(pitch) - along * np.sin(pitch) + noise
+    return Stop(distance, pitch, level, force, body - laser + texture)
+
+
+def _speeds():
+    """Return speeds in m/s: 8 s of travel, a stop of 6 s, and 8 s of travel."""
+    fast = 15.0
+    corners = np.cumsum([0.0, 8.0, fast / 3.0, 6.0, fast / 2.0, 8.0])
+    return np.interp(np.arange(0.0, corners[-1], STEP), corners, [fast, fast, 0, 0, fast, fast])
+
+
+def _swing(slope, along):
+    """Return the pitch in rad of a body that rolls over the ``slope``: docs/road-prior-slope.md."""
+    w = 2 * np.pi * HZ
+    drive = (1 + GAIN * G) * slope + 2 * DAMPING / w * np.gradient(slope, STEP) + GAIN * along
+    body = StateSpace([[0, 1], [-w * w, -2 * DAMPING * w]], [[0], [w * w]], [[1, 0]], [[0]])
+    return lsim(body, drive, STEP * np.arange(slope.size))[1]
+
+
+def pass_through(stage, stop, block):
+    """Return what the stage makes of ``block``, the whole run."""
+    stage.start(stop.header)
+    stage.survey(block)
+    return stage.push(block)
+
+
+def straighten(force, stop, where):
+    """Return the height in m that an error of acceleration makes in 1.5 s, but bias and grade."""
+    width = round(0.75 / STEP)
+    box = np.full(width, 1.0 / width)
+    along = np.gradient(np.gradient(stop.distance, STEP), STEP)
+    rows = [
+        np.convolve(np.convolve(x, box, "same"), box, "same")[where] * 0.75**2
+        for x in (force, np.ones(force.size), along)
+    ]
+    known = np.stack(rows[1:], axis=1)
+    return rows[0] - known @ np.linalg.lstsq(known, rows[0], rcond=None)[0]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_stop_on_a_hump_reads_what_a_level_accelerometer_would(seed) -> None:
+    """What gravity and braking on a pitched axis add is gone but for a fifth.
+
+    A bias is left, and what a road on one even grade would add: a high-pass removes both.
+    """
+    stop = stop_on_hump(seed=seed)
+    out = pass_through(LevelByRoad(LEVEL), stop, stop.block())
+    where = out[SHARE] > 0.99
+    before, after = (straighten(f - stop.level, stop, where) for f in (stop.force, out[FORCE]))
+    assert where.mean() > 0.5
+    assert np.std(after) < 0.2 * np.std(before)
+    assert 0.0 < out[SIGMA][where].min() <= out[SIGMA][where].max() < 0.02
+
+
+def test_it_learns_how_much_the_body_pitches() -> None:
+    stop, stage = stop_on_hump(), LevelByRoad(LEVEL)
+    pass_through(stage, stop, stop.block())
+    learned = stage.list_learned()
+    near = 2 * learned["tilt_sigma"] + 5e-4
+    assert learned["tilt_expected"] == pytest.approx(-GAIN, abs=near)
+
+
+def test_heights_are_carried_by_the_pitch_that_was_found() -> None:
+    stop, lever_m = stop_on_hump(), {"left": 0.3, "right": -0.6}
+    block = stop.block()
+    own = {ChannelId("height", track): lever for track, lever in lever_m.items()}
+    values = {height: block[height] + x * np.sin(stop.pitch) for height, x in own.items()}
+    out = pass_through(LevelByRoad(lever_m), stop, block.setting(values, {}))
+    where = out[SHARE] > 0.99
+    for height, lever in own.items():
+        off = (out[height] - block[height])[where]
+        assert np.std(off) < 5e-3 * abs(lever)
+
+
+def test_a_run_without_brakes_is_left_bit_for_bit() -> None:
+    stop = stop_on_hump()
+    steady = Block(0, {c: v[:700] for c, v in stop.block().values.items()})
+    out = pass_through(LevelByRoad(LEVEL), stop, steady)
+    np.testing.assert_array_equal(out[FORCE], steady[FORCE])
+    np.testing.assert_array_equal(out[HEIGHT], steady[HEIGHT])
+    assert not out[SHARE].any()
+    assert not out[SIGMA].any()
+
+
+@pytest.mark.parametrize("lost", ["vertical_specific_force", "height"])
+def test_a_gap_while_braking_makes_it_less_sure_and_little_worse(lost) -> None:
+    stop = stop_on_hump()
+    whole = pass_through(LevelByRoad(LEVEL), stop, stop.block())
+    gap = pass_through(LevelByRoad(LEVEL), stop, stop.block(lost, slice(1050, 1080)))
+    where = (whole[SHARE] > 0.99) & (gap[SHARE] > 0.99)
+    assert gap[SIGMA][where].mean() > whole[SIGMA][where].mean()
+    known = where & ~np.isnan(gap[FORCE])
+    moved, before = (np.abs(x)[known] for x in (gap[FORCE] - whole[FORCE], stop.force - stop.level))
+    assert moved.max() < 0.2 * before.max()
+
+
+def test_a_stretch_that_does_not_settle_is_left_and_all_of_it_is_unsure(
+    monkeypatch,
+) -> None:
+    monkeypatch.setattr(levelled, "UNSETTLED_RAD", 0.0)
+    stop, stage = stop_on_hump(), LevelByRoad(LEVEL)
+    block = stop.block()
+    out = pass_through(stage, stop, block)
+    np.testing.assert_array_equal(out[FORCE], block[FORCE])
+    assert not out[SHARE].any()
+    assert out[SIGMA].max() == levelled.UNKNOWN_M
+    assert stage.list_learned() == {}
+
+
+def test_the_constants_are_those_of_the_smoother() -> None:
+    """A vehicle that is known to pitch by half more than it does is believed."""
+    stop, known = stop_on_hump(), 1.5 * GAIN
+    stage = LevelByRoad(LEVEL, RoadPrior(tilt_expected=-known, tilt_sigma=1e-6))
+    pass_through(stage, stop, stop.block())
+    assert stage.list_learned()["tilt_expected"] == pytest.approx(-known, rel=1e-3)
+
+
+class TestLevelByRoad(StageLaws):
+    """In a brake: a lost sample is bridged, and moves the pitch of all wheel paths a little."""
+
+    reads = ("vertical_specific_force", "height")
+    shared = ("distance",)
+    ranges: ClassVar = {"vertical_specific_force": (9.78, 9.83), "height": (0.299, 0.301)}
+    tolerance = 2e-3
+    reach = None
+
+    def make(self) -> LevelByRoad:
+        return LevelByRoad({"left": 0.05, "right": -0.02})
+
+    def stream(self, seed: int = 0):
+        stream = super().stream(seed)
+        seconds = STEP * np.arange(stream.samples[DISTANCE].size)
+        distance = 10.0 * seconds - 1.0 * seconds**2
+        return stream.change(lambda c, x: distance if c.name == "distance" else x)
+
+
+def test_it_works_in_time_only() -> None:
+    header = Header(Axis.DISTANCE, 0.01, 0.0, None, frozenset(), ("left",))
+    with pytest.raises(InputError, match="not on the time axis"):
+        LevelByRoad({"left": 0.1}).start(header)
