@@ -10,6 +10,6 @@
 - `levelled`: what a level accelerometer would read.
 
 It is not in the dissertation; docs/road-prior-slope.md has the equations. Every misfit is a plain
-sum over nodes or points, and its derivatives are by the complex step, so that none is written
+sum over nodes or points, and its derivatives are by the complex step, so that no row is written
 twice.
 """

@@ -109,7 +109,7 @@ class Readings(NamedTuple):
         h_k, F_k, x_k, V_k and a_k
 
     Attributes:
-        height: h_k, m, NaN where there is none, shape (K,).
+        height: h_k, m, NaN where a reading is missing, shape (K,).
         force: F_k, vertical specific force less 1 g, m/s², shape (K,); those of the first and the
             last node and beside a cut are not used.
         place: x_k of the laser, m, shape (K,).

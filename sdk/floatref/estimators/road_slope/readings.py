@@ -15,7 +15,7 @@ class Drive(NamedTuple):
     Attributes:
         force: vertical specific force less 1 g, in m/s², no value missing.
         missing: whether it was, and is bridged.
-        height: of the sensors, in m, NaN where there is none.
+        height: of the sensors, in m, NaN where a reading is missing.
         distance: of the encoder, in m.
         speed: in m/s.
         along: acceleration along the road, in m/s².

@@ -86,7 +86,7 @@ class LevelByRoad(HeightByModel):
         return np.sin(pitch)
 
     def _drive(self, bins: FloatArray) -> Drive:
-        """Return the mean of the wheel paths; where one is unknown there is none."""
+        """Return the mean of the wheel paths, without a value where one of them is unknown."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
         lost, unseen = (_any_unknown(rows) for rows in (bins[:-1:2], bins[1:-1:2]))
         step = self.places().step
