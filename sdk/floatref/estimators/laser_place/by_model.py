@@ -64,9 +64,7 @@ class HeightByModel(Stage):
         if len(block) == 0:
             return block
         if self.memory["raised"] is None:
-            bins = np.concatenate([*self.memory["bins"], self.memory["means"].rest()], axis=1)
-            self.memory["bins"] = []
-            self.memory["raised"] = self.find_pitch(bins)
+            self.memory["raised"] = self.find_pitch(self._whole_bins())
         values, flags = {}, {}
         raised = self.between_bins(block, self.memory["raised"])
         for track, lever_m in self.levers_m.items():
@@ -76,6 +74,16 @@ class HeightByModel(Stage):
             if marks is not None:
                 flags[height] = marks
         return block.setting(values, flags)
+
+    def _whole_bins(self) -> FloatArray:
+        """Return all bins, without a last one that is cut short.
+
+        The mean of a few samples lies before the middle of their bin, which is a brake to whoever
+        differentiates the distance.
+        """
+        bins = np.concatenate(self.memory["bins"], axis=1)
+        self.memory["bins"] = []
+        return bins if bins.shape[1] else self.memory["means"].rest()
 
     def between_bins(self, block: Block, bins: FloatArray) -> FloatArray:
         """Return the lines through ``bins`` at the samples of ``block``, shape (n,)."""

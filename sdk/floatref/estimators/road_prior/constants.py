@@ -13,8 +13,6 @@ LEAST_MEMORY_M = 32.0
 
 LEVELLED_LEAN = 1.0 / 3.0
 """Part of a lean's 1-σ that one wheel path has from the mean of all, where that is levelled."""
-LEVELLED_WALK = 1.0 / 16.0
-"""What is left there of `walk_along`, which stands for tilt that is not known."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.estimators.kalman.inputs import Quiet
 from floatref.estimators.models.road_prior_values import ENDS, Inputs
-from floatref.estimators.road_prior.constants import LEVELLED_LEAN, LEVELLED_WALK, RoadPrior
+from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.leaps import lines, mark_leaps
 from floatref.estimators.road_prior.learned import pool
@@ -215,7 +215,7 @@ class RoadPriorSmoother(Stage):
         self.memory["levelled"] |= bool(level.any())
         ends["leaning"] = a * (1.0 - level * (1.0 - LEVELLED_LEAN))
         ends["tilting"] = a * response * (1.0 - level)
-        ends["along"] = a * (1.0 - level * (1.0 - LEVELLED_WALK))
+        ends["along"] = a * (1.0 - level)
         ends["travel"] = self._travel(distance[nodes])
         if UNKNOWN in block.values:
             ends["missing"] = block[UNKNOWN][nodes]

@@ -7,13 +7,29 @@ from scipy.sparse import coo_array, csr_array
 
 from floatref.values.arrays import FloatArray, IndexArray
 
-GLOBALS = ("gain", "lean", "centre", "offset", "log_hz", "log_damping")
-"""κ, λ, H, h_0, ln f, ln ζ, in the order in which they end the vector."""
+GLOBALS = (
+    "gain",
+    "lean",
+    "centre",
+    "log_front",
+    "log_rear",
+    "log_front_damping",
+    "log_rear_damping",
+    "log_gyration",
+)
+"""κ, λ, H, ln K_f, ln K_r, ln C_f, ln C_r and ln γ, in the order in which they end the vector."""
+IN_TIME = ("height", "pitch", "bias", "heave", "nod", "offset", "moment")
+"""r, θ, b, u, n, o and μ, in the order in which they follow the road."""
+SHARES = (1.0 / 12.0, 10.0 / 12.0, 1.0 / 12.0)
+"""Shares of three nodes in the mean under two boxes of what is smooth."""
 
 
 @dataclass(frozen=True)
 class Layout:
-    """The vector z, s, r, θ, b and the `GLOBALS`: ``points`` of the road, ``nodes`` in time."""
+    """The vector z, s, those of `IN_TIME` and the `GLOBALS`.
+
+    The road has ``points``, the time ``nodes``.
+    """
 
     points: int
     nodes: int
@@ -28,25 +44,30 @@ class Layout:
         """Where s is."""
         return slice(self.points, 2 * self.points)
 
+    def in_time(self, name: str) -> slice:
+        """Return where the one of `IN_TIME` is."""
+        begin = 2 * self.points + IN_TIME.index(name) * self.nodes
+        return slice(begin, begin + self.nodes)
+
     @property
     def height(self) -> slice:
         """Where r is."""
-        return self._of_nodes(0)
+        return self.in_time("height")
 
     @property
     def pitch(self) -> slice:
         """Where θ is."""
-        return self._of_nodes(1)
+        return self.in_time("pitch")
 
     @property
     def bias(self) -> slice:
         """Where b is."""
-        return self._of_nodes(2)
+        return self.in_time("bias")
 
     @property
     def size(self) -> int:
         """Number of all unknowns."""
-        return 2 * self.points + 3 * self.nodes + len(GLOBALS)
+        return 2 * self.points + len(IN_TIME) * self.nodes + len(GLOBALS)
 
     def place(self, name: str) -> int:
         """Return where the one of `GLOBALS` is."""
@@ -71,10 +92,6 @@ class Layout:
             return rows, np.full(rows.size, self.place(where)), np.asarray(part, np.float64)
         flat = coo_array(part)
         return np.asarray(flat.row), np.asarray(flat.col + where.start), np.asarray(flat.data)
-
-    def _of_nodes(self, number: int) -> slice:
-        begin = 2 * self.points + number * self.nodes
-        return slice(begin, begin + self.nodes)
 
 
 def triples(middles: IndexArray, nodes: int, shares: tuple[float, float, float]) -> csr_array:

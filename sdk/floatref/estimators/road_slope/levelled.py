@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.estimators.road_slope.constants import Places, SlopeModel
+from floatref.estimators.road_slope.elevation_sigma import elevation_sigma
 from floatref.estimators.road_slope.gauss_newton import Fit, fit
 from floatref.estimators.road_slope.readings import Drive, Readings
 from floatref.estimators.road_slope.rows import Stretch
@@ -94,7 +95,7 @@ def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray
         return np.full(distance.size, UNKNOWN_M)
     begin, end = float(distance[0]), float(distance[-1])
     marks = np.linspace(begin, end, max(2, round((end - begin) / MARKS_M) + 1))
-    return np.interp(distance, marks, result.elevation_sigma(marks, wavelength_m))
+    return np.interp(distance, marks, elevation_sigma(result, marks, wavelength_m))
 
 
 def _ramp(size: int, step: float) -> FloatArray:
