@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from floatref_reference.road_slope.symbols import Constants, Values, Vector
+from floatref_reference.road_slope.constants import Constants
+from floatref_reference.road_slope.symbols import Values, Vector
 
 
 def first_intensity(points: int, c: Constants) -> Vector:
@@ -18,7 +19,7 @@ def first_intensity(points: int, c: Constants) -> Vector:
     Returns:
         g_j, 1/m, shape (N-1,).
     """
-    return np.full(points - 1, c.first_bend * c.bend)
+    return np.full(points - 1, c.first_bend * c.bends)
 
 
 def segment_of(j: int, c: Constants) -> int:
@@ -27,7 +28,7 @@ def segment_of(j: int, c: Constants) -> int:
     Equation:
         ⌊j/round(10 m/d)⌋
     """
-    return j // round(c.segment / c.spacing)
+    return j // round(c.segment_m / c.spacing_m)
 
 
 def intensity_by_slopes(slope: Values, c: Constants) -> Vector:
@@ -47,7 +48,7 @@ def intensity_by_slopes(slope: Values, c: Constants) -> Vector:
     steps = range(len(slope) - 1)
     squares = [0.0] * (segment_of(len(slope) - 2, c) + 1)
     for j in steps:
-        squares[segment_of(j, c)] += float(slope[j + 1] - slope[j]) ** 2 / c.spacing
-    found = [(c.bend_weight * c.bend + total) / (c.bend_weight + 1) for total in squares]
-    bounded = [min(max(g, c.bend), c.most_bend * c.bend) for g in found]
+        squares[segment_of(j, c)] += float(slope[j + 1] - slope[j]) ** 2 / c.spacing_m
+    found = [(c.bend_weight * c.bends + total) / (c.bend_weight + 1) for total in squares]
+    bounded = [min(max(g, c.bends), c.most_bend * c.bends) for g in found]
     return np.array([bounded[segment_of(j, c)] for j in steps])

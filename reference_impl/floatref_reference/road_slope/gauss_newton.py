@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from floatref_reference.road_slope.bends import first_intensity, intensity_by_slopes
+from floatref_reference.road_slope.held import Held, first_held, held_after, loosened
 from floatref_reference.road_slope.rows import misfits
 from floatref_reference.road_slope.symbols import Matrix, Stretch, Vector
 from floatref_reference.road_slope.unknowns import (
@@ -19,7 +19,7 @@ from floatref_reference.road_slope.wheels import road_points
 TINY = 1e-30
 """Complex step: its square is nothing beside 1, so that no digits are lost."""
 TRIES = 5
-FEWEST_PASSES, MOST_PASSES = 4, 12
+FEWEST_PASSES, MOST_PASSES = 7, 40
 SETTLED = 3e-4
 """Change of θ in rad."""
 
@@ -32,7 +32,7 @@ class Answer(NamedTuple):
 
     Attributes:
         unknowns: by name.
-        intensity: g_j after the last pass, 1/m, shape (N-1,).
+        held: g_j, β_k and steps of o_k after the last pass, and the factor 1.
         covariance: of the unknown vector, shape (M, M); `unknowns.by_name` of numpy.arange(M) has
             the indices.
         passes: how many were made.
@@ -40,13 +40,13 @@ class Answer(NamedTuple):
     """
 
     unknowns: Unknowns
-    intensity: Vector
+    held: Held
     covariance: Matrix
     passes: int
     change: float
 
 
-def jacobian(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
+def jacobian(vector: Vector, stretch: Stretch, held: Held) -> Matrix:
     """Return the derivatives of all misfits by the complex step.
 
     Equation:
@@ -55,16 +55,16 @@ def jacobian(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
     Args:
         vector: unknowns, shape (M,).
         stretch: what is known.
-        intensity: g_j, 1/m, shape (N-1,).
+        held: what the pass holds.
 
     Returns:
         J, shape (R, M).
     """
     stepped = vector[:, np.newaxis] + 1j * TINY * np.eye(len(vector))
-    return np.asarray(np.imag(misfits(stepped, stretch, intensity)) / TINY)
+    return np.asarray(np.imag(misfits(stepped, stretch, held)) / TINY)
 
 
-def full_step(vector: Vector, stretch: Stretch, intensity: Vector) -> Vector:
+def full_step(vector: Vector, stretch: Stretch, held: Held) -> Vector:
     """Return the step of Gauss and Newton.
 
     Equation:
@@ -73,21 +73,21 @@ def full_step(vector: Vector, stretch: Stretch, intensity: Vector) -> Vector:
     Args:
         vector: unknowns, shape (M,).
         stretch: what is known.
-        intensity: g_j, 1/m, shape (N-1,).
+        held: what the pass holds.
 
     Returns:
         δ, shape (M,).
     """
-    Q, R = np.linalg.qr(jacobian(vector, stretch, intensity))
-    return np.asarray(np.linalg.solve(R, -Q.T @ misfits(vector, stretch, intensity)))
+    Q, R = np.linalg.qr(jacobian(vector, stretch, held))
+    return np.asarray(np.linalg.solve(R, -Q.T @ misfits(vector, stretch, held)))
 
 
-def squares(vector: Vector, stretch: Stretch, intensity: Vector) -> float:
+def squares(vector: Vector, stretch: Stretch, held: Held) -> float:
     """Return the sum of squares of all misfits."""
-    return float(np.sum(misfits(vector, stretch, intensity) ** 2))
+    return float(np.sum(misfits(vector, stretch, held) ** 2))
 
 
-def after_step(vector: Vector, step: Vector, stretch: Stretch, intensity: Vector) -> Vector:
+def after_step(vector: Vector, step: Vector, stretch: Stretch, held: Held) -> Vector:
     """Go along a step as far as the sum of squares does not grow.
 
     Equation:
@@ -97,21 +97,21 @@ def after_step(vector: Vector, step: Vector, stretch: Stretch, intensity: Vector
         vector: unknowns, shape (M,).
         step: δ, shape (M,).
         stretch: what is known.
-        intensity: g_j, 1/m, shape (N-1,).
+        held: what the pass holds.
 
     Returns:
         New unknowns, shape (M,).
     """
-    N, K = len(intensity) + 1, len(stretch.readings.place)
-    most = 1.001 * squares(vector, stretch, intensity) + 1
+    N, K = len(held.intensity) + 1, len(stretch.readings.place)
+    most = 1.001 * squares(vector, stretch, held) + 1
     for halvings in range(TRIES):
         new = as_vector(kept_in_range(by_name(vector + step / 2**halvings, N, K)))
-        if squares(new, stretch, intensity) <= most:
+        if squares(new, stretch, held) <= most:
             break
     return new
 
 
-def covariance(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
+def covariance(vector: Vector, stretch: Stretch, held: Held) -> Matrix:
     """Return the covariance of all unknowns.
 
     Equation:
@@ -120,12 +120,12 @@ def covariance(vector: Vector, stretch: Stretch, intensity: Vector) -> Matrix:
     Args:
         vector: unknowns, shape (M,).
         stretch: what is known.
-        intensity: g_j, 1/m, shape (N-1,).
+        held: what the pass holds.
 
     Returns:
         Shape (M, M).
     """
-    root = np.linalg.inv(np.linalg.qr(jacobian(vector, stretch, intensity), "r"))
+    root = np.linalg.inv(np.linalg.qr(jacobian(vector, stretch, held), "r"))
     return np.asarray(root @ root.T)
 
 
@@ -133,18 +133,18 @@ def least_squares(stretch: Stretch) -> Answer:
     """Find all unknowns of a stretch.
 
     Equation:
-        Pass by pass a step, and then g_j of the new slopes, which the next pass holds; until no θ
-        changes by 0.3 mrad in the fourth pass or later, or twelve are made
+        Pass by pass a step, and then g_j, β_k and steps of o_k of the new unknowns, which the next
+        pass holds; until no θ changes by 0.3 mrad in the seventh pass or later, or forty are made
 
     Args:
         stretch: what is known; the work grows with the cube of its length.
     """
     N, K = road_points(stretch).number, len(stretch.readings.place)
-    x, g = start(stretch), first_intensity(N, stretch.constants)
+    x, held = start(stretch), first_held(stretch)
     passes, change = 0, np.inf
     while passes < FEWEST_PASSES or (passes < MOST_PASSES and change >= SETTLED):
-        step = full_step(x, stretch, g)
-        x = after_step(x, step, stretch, g)
-        g = intensity_by_slopes(by_name(x, N, K).slope, stretch.constants)
+        step = full_step(x, stretch, held)
+        x = after_step(x, step, stretch, held)
         passes, change = passes + 1, float(np.max(np.abs(by_name(step, N, K).pitch)))
-    return Answer(by_name(x, N, K), g, covariance(x, stretch, g), passes, change)
+        held = held_after(x, stretch, loosened(passes))
+    return Answer(by_name(x, N, K), held, covariance(x, stretch, held), passes, change)

@@ -1,10 +1,10 @@
-"""What a level accelerometer and a laser in its place would read, and how sure the road is."""
+"""What a level accelerometer and a laser in its place would read."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from floatref_reference.road_slope.symbols import Matrix, Vector
+from floatref_reference.road_slope.symbols import Vector
 
 
 class Levelled(NamedTuple):
@@ -68,19 +68,3 @@ def levelled(samples: Samples, found: Found, lever: float, g: float) -> Levelled
     leaning = theta + found.lean
     added = samples.along * (leaning - found.grade) + g / 2 * (leaning**2 - found.lean**2)
     return Levelled(samples.vertical + added, samples.height - lever * theta)
-
-
-def deviation(weights: Matrix, covariance: Matrix) -> Vector:
-    """Return the 1-σ of weighted sums of unknowns, as a high-pass of the road forms them.
-
-    Equation:
-        √(w_mᵀ (JᵀJ)⁻¹ w_m)
-
-    Args:
-        weights: w_m of n marks, shape (n, M).
-        covariance: (JᵀJ)⁻¹, shape (M, M).
-
-    Returns:
-        Shape (n,).
-    """
-    return np.array([np.sqrt(w @ covariance @ w) for w in weights])

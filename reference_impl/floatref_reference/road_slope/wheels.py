@@ -1,14 +1,14 @@
-"""The road's points, and slope and height of the line through both axles."""
+"""The road's points, what a node passes over of it, and the slope under the wheels."""
 
 from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
 
-from floatref_reference.road_slope.symbols import Places, Stretch, Values, has_both_sides, is_cut
+from floatref_reference.road_slope.symbols import Stretch, Values
 
 MARGIN = 1.0
-"""Metres of road before the first and behind the last place that is needed."""
+"""Metres of road before the first and behind the last place that is needed, V_k Δ/3 or more."""
 
 
 class Points(NamedTuple):
@@ -29,97 +29,70 @@ def road_points(stretch: Stretch) -> Points:
     Args:
         stretch: what is known.
     """
-    x, d = stretch.readings.place, stretch.constants.spacing
+    x, d = stretch.readings.place, stretch.constants.spacing_m
     ahead = [0.0, stretch.places.front, stretch.places.rear]
     first = float(np.min(x)) + min(ahead) - MARGIN
     last = float(np.max(x)) + max(ahead) + MARGIN
     return Points(first, d, ceil((last - first) / d) + 2)
 
 
-def road_at(elevation: Values, points: Points, place: float) -> Values:
-    """Return the road's elevation at a place.
+def road_at(values: Values, points: Points, place: float) -> Values:
+    """Return elevation or slope of the road at a place.
 
     Equation:
-        z(x) = (1 - w) z_j + w z_{j+1}, j = ⌊(x - x_0)/d⌋, w = (x - x_0)/d - j
+        z(x) = (1 - w) z_j + w z_{j+1}, j = ⌊(x - x_0)/d⌋, w = (x - x_0)/d - j, and s(x) so
 
     Args:
-        elevation: z_j, m, shape (N,).
+        values: z_j in m or s_j, shape (N,) or (N, m).
         points: where they are.
         place: x, m, between the first and the last point.
 
     Returns:
-        z(x), m, shape ().
+        z(x) in m or s(x), shape () or (m,).
     """
     along = (place - points.first) / points.spacing
     j = floor(along)
     w = along - j
-    between: Values = (1 - w) * elevation[j] + w * elevation[j + 1]
+    between: Values = (1 - w) * values[j] + w * values[j + 1]
     return between
 
 
-def slope_under_wheels(elevation: Values, points: Points, place: float, at: Places) -> Values:
-    """Return the slope of the line through both axles.
+def passed_over(values: Values, stretch: Stretch, ahead: float) -> list[Values]:
+    """Return the mean of what a node's time passes over.
 
     Equation:
-        β = (z(x + x_f) - z(x + x_r))/L
+        z̄_k(e) = (z(x_k + e - V_k Δ/3) + z(x_k + e) + z(x_k + e + V_k Δ/3))/3, and s̄_k so
 
     Args:
-        elevation: z_j, m, shape (N,).
-        points: where they are.
-        place: x of the laser, m.
-        at: places of the axles.
-
-    Returns:
-        β, shape ().
-    """
-    front = road_at(elevation, points, place + at.front)
-    rear = road_at(elevation, points, place + at.rear)
-    return (front - rear) / (at.front - at.rear)
-
-
-def height_over_wheels(elevation: Values, points: Points, place: float, at: Places) -> Values:
-    """Return the height of the line through both axles at the accelerometer.
-
-    Equation:
-        p = (1 + (l + x_r)/L) z(x + x_r) - ((l + x_r)/L) z(x + x_f)
-
-    Args:
-        elevation: z_j, m, shape (N,).
-        points: where they are.
-        place: x of the laser, m.
-        at: places of the axles and of the accelerometer.
-
-    Returns:
-        p, m, shape ().
-    """
-    front = road_at(elevation, points, place + at.front)
-    rear = road_at(elevation, points, place + at.rear)
-    share = (at.lever + at.rear) / (at.front - at.rear)
-    return (1 + share) * rear - share * front
-
-
-def slope_rate(slopes: list[Values], stretch: Stretch, k: int) -> Values:
-    """Return how fast the slope under the wheels changes, from nodes of one piece.
-
-    Equation:
-        β̇_k = (β_{k+1} - β_{k-1})/(2Δ), or of the piece's two last nodes over Δ where it ends
-
-    Args:
-        slopes: β at all K nodes.
+        values: z_j in m or s_j, shape (N,) or (N, m).
         stretch: what is known.
-        k: node, of a piece of two nodes at least.
+        ahead: e ahead of the laser, m.
 
     Returns:
-        β̇_k, 1/s, shape ().
-
-    Raises:
-        ValueError: if the node is alone between two cuts.
+        z̄_k(e) in m or s̄_k at all K nodes, of shape () or (m,) each.
     """
-    interval, last = stretch.constants.interval, len(slopes) - 1
-    if has_both_sides(stretch, k):
-        return (slopes[k + 1] - slopes[k - 1]) / (2 * interval)
-    if k > 0 and not is_cut(stretch, k):
-        return (slopes[k] - slopes[k - 1]) / interval
-    if k < last and not is_cut(stretch, k + 1):
-        return (slopes[k + 1] - slopes[k]) / interval
-    raise ValueError(f"node {k} is alone, it has no rate")
+    run, points, means = stretch.readings, road_points(stretch), []
+    for place, speed in zip(run.place, run.speed, strict=True):
+        third = speed * stretch.constants.interval_s / 3
+        parts = [road_at(values, points, place + ahead + i * third) for i in (-1, 0, 1)]
+        means.append((parts[0] + parts[1] + parts[2]) / 3)
+    return means
+
+
+def slopes_under_wheels(elevation: Values, stretch: Stretch) -> list[Values]:
+    """Return the slopes of the line through both axles.
+
+    Equation:
+        β_k = (z̄_k(x_f) - z̄_k(x_r))/L, L = x_f - x_r
+
+    Args:
+        elevation: z_j, m, shape (N,) or (N, m).
+        stretch: what is known.
+
+    Returns:
+        β_k at all K nodes, of shape () or (m,) each.
+    """
+    at = stretch.places
+    front = passed_over(elevation, stretch, at.front)
+    rear = passed_over(elevation, stretch, at.rear)
+    return [(f - r) / (at.front - at.rear) for f, r in zip(front, rear, strict=True)]

@@ -52,15 +52,6 @@ def _constants(context: Context) -> RoadPrior:
     return RoadPrior(**{CONSTANTS[name]: context.setting(name) for name in names})
 
 
-def _level(context: Context) -> Sequence[Stage]:
-    """Level forces and carry heights through stops, by the road that the run itself measures."""
-    from floatref.estimators.road_slope import LevelByRoad
-
-    levers_m = {track: x for track, (x, _) in levers_of(context.header).items()}
-    wavelength_m = context.setting("cutoff_wavelength_m")
-    return (LevelByRoad(levers_m, _constants(context), wavelength_m),)
-
-
 def _estimate(context: Context) -> Sequence[Stage]:
     smoother = RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m"))
     return smoother, Seams(), Drop(TRAVEL_SPEED)
@@ -81,11 +72,7 @@ ROAD_PRIOR = (
             "distance_scale_sigma": 2e-4,
             **{name: _USUAL[field] for name, field in CONSTANTS.items()},
         },
-        {
-            "temporal_laser": _level,
-            "temporal_condition": condition,
-            "temporal_estimate": _estimate,
-        },
+        {"temporal_condition": condition, "temporal_estimate": _estimate},
         signed=EXPECTED,
     ),
 )

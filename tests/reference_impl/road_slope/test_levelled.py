@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floatref_reference.road_slope.levelled import Found, Samples, deviation, levelled
+from floatref_reference.road_slope.levelled import Found, Samples, levelled
 
 G = 9.80665
 ANGLE, FORCE = st.floats(-0.05, 0.05), st.floats(-5, 5)
@@ -40,11 +40,3 @@ def test_heights_are_those_under_the_accelerometer(pitch: list[float], lever: fl
     samples = Samples(between, zero, zero, 0.3 + lever * mean)
     level = levelled(samples, Found(t, np.array(pitch), 0.0, 0.0), lever, G)
     assert level.height == pytest.approx(np.full(len(between), 0.3))
-
-
-def test_a_weighted_sum_deviates_as_its_draws_do() -> None:
-    rng = np.random.default_rng(3)
-    root, weights = rng.normal(size=(4, 4)), rng.normal(size=(3, 4))
-    draws = weights @ root @ rng.normal(size=(4, 40_000))
-    expected = np.std(draws, axis=1)
-    assert deviation(weights, root @ root.T) == pytest.approx(expected, rel=0.03)

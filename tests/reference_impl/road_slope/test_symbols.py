@@ -4,9 +4,10 @@ from collections.abc import Callable
 
 import pytest
 
-from floatref_reference.road_slope.symbols import Constants, Stretch, has_both_sides, is_cut
+from floatref_reference.road_slope.constants import Constants
+from floatref_reference.road_slope.symbols import Stretch, has_both_sides, is_cut
 
-C = Constants(interval=0.1)
+C = Constants(interval_s=0.1)
 
 
 @pytest.mark.parametrize("cut", [1, 2, 7, 18, 19])

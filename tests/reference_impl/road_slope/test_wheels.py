@@ -1,86 +1,76 @@
-"""The line through both axles on straight and on any roads, and its rate."""
+"""What a node passes over, and the line through both axles, on straight and on any roads."""
 
 from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref_reference.road_slope.symbols import Constants, Places, Stretch
+from floatref_reference.road_slope.constants import Constants
+from floatref_reference.road_slope.symbols import Stretch
 from floatref_reference.road_slope.wheels import (
     Points,
-    height_over_wheels,
+    passed_over,
     road_at,
     road_points,
-    slope_rate,
-    slope_under_wheels,
+    slopes_under_wheels,
 )
 
 METRES = st.floats(-2, 2)
 POINTS = Points(first=-6.0, spacing=0.5, number=40)
-AT = st.builds(Places, st.floats(-1, 1), st.floats(-4, -2), METRES)
+C = Constants(interval_s=0.1, spacing_m=0.5)
+Stopping = Callable[..., Stretch]
 
 
-def road(seed: int) -> np.ndarray:
-    return np.cumsum(np.random.default_rng(seed).normal(size=POINTS.number))
+def points_of(stretch: Stretch) -> np.ndarray:
+    points = road_points(stretch)
+    return points.first + points.spacing * np.arange(points.number)
 
 
-@given(z_0=METRES, slope=METRES, place=METRES, at=AT)
-def test_on_a_straight_road_the_line_is_the_road(
-    z_0: float, slope: float, place: float, at: Places
+@given(seed=st.integers(0, 999), place=METRES)
+def test_the_road_is_a_line_between_points(seed: int, place: float) -> None:
+    z, x = np.random.default_rng(seed).normal(size=40), -6 + 0.5 * np.arange(40)
+    assert road_at(z, POINTS, place) == pytest.approx(np.interp(place, x, z), abs=1e-12)
+
+
+@settings(deadline=None, max_examples=25)
+@given(z_0=METRES, slope=METRES, ahead=st.floats(-3.6, 0))
+def test_on_a_straight_road_the_mean_is_the_road(
+    stopping: Stopping, z_0: float, slope: float, ahead: float
 ) -> None:
-    z = z_0 + slope * (POINTS.first + POINTS.spacing * np.arange(POINTS.number))
-    assert road_at(z, POINTS, place) == pytest.approx(z_0 + slope * place, abs=1e-12)
-    assert slope_under_wheels(z, POINTS, place, at) == pytest.approx(slope, abs=1e-12)
-    under = z_0 + slope * (place - at.lever)
-    assert height_over_wheels(z, POINTS, place, at) == pytest.approx(under, abs=1e-12)
+    stretch = stopping(C, K=8)
+    z = z_0 + slope * points_of(stretch)
+    expected = z_0 + slope * (stretch.readings.place + ahead)
+    assert passed_over(z, stretch, ahead) == pytest.approx(expected, abs=1e-12)
+    assert slopes_under_wheels(z, stretch) == pytest.approx(np.full(8, slope), abs=1e-12)
 
 
-@given(seed=st.integers(0, 999), place=METRES, at=AT)
-def test_the_line_goes_through_both_axles(seed: int, place: float, at: Places) -> None:
-    z, x = road(seed), POINTS.first + POINTS.spacing * np.arange(POINTS.number)
-    slope = slope_under_wheels(z, POINTS, place, at)
-    height = height_over_wheels(z, POINTS, place, at)
-    for axle in (at.front, at.rear):
-        on_line = height + slope * (axle + at.lever)
-        assert on_line == pytest.approx(np.interp(place + axle, x, z), abs=1e-9)
+@settings(deadline=None, max_examples=25)
+@given(seed=st.integers(0, 999), ahead=st.floats(-3.6, 0))
+def test_it_is_the_mean_of_three_places(stopping: Stopping, seed: int, ahead: float) -> None:
+    stretch = stopping(C, K=24)
+    x, run = points_of(stretch), stretch.readings
+    z = np.random.default_rng(seed).normal(size=len(x))
+    third = run.speed * 0.1 / 3
+    parts = [np.interp(run.place + ahead + i * third, x, z) for i in (-1, 0, 1)]
+    assert passed_over(z, stretch, ahead) == pytest.approx(np.mean(parts, axis=0), abs=1e-9)
+
+
+@settings(deadline=None, max_examples=25)
+@given(seed=st.integers(0, 999))
+def test_the_line_goes_through_both_axles(stopping: Stopping, seed: int) -> None:
+    stretch = stopping(C, K=24)
+    z = np.random.default_rng(seed).normal(size=road_points(stretch).number)
+    rise = np.multiply(slopes_under_wheels(z, stretch), -0.9 - -3.6)
+    rear, front = passed_over(z, stretch, -3.6), passed_over(z, stretch, -0.9)
+    assert np.add(rear, rise) == pytest.approx(front, abs=1e-12)
 
 
 @pytest.mark.parametrize("spacing", [0.25, 0.7, 1.0, 3.0])
-def test_points_reach_a_metre_beyond_laser_and_axles(
-    stopping: Callable[..., Stretch], spacing: float
-) -> None:
-    stretch = stopping(Constants(interval=0.1, spacing=spacing))
+def test_points_reach_a_metre_beyond_laser_and_axles(stopping: Stopping, spacing: float) -> None:
+    stretch = stopping(C._replace(spacing_m=spacing), speed=5.0)
     points = road_points(stretch)
     assert points.first == pytest.approx(-4.6)
     last = points.first + spacing * (points.number - 2)
     assert 6.25 + 1 <= last + 1e-9 < 6.25 + 1 + spacing + 1e-9
-
-
-@given(k=st.integers(0, 19), cut=st.integers(2, 18), rate=METRES)
-def test_a_slope_that_changes_evenly_has_its_rate_at_every_node(
-    stopping: Callable[..., Stretch], k: int, cut: int, rate: float
-) -> None:
-    """Across the cut it jumps, and no rate may see that."""
-    stretch = stopping(Constants(interval=0.1), K=20, cut=cut)
-    slopes = [np.array(0.1 * rate * i + 50 * (i >= cut)) for i in range(20)]
-    assert slope_rate(slopes, stretch, k) == pytest.approx(rate, abs=1e-9)
-
-
-def test_the_rate_is_central_inside_and_one_sided_at_an_end(
-    stopping: Callable[..., Stretch],
-) -> None:
-    """Of t²: a central difference has 2t, a one-sided one 2t ± Δ."""
-    stretch = stopping(Constants(interval=0.1), K=20, cut=10)
-    t = 0.1 * np.arange(20)
-    rates = np.array([slope_rate(list(t**2), stretch, k) for k in range(20)]) - 2 * t
-    expected = np.zeros(20)
-    expected[[0, 10]], expected[[9, 19]] = 0.1, -0.1
-    assert rates == pytest.approx(expected, abs=1e-12)
-
-
-def test_a_node_alone_has_no_rate(stopping: Callable[..., Stretch]) -> None:
-    stretch = stopping(Constants(interval=0.1), K=20, cut=1)
-    with pytest.raises(ValueError, match="node 0 is alone"):
-        slope_rate([np.zeros(())] * 20, stretch, 0)

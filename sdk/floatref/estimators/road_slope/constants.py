@@ -28,6 +28,8 @@ class SlopeModel:
         missing_acceleration: takes its place where samples are missing.
         bias, walk: σ_b0 in m/s² and σ_b in m/s²/√s.
         offset_m, offset_walk: 1-σ of o_0 in m, and σ_o in m/√s.
+        rest_s, first_sag_m: time after which a body that stands has swung out, so that a step of
+            the offset is somebody who boards, and that step in the first pass.
         moment, moment_walk, moment_share: σ_μ0 in m/s², σ_μ in m/s²/√s, and the part of a change
             of β that is not sure to be one of grade.
         bounce, bounce_speed: σ_v0 in m/s²/√Hz, and σ_v1, what each m/s of speed adds.
@@ -64,6 +66,8 @@ class SlopeModel:
     walk: float = 1e-4
     offset_m: float = 1.0
     offset_walk: float = 2e-4
+    rest_s: float = 1.0
+    first_sag_m: float = 1e-3
     moment: float = 0.1
     moment_walk: float = 0.02
     moment_share: float = 0.3

@@ -31,7 +31,8 @@ def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> Float
     covariance = weights @ solved
     by_gain = covariance[:-1, -1] / covariance[-1, -1]
     doubt = np.hypot(GAIN_DOUBT, TURN_DOUBT * turn(fit)) * fit.of("gain")
-    return np.sqrt(np.diag(covariance)[:-1] + np.square(doubt * by_gain))
+    found: FloatArray = np.sqrt(np.diag(covariance)[:-1] + np.square(doubt * by_gain))
+    return found
 
 
 def turn(fit: Fit) -> float:
@@ -53,17 +54,22 @@ def _braking(stretch: Stretch) -> IndexArray:
 
 def _known_outside(stretch: Stretch) -> csr_array:
     """Return the rows of the road outside of the brake, as the smoother knows it."""
-    lay, spacing, active = stretch.layout, stretch.model.spacing_m, _braking(stretch)
+    lay, spacing = stretch.layout, stretch.model.spacing_m
     m, x = round(APART_M / spacing), stretch.first_m + spacing * np.arange(lay.points)
+    outside = _distance(x, stretch.readings.place[_braking(stretch)]) >= BESIDE_M
     middles = np.arange(m, lay.points - m)
-    if active.size:
-        begin, end = stretch.readings.place[active[[0, -1]]]
-        before, behind = x[middles + m] < begin - BESIDE_M, x[middles - m] > end + BESIDE_M
-        middles = middles[before | behind]
+    middles = middles[outside[middles - m] & outside[middles] & outside[middles + m]]
     columns = np.concatenate((middles - m, middles, middles + m))
     values = np.repeat([1.0, -2.0, 1.0], middles.size) / KNOWN_M
     rows = np.tile(np.arange(middles.size), 3)
     return csr_array((values, (rows, columns)), (middles.size, lay.size))
+
+
+def _distance(x: FloatArray, places: FloatArray) -> FloatArray:
+    """Return the distance of every ``x`` from the nearest of the rising ``places``, in m."""
+    ends = np.concatenate(([-np.inf], places, [np.inf]))
+    behind = np.searchsorted(places, x, "right")
+    return np.asarray(np.minimum(x - ends[behind], ends[behind + 1] - x))
 
 
 def _delivered(stretch: Stretch, marks_m: FloatArray, wavelength_m: float) -> FloatArray:

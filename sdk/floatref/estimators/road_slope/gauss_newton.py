@@ -56,8 +56,7 @@ class Fit(NamedTuple):
 
     def rows(self) -> Rows:
         """Return all rows where the fit has ended."""
-        turned = self.stretch.turned(self.unknowns)
-        return self.stretch.rows(self.unknowns, Weights(self.bends, turned))
+        return self.stretch.rows(self.unknowns, self.stretch.weights(self.unknowns, self.bends))
 
     def covariance(self, weights: FloatArray) -> FloatArray:
         """Return that of the sums of all unknowns by ``weights``, shape (m, unknowns): (m, m)."""
@@ -70,7 +69,9 @@ def fit(stretch: Stretch) -> Fit:
     y, bends = stretch.start(), first_bends(stretch.layout.points, stretch.model)
     changed, number = np.inf, 0
     while number < PASSES and not (changed < SETTLED_RAD and number >= FEWEST):
-        held = Weights(bends, stretch.turned(y), max(1.0, LOOSEST * TIGHTER**number))
+        held = stretch.weights(y, bends, max(1.0, LOOSEST * TIGHTER**number))
+        if number == 0:
+            held = held._replace(sagged=np.full(held.sagged.size, stretch.model.first_sag_m))
         rows = stretch.rows(y, held)
         step = factor(rows).solve(rows.derivative.T @ rows.misfit)
         y = _go(stretch, y, step, float(rows.misfit @ rows.misfit), held)

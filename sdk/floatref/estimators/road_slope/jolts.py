@@ -20,7 +20,8 @@ def sharpen(readings: Readings, shares: csr_array, second: csr_array) -> FloatAr
     """Return the acceleration along the road at the middles, in m/s².
 
     The smooth one takes a tenth of a second for the end of a brake; the ``second`` difference of
-    places takes none, and has the noise of the encoder's counts. ``shares`` means three nodes.
+    places is as fast as the brake, and has the noise of the encoder's counts. ``shares`` is the
+    mean of three nodes.
     """
     smooth = shares @ readings.along
     off = second @ readings.place - smooth
@@ -41,4 +42,7 @@ def jolts(readings: Readings) -> FloatArray:
         total = total * goes_on[k] + (changed[k] if goes_on[k] else 0.0)
         summed[k] = total
     padded = np.pad(summed, BESIDE, "edge")
-    return np.max(np.lib.stride_tricks.sliding_window_view(padded, 2 * BESIDE + 1), axis=1)
+    found: FloatArray = np.max(
+        np.lib.stride_tricks.sliding_window_view(padded, 2 * BESIDE + 1), axis=1
+    )
+    return found

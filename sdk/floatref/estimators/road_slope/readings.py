@@ -8,6 +8,9 @@ import numpy as np
 
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
+STANDING_MPS = 0.02
+"""Speed below which a vehicle stands."""
+
 
 class Drive(NamedTuple):
     """Bins of a whole run, each of shape (n,), for all wheel paths together.
@@ -65,6 +68,15 @@ class Readings:
         joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
         pause_s = np.diff(joined["bins"], prepend=joined["bins"][0] - every) * drive.step
         return cls(**joined, pause_s=pause_s, interval_s=every * drive.step)
+
+    def rested(self, least_s: float) -> BoolArray:
+        """Return which steps from node to node end a standstill of ``least_s`` or more so far."""
+        found, stood_s = np.zeros(self.speed.size - 1, np.bool_), 0.0
+        for k in range(1, self.speed.size):
+            still = max(self.speed[k - 1], self.speed[k]) < STANDING_MPS
+            stood_s = stood_s + self.pause_s[k] if still else 0.0
+            found[k - 1] = stood_s >= least_s - 1e-9
+        return found
 
     @property
     def middles(self) -> IndexArray:

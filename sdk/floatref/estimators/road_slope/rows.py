@@ -27,11 +27,13 @@ class Weights(NamedTuple):
 
     Attributes:
         bends: intensity of every step of the slope, in 1/m, shape (points - 1,).
+        sagged: steps of the offset from node to node in m, shape (nodes - 1,).
         turned: change of the slope under the wheels from node to node, shape (nodes - 1,).
         loose: factor of the 1-σ of bounce and pitch.
     """
 
     bends: FloatArray
+    sagged: FloatArray
     turned: FloatArray
     loose: float = 1.0
 
@@ -50,6 +52,7 @@ class Stretch:
         self.under_laser, front, rear = (self._passed_over(end) for end in ends)
         self.car = HalfCar(readings, places, self.layout, (front, rear))
         self.slope = self.car.slope
+        self.rested = readings.rested(model.rest_s)
         self.fixed, self.target, self.fixed_sigma = _fixed_rows(self)
 
     def start(self) -> FloatArray:
@@ -64,8 +67,15 @@ class Stretch:
         sigma = self.fixed_sigma.copy()
         sigma[-held.bends.size :] = np.sqrt(held.bends * self.model.spacing_m)
         fixed = _over(self.fixed, self.target - self.fixed @ y, sigma)
-        parts = fixed, _height(self, y), _moment(self, y, held.turned), _acceleration(self, y)
-        parts = *parts, _bounce(self, y, held.loose), _pitch(self, y, held.loose)
+        parts = (
+            fixed,
+            _height(self, y),
+            _offset(self, y, held.sagged),
+            _moment(self, y, held.turned),
+            _acceleration(self, y),
+            _bounce(self, y, held.loose),
+            _pitch(self, y, held.loose),
+        )
         derivative = vstack([part.derivative for part in parts], format="csr")
         return Rows(derivative, np.concatenate([part.misfit for part in parts]))
 
@@ -74,9 +84,11 @@ class Stretch:
         misfit = self.rows(y, held).misfit
         return float(misfit @ misfit)
 
-    def turned(self, y: FloatArray) -> FloatArray:
-        """Return how much the slope under the wheels changes from node to node."""
-        return np.diff(self.slope @ y[self.layout.elevation])
+    def weights(self, y: FloatArray, bends: FloatArray, loose: float = 1.0) -> Weights:
+        """Return what a pass holds that begins at the unknowns ``y``."""
+        lay = self.layout
+        sagged, turned = np.diff(y[lay.in_time("offset")]), np.diff(self.slope @ y[lay.elevation])
+        return Weights(bends, sagged, turned, loose)
 
     def _passed_over(self, ahead_m: float) -> csr_array:
         """Return the matrix of the road's mean over what passes ``ahead_m`` of the laser."""
@@ -99,13 +111,13 @@ def _fixed_rows(stretch: Stretch) -> tuple[csr_array, FloatArray, FloatArray]:
 
 
 def _in_time(stretch: Stretch) -> Fixed:
-    """Return the rows of bias and offset, which walk, and of heave and nod, which are noise."""
+    """Return the rows of the bias, which walks, and of heave and nod, which are noise."""
     lay, model, seen = stretch.layout, stretch.model, stretch.readings
     walked, nodes = np.sqrt(seen.pause_s[1:]), eye_array(lay.nodes, format="csr")
     found: Fixed = []
-    for name, walk in (("bias", model.walk), ("offset", model.offset_walk)):
-        rows = lay.rows((lay.in_time(name), _steps(lay.nodes)))
-        found.append((rows, np.zeros(lay.nodes - 1), walk * walked))
+    found.append(
+        (lay.rows((lay.bias, _steps(lay.nodes))), np.zeros(lay.nodes - 1), model.walk * walked)
+    )
     heave = model.heave_m + model.heave_speed * seen.speed
     nod = model.nod_rad + model.nod_speed * seen.speed
     for name, sigma in (("heave", heave), ("nod", nod)):
@@ -157,7 +169,7 @@ def _height(stretch: Stretch, y: FloatArray) -> Rows:
     swayed = diags_array(-model.sway_m * pitch) @ stretch.under_laser
     derivative = lay.rows(
         (lay.height, nodes),
-        (lay.pitch, diags_array(lever)),
+        (lay.pitch, csr_array(diags_array(lever))),
         (lay.elevation, -stretch.under_laser),
         (lay.slope, swayed),
     )
@@ -165,6 +177,16 @@ def _height(stretch: Stretch, y: FloatArray) -> Rows:
     between_m = np.minimum(seen.speed * seen.interval_s, model.spacing_m)
     sigma = np.sqrt(model.reading_m**2 + model.road * between_m / 3.0)
     return _over(derivative[known], (seen.height - predicted)[known], sigma[known])
+
+
+def _offset(stretch: Stretch, y: FloatArray, sagged: FloatArray) -> Rows:
+    """Return the steps of the offset: a body that stands may sag, as where somebody boards."""
+    lay, model = stretch.layout, stretch.model
+    variance = model.offset_walk**2 * stretch.readings.pause_s[1:]
+    heavy = np.where(stretch.rested, 0.5 * (variance + np.square(sagged)), variance)
+    steps = _steps(lay.nodes)
+    misfit = -(steps @ y[lay.in_time("offset")])
+    return _over(lay.rows((lay.in_time("offset"), steps)), misfit, np.sqrt(heavy))
 
 
 def _moment(stretch: Stretch, y: FloatArray, turned: FloatArray) -> Rows:

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.estimators.road_slope.readings import Drive
+from floatref.estimators.road_slope.readings import STANDING_MPS, Drive
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 BRAKING_MPS2 = 0.5
@@ -16,7 +16,6 @@ BEFORE_M, BEHIND_M = 60.0, 90.0
 """Travel before and behind, in which bias and lean are known from a road at speed."""
 LONGEST_SIDE_S = 30.0
 """No longer in motion, for a vehicle that creeps."""
-STANDING_MPS = 0.02
 AFTER_STOP_S, BEFORE_START_S = 5.0, 3.0
 """Of a standstill, until the body has swung out, and from before it moves again."""
 SHORTEST_S = 2.0

@@ -1,18 +1,25 @@
-"""Short runs through a stop that are drawn from the equations, for SDK and reference at once."""
+"""Short runs through a stop that are drawn from the equations."""
 
-from typing import NamedTuple
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from hypothesis import strategies as st
+from tests.sdk.estimators.road_slope.plain_equations import (
+    Springs,
+    as_vector,
+    force_read,
+    height_read,
+    middles,
+    spring_sigmas,
+)
 
 from floatref.estimators.road_slope.constants import Places, SlopeModel
+from floatref.estimators.road_slope.gauss_newton import RANGES, Fit
+from floatref.estimators.road_slope.layout import GLOBALS
 from floatref.estimators.road_slope.readings import Readings
-from floatref.estimators.road_slope.rows import Stretch
+from floatref.estimators.road_slope.rows import Stretch, Weights
 from floatref.values.arrays import FloatArray
-from floatref_reference.road_slope import rows, symbols
-from floatref_reference.road_slope.swing import swing
-from floatref_reference.road_slope.unknowns import Unknowns, by_name, kept_in_range
-from floatref_reference.road_slope.wheels import road_points
 
 
 class Run(NamedTuple):
@@ -38,11 +45,10 @@ class Run(NamedTuple):
 
 
 class Case(NamedTuple):
-    """The same readings for both programs, and the unknowns that they were drawn with."""
+    """A stretch, and the unknowns that its readings were drawn with."""
 
     ours: Stretch
-    literal: symbols.Stretch
-    truth: Unknowns
+    truth: FloatArray
 
 
 RUNS = st.builds(
@@ -56,48 +62,15 @@ RUNS = st.builds(
     bend=st.sampled_from([1.0, 30.0, 3000.0]),
 )
 """Small: a dense matrix above some hundred rows is shared among processors, which may be busy."""
+STEP = 0.06
 MODEL = SlopeModel(spacing_m=0.7, segment_m=3.0, start_m=0.02, offset_m=0.02)
 """The level of all is known to 2 cm: the better it is, the more digits a covariance keeps."""
 
 
-def literally(model: SlopeModel, interval_s: float) -> symbols.Constants:
-    """Return the constants as the reference names them, with nodes ``interval_s`` apart."""
-    return symbols.Constants(
-        interval=interval_s,
-        spacing=model.spacing_m,
-        g=model.gravity,
-        read=model.reading_m,
-        road=model.road,
-        bend=model.bends,
-        bend_weight=model.bend_weight,
-        most_bend=model.most_bend,
-        first_bend=model.first_bend,
-        segment=model.segment_m,
-        acceleration=model.acceleration,
-        force_share=model.force_share,
-        missing_acceleration=model.missing_acceleration,
-        bias=model.bias,
-        walk=model.walk,
-        swing=model.swing,
-        swing_speed=model.swing_speed,
-        even=model.even_m,
-        even_speed=model.even_speed,
-        slope=model.slope,
-        slope_reach=model.slope_reach_m,
-        gain=symbols.Prior(model.gain, model.gain_sigma),
-        lean=symbols.Prior(model.lean_rad, model.lean_sigma_rad),
-        centre=symbols.Prior(model.centre, model.centre_sigma),
-        offset=model.offset_m,
-        hz=symbols.Prior(model.hz, model.hz_sigma),
-        damping=symbols.Prior(model.damping, model.damping_sigma),
-        start_height=model.start_m,
-    )
-
-
-def motion(run: Run, rng: np.random.Generator, interval_s: float) -> tuple[FloatArray, ...]:
+def motion(run: Run, rng: np.random.Generator, interval_s: float) -> Readings:
     """Return place, speed, acceleration and pauses of a brake, a standstill and a start."""
-    stop, go = np.sort(rng.choice(np.arange(4, run.nodes - 3), 2, replace=False))
-    k = np.arange(run.nodes)
+    stop, go = np.sort(rng.choice(np.arange(4, run.nodes - 4), 2, replace=False))
+    k, zero = np.arange(run.nodes), np.zeros(run.nodes)
     along = np.where(k < stop, rng.uniform(-4, -1), np.where(k > go, rng.uniform(0.5, 2), 0.0))
     speed = np.cumsum(along) * interval_s
     speed -= speed[stop]
@@ -105,98 +78,164 @@ def motion(run: Run, rng: np.random.Generator, interval_s: float) -> tuple[Float
     pause = np.full(run.nodes, interval_s)
     if run.cut:
         pause[rng.integers(stop, go + 1)] += rng.uniform(1, 30)
-    return place, np.abs(speed), along + 0.1 * rng.normal(size=run.nodes), pause
-
-
-def vehicle(run: Run, rng: np.random.Generator) -> symbols.Places:
-    front, lever = rng.uniform(-2, 1), rng.uniform(-1.5, 1.5)
-    return symbols.Places(front, front - rng.uniform(2.4, 3.5), lever if run.lever else 0.0)
-
-
-def unread(run: Run, rng: np.random.Generator, model: SlopeModel) -> symbols.Stretch:
-    """Return a stretch in which height and force are not yet read."""
-    interval_s = float(rng.choice([0.06, 0.1]))
-    place, speed, along, pause = motion(run, rng, interval_s)
-    zero = np.zeros(run.nodes)
     lost = rng.uniform(size=run.nodes) * (rng.uniform(size=run.nodes) < run.missing)
-    readings = symbols.Readings(zero, zero, place, speed, along, lost, pause)
-    return symbols.Stretch(readings, vehicle(run, rng), literally(model, interval_s))
+    noisy = along + 0.1 * rng.normal(size=run.nodes)
+    return Readings(1.0 * k, zero, zero, place, np.abs(speed), noisy, lost, pause, interval_s)
 
 
-def drawn_constants(rng: np.random.Generator, c: symbols.Constants) -> list[float]:
-    """Return κ, λ, H, h_0, ln f and ln ζ."""
-    linear = [p.mean + p.sigma * rng.normal() for p in (c.gain, c.lean, c.centre)]
-    logs = [np.log(p.mean) + p.sigma * rng.normal() for p in (c.hz, c.damping)]
-    return [*linear, c.offset * rng.normal(), *logs]
+def vehicle(run: Run, rng: np.random.Generator) -> Places:
+    front, lever = rng.uniform(-2, 1), rng.uniform(-1.5, 1.5)
+    return Places(front, front - rng.uniform(2.4, 3.5), lever if run.lever else 0.0)
 
 
-def true_unknowns(run: Run, rng: np.random.Generator, stretch: symbols.Stretch) -> Unknowns:
-    """Draw road, bias, constants and motion."""
-    c, K, N = stretch.constants, run.nodes, road_points(stretch).number
-    bent = np.sqrt(run.bend * c.bend * c.spacing) * rng.normal(size=N)
+def unread(run: Run, rng: np.random.Generator, model: SlopeModel) -> Stretch:
+    """Return a stretch in which height and force are not yet read."""
+    return Stretch(motion(run, rng, float(rng.choice([0.06, 0.1]))), vehicle(run, rng), model)
+
+
+def constants(rng: np.random.Generator, model: SlopeModel) -> dict[str, float]:
+    """Draw the constants of a vehicle, within their ranges."""
+    drawn = {name: model.means[name] + model.sigmas[name] * rng.normal() for name in GLOBALS}
+    ranges = {name: RANGES.get(name, (-np.inf, np.inf)) for name in GLOBALS}
+    return {name: float(np.clip(value, *ranges[name])) for name, value in drawn.items()}
+
+
+def unknowns(run: Run, rng: np.random.Generator, stretch: Stretch) -> dict[str, Any]:
+    """Draw road, vehicle, bias and motion."""
+    c, seen, K, N = stretch.model, stretch.readings, run.nodes, stretch.layout.points
+    bent = np.sqrt(run.bend * c.bends * c.spacing_m) * rng.normal(size=N)
     s = 0.02 * rng.normal() + np.cumsum(bent)
-    steps = c.spacing * s[:-1] + np.sqrt(c.road * c.spacing) * rng.normal(size=N - 1)
-    z = np.cumsum([c.start_height * rng.normal(), *steps])
-    walked = c.walk * np.sqrt(stretch.readings.pause[1:]) * rng.normal(size=K - 1)
-    b = np.cumsum([c.bias * rng.normal(), *walked])
-    vector = np.concatenate([z, s, np.zeros(2 * K), b, drawn_constants(rng, c)])
-    return in_motion(kept_in_range(by_name(vector, N, K)), rng, stretch)
+    steps = c.spacing_m * s[:-1] + np.sqrt(c.road * c.spacing_m) * rng.normal(size=N - 1)
+    walks = ("bias", c.bias, c.walk), ("offset", c.offset_m, c.offset_walk)
+    x: dict[str, Any] = {"elevation": np.cumsum([c.start_m * rng.normal(), *steps]), "slope": s}
+    for name, first, walk in walks:
+        sigmas = first, *(walk * np.sqrt(seen.pause_s[1:]))
+        x[name] = np.cumsum(sigmas * rng.normal(size=K))
+    x["heave"] = (c.heave_m + c.heave_speed * seen.speed) * rng.normal(size=K)
+    x["nod"] = (c.nod_rad + c.nod_speed * seen.speed) * rng.normal(size=K)
+    x |= constants(rng, c) | {"moment": np.zeros(K)}
+    turned = np.diff(Springs(stretch, x).beta)
+    steps = np.hypot(c.moment_walk * np.sqrt(seen.pause_s[1:]), c.moment_share * c.gravity * turned)
+    x["moment"] = np.cumsum([c.moment * rng.normal(), *(steps * rng.normal(size=K - 1))])
+    return in_motion(x, rng, stretch)
 
 
-def in_motion(x: Unknowns, rng: np.random.Generator, stretch: symbols.Stretch) -> Unknowns:
-    """Return the unknowns with θ and r that follow from the others, and their noise."""
-    one = np.ones(len(x.height))
-    x = x._replace(pitch=swung(x, stretch, rng), height=0 * one)
-    low, high = (np.array(rows.even_rows(y, stretch)) for y in (x, x._replace(height=one)))
-    return x._replace(height=(rng.normal(size=one.size) - low) / (high - low))
+def in_motion(x: dict[str, Any], rng: np.random.Generator, stretch: Stretch) -> dict[str, Any]:
+    """Return the unknowns with r and θ that follow from the others, and noise.
 
-
-def swung(x: Unknowns, stretch: symbols.Stretch, rng: np.random.Generator) -> FloatArray:
-    """Return θ of a body that begins each piece where it would rest."""
-    run, c, K = stretch.readings, stretch.constants, len(x.pitch)
-    slopes, theta = rows.slopes_under_wheels(x, stretch), np.zeros(K)
-    u = [rows.rolled_over(x, slopes, stretch, k) for k in range(K)]
-    by = swing(np.exp(x.log_hz), np.exp(x.log_damping), c.interval)
+    The body begins each piece where it would rest.
+    """
+    seen, springs = stretch.readings, Springs(stretch, x)
+    known, K = set(springs.at.tolist()), seen.place.size
+    sigma = spring_sigmas(seen, stretch.model, np.arange(K))
+    r, theta = np.zeros((2, K))
     for k in range(K):
-        theta[k] = u[k]
-        if symbols.has_both_sides(stretch, k - 1):
-            driven = by.before * u[k - 2] + by.now * u[k - 1] + by.after * u[k]
-            sigma = (c.swing + c.swing_speed * run.speed[k - 1]) * c.interval**1.5
-            theta[k] = by.trace * theta[k - 1] - by.determinant * theta[k - 2] + driven
-            theta[k] += sigma * rng.normal()
-    return theta
+        r[k], theta[k] = springs.at_rest(k)
+        if k - 1 in known:
+            r[k], theta[k] = 0.0, 0.0
+            at = np.array([k - 1])
+            zero, one = springs.values(r, theta, at), np.eye(K)[k]
+            higher = springs.values(r + one, theta, at) - zero
+            nose_up = springs.values(r, theta + one, at) - zero
+            wanted = sigma[:, k - 1] * rng.normal(size=2) - zero[:, 0]
+            r[k], theta[k] = np.linalg.solve(np.hstack([higher, nose_up]), wanted)
+    return x | {"height": r, "pitch": theta}
 
 
-def read(
-    run: Run, rng: np.random.Generator, x: Unknowns, stretch: symbols.Stretch
-) -> symbols.Stretch:
+def read(run: Run, rng: np.random.Generator, x: dict[str, Any], stretch: Stretch) -> Stretch:
     """Return the stretch with heights and forces; the forces at no row's middle are of no use."""
-    K, seen = run.nodes, stretch.readings
-    off = np.array(rows.height_rows(x, stretch))
-    higher = stretch._replace(readings=seen._replace(height=np.ones(K)))
-    height = (rng.normal(size=K) - off) / (np.array(rows.height_rows(x, higher)) - off)
+    K, seen, model = run.nodes, stretch.readings, stretch.model
+    height, sigma = height_read(stretch, x)
+    height = height + sigma * rng.normal(size=K)
     height[rng.uniform(size=K) < run.unread] = np.nan
-    force = rng.normal(size=K)
-    inside = [k for k in range(K) if symbols.has_both_sides(stretch, k)]
-    for k, misfit in zip(inside, rows.acceleration_rows(x, stretch), strict=True):
-        force[k] = (misfit - rng.normal()) * rows.acceleration_sigma(stretch, k)
-    unsure = 1.0 + stretch.constants.force_share * rng.normal(size=K)
-    return stretch._replace(readings=seen._replace(height=height, force=force * unsure))
-
-
-def as_ours(literal: symbols.Stretch, model: SlopeModel) -> Stretch:
-    """Return a stretch of the reference as one of the SDK."""
-    seen = literal.readings
-    readings = Readings(
-        np.arange(len(seen.place), dtype=np.float64), *seen, literal.constants.interval
-    )
-    return Stretch(readings, Places(*literal.places), model)
+    force, at = rng.normal(size=K), middles(seen)
+    exact, sigma = force_read(stretch, x)
+    force[at] = exact + sigma * rng.normal(size=at.size)
+    force *= 1.0 + model.force_share * rng.normal(size=K)
+    return Stretch(replace(seen, height=height, force=force), stretch.places, model)
 
 
 def draw(run: Run, model: SlopeModel = MODEL) -> Case:
     """Return a run in which every misfit of a reading has the 1-σ of 1."""
     rng = np.random.default_rng(run.seed)
     stretch = unread(run, rng, model)
-    truth = true_unknowns(run, rng, stretch)
-    literal = read(run, rng, truth, stretch)
-    return Case(as_ours(literal, model), literal, truth)
+    x = unknowns(run, rng, stretch)
+    return Case(read(run, rng, x, stretch), as_vector(stretch, x))
+
+
+def over_hump(seed: int, nodes: int = 60) -> Case:
+    """Return a brake with a hump of 12 cm under the stop, with the usual constants."""
+    model, run = SlopeModel(spacing_m=0.5), Run(seed, nodes=nodes)
+    rng = np.random.default_rng(seed)
+    stretch = unread(run, rng, model)
+    x = unknowns(run, rng, stretch)
+    places = stretch.first_m + 0.5 * np.arange(stretch.layout.points)
+    hump = 0.12 * np.exp(-(((places - stretch.readings.place.max() + 1.5) / 2.5) ** 2))
+    x = in_motion(x | {"elevation": hump, "slope": np.gradient(hump, 0.5)}, rng, stretch)
+    return Case(read(run, rng, x, stretch), as_vector(stretch, x))
+
+
+def groups(stretch: Stretch) -> dict[str, slice]:
+    """Return which rows are of what; the fixed ones are before these."""
+    heights = int(np.sum(~np.isnan(stretch.readings.height)))
+    K, M = stretch.layout.nodes, middles(stretch.readings).size
+    sizes = {"height": heights, "offset": K - 1, "moment": K - 1}
+    sizes |= {"acceleration": M, "bounce": M, "pitch": M}
+    found, begin = {}, stretch.fixed_sigma.size
+    for name, size in sizes.items():
+        found[name], begin = slice(begin, begin + size), begin + size
+    return found
+
+
+def held(case: Case) -> Weights:
+    """Return what a pass holds that begins at the truth."""
+    return case.ours.weights(case.truth, np.full(case.ours.layout.points - 1, 1e-5))
+
+
+def at_speed(
+    speed: FloatArray, along: float | FloatArray = 0.0, lever: float = 0.0, **changed: Any
+) -> Stretch:
+    """Return nodes at these speeds, with heights and forces of 0 unless they are ``changed``."""
+    zero, full = np.zeros(speed.size), np.ones(speed.size)
+    place = np.cumsum(speed) * STEP
+    usual = {"height": zero, "force": zero, "place": place} | changed
+    seen = Readings(
+        bins=np.arange(1.0 * speed.size),
+        speed=speed,
+        along=along * full,
+        missing=zero,
+        pause_s=STEP * full,
+        interval_s=STEP,
+        **usual,
+    )
+    return Stretch(seen, Places(-0.8, -3.5, lever), SlopeModel())
+
+
+def as_if(stretch: Stretch, y: FloatArray, bend: float = 1e-5) -> Fit:
+    """Return a fit that has found the unknowns ``y``."""
+    return Fit(stretch, y, np.full(stretch.layout.points - 1, bend), 7, 0.0)
+
+
+def drawn_fit(run: Run) -> Fit:
+    case = draw(run)
+    return Fit(case.ours, case.truth, held(case).bends, 7, 0.0)
+
+
+def marks_of(stretch: Stretch, *shares: float) -> FloatArray:
+    """Return points of the road at these shares of it."""
+    last = stretch.layout.points - 1
+    return stretch.first_m + stretch.model.spacing_m * np.rint(last * np.array(shares))
+
+
+def braked(nodes: int = 60, first: int = 30, last: int = 38) -> Stretch:
+    """Return a run at 12 m/s that brakes by 3 m/s² from node to node."""
+    k = np.arange(nodes)
+    along = -3.0 * ((k >= first) & (k <= last))
+    stretch = at_speed(12.0 + STEP * np.cumsum(along), along)
+    return Stretch(stretch.readings, stretch.places, replace(stretch.model, spacing_m=1.0))
+
+
+def replaced(stretch: Stretch, spacing_m: float) -> Stretch:
+    """Return the stretch with points of the road so far apart."""
+    model = replace(stretch.model, spacing_m=spacing_m)
+    return Stretch(stretch.readings, stretch.places, model)

@@ -1,4 +1,4 @@
-"""Intensities of the slope: within bounds, as the reference's, and no lower for larger bends."""
+"""Intensities of the slope: within bounds, of the bends of 10 m, and no lower for larger ones."""
 
 import numpy as np
 from hypothesis import given
@@ -7,8 +7,6 @@ from hypothesis import strategies as st
 from floatref.estimators.road_slope.bends import first_bends, renew_bends
 from floatref.estimators.road_slope.constants import SlopeModel
 from floatref.values.arrays import FloatArray
-from floatref_reference.road_slope.bends import first_intensity, intensity_by_slopes
-from floatref_reference.road_slope.symbols import Constants
 
 MODELS = st.builds(
     SlopeModel,
@@ -26,22 +24,31 @@ def bent(seed: int, points: int, size: float) -> FloatArray:
     return np.asarray(np.cumsum(steps))
 
 
-def literally(model: SlopeModel) -> Constants:
-    return Constants(
-        spacing=model.spacing_m,
-        bend_weight=model.bend_weight,
-        most_bend=model.most_bend,
-        segment=model.segment_m,
-    )
-
-
-@given(model=MODELS, seed=SEEDS, points=POINTS, size=SIZES)
-def test_they_are_those_of_the_reference(
-    model: SlopeModel, seed: int, points: int, size: float
+@given(model=MODELS, points=POINTS, size=SIZES)
+def test_one_bend_is_that_of_a_mean_of_what_was_known_and_its_square(
+    model: SlopeModel, points: int, size: float
 ) -> None:
-    slope, c = bent(seed, points, size), literally(model)
-    np.testing.assert_allclose(renew_bends(slope, model), intensity_by_slopes(slope, c), rtol=1e-9)
-    np.testing.assert_allclose(first_bends(points, model), first_intensity(points, c), rtol=1e-12)
+    """In its segment; what was known has the weight ν, one bend that of 1."""
+    bend = 10.0**size
+    slope = bend * (np.arange(points) > 0)
+    found = renew_bends(slope, model)
+    mean = model.bend_weight * model.bends + bend**2 / model.spacing_m
+    mean /= model.bend_weight + 1.0
+    expected = min(max(mean, model.bends), model.most_bend * model.bends)
+    np.testing.assert_allclose(found[0], expected, rtol=1e-9)
+    same = np.arange(points - 1) < round(model.segment_m / model.spacing_m)
+    assert np.all(found[same] == found[0])
+    assert np.all(found[~same] == model.bends)
+
+
+@given(model=MODELS, points=POINTS)
+def test_at_first_they_are_the_same_for_the_whole_road_and_above_the_plain_roads(
+    model: SlopeModel, points: int
+) -> None:
+    found = first_bends(points, model)
+    assert found.shape == (points - 1,)
+    assert np.all(found == found[0])
+    assert abs(found[0] / model.bends / model.first_bend - 1) < 1e-12
 
 
 @given(model=MODELS, seed=SEEDS, points=POINTS, size=SIZES)

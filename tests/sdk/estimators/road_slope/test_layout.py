@@ -5,8 +5,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
-from floatref.estimators.road_slope.layout import GLOBALS, Layout, between_points, triples
-from floatref_reference.road_slope.unknowns import by_name
+from floatref.estimators.road_slope.layout import (
+    GLOBALS,
+    IN_TIME,
+    SHARES,
+    Layout,
+    between_points,
+    triples,
+)
 
 SEEDS = st.integers(0, 2**32 - 1)
 METRES = st.floats(-5.0, 5.0)
@@ -14,16 +20,24 @@ SPACINGS = st.floats(0.1, 2.0)
 
 
 @given(points=st.integers(2, 9), nodes=st.integers(1, 9))
-def test_the_unknowns_are_where_the_reference_has_them(points: int, nodes: int) -> None:
+def test_each_unknown_has_a_place_of_its_own_in_the_order_of_the_page(
+    points: int, nodes: int
+) -> None:
+    """z, s, r, θ, b, u, n, o, μ, κ, λ, H, ln K_f, ln K_r, ln C_f, ln C_r, ln γ."""
     layout = Layout(points, nodes)
-    vector = np.arange(float(2 * points + 3 * nodes + 6))
+    vector = np.arange(2 * points + 7 * nodes + 8)
+    parts = [vector[layout.elevation], vector[layout.slope]]
+    in_time = ("height", "pitch", "bias", "heave", "nod", "offset", "moment")
+    parts += [vector[layout.in_time(name)] for name in in_time]
+    springs = ("log_front", "log_rear", "log_front_damping", "log_rear_damping")
+    scalars = ("gain", "lean", "centre", *springs, "log_gyration")
+    parts += [vector[[layout.place(name)]] for name in scalars]
+    assert [part.size for part in parts] == [points] * 2 + [nodes] * 7 + [1] * 8
+    np.testing.assert_array_equal(np.concatenate(parts), vector)
     assert layout.size == vector.size
-    expected = by_name(vector, points, nodes)
-    for name in expected._fields[:5]:
-        assert np.array_equal(vector[getattr(layout, name)], getattr(expected, name))
-    assert expected._fields[5:] == GLOBALS
-    for name in GLOBALS:
-        assert vector[layout.place(name)] == getattr(expected, name)
+    assert (in_time, scalars) == (IN_TIME, GLOBALS)
+    for name in ("height", "pitch", "bias"):
+        assert getattr(layout, name) == layout.in_time(name)
 
 
 @given(seed=SEEDS, points=st.integers(2, 6), nodes=st.integers(1, 6))
@@ -53,6 +67,16 @@ def test_triples_take_the_nodes_before_at_and_behind(seed: int, nodes: int) -> N
     found = triples(middles, nodes, (a, b, c)) @ values
     expected = [a * values[k - 1] + b * values[k] + c * values[k + 1] for k in middles]
     np.testing.assert_allclose(found, np.array(expected).reshape(-1), atol=1e-12)
+
+
+@given(seed=SEEDS, bent=st.floats(-3.0, 3.0))
+def test_shares_are_those_of_a_parabola_under_two_boxes(seed: int, bent: float) -> None:
+    """Its mean there is its value in the middle and a twelfth of its second difference."""
+    level, rise = np.random.default_rng(seed).normal(size=2)
+    nodes = np.arange(-1.0, 2.0)
+    means = level + rise * nodes + bent * (nodes**2 + 1 / 12)  # Over one box.
+    (found,) = triples(np.array([1]), 3, SHARES) @ (level + rise * nodes + bent * nodes**2)
+    np.testing.assert_allclose(found, means[1] + bent / 12, atol=1e-12)
 
 
 @given(seed=SEEDS, first=METRES, spacing=SPACINGS, level=METRES, slope=METRES)

@@ -25,6 +25,7 @@ def drive_over_bumps(stops: int, seed: int = 0) -> Drive:
     return Drive(noise[0], t < 0, 0.3 + 0.1 * noise[1], distance, speed, along, STEP)
 
 
+@pytest.mark.slow
 def test_each_stop_is_levelled_for_itself() -> None:
     model = SlopeModel()
     both, alone = (drive_over_bumps(count) for count in (2, 1))
@@ -58,6 +59,7 @@ def test_between_stretches_values_are_bent_to_meet_what_is_known(
     np.testing.assert_array_equal(nothing.hold(values, np.full(8, outside)), np.full(8, outside))
 
 
+@pytest.mark.slow
 def test_gains_have_the_sign_of_the_smoother_and_their_covariance() -> None:
     model = SlopeModel(gain=0.001, gain_sigma=1e-7, lean_rad=-0.0001, lean_sigma_rad=1e-7)
     found = Levelled.of(drive_over_bumps(1), PLACES, model, 30.0)

@@ -7,8 +7,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floatref.estimators.road_slope.readings import Drive, Readings, average_thrice
-from floatref_reference.road_slope.symbols import Constants, Places, Stretch, has_both_sides
-from floatref_reference.road_slope.symbols import Readings as LiteralReadings
 
 SEEDS = st.integers(0, 2**32 - 1)
 EVERY = st.integers(1, 9)
@@ -97,16 +95,38 @@ def test_pieces_are_as_alone_and_pauses_are_the_time_between_their_nodes(
     assert abs(found.pause_s[0] - 4 * STEP) < 1e-12
 
 
+def nodes_of(pause: np.ndarray, speed: np.ndarray) -> Readings:
+    """Return nodes at 0 of which pauses and speeds count."""
+    zero = np.zeros(pause.size)
+    return Readings(zero, zero, zero, zero, speed, zero, zero, pause, 0.02)
+
+
 @given(cuts=st.sets(st.integers(1, 11)))
 def test_middles_are_the_nodes_with_both_sides(cuts: set[int]) -> None:
     pause = np.full(12, 0.02)
     pause[list(cuts)] += 0.02
-    zero = np.zeros(12)
-    ours = Readings(zero, zero, zero, zero, zero, zero, zero, pause, 0.02)
-    literal = LiteralReadings(zero, zero, zero, zero, zero, zero, pause)
-    stretch = Stretch(literal, Places(-1.0, -3.0, 0.0), Constants(interval=0.02))
-    expected = [k for k in range(12) if has_both_sides(stretch, k)]
-    assert ours.middles.tolist() == expected
+    found = nodes_of(pause, np.zeros(12)).middles
+    assert set(found.tolist()) == {k for k in range(1, 11) if not {k, k + 1} & cuts}
+    assert found.tolist() == sorted(found)
+
+
+@given(
+    moving=st.lists(st.booleans(), min_size=2, max_size=40),
+    cuts=st.sets(st.integers(1, 39)),
+    least_s=st.sampled_from([0.03, 0.07, 0.11]),
+)
+def test_a_step_is_rested_where_the_vehicle_has_stood_so_long(
+    moving: list[bool], cuts: set[int], least_s: float
+) -> None:
+    """From the last node in motion on; what was cut of a standstill counts."""
+    pause = np.full(len(moving), 0.02)
+    pause[[k for k in cuts if k < len(moving)]] = 0.05
+    seen = nodes_of(pause, 1.0 * np.array(moving))
+    expected = []
+    for k in range(1, len(moving)):
+        first = max((j + 1 for j in range(k + 1) if moving[j]), default=0)
+        expected.append(float(pause[first + 1 : k + 1].sum()) >= least_s)
+    assert seen.rested(least_s).tolist() == expected
 
 
 @given(interval_s=st.floats(0.0, 0.1))
