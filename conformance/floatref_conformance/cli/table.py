@@ -9,7 +9,7 @@ import click
 
 from floatref.errors import InputError
 from floatref_conformance.proving_ground.vehicles.parameter_sets import VEHICLES
-from floatref_conformance.table.families.conditions import FAMILIES
+from floatref_conformance.table.families.conditions import FAMILIES, STOPS_FAMILY
 from floatref_conformance.table.families.family_settings import ALL, FamilySettings
 from floatref_conformance.table.table_settings import TableSettings
 
@@ -60,10 +60,11 @@ def _count_option(
 )
 @click.option(
     "--family",
-    type=click.Choice((*FAMILIES, ALL)),
+    type=click.Choice((*FAMILIES, STOPS_FAMILY, ALL)),
     help="Drawn drives of this family of roads, vehicles and sensors in place of the runs.",
 )
 @_count_option("--drives", FamilySettings.drives, "With --family: drives of each condition.")
+@_count_option("--jobs", FamilySettings.jobs, "With --family: processes at a time.")
 def table(
     plot: Path | None,
     as_json: bool,
@@ -76,6 +77,7 @@ def table(
     stops: int,
     family: str | None,
     drives: int,
+    jobs: int,
 ) -> None:
     """Put the published results beside ours: 17 runs through every pipeline.
 
@@ -94,7 +96,10 @@ def table(
     humps, dips and changes of grade, `rural` speed that changes, curves and concrete, `harsh` hard
     brakes, leaf springs and all at once. Quantiles of the cross correlation and of the IRI's error
     are shown along the true distance and along the encoder's, and at the end where points that are
-    marked valid are wrong. `all` takes some twenty minutes on two free cores.
+    marked valid are wrong. `all` takes some twenty minutes on two free cores. `stops`, which is not
+    of it, has stops of 1 to 60 s on plain roads, crowns, humps and breaks of grade, and shows by
+    condition and vehicle how many wheel paths are right or wrong, valid or flagged, and how many
+    points sigma contains. --jobs changes no figure.
     """
     from floatref_conformance.table.comparison_picture import check_picture
 
@@ -105,7 +110,8 @@ def table(
     if plot is not None:
         check_picture(plot)
     if family:
-        _show_family(FamilySettings(family, seed, drives, settings.pipelines), as_json, plot)
+        chosen = FamilySettings(family, seed, drives, settings.pipelines, jobs)
+        _show_family(chosen, as_json, plot)
     elif stops:
         _show_drawn_stops(stops, settings, as_json, plot)
     else:
@@ -121,8 +127,9 @@ def _refuse_options_of_runs(other: str) -> None:
 
 def _refuse_options_of_families(stops: int, family: str | None) -> None:
     """Raise InputError for what makes no sense beside, or without, --family."""
-    if family is None and _is_given("drives"):
-        raise InputError("--drives: only with --family; add it, or leave --drives out")
+    for name in ("drives", "jobs"):
+        if family is None and _is_given(name):
+            raise InputError(f"--{name}: only with --family; add it, or leave --{name} out")
     if family is not None and (stops or _is_given("vehicle")):
         other = "--stops" if stops else "--vehicle"
         raise InputError(f"{other}: not together with --family; leave one of them out")
@@ -165,8 +172,8 @@ def _show_drawn_stops(stops: int, chosen: TableSettings, as_json: bool, plot: Pa
 def _show_family(settings: FamilySettings, as_json: bool, plot: Path | None) -> None:
     """Make and show a table of families."""
     from floatref_conformance.table.families.family_document import family_document
+    from floatref_conformance.table.families.family_making import make_family_table
     from floatref_conformance.table.families.family_picture import draw_families
-    from floatref_conformance.table.families.family_table import make_family_table
     from floatref_conformance.table.families.family_text import print_families
     from floatref_conformance.table.making import PassProgress
 

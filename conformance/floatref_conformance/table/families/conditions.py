@@ -193,3 +193,26 @@ CONDITIONS: tuple[Condition, ...] = (
 )  # fmt: skip
 """All conditions, family by family, in the order of the table."""
 FAMILIES = tuple(dict.fromkeys(condition.family for condition in CONDITIONS))
+STOPS_FAMILY = "stops"
+"""Family of its own, not of the map of all pipelines: many stops for few pipelines."""
+USUAL_STOP = numbers(
+    speed_kmh=(30, 80), deceleration_g=(0.1, 0.35, 2), dwell_s=(1, 60), final_speed_kmh=(30, 58)
+)
+GENTLE = numbers(break_percent=(1, 4), break_length_m=(20, 60))
+STEEP = numbers(break_percent=(6, 6), break_length_m=(20, 60))
+
+
+def _stop_on(name: str, *shapes: Draw) -> Condition:
+    """Return stops of every vehicle on one shape, or its mirror image, with the usual sensors."""
+    shape = (one_of(*shapes),) if shapes else ()
+    return Condition(STOPS_FAMILY, name, {"manoeuvre": "stop"}, (surroundings, USUAL_STOP, *shape))
+
+
+STOPS: tuple[Condition, ...] = (
+    _stop_on("plain"),
+    _stop_on("crown, dip", CROWN, DIP),
+    _stop_on("hump, gutter", HUMP, GUTTER),
+    _stop_on("break of 1 to 4 %", GENTLE, turned(GENTLE, "break_percent")),
+    _stop_on("break of 6 %", STEEP, turned(STEEP, "break_percent")),
+)
+"""Stops of 1 to 60 s where streets have them: what is asked of the road prior."""

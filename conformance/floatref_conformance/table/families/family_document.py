@@ -5,18 +5,23 @@ from typing import Any
 
 from floatref_conformance.render.json_values import finite
 from floatref_conformance.schemas import enforce
+from floatref_conformance.table.families.conditions import STOPS_FAMILY
 from floatref_conformance.table.families.family_table import (
     FamilyPath,
     FamilyTable,
     error_of_valid,
     summarize,
 )
+from floatref_conformance.table.families.stop_shares import rows_of_stops, share_stops
 
 FORMAT = "conformance-families/1"
 
 
 def family_document(table: FamilyTable) -> dict[str, Any]:
-    """Return the JSON object of ``table``; SuiteError if it breaks its own schema."""
+    """Return the JSON object of ``table``; SuiteError if it breaks its own schema.
+
+    That of the family `stops` also has the shares of every condition and vehicle.
+    """
     settings = table.settings
     made = {
         "format": FORMAT,
@@ -41,8 +46,28 @@ def family_document(table: FamilyTable) -> dict[str, Any]:
             for path in table.paths
         ],
     }
+    if settings.family == STOPS_FAMILY:
+        made["stop_shares"] = [
+            share for name in settings.pipelines for share in _shares(table, name)
+        ]
     enforce("conformance-families-1", made)
     return made
+
+
+def _shares(table: FamilyTable, pipeline: str) -> list[dict[str, Any]]:
+    """Return the shares of stops, of all vehicles of a condition together where it is null."""
+    return [
+        {
+            "pipeline": pipeline,
+            "condition": condition.name,
+            "vehicle": vehicle,
+            "wheel_paths": len(paths),
+            "without_profile": sum(path.scores is None for path in paths),
+            "encoder": finite(asdict(summarize(paths).encoder)),
+            **finite(asdict(share_stops(paths))),
+        }
+        for condition, vehicle, paths in rows_of_stops(table, pipeline)
+    ]
 
 
 def _place(path: FamilyPath) -> dict[str, Any]:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 STEPS = (0.0, 0.5, 0.8, 0.92, 0.95, 0.98, 1.0)
 """Ends of the colours: 0.92 and 0.98 are those of AASHTO R 56-14."""
+LEAST_WIDTH = 10.0
+"""In inches: the line below the maps needs it."""
 COLOURS = "RdYlBu"
 """Red to blue: people who do not tell red from green tell these."""
 AXES = (("true", "Along the true distance"), ("encoder", "Along the encoder's distance"))
@@ -32,7 +34,7 @@ def draw_families(table: FamilyTable, path: Path) -> None:
     """
     settings = table.settings
     columns, rows = len(settings.conditions), len(settings.pipelines)
-    figure = new_figure(4.0 + 0.52 * columns, 3.2 + 0.6 * rows)
+    figure = new_figure(max(4.0 + 0.52 * columns, LEAST_WIDTH), 3.2 + 0.6 * rows)
     panels = figure.subplots(len(AXES), 1, squeeze=False, sharex=True)[:, 0]
     for ax, (axis, title) in zip(panels, AXES, strict=True):
         image = _draw_map(ax, table, axis)

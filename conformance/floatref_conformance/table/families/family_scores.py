@@ -10,12 +10,13 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.driving.layout import layout_of
 from floatref_conformance.checks.evidence import Pair
+from floatref_conformance.checks.flags import SLOW_MPS, speed_at
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.table.stops.stop_scores import along_encoder
 
 RIGHT_PERCENT, RIGHT_M_PER_KM = 5.0, 0.1
-"""What is valid is right: its IRI is within either of these of the road's."""
+"""An IRI is right that is within either of these of the road's."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,8 @@ class PathScores:
         valid_is_right: whether the IRI with the road's shape in place of flagged points is within
             `RIGHT_PERCENT` or `RIGHT_M_PER_KM` of the road's.
         valid_error_percent: the magnitude of that error.
+        all_is_right: whether the IRI of all points, valid or not, is right in the same way.
+        sigma_points: of how many points `within_two_sigma_percent` is the share.
     """
 
     cross_correlation: float
@@ -37,6 +40,8 @@ class PathScores:
     within_two_sigma_percent: float | None
     valid_is_right: bool
     valid_error_percent: float
+    all_is_right: bool
+    sigma_points: int
 
 
 @dataclass(frozen=True)
@@ -44,13 +49,16 @@ class FamilyScores:
     """One wheel path along the ``true`` distance and along the ``encoder``'s.
 
     ``flagged_m`` and ``missing_m`` are the lengths of scored points that are not valid, and those
-    without elevation, in m. The road's shape stands in for points without elevation.
+    without elevation, in m; ``flagged_fast_m`` is the length of those of the profile's points that
+    are not valid where the true speed is 16 km/h or more. The road's shape stands in for points
+    without elevation.
     """
 
     true: PathScores
     encoder: PathScores
     flagged_m: float
     missing_m: float
+    flagged_fast_m: float
 
 
 def family_scores(
@@ -73,8 +81,23 @@ def family_scores(
             _score(along_its[compared.track], stretches, sigmas[compared.track]),
             compared.interval_m * float(np.sum(scored & ~compared.valid)),
             compared.interval_m * float(np.sum(scored & np.isnan(compared.result))),
+            _flagged_fast_m(along_its[compared.track], scenario, encoder_m, truth.interval_m),
         )
     return found
+
+
+def _flagged_fast_m(
+    compared: Compared, scenario: Scenario, encoder_m: FloatArray, interval_m: float
+) -> float:
+    """Return the flagged length in m of scored points that were driven at 16 km/h or more.
+
+    ``compared`` is along the encoder's distance, the profile's own; its points are looked up at
+    their true distance.
+    """
+    flagged = _scored(compared, layout_of(scenario).stretches) & ~compared.valid
+    true_m = interval_m * np.arange(encoder_m.size)
+    places = np.interp(compared.distance_m[flagged], encoder_m, true_m)
+    return compared.interval_m * float(np.sum(speed_at(scenario, places) >= SLOW_MPS))
 
 
 def _sigma_on_grid(profile: Profile, sigma: FloatArray | None) -> tuple[FloatArray, FloatArray]:
@@ -100,15 +123,24 @@ def _score(
     whole = compared.without(np.isnan(compared.result))
     valid = compared.without(~compared.valid | np.isnan(compared.result))
     pairs = [whole.whole(*ends) for ends in stretches]
-    rest = [valid.whole(*ends) for ends in stretches]
-    errors = [_error(pair) for pair in rest]
+    every = [_error(pair) for pair in pairs]
+    rest = [_error(valid.whole(*ends)) for ends in stretches]
+    inside = _two_sigma(compared, _scored(compared, stretches), sigma)
     return PathScores(
         min(1.0 - correlation(pair, compared.track, {}).value for pair in pairs),
-        max(_error(pair)[0] for pair in pairs),
-        _within_two_sigma(compared, _scored(compared, stretches), sigma),
-        all(percent <= RIGHT_PERCENT or off <= RIGHT_M_PER_KM for percent, off in errors),
-        max(percent for percent, _ in errors),
+        max(percent for percent, _ in every),
+        100.0 * float(np.mean(inside)) if inside.size else None,
+        all(map(_is_right, rest)),
+        max(percent for percent, _ in rest),
+        all(map(_is_right, every)),
+        inside.size,
     )
+
+
+def _is_right(error: tuple[float, float]) -> bool:
+    """Return whether an error of the IRI in percent and in m/km is within either limit."""
+    percent, off = error
+    return percent <= RIGHT_PERCENT or off <= RIGHT_M_PER_KM
 
 
 def _error(pair: Pair) -> tuple[float, float]:
@@ -123,15 +155,14 @@ def _road(pair: Pair) -> float:
     return float(np.abs(iri_trace(pair.truth, pair.interval_m)[pair.counted]).mean())
 
 
-def _within_two_sigma(
+def _two_sigma(
     compared: Compared, scored: BoolArray, sigma: tuple[FloatArray, FloatArray]
-) -> float | None:
+) -> BoolArray:
+    """Return of every scored point that has one whether it is within two sigma; maybe empty."""
     places, values = sigma
     if places.size == 0:
-        return None
+        return np.empty(0, dtype=np.bool_)
     at = np.interp(compared.distance_m, places, values)
     counted = scored & np.isfinite(compared.result)
-    if not counted.any():
-        return None
     error = np.abs(compared.result - compared.truth)[counted]
-    return 100.0 * float(np.mean(error <= 2.0 * at[counted]))
+    return np.asarray(error <= 2.0 * at[counted])

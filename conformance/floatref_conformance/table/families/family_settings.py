@@ -16,6 +16,8 @@ from floatref_conformance.table.families.conditions import (
     CONDITIONS,
     FAMILIES,
     SINGLE_FAMILY,
+    STOPS,
+    STOPS_FAMILY,
     Condition,
 )
 from floatref_conformance.table.passes import draw_seed
@@ -33,30 +35,36 @@ class FamilySettings:
     """The numbers that make a table of families again; InputError for values out of range.
 
     Attributes:
-        family: one of `FAMILIES`, or all of them.
+        family: one of `FAMILIES`, or all of them, or `STOPS_FAMILY`.
         seed: all drives, roads and sensor errors are drawn from it.
         drives: how many for each condition.
         pipelines: names of the pipelines; all that floatref has if not given.
+        jobs: processes at a time, which changes no figure.
     """
 
     family: str = ALL
     seed: int = 0
     drives: int = 3
     pipelines: tuple[str, ...] = field(default_factory=offered_pipelines)
+    jobs: int = 1
 
     def __post_init__(self) -> None:
         """Refuse unknown names and numbers too low; put names in their usual order."""
-        choose("family", (self.family,), (*FAMILIES, ALL))
+        choose("family", (self.family,), (*FAMILIES, STOPS_FAMILY, ALL))
         if self.seed < 0:
             raise InputError(f"seed is {self.seed}; give 0 or more")
         if self.drives < 1:
             raise InputError(f"drives is {self.drives}; give 1 or more")
+        if self.jobs < 1:
+            raise InputError(f"jobs is {self.jobs}; give 1 or more")
         pipelines = choose("pipeline", self.pipelines, offered_pipelines())
         object.__setattr__(self, "pipelines", pipelines)
 
     @property
     def conditions(self) -> tuple[Condition, ...]:
-        """The conditions of the family."""
+        """The conditions of the family; `STOPS` are not of `ALL`."""
+        if self.family == STOPS_FAMILY:
+            return STOPS
         return tuple(c for c in CONDITIONS if self.family in (ALL, c.family))
 
     @property

@@ -1,4 +1,4 @@
-"""The table of families: made, and summed up by pipeline and condition."""
+"""The table of families, and how it is summed up by pipeline and condition."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,17 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from floatref.errors import InputError
-from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.table.families.conditions import Condition
-from floatref_conformance.table.families.family_scores import (
-    FamilyScores,
-    PathScores,
-    family_scores,
-)
+from floatref_conformance.table.families.family_scores import FamilyScores, PathScores
 from floatref_conformance.table.families.family_settings import FamilySettings
-from floatref_conformance.table.making import Watch
-from floatref_conformance.table.passes import Driven, Processing
 
 
 @dataclass(frozen=True)
@@ -36,8 +29,8 @@ class AxisSummary:
     """Quantiles along one axis.
 
     Attributes:
-        cross_correlation_median, cross_correlation_percentile_10, cross_correlation_lowest: of the
-            wheel paths. A path without a profile counts as 0.
+        cross_correlation_median, cross_correlation_percentile_10, cross_correlation_percentile_1,
+            cross_correlation_lowest: of the wheel paths. A path without a profile counts as 0.
         iri_error_median_percent, iri_error_percentile_90_percent: of the magnitudes; None without
             any profile.
         within_two_sigma_median_percent: None without sigma.
@@ -46,6 +39,7 @@ class AxisSummary:
 
     cross_correlation_median: float
     cross_correlation_percentile_10: float
+    cross_correlation_percentile_1: float
     cross_correlation_lowest: float
     iri_error_median_percent: float | None
     iri_error_percentile_90_percent: float | None
@@ -124,6 +118,7 @@ def _summarize_axis(scores: Sequence[PathScores], lacking: int) -> AxisSummary:
     return AxisSummary(
         float(np.median(correlations)),
         float(np.percentile(correlations, 10)),
+        float(np.percentile(correlations, 1)),
         min(correlations),
         _median(errors),
         float(np.percentile(errors, 90)) if errors else None,
@@ -134,48 +129,3 @@ def _summarize_axis(scores: Sequence[PathScores], lacking: int) -> AxisSummary:
 
 def _median(values: Sequence[float]) -> float | None:
     return float(np.median(values)) if values else None
-
-
-def make_family_table(
-    settings: FamilySettings | None = None, watch: Watch | None = None
-) -> FamilyTable:
-    """Return the table of ``settings``; ``watch`` is called before every drive.
-
-    A pipeline that fails on a drive, or delivers no profile that can be compared, is kept as such.
-    """
-    settings = settings or FamilySettings()
-    watch = watch or (lambda _: None)
-    processing, table = Processing(settings.pipelines), FamilyTable(settings)
-    for condition, name, scenario in settings.scenarios(processing.capabilities):
-        watch(name)
-        failures: dict[str, SuiteError] = {}
-        driven = processing.drive(scenario, name, on_failure=failures.__setitem__)
-        for pipeline in settings.pipelines:
-            table.paths += _score(pipeline, condition, scenario, driven, failures.get(pipeline))
-    return table
-
-
-def _score(
-    pipeline: str,
-    condition: Condition,
-    scenario: Scenario,
-    driven: Driven,
-    failure: SuiteError | None,
-) -> list[FamilyPath]:
-    """Return the wheel paths of one pipeline on one drive."""
-    reason = "" if failure is None else str(failure)
-    if failure is None:
-        try:
-            found = family_scores(
-                scenario, driven.truth, driven.encoder_m, driven.profiles[pipeline]
-            )
-        except (DeviceError, InputError) as error:
-            reason = str(error)
-        else:
-            return [
-                FamilyPath(pipeline, condition, track, scenario, scores)
-                for track, scores in found.items()
-            ]
-    return [
-        FamilyPath(pipeline, condition, track, scenario, None, reason) for track in scenario.tracks
-    ]

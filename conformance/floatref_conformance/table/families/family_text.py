@@ -4,7 +4,7 @@ from rich.console import Console
 from rich.table import Table
 
 from floatref_conformance.render.terminal import PLAIN_WIDTH
-from floatref_conformance.table.families.conditions import FAMILIES
+from floatref_conformance.table.families.conditions import STOPS_FAMILY
 from floatref_conformance.table.families.family_table import (
     AxisSummary,
     FamilyPath,
@@ -12,19 +12,25 @@ from floatref_conformance.table.families.family_table import (
     error_of_valid,
     summarize,
 )
+from floatref_conformance.table.families.shares_text import EXPLANATION, shares_block
 from floatref_conformance.table.text_blocks import begin_block, describe_drive
 
 FIGURES = ("median", "10 %", "lowest", "IRI 90 %", "right %")
-WIDTH = 132
+WIDTH = 140
 """Columns of the output where the terminal's width is unknown."""
 
 
 def print_families(table: FamilyTable, console: Console) -> None:
-    """Print every pipeline by condition, then the worst drives whose valid points are wrong."""
+    """Print every pipeline by condition, then the worst drives whose valid points are wrong.
+
+    The family `stops` has a second block of each pipeline.
+    """
     if not console.is_terminal:
         console.width = max(console.width, PLAIN_WIDTH, WIDTH)
     for pipeline in table.settings.pipelines:
         console.print(_block(table, pipeline))
+        if table.settings.family == STOPS_FAMILY:
+            console.print(shares_block(table, pipeline))
     for line in closing_lines(table):
         console.print(line, markup=False, highlight=False, soft_wrap=True)
 
@@ -38,6 +44,7 @@ def closing_lines(table: FamilyTable) -> list[str]:
         f"paths each, seed {made.seed}. 10 %: the 10th percentile; IRI 90 %: the 90th of its "
         "error, in percent; right %: wheel paths whose valid points have an IRI within 5 % or 0.1 "
         "m/km.",
+        *([EXPLANATION] if made.family == STOPS_FAMILY else []),
         "",
     ]
     if not wrong:
@@ -60,17 +67,15 @@ def _block(table: FamilyTable, pipeline: str) -> Table:
             block.add_column(f"{axis},\n{figure}", justify="right", no_wrap=True, vertical="bottom")
     block.add_column("flagged,\nm", justify="right", no_wrap=True, vertical="bottom")
     block.add_column("no\nprofile", justify="right", no_wrap=True, vertical="bottom")
-    for family in FAMILIES:
-        rows = [c for c in table.settings.conditions if c.family == family]
-        for condition in rows:
-            found = summarize(table.of(pipeline, condition))
-            block.add_row(
-                f"{family}: {condition.name}",
-                *_axis(found.true),
-                *_axis(found.encoder),
-                _number(found.flagged_median_m, 0),
-                f"{found.without_profile}" if found.without_profile else "–",
-            )
+    for condition in table.settings.conditions:
+        found = summarize(table.of(pipeline, condition))
+        block.add_row(
+            condition.full_name,
+            *_axis(found.true),
+            *_axis(found.encoder),
+            _number(found.flagged_median_m, 0),
+            f"{found.without_profile}" if found.without_profile else "–",
+        )
     return block
 
 

@@ -11,8 +11,10 @@ from floatref_conformance.table.families import (
 from floatref_conformance.table.families.family_table import FamilyPath
 
 
-def path_scores(correlation=0.99, error=1.0, right=True, wrong_by=1.0, share=95.0):
-    return PathScores(correlation, error, share, right, wrong_by)
+def path_scores(
+    correlation=0.99, error=1.0, right=True, wrong_by=1.0, share=95.0, all_right=True, points=1000
+):
+    return PathScores(correlation, error, share, right, wrong_by, all_right, points)
 
 
 @pytest.fixture
@@ -25,7 +27,7 @@ def hand_families():
         for condition, _, scenario in settings.scenarios(frozenset()):
             for pipeline in pipelines:
                 axes = scores.get(condition.name, (path_scores(), path_scores()))
-                found = None if axes is None else FamilyScores(*axes, 3.0, 0.0)
+                found = None if axes is None else FamilyScores(*axes, 3.0, 0.0, 0.0)
                 failure = "no profile" if axes is None else ""
                 table.paths.append(
                     FamilyPath(pipeline, condition, "left", scenario, found, failure)

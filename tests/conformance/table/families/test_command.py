@@ -2,7 +2,8 @@
 
 import pytest
 
-from floatref_conformance.table.families import FamilySettings, family_table
+from floatref_conformance.table.families import FamilySettings, family_making
+from floatref_conformance.table.families.conditions import STOPS
 
 
 @pytest.fixture
@@ -12,7 +13,7 @@ def call(command_making, hand_families):
     def make(settings):
         return hand_families({}, settings.pipelines, settings.family)
 
-    return command_making(family_table, "make_family_table", make, "urban: stop 1")
+    return command_making(family_making, "make_family_table", make, "urban: stop 1")
 
 
 def test_json_is_all_there_is_on_stdout(call, assert_json):
@@ -22,9 +23,16 @@ def test_json_is_all_there_is_on_stdout(call, assert_json):
 
 def test_options_reach_the_settings(call):
     command, made = call
-    words = "--family harsh --drives 5 --seed 7 --pipeline spatial-basic"
+    words = "--family harsh --drives 5 --seed 7 --pipeline spatial-basic --jobs 2"
     assert command(*words.split()).exit_code == 0
-    assert made == [FamilySettings("harsh", 7, 5, ("spatial-basic",))]
+    assert made == [FamilySettings("harsh", 7, 5, ("spatial-basic",), 2)]
+
+
+def test_stops_of_their_own_have_shares_in_the_json(call, assert_json):
+    words = "--family stops --drives 1 --json --pipeline spatial-basic"
+    answer = call[0](*words.split())
+    made = assert_json(answer, "conformance-families/1", "urban")
+    assert {share["condition"] for share in made["stop_shares"]} == {c.name for c in STOPS}
 
 
 @pytest.mark.slow
@@ -48,6 +56,7 @@ def test_text_and_picture(call, tmp_path):
         (("--stops", "2"), "--stops: not together with --family; leave one of them out"),
         (("--pipeline", "magic"), "pipeline magic: unknown; "),
         (("--drives", "0"), "'--drives': 0 is not in the range x>=1"),
+        (("--jobs", "0"), "'--jobs': 0 is not in the range x>=1"),
         (("--family", "urben"), "'--family': 'urben' is not one of 'single', 'urban', 'rural'"),
     ],
 )
@@ -57,6 +66,7 @@ def test_what_makes_no_table_is_exit_2_in_one_line_before_any_work(
     assert_refused(call, ("--family", "urban", *words), message)
 
 
-@pytest.mark.parametrize("words", [("--drives", "2"), ("--stops", "1", "--drives", "2")])
-def test_drives_without_a_family_are_refused(call, assert_refused, words):
-    assert_refused(call, words, "--drives: only with --family")
+@pytest.mark.parametrize("before", [(), ("--stops", "1")])
+@pytest.mark.parametrize("option", ["--drives", "--jobs"])
+def test_drives_and_jobs_without_a_family_are_refused(call, assert_refused, before, option):
+    assert_refused(call, (*before, option, "2"), f"{option}: only with --family")

@@ -8,6 +8,7 @@ import pytest
 from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.proving_ground.staging import drive_of
 from floatref_conformance.table.families.family_scores import family_scores
 
 STEADY = Scenario(length_m=600.0)
@@ -62,6 +63,41 @@ def test_what_is_flagged_does_not_count_as_valid_but_in_the_correlation(truth):
     assert found.flagged_m == pytest.approx(60.0, abs=0.2)
     told = scored(truth, perfect(truth, lambda z: np.where(bad, 4.0 * z, z)))
     assert not told.true.valid_is_right
+
+
+def test_all_points_are_right_or_wrong_whatever_is_flagged(truth):
+    bad = (X > 260.0) & (X < 320.0)
+    for valid in (None, ~bad):
+        found = scored(truth, perfect(truth, lambda z: np.where(bad, 4.0 * z, z), valid))
+        assert not found.encoder.all_is_right
+        assert scored(truth, perfect(truth, valid=valid)).encoder.all_is_right
+
+
+def test_only_what_is_flagged_faster_than_16_kmh_is_flagged_fast(truth):
+    stop = Scenario(length_m=600.0, manoeuvre="stop", event_at_m=316.0)
+    motion = drive_of(stop).motion(np.arange(0.0, 60.0, 1e-3))
+    slow_m = motion.distance[np.argmax(motion.speed < 16 / 3.6)]
+    assert 300.0 < slow_m < 314.0
+
+    def fast_m(start_m, end_m, encoder_m=ENCODER):
+        profile = perfect(truth, valid=~((start_m < X) & (end_m > X)))
+        return family_scores(stop, truth, encoder_m, profile)["left"].flagged_fast_m
+
+    near = pytest.approx(7.0, abs=3 * INTERVAL)
+    assert fast_m(slow_m - 7.0, 316.0) == near
+    assert fast_m(314.0, 316.5) == 0.0
+    # Two metres that the encoder loses ahead of the stretch move every flag by as much.
+    assert fast_m(slow_m - 9.0, 314.0, X - 2.0 * np.clip(X / 100.0, 0.0, 1.0)) == near
+
+
+def test_the_share_within_two_sigma_is_of_the_points_that_have_one(truth):
+    bad = (X > 260.0) & (X < 290.0)
+    sigma = np.full(X.size, 1e-3)
+    whole = scored(truth, perfect(truth, sigma=sigma)).encoder.sigma_points
+    assert whole == pytest.approx(160.9 / INTERVAL, abs=2)
+    holed = scored(truth, perfect(truth, lambda z: np.where(bad, np.nan, z), sigma=sigma))
+    assert whole - holed.encoder.sigma_points == pytest.approx(30.0 / INTERVAL, abs=3)
+    assert scored(truth, perfect(truth)).encoder.sigma_points == 0
 
 
 def test_points_without_elevation_get_the_roads_shape_and_are_counted(truth):

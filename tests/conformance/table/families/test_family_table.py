@@ -1,6 +1,7 @@
 """The table of families: made, summed up, shown."""
 
 import json
+from dataclasses import replace
 from io import StringIO
 
 import pytest
@@ -67,6 +68,19 @@ def test_the_picture_is_a_png(hand_families, axis, tmp_path):
     table = hand_families({"coast": wrong}, ("temporal-basic", "spatial-basic"), "rural")
     draw_families(table, tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
+
+
+@pytest.mark.slow
+def test_figures_and_their_order_do_not_depend_on_the_number_of_processes(monkeypatch):
+    settings = FamilySettings("stops", drives=1, pipelines=("temporal-basic",))
+    drives = list(settings.scenarios(frozenset()))[:3]
+    monkeypatch.setattr(FamilySettings, "scenarios", lambda self, capabilities: iter(drives))
+    watched = []
+    alone = make_family_table(settings)
+    together = make_family_table(replace(settings, jobs=2), watched.append)
+    assert together.paths == alone.paths
+    assert watched == [name for _, name, _ in drives]
+    assert [path.scenario for path in alone.paths[::2]] == [scenario for *_, scenario in drives]
 
 
 @pytest.mark.slow
