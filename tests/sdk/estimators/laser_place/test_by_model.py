@@ -5,6 +5,8 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.signal import butter, sosfiltfilt
 
 from floatref import AxleSetup, Setup, TrackSetup
@@ -144,6 +146,43 @@ def test_every_wheel_path_has_its_own_lever_and_the_flags_of_its_accelerometer()
     assert np.std(raised["left"]) > 1e-5
     assert out.flags[height["left"]][500] == Flag.MISSING
     assert height["right"] not in out.flags
+
+
+def heights_of(samples: int, speed: float) -> np.ndarray:
+    """Return the heights carried by 1 m of a run at one speed on a rough road, in kHz."""
+    rng = np.random.default_rng(1)
+    t = np.arange(2000) / 1000.0
+    swayed = 0.01 * np.sin(2 * np.pi * 2.0 * t)
+    names = ("vertical_specific_force", "height")
+    force, height = (ChannelId(name, "left") for name in names)
+    values = {
+        force: STANDARD_GRAVITY - (4 * np.pi) ** 2 * swayed,
+        height: 0.3 + swayed + 1e-3 * rng.normal(size=t.size).cumsum() / 30,
+        ChannelId("distance"): speed * t,
+    }
+    setup = Setup(tracks={"left": TrackSetup((AT_M, 0.0, 0.0))}, axles=AXLES)
+    header = Header(Axis.TIME, 1e-3, 0.0, Fraction(1000), frozenset(values), ("left",), setup)
+    block = Block(0, {channel: x[:samples].copy() for channel, x in values.items()})
+    stage = HeightByModel({"left": 1.0})
+    stage.start(header)
+    stage.survey(block)
+    found: np.ndarray = block[height] - stage.push(block)[height]
+    return found
+
+
+@settings(deadline=None, max_examples=5)
+@given(more=st.integers(1, 9), speed=st.floats(5.0, 30.0))
+def test_the_end_of_a_run_at_one_speed_is_no_brake(more: int, speed: float) -> None:
+    """A bin that is cut short lies before its middle: nobody takes that for a brake."""
+    whole, longer = heights_of(1500, speed), heights_of(1500 + more, speed)
+    # The last bin is held beyond its middle.
+    np.testing.assert_array_equal(longer[:1500], whole)
+    np.testing.assert_array_equal(longer[1500:], whole[-1])
+    assert np.std(whole) > 0.0
+
+
+def test_a_run_shorter_than_a_bin_is_carried_nowhere() -> None:
+    assert not heights_of(7, 20.0).any()
 
 
 def test_it_works_in_time_only() -> None:

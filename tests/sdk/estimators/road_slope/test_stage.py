@@ -7,6 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.signal import StateSpace, lsim
 
 from floatref import AxleSetup, Setup, TrackSetup
@@ -24,6 +26,7 @@ LEVEL = {"left": 0.0, "right": 0.0}
 STEP, G = 0.01, STANDARD_GRAVITY
 FRONT_M, BASE_M, LASER_M = 1.7, 3.4, -2.6
 HZ, DAMPING, GAIN, GYRATION = 1.5, 0.3, 0.006, 0.9
+ANGLES = st.floats(-0.05, 0.05)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +79,12 @@ def stop_on_hump(height_m=0.1, seed=0):
     noise, texture = rng.normal(size=(2, speed.size)) * [[2e-3], [1e-4]]
     force = level * np.cos(pitch) - along * np.sin(pitch) + noise
     return Stop(distance, pitch, level, force, body - laser + texture)
+
+
+def short_brake():
+    """Return 2 s of a brake by 3 m/s² on the level, with a body that does not move."""
+    t, full = STEP * np.arange(200), np.ones(200)
+    return Stop(20.0 * t - 1.5 * t**2, 0 * t, G * full, G * full, 0.3 * full)
 
 
 def _speeds():
@@ -163,6 +172,32 @@ def test_a_run_without_brakes_is_left_bit_for_bit() -> None:
     np.testing.assert_array_equal(out[HEIGHT], steady[HEIGHT])
     assert not out[SHARE].any()
     assert not out[SIGMA].any()
+
+
+@given(pitch=ANGLES, lean=ANGLES, grade=ANGLES, share=st.floats(0.0, 1.0), expected=ANGLES)
+@settings(deadline=None, max_examples=8)
+def test_forces_are_those_of_a_level_accelerometer_but_for_what_is_left_to_others(
+    pitch, lean, grade, share, expected
+) -> None:
+    """Of what an axis at the pitch P = θ + λ reads less than level, to the second order.
+
+    A grade is left to the high-pass, a lean at rest to the bias, and its third to the smoother.
+    """
+    stop = short_brake()
+    known = [np.full(stop.force.size, each) for each in (share, pitch, lean, grade, 0.01)]
+    stage = LevelByRoad(LEVEL, RoadPrior(lean_expected_rad=-expected))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(levelled.Levelled, "of", lambda *_: levelled.Levelled(*known, []))
+        out = pass_through(stage, stop, stop.block())
+    along, tilt = -3.0, pitch + lean
+    read = G * np.cos(tilt) - along * np.sin(tilt)
+    raised = (out[FORCE] - stop.force)[40:-40]
+    weighed = G * np.cos(lean) - along * share * np.sin(grade + expected / 3)
+    whole = G - read - (G - weighed) + along * (share - 1.0) * np.sin(tilt)
+    if share > 0.0:
+        np.testing.assert_allclose(raised, whole, atol=2e-3)
+    np.testing.assert_array_equal(out[SHARE], share)
+    np.testing.assert_array_equal(out[SIGMA], 0.01)
 
 
 @pytest.mark.parametrize("samples", [1, 5, 7])

@@ -1,0 +1,95 @@
+"""What `LevelByRoad` makes of drawn stops: the table of `conformance table --family stops`.
+
+No pipeline has the stage yet: `road-prior-smoother` is driven with it here by a plug-in, or
+without it (--pipeline road-prior-smoother) for comparison.
+
+    python tests/benchmarks/bench_levelled_stops.py --drives 200 --jobs 2 --json stops.json
+"""
+
+import argparse
+import json
+import warnings
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+import floatref
+from floatref.builtin_pipelines.laser_place import levers_of
+from floatref.engine.plugins import plugins
+from floatref.estimators.road_slope import LevelByRoad
+from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.table.families.conditions import STOPS, STOPS_FAMILY
+from floatref_conformance.table.families.family_document import family_document
+from floatref_conformance.table.families.family_making import score_profile, wheel_paths
+from floatref_conformance.table.families.family_settings import FamilySettings, draw_drive
+from floatref_conformance.table.families.family_table import FamilyTable
+from floatref_conformance.table.families.family_text import print_families
+from floatref_conformance.table.passes import encoder_along_truth
+
+BASE, LEVELLED = "road-prior-smoother", "levelled-road-prior"
+
+
+def level(context):
+    """Level forces and carry heights through brakes and stops."""
+    levers_m = {name: x for name, (x, _) in levers_of(context.header).items()}
+    return (LevelByRoad(levers_m, None, context.setting("cutoff_wavelength_m")),)
+
+
+class Levelled:
+    """The plug-in."""
+
+    @floatref.hookimpl
+    def floatref_register_pipelines(self, register):
+        """Add the road prior with its forces levelled by the road."""
+        base = floatref.pipeline(BASE)
+        register(base.with_answers(name=LEVELLED, summary="levelled", temporal_laser=level))
+
+
+def add_plugin():
+    """Load the plug-in, in every process."""
+    plugins().add(Levelled(), "levelled")
+
+
+def drive(task):
+    """Return the scores of one drive, simulated, processed and compared with its truth."""
+    pipeline, seed, condition, number = task
+    scenario = draw_drive(seed, STOPS[condition], number, frozenset())
+    simulation = simulate(scenario)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", floatref.FloatrefWarning)
+        profile = floatref.process(simulation.recording, pipeline)
+    encoder_m = encoder_along_truth(simulation)
+    return score_profile(scenario, simulation.truth, encoder_m, profile)
+
+
+def main():
+    """Drive, and print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--drives", type=int, default=10, help="of each shape")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--pipeline", default=LEVELLED, choices=(LEVELLED, BASE))
+    parser.add_argument("--json", type=Path, help="write the table there")
+    given = parser.parse_args()
+    add_plugin()
+    places = [(c, n) for n in range(given.drives) for c in range(len(STOPS))]
+    tasks = [(given.pipeline, given.seed, c, n) for c, n in places]
+    settings = FamilySettings(STOPS_FAMILY, given.seed, given.drives, (given.pipeline,))
+    table = FamilyTable(settings)
+    workers = ProcessPoolExecutor(given.jobs, get_context("spawn"), initializer=add_plugin)
+    with workers as pool:
+        scores = track(pool.map(drive, tasks), "Driving", total=len(tasks))
+        for (c, n), scored in zip(places, scores, strict=True):
+            scenario = draw_drive(given.seed, STOPS[c], n, frozenset())
+            table.paths += wheel_paths(given.pipeline, STOPS[c], scenario, scored)
+    print_families(table, Console(width=150, emoji=False))
+    if given.json:
+        text = json.dumps(family_document(table), indent=1, allow_nan=False)
+        given.json.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
