@@ -55,7 +55,8 @@ def _braking(stretch: Stretch) -> IndexArray:
 def _known_outside(stretch: Stretch) -> csr_array:
     """Return the rows of the road outside of the brake, as the smoother knows it."""
     lay, spacing = stretch.layout, stretch.model.spacing_m
-    m, x = round(APART_M / spacing), stretch.first_m + spacing * np.arange(lay.points)
+    m = round(APART_M / spacing)
+    x: FloatArray = stretch.first_m + spacing * np.arange(lay.points, dtype=np.float64)
     outside = _distance(x, stretch.readings.place[_braking(stretch)]) >= BESIDE_M
     middles = np.arange(m, lay.points - m)
     middles = middles[outside[middles - m] & outside[middles] & outside[middles + m]]

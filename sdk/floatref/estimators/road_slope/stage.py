@@ -92,7 +92,8 @@ class LevelByRoad(HeightByModel):
         step = self.places().step
         distance = np.maximum.accumulate(middle(bins[-1:]))
         speed = np.gradient(distance, step) if distance.size > 1 else np.zeros(distance.size)
-        along = second_derivative(distance, step)
+        long = distance.size >= pitching.LEAST_SAMPLES
+        along = second_derivative(distance, step) if long else np.zeros(distance.size)
         height = np.where(unseen, np.nan, height)
         return Drive(np.nan_to_num(force), lost, height, distance, speed, along, step)
 

@@ -19,6 +19,8 @@ LONGEST_SIDE_S = 30.0
 AFTER_STOP_S, BEFORE_START_S = 5.0, 3.0
 """Of a standstill, until the body has swung out, and from before it moves again."""
 SHORTEST_S = 2.0
+SHORTEST_PIECE_S = 0.5
+"""A piece needs a node with a neighbour on both sides; a window may cut off less."""
 LONGEST_S, SHARED_S = 120.0, 20.0
 """A queue is fitted in windows, each of which shares its end with the next."""
 
@@ -28,8 +30,8 @@ def find_stretches(drive: Drive) -> list[list[slice]]:
     found: list[list[slice]] = []
     for begin, end in _merge(list(_sides(drive, _active(drive)))):
         used = np.arange(begin, end)[~_cut(drive, begin, end)]
-        found += [_pieces(window) for window in _windows(used, drive.step)]
-    return found
+        found += [_pieces(window, drive.step) for window in _windows(used, drive.step)]
+    return [pieces for pieces in found if pieces]
 
 
 def _active(drive: Drive) -> BoolArray:
@@ -87,8 +89,10 @@ def _windows(used: IndexArray, step: float) -> Iterator[IndexArray]:
         yield used[low : high + shared]
 
 
-def _pieces(used: IndexArray) -> list[slice]:
-    """Return the contiguous pieces of the bins ``used``."""
+def _pieces(used: IndexArray, step: float) -> list[slice]:
+    """Return the contiguous pieces of the bins ``used`` that are long enough."""
     gaps = np.flatnonzero(np.diff(used) > 1)
     begins, ends = used[np.append(0, gaps + 1)], used[np.append(gaps, used.size - 1)]
-    return [slice(a, b + 1) for a, b in zip(begins.tolist(), ends.tolist(), strict=True)]
+    least = SHORTEST_PIECE_S / step
+    both = zip(begins.tolist(), ends.tolist(), strict=True)
+    return [slice(a, b + 1) for a, b in both if b + 1 - a >= least]

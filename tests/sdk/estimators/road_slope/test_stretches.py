@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from floatref.estimators.road_slope.constants import SlopeModel
 from floatref.estimators.road_slope.readings import Drive
 from floatref.estimators.road_slope.stretches import (
     AFTER_STOP_S,
@@ -21,6 +22,7 @@ from floatref.estimators.road_slope.stretches import (
 )
 
 STEP = 0.02
+INTERVAL_S = SlopeModel().interval_s
 
 
 def drive_at(speed: np.ndarray) -> Drive:
@@ -75,6 +77,16 @@ def test_a_queue_is_fitted_in_windows_that_share_their_ends() -> None:
         shared = before[-1].stop - after[0].start
         assert SHARED_S / 2 <= shared * STEP <= 1.5 * SHARED_S
     assert all(window[-1].stop - window[0].start <= 1.2 * LONGEST_S / STEP for window in found)
+
+
+@given(stands_s=st.lists(st.floats(9.0, 30.0), min_size=6, max_size=14))
+def test_a_window_of_a_queue_has_no_piece_too_short_for_a_row(stands_s: list[float]) -> None:
+    """Where a window ends next to a cut, a piece of a few samples would be left."""
+    queue = [c for s in stands_s for c in ((2.0, 4.0), (4.0, 4.0), (2.0, 0.0), (s, 0.0))]
+    found = find_stretches(drive_at(speeds((5, 0.0), *queue)))
+    assert found
+    for pieces in found:
+        assert all(piece.stop - piece.start >= 3 * INTERVAL_S / STEP for piece in pieces)
 
 
 def test_two_stops_close_together_are_one_stretch_and_far_apart_two() -> None:
