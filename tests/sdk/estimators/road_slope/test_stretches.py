@@ -18,6 +18,7 @@ from floatref.estimators.road_slope.stretches import (
     LONGEST_S,
     LONGEST_SIDE_S,
     SHARED_S,
+    _pieces,
     find_stretches,
 )
 
@@ -79,14 +80,15 @@ def test_a_queue_is_fitted_in_windows_that_share_their_ends() -> None:
     assert all(window[-1].stop - window[0].start <= 1.2 * LONGEST_S / STEP for window in found)
 
 
-@given(stands_s=st.lists(st.floats(9.0, 30.0), min_size=6, max_size=14))
-def test_a_window_of_a_queue_has_no_piece_too_short_for_a_row(stands_s: list[float]) -> None:
+@given(sizes=st.lists(st.integers(1, 60), min_size=1, max_size=6), gap=st.integers(2, 500))
+def test_a_window_has_no_piece_too_short_for_a_row(sizes: list[int], gap: int) -> None:
     """Where a window ends next to a cut, a piece of a few samples would be left."""
-    queue = [c for s in stands_s for c in ((2.0, 4.0), (4.0, 4.0), (2.0, 0.0), (s, 0.0))]
-    found = find_stretches(drive_at(speeds((5, 0.0), *queue)))
-    assert found
-    for pieces in found:
-        assert all(piece.stop - piece.start >= 3 * INTERVAL_S / STEP for piece in pieces)
+    ends = np.cumsum(np.array(sizes) + gap)
+    used = np.concatenate([np.arange(e - n, e) for e, n in zip(ends, sizes, strict=True)])
+    pieces = _pieces(used, STEP)
+    assert all(piece.stop - piece.start >= 3 * INTERVAL_S / STEP for piece in pieces)
+    long = [n for n in sizes if n * STEP > 1.0]
+    assert [n for p in pieces if (n := p.stop - p.start) * STEP > 1.0] == long
 
 
 def test_two_stops_close_together_are_one_stretch_and_far_apart_two() -> None:
