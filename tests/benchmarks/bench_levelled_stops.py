@@ -17,9 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 import floatref
-from floatref.builtin_pipelines.laser_place import levers_of
 from floatref.engine.plugins import plugins
-from floatref.estimators.road_slope import LevelByRoad
 from floatref_conformance.proving_ground.simulate import simulate
 from floatref_conformance.table.families.conditions import STOPS, STOPS_FAMILY
 from floatref_conformance.table.families.family_document import family_document
@@ -34,8 +32,10 @@ BASE, LEVELLED = "road-prior-smoother", "levelled-road-prior"
 
 def level(context):
     """Level forces and carry heights through brakes and stops."""
-    levers_m = {name: x for name, (x, _) in levers_of(context.header).items()}
-    return (LevelByRoad(levers_m, None, context.setting("cutoff_wavelength_m")),)
+    setup, tracks = context.header.setup, context.header.tracks
+    levers_m = {name: setup.track(name).laser_offset_m[0] for name in tracks}
+    wavelength_m = context.setting("cutoff_wavelength_m")
+    return (floatref.make_stage("LevelByRoad", levers_m, None, wavelength_m),)
 
 
 class Levelled:
