@@ -1,5 +1,6 @@
 """What goes beyond the dissertation, in its symbols and on its equations.
 
+- `innovations`: whether those of a Kalman filter are as large as it expects.
 - `matched_high_pass`: the adaptive high-pass filter of section 5.7 as an observer.
 - `quarter_car_response`: a quarter car with masses, for the estimators of the road from response.
 - `reflection_beside_gps`: at a stop the height alone comes from the height sensor.
