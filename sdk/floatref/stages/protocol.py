@@ -24,6 +24,7 @@ from typing import Any, ClassVar
 
 from floatref.errors import StageError
 from floatref.values.block import Block, Header
+from floatref.values.innovations import Innovations
 
 
 class Direction(Enum):
@@ -58,9 +59,11 @@ class Stage(ABC):
     direction: ClassVar[Direction] = Direction.FORWARD
     surveys: ClassVar[bool] = False
     declared: ClassVar[Declared] = Declared()
+    has_innovations: ClassVar[bool] = False
 
     def __init__(self) -> None:
         """Wait for `start`."""
+        self.keeps_innovations = False
         self.memory: dict[str, Any] = {}
         self._next: int | None = None
         self._phase = "new"
@@ -69,6 +72,17 @@ class Stage(ABC):
     def name(self) -> str:
         """The stage's name in messages."""
         return type(self).__name__
+
+    def keep_innovations(self) -> None:
+        """Keep the normalized innovations of the run; only a stage that has them is asked.
+
+        Raises StageError if the stage was started before.
+        """
+        if not self.has_innovations:
+            raise StageError(f"stage {self.name} has no innovations")
+        if self._phase != "new":
+            raise StageError(f"stage {self.name}: keep innovations before the start")
+        self.keeps_innovations = True
 
     def start(self, header: Header) -> Header:
         """Begin a run and return the header of the output.
@@ -124,6 +138,10 @@ class Stage(ABC):
 
     def list_learned(self) -> Mapping[str, float]:
         """Return settings estimated from the run, for the next run of the same vehicle."""
+        return {}
+
+    def list_innovations(self) -> Mapping[str, Mapping[str, Innovations]]:
+        """Return the innovations of the run so far, by wheel path and kind of reading, if kept."""
         return {}
 
     @abstractmethod

@@ -1,6 +1,7 @@
 """The Kalman filter in place of both integrations, without the smoother."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from floatref.estimators.kalman.inputs import (
     stretch_of,
 )
 from floatref.estimators.kalman.noise import Noise
+from floatref.estimators.kalman.normalized import NormalizedInnovations
 from floatref.estimators.kalman.references import Plan
 from floatref.estimators.kalman.track import FLOORS, TrackFilter
 from floatref.estimators.smoothing.nodes import Filtered, Nodes
@@ -24,6 +26,7 @@ from floatref.stages.signals import ACCELERATION, DISTANCE, HEIGHT, REFERENCE_HE
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
+from floatref.values.innovations import Innovations
 from floatref.values.recording import ORIGIN
 
 UNITS = ("m", "m/s", "rad", "rad")
@@ -57,6 +60,7 @@ class KalmanStage(Stage):
     """
 
     declared = Declared(linear=False, zero_in_zero_out=False, shift_invariant=False)
+    has_innovations: ClassVar[bool] = True
 
     def __init__(self, plan: Plan, noise: Noise, wavelength_m: float = 105.91) -> None:
         """Observe as in ``plan``, with ``noise``; the result is cut off at ``wavelength_m``."""
@@ -106,6 +110,15 @@ class KalmanStage(Stage):
         assert self._header is not None
         return tuple(describe_left_out(memories, self._header.origin, self._header.step))
 
+    def list_innovations(self) -> Mapping[str, Mapping[str, Innovations]]:
+        """Return those of all readings and constants, by `normalized.NAMES`."""
+        filters: dict[str, TrackFilter] = self.memory["filters"]
+        return {
+            track: each.innovations.finish(each.state.memory.rejected)
+            for track, each in filters.items()
+            if each.innovations is not None
+        }
+
     def ending(self) -> dict[str, tuple[Nodes, FloatArray | None]]:
         """Return of every track the node at the last sample, and lambda behind it."""
         filters: dict[str, TrackFilter] = self.memory["filters"]
@@ -115,13 +128,14 @@ class KalmanStage(Stage):
         filters: dict[str, TrackFilter] = self.memory["filters"]
         if track not in filters:
             assert self._header is not None
-            setup = self._header.setup
+            setup, step = self._header.setup, self._header.step
             point = setup.tracks[track].reference_point_m if track in setup.tracks else ORIGIN
             x, y, z = np.subtract(setup.gnss_antenna_offset_m, point).tolist()
             start = np.nan_to_num(block[ChannelId(HEIGHT, track)][:1])
-            filters[track] = TrackFilter.of(
-                self.plan, self.noise, self._header.step, (x, y, z), float(start[0])
-            )
+            filters[track] = TrackFilter.of(self.plan, self.noise, step, (x, y, z), float(start[0]))
+            if self.keeps_innovations:
+                kept = NormalizedInnovations(self._header.origin, step, self.plan.attitude)
+                filters[track].innovations = kept
         return filters[track]
 
     def empty(self, first: int) -> Block:

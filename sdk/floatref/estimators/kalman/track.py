@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.estimators.kalman.noise import Noise
+from floatref.estimators.kalman.normalized import NormalizedInnovations
 from floatref.estimators.kalman.observations import part
 from floatref.estimators.kalman.references import DATUM_M, Plan, References, Stretch
 from floatref.estimators.models.kalman_values import (
@@ -63,6 +64,7 @@ class TrackFilter:
 
     Inputs are specific force along X, Y, Z in m/s² and rates about X, Y, Z in rad/s, (6.47). Up to
     sample ``lost_until`` the density of the acceleration is the root of ``lost_white``.
+    ``innovations`` are None unless they are kept.
     """
 
     model: Model
@@ -70,6 +72,7 @@ class TrackFilter:
     state: Filter
     lost_white: float
     lost_until: int = -1
+    innovations: NormalizedInnovations | None = None
 
     @classmethod
     def of(
@@ -113,6 +116,8 @@ class TrackFilter:
             self.state = begun
             known = Inputs(u.first, *(frozen(np.nan_to_num(values)) for values in u[1:]))
             height, nodes = self._filter(known, schedule, parts)
+        if self.innovations is not None:
+            self.innovations.add(nodes, schedule)
         return Passed(height, nodes, missing)
 
     def _parts(self, first: int, size: int, lost: BoolArray | None) -> list[tuple[int, int, bool]]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.estimators.models.road_prior_values import HEIGHT, VELOCITY
 from floatref.estimators.smoothing.nodes import Nodes
-from floatref.values.arrays import Flag, FlagArray, FloatArray, Records
+from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, Records
 
 LEAST_M = 0.01
 """Less than that is an edge of the road under a laser that sways: cracks, joints, leaves."""
@@ -38,12 +38,21 @@ def leaps(nodes: Nodes, ends: Records, edge: float) -> list[Leap]:
     """
     seen = ~np.isnan(ends["seen"])
     innovation, standing = _innovations(nodes), ends["travel"][seen] <= 0.0
-    # The square of the innovation was added to its variance there.
-    share = innovation**2 * nodes.updates["information"]
-    let_go = (share >= edge / (1.0 + edge)) & (share < 1.0)
-    there = np.flatnonzero(standing & let_go & (np.abs(innovation) > LEAST_M))
+    far = np.abs(innovation) > LEAST_M
+    there = np.flatnonzero(standing & are_let_go(nodes, edge) & far)
     samples = nodes.at[seen][there].tolist()
     return [Leap(*each) for each in zip(samples, innovation[there].tolist(), strict=True)]
+
+
+def are_let_go(nodes: Nodes, edge: float) -> BoolArray:
+    """Return for which readings of ``nodes`` at a standstill the road was let go, shape (n,).
+
+    Of readings while the vehicle moves it tells nothing. For ``edge`` see `leaps`.
+    """
+    # The square of the innovation was added to its variance there.
+    share = _innovations(nodes) ** 2 * nodes.updates["information"]
+    found: BoolArray = (share >= edge / (1.0 + edge)) & (share < 1.0)
+    return found
 
 
 def _innovations(nodes: Nodes) -> FloatArray:

@@ -12,12 +12,14 @@ from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_prior.leaps import lines, mark_leaps
 from floatref.estimators.road_prior.learned import pool
+from floatref.estimators.road_prior.misfits import Misfits
+from floatref.estimators.road_prior.samples import missing_samples, trusted_samples
 from floatref.estimators.road_prior.track import RoadTrack, sub_block
 from floatref.estimators.road_prior.uncertain import flag_uncertain
 from floatref.estimators.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.estimators.smoothing.line import Closing
 from floatref.estimators.smoothing.nodes import Filtered
-from floatref.stages.marks import flags_of, long_gaps
+from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import (
     ACCELERATION,
@@ -39,6 +41,7 @@ from floatref.values.arrays import (
 )
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
+from floatref.values.innovations import Innovations
 
 UNKNOWN = ChannelId(MISSING_SHARE)
 LEVEL = ChannelId(LEVELLED)
@@ -58,6 +61,7 @@ class RoadPriorSmoother(Stage):
     declared: ClassVar[Declared] = Declared(
         linear=False, zero_in_zero_out=False, shift_invariant=False, delay=ALL
     )
+    has_innovations: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -155,6 +159,12 @@ class RoadPriorSmoother(Stage):
         found = {track: each.leaps for track, each in filters.items()}
         return tuple(lines(found, self._header.origin, self._header.step))
 
+    def list_innovations(self) -> Mapping[str, Mapping[str, Innovations]]:
+        """Return those of the height sensor, apart for standstills."""
+        filters: dict[str, RoadTrack] = self.memory["filters"]
+        found = {track: each.misfits for track, each in filters.items()}
+        return {track: each.finish() for track, each in found.items() if each is not None}
+
     def _flag_uncertain(self, block: Block) -> Block:
         """Return ``block`` with the heights flagged whose 1-σ is too large for the road."""
         assert self._header is not None
@@ -183,8 +193,8 @@ class RoadPriorSmoother(Stage):
         for track in self._header.tracks:
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
             ends, a = shared.copy(), block[vertical]
-            ends["seen"] = _trusted_samples(block, range_, nodes)
-            share = self._missing(track, _missing_samples(block, vertical), len(block), nodes)
+            ends["seen"] = trusted_samples(block, range_, nodes)
+            share = self._missing(track, missing_samples(block, vertical), len(block), nodes)
             ends["missing"] = np.maximum(shared["missing"], share)
             values = frozen(np.nan_to_num(a) if np.isnan(a.sum()) else a)
             own = self._track(track, block[range_])
@@ -199,8 +209,10 @@ class RoadPriorSmoother(Stage):
         filters: dict[str, RoadTrack] = self.memory["filters"]
         if track not in filters:
             assert self._header is not None
-            start = float(np.nan_to_num(height[0]))
-            filters[track] = RoadTrack.of(self.constants, self._header.step, start)
+            start, step = float(np.nan_to_num(height[0])), self._header.step
+            own = filters[track] = RoadTrack.of(self.constants, step, start)
+            if self.keeps_innovations:
+                own.misfits = Misfits(self._header.origin, step, own.model.edge)
         return filters[track]
 
     def _collect_shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> Records:
@@ -243,17 +255,3 @@ class RoadPriorSmoother(Stage):
         self.memory["missing"][track] = left + (0 if nodes.size else self.memory["missing"][track])
         share: FloatArray = counted / sub_block(self._header.step)
         return share
-
-
-def _trusted_samples(block: Block, channel: ChannelId, nodes: IndexArray) -> FloatArray:
-    """Return the samples of ``channel`` at the nodes, NaN where they are flagged."""
-    flags, values = block.flags.get(channel), block[channel][nodes]
-    return values if flags is None else np.where(flags[nodes] == 0, values, np.nan)
-
-
-def _missing_samples(block: Block, channel: ChannelId) -> BoolArray | None:
-    """Return which samples of ``channel`` are NaN or lie in a gap too long to be bridged."""
-    gaps, values = long_gaps(block, channel), block[channel]
-    if not np.isnan(values.sum()):
-        return gaps
-    return np.isnan(values) if gaps is None else gaps | np.isnan(values)

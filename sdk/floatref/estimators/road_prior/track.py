@@ -20,6 +20,7 @@ from floatref.estimators.models.road_prior_values import (
 from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.estimators.road_prior.leaps import Leap, changes, leaps
 from floatref.estimators.road_prior.learned import BOTH, Brake
+from floatref.estimators.road_prior.misfits import Misfits
 from floatref.estimators.road_prior.spectrum import RoadSpectrum
 from floatref.estimators.smoothing.nodes import Kind, Nodes
 from floatref.values.arrays import FloatArray, Records, new_record
@@ -49,6 +50,7 @@ class RoadTrack:
         reading_m2: least variance of a reading of the height sensor, in m².
         brakes: estimates of lean and tilt, one per brake.
         leaps: of the height sensor at standstills.
+        misfits: normalized innovations, if they are kept.
     """
 
     model: Model
@@ -58,6 +60,7 @@ class RoadTrack:
     reading_m2: float
     brakes: list[Brake] = field(default_factory=list)
     leaps: list[Leap] = field(default_factory=list)
+    misfits: Misfits | None = None
 
     @classmethod
     def of(cls, constants: RoadPrior, step: float, start_m: float) -> "RoadTrack":
@@ -123,6 +126,8 @@ class RoadTrack:
         elevation = height[found.at - u.first] - u.ends["seen"]
         self.spectrum.add(elevation, u.ends["travel"].copy(), changes(found, u.ends))
         self.leaps += leaps(found, u.ends, self.model.edge)
+        if self.misfits is not None:
+            self.misfits.add(found, u.ends)
         return found
 
     def bends_of(self, first: int, size: int) -> FloatArray:
