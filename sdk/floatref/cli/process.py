@@ -1,13 +1,19 @@
 """`floatref process`: a recording, or a native file, into a road profile."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.cli.diagnostics import (
+    check_picture,
+    draw_beside,
+    print_innovations,
+    report_innovations,
+)
 from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
 from floatref.engine.formats import format_of, write_as
@@ -37,6 +43,12 @@ if TYPE_CHECKING:
 @click.option("--format", "form", type=FormatName(), help="By default, from the suffix of --out.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing target.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw it too.")
+@click.option(
+    "--diagnostics",
+    is_flag=True,
+    help="Record whether the filter's innovations are as large as it expects, and draw them: "
+    "OUT.innovations.png.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def process(
     source: Path,
@@ -48,6 +60,7 @@ def process(
     form: str | None,
     overwrite: bool,
     plot: Path | None,
+    diagnostics: bool,
     as_json: bool,
 ) -> None:
     """Write the road profile of SOURCE: a recording directory, its JSON file, or a native file.
@@ -56,16 +69,19 @@ def process(
     """
     written = format_of(out, form)
     _check_targets(source, out, plot, overwrite)
+    if diagnostics:
+        check_picture(out, plot, overwrite)
     chosen = read_settings(settings)
     with progress_bar("Reading", as_json) as shown:
         read = recording_of(source, adapter, channel_map, shown)
     # Before the first block is done, loops may be compiled: seconds, once per installation.
     starting = "Starting (the first time, this compiles)"
     with progress_bar("Processing", as_json, starting) as shown:
-        result = make_profile(read, pipeline, chosen, shown)
+        result = make_profile(read, pipeline, chosen, shown, diagnostics)
     profile = result.profile
     report = _report(profile, out, result.warnings)
-    with _draw(result, plot):
+    report |= report_innovations(result, out) if diagnostics else {}
+    with _draw(result, plot), draw_beside(result, out) if diagnostics else nullcontext():
         write_as(written, profile, out, overwrite)
     print_json(report) if as_json else _print_tables(report, profile)
 
@@ -135,4 +151,6 @@ def _print_tables(report: dict[str, Any], profile: Profile) -> None:
         click.echo(f"Warning: {line}", err=True)
     architecture = profile.provenance["architecture"]
     named = {"pipeline": profile.pipeline, "architecture": architecture}
+    if "innovations" in report:
+        print_innovations(report)
     print_settings({**named, **profile.settings})

@@ -17,12 +17,14 @@ from floatref.stages.protocol import Direction, Stage
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Event, Header
 from floatref.values.channels import ChannelId
+from floatref.values.innovations import Innovations
 
 IN_MEMORY = 64 * 2**20
 """Bytes of samples up to which a tape is in memory; a longer one is on disk."""
 
 M = TypeVar("M", np.bool_, np.uint8)
 Packed = Mapping[ChannelId, bytes]
+Kept = Mapping[str, Mapping[str, Innovations]]
 
 
 class Tape:
@@ -159,6 +161,30 @@ def collect_warnings(stages: Sequence[Stage]) -> tuple[str, ...]:
 def collect_estimates(stages: Sequence[Stage]) -> dict[str, float]:
     """Return the settings that ``stages`` have estimated from a run."""
     return {k: v for stage in stages for k, v in _guard(stage, stage.list_learned).items()}
+
+
+def keep_innovations(stages: Sequence[Stage], pipeline: str) -> None:
+    """Ask the ``stages`` of ``pipeline`` that have innovations to keep them, before their start.
+
+    Raises InputError if no stage has any.
+    """
+    filters = [stage for stage in stages if stage.has_innovations]
+    if not filters:
+        raise InputError(
+            f"pipeline {pipeline}: has no filter with innovations to diagnose; those named "
+            "kalman-… and road-prior-… have one"
+        )
+    for stage in filters:
+        _guard(stage, stage.keep_innovations)
+
+
+def collect_innovations(stages: Sequence[Stage]) -> Kept:
+    """Return the innovations that ``stages`` have kept, by wheel path and kind of reading."""
+    found: dict[str, dict[str, Innovations]] = {}
+    for stage in stages:
+        for track, kinds in _guard(stage, stage.list_innovations).items():
+            found.setdefault(track, {}).update(kinds)
+    return found
 
 
 def _kind(stage: Stage) -> str:

@@ -26,6 +26,7 @@ from floatref.errors import InputError
 from floatref.intake.blocks import Source
 from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.pipeline import Context, Pipeline
+from floatref.measures.consistency import record_innovations
 from floatref.screening.findings import Screening
 from floatref.screening.imu_and_gnss import ImuUse
 from floatref.stages.protocol import Stage
@@ -42,11 +43,15 @@ class FloatrefWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Result:
-    """A profile, its warnings of one line each, and the screening of the recording."""
+    """A profile, its warnings of one line each, and the screening of the recording.
+
+    ``innovations`` are those of the pipeline's filters, by wheel path and kind of reading, if kept.
+    """
 
     profile: Profile
     warnings: tuple[str, ...]
     screening: Screening = field(repr=False, compare=False)
+    innovations: flow.Kept = field(default_factory=dict, repr=False, compare=False)
 
 
 def process(
@@ -89,12 +94,13 @@ def resolve_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | N
 
 @dataclass(frozen=True)
 class _Order:
-    """An order: a recording, the interval of its profile, and how to process it."""
+    """An order: a recording, the interval of its profile, how to process it, what to keep."""
 
     plugins: Plugins
     recording: Recording
     pipeline: Pipeline
     settings: Mapping[str, float | None]
+    diagnostics: bool = False
 
 
 def run(
@@ -103,12 +109,15 @@ def run(
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
     known: Screening | None = None,
+    diagnostics: bool = False,
 ) -> Result:
     """Return the profile and the warnings; ``progress`` is called with the fraction read.
 
-    Results of ``known``, the screening of an earlier run, for the same channels are reused.
+    Results of ``known``, the screening of an earlier run, for the same channels are reused. With
+    ``diagnostics`` the normalized innovations are kept, and summed up in the profile's record;
+    InputError for a pipeline that has none.
     """
-    order = _settle(plugins(), recording, pipeline, settings)
+    order = replace(_settle(plugins(), recording, pipeline, settings), diagnostics=diagnostics)
     forward = leave_out_steps_back(order.recording)
     along = correct_distance(forward.recording, order.settings.get("slip_per_g"))
     aligned = align_heights(along.recording)
@@ -140,11 +149,13 @@ def _make_profile(
     cautions = screening.cautions  # Raises if the recording cannot be processed.
     source = Source(screening, order.pipeline.channels)
     stages = _ask(order, source)
+    if order.diagnostics:
+        flow.keep_innovations(stages, order.pipeline.name)
     profile = _run_and_collect(order, source, stages, progress)
     reach_m = Reach.of(order.settings).drift_m
     profile = withdraw(profile, order.recording, screening.doubts, reach_m)
     lines = (*cautions, *source.warnings, *flow.collect_warnings(stages))
-    return Result(profile, lines, screening), source
+    return Result(profile, lines, screening, flow.collect_innovations(stages)), source
 
 
 def _settle(
@@ -199,6 +210,9 @@ def _run_and_collect(
     profile = replace(profile, provenance={**profile.provenance, "laser": laser})
     if learned := flow.collect_estimates(stages):
         profile = replace(profile, provenance={**profile.provenance, "learned": learned})
+    if order.diagnostics:
+        found = record_innovations(flow.collect_innovations(stages))
+        profile = replace(profile, provenance={**profile.provenance, "innovations": found})
     return profile
 
 

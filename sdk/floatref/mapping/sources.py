@@ -133,17 +133,19 @@ def make_profile(
     pipeline: str,
     settings: Mapping[str, Any],
     progress: Callable[[float], None] | None = None,
+    diagnostics: bool = False,
 ) -> "Result":
     """Return the profile of ``read`` by ``pipeline``, and warnings, one line each.
 
     Warnings and errors have the native names of channels. ``progress`` is called with the part of
-    the recording that has been processed. Raises InputError with one line naming the source for a
-    recording, pipeline or setting that cannot be used.
+    the recording that has been processed; ``diagnostics`` is as in `run`. Raises
+    InputError with one line naming the source for a recording, pipeline or setting that cannot be
+    used.
     """
     from floatref.engine.run import run
 
     with name_errors(read.path), read.name_errors_natively():
-        result = run(read.recording, pipeline, settings, progress)
+        result = run(read.recording, pipeline, settings, progress, diagnostics=diagnostics)
     provenance = {**result.profile.provenance, **read.origin}
     warnings = (*read.warnings, *map(read.name_natively, result.warnings))
     profile = replace(result.profile, provenance=provenance)

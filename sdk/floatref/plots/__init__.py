@@ -1,9 +1,10 @@
-"""Drawings of profiles, networks and sensor noise as files; needs the extra ``floatref[plot]``."""
+"""Drawings of profiles, innovations, networks and noise; needs the extra ``floatref[plot]``."""
 
 from floatref.plots.allan_deviation import draw_allan
 from floatref.plots.comparison import draw_comparison
 from floatref.plots.elevation import draw_profile
 from floatref.plots.figure import check_drawing
+from floatref.plots.innovation_picture import draw_innovations
 from floatref.plots.network import SUMMARY_COLUMNS, draw_summary
 from floatref.plots.sensitivity import draw_sensitivity
 
@@ -12,6 +13,7 @@ __all__ = [
     "check_drawing",
     "draw_allan",
     "draw_comparison",
+    "draw_innovations",
     "draw_profile",
     "draw_sensitivity",
     "draw_summary",

@@ -35,22 +35,27 @@ def check_drawing(path: Path) -> None:
 
 
 def new_figure(
-    rows: int, columns: int, heights: Sequence[float], shared: bool = True
+    rows: int,
+    columns: int,
+    heights: Sequence[float],
+    shared: bool = True,
+    widths: Sequence[float] | None = None,
 ) -> tuple[Figure, np.ndarray[tuple[int, int], np.dtype[np.object_]]]:
     """Return a figure and its axes, ``rows`` by ``columns``, on one distance axis if ``shared``.
 
-    ``heights`` are in inches, one for each row. Raises InputError if matplotlib is missing.
+    ``heights`` are in inches, one for each row; so are ``widths``, one for each column, if given.
+    Raises InputError if matplotlib is missing.
     """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
         raise InputError("drawing needs matplotlib; run: pip install 'floatref[plot]'") from error
-    figure = Figure(
-        figsize=(11.0 if columns == 1 else 8.0 * columns, sum(heights) + 0.8), layout="constrained"
-    )
+    usual = [11.0] if columns == 1 else [8.0] * columns
+    width = sum(widths or usual)
+    figure = Figure(figsize=(width, sum(heights) + 0.8), layout="constrained")
     FigureCanvasAgg(figure)
-    ratios = {"height_ratios": list(heights)}
+    ratios = {"height_ratios": list(heights), "width_ratios": list(widths or usual)}
     axes = figure.subplots(rows, columns, sharex=shared, squeeze=False, gridspec_kw=ratios)
     for ax in axes.flat:
         dress(ax)
