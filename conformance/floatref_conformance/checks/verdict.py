@@ -9,6 +9,7 @@ from typing import Any
 
 from floatref.values.profile import Profile
 from floatref_conformance.checks.evidence import Evidence
+from floatref_conformance.checks.nees import NeesEnds, PathNees
 from floatref_conformance.classes import DeviceClass, Limits, lowest
 from floatref_conformance.editions import EDITION
 from floatref_conformance.proving_ground.scenario import Scenario
@@ -109,6 +110,7 @@ class CaseResult:
         passes: what it processed, stored for the pictures of a failing case.
         again: outcome of a second run of a failing case, if that run did not fail.
         false_alarms: number of healthy recordings that the device refused.
+        nees: of every wheel path whose profile has a 1-sigma.
     """
 
     name: str
@@ -122,6 +124,7 @@ class CaseResult:
     passes: tuple[Pass, ...] = ()
     again: str = ""
     false_alarms: int = 0
+    nees: tuple[PathNees, ...] = ()
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return the largest ratio of value to limit; infinite for a faulty device."""
@@ -156,6 +159,7 @@ class CheckResult:
         passes: of the counterexample.
         worst_track: the wheel path that fails it, empty without measurements.
         scored_m: start and end of each stretch that it scores, in m.
+        nees: of all wheel paths of its cases; None without a 1-sigma.
     """
 
     id: str
@@ -173,6 +177,7 @@ class CheckResult:
     scored_m: tuple[tuple[float, float], ...] = ()
     worst_track: str = ""
     false_alarms: int = 0
+    nees: NeesEnds | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,8 @@ import numpy as np
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, record_for
 from floatref_conformance.checks.interface import Taken
+from floatref_conformance.checks.nees import PathNees, nees_of
+from floatref_conformance.checks.scoring import filter_truth
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.editions.edition import Edition, find_edition
@@ -83,6 +85,12 @@ class DeviceBench:
     def flagged_m(self) -> float:
         """Largest length in m of a wheel path that the device flagged invalid."""
         return max((flagged_m(done.result, done.truth) for done in self.passes), default=0.0)
+
+    @property
+    def nees(self) -> tuple[PathNees, ...]:
+        """The mean NEES of every wheel path with a 1-sigma, recording by recording."""
+        stated = [p for p in self.passes if any(t.sigma is not None for t in p.result.tracks)]
+        return tuple(n for p in stated for n in nees_of(filter_truth(p.truth), p.result))
 
 
 @dataclass(frozen=True)

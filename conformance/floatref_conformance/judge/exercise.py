@@ -99,7 +99,12 @@ def _read(target: Path) -> Profile:
             text = " ".join(str(error).split()).replace(str(copy.parent), "…")
             raise DeviceError(f"delivered an unusable profile: {text}") from error
         tracks = tuple(
-            ProfileTrack.of(t.name, np.array(t.elevation), np.array(t.valid))
+            ProfileTrack.of(
+                t.name,
+                np.array(t.elevation),
+                np.array(t.valid),
+                None if t.sigma is None else np.array(t.sigma),
+            )
             for t in profile.tracks
         )
     return Profile(profile.interval_m, tracks, profile.start_m)

@@ -7,6 +7,7 @@ from floatref_conformance.case_files import name_of
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import LeftOut
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.nees import nees_ends
 from floatref_conformance.checks.stretches import Stretches
 from floatref_conformance.checks.verdict import CaseResult, CheckResult, Measurement, Outcome
 from floatref_conformance.classes import DeviceClass, lowest
@@ -49,6 +50,7 @@ def check_result(
         flagged_m=max(case.flagged_m for case in cases),
         early_m=max(case.early_m for case in cases),
         false_alarms=sum(case.false_alarms for case in cases),
+        nees=nees_ends((case.name, case.nees) for case in cases),
         passes=simpler[1].passes if failed and simpler else (),
         scored_m=find_scored(check, simpler[0]) if failed and simpler else (),
         worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",

@@ -37,6 +37,7 @@ def judge_case(check: Check, case: Case, bench: DeviceBench) -> CaseResult:
         flagged_m=bench.flagged_m,
         early_m=bench.early_m,
         passes=tuple(bench.passes),
+        nees=bench.nees,
     )
 
 

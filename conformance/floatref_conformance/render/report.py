@@ -2,7 +2,7 @@
 
 import json
 import os
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +69,7 @@ def write(document: dict[str, Any], path: Path) -> None:
 
 def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
     early = {"early_m": check.early_m} if check.early_m else {}
+    nees = {"nees": finite(asdict(check.nees))} if check.nees else {}
     alarms = {"false_alarms": check.false_alarms} if check.false_alarms else {}
     return {
         "id": check.id,
@@ -81,6 +82,7 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
         "flagged_m": check.flagged_m,
         **early,
         **alarms,
+        **nees,
         "counterexample": finite(check.counterexample),
     }
 

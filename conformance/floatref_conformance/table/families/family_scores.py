@@ -11,6 +11,7 @@ from floatref.values.profile import Profile
 from floatref_conformance.checks.driving.layout import layout_of
 from floatref_conformance.checks.evidence import Pair
 from floatref_conformance.checks.flags import SLOW_MPS, speed_at
+from floatref_conformance.checks.nees import mean_nees
 from floatref_conformance.checks.scoring import Compared, compare, correlation, roughness_percent
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.table.stops.stop_scores import along_encoder
@@ -33,6 +34,7 @@ class PathScores:
         valid_error_percent: the magnitude of that error.
         all_is_right: whether the IRI of all points, valid or not, is right in the same way.
         sigma_points: of how many points `within_two_sigma_percent` is the share.
+        nees: mean of error² over sigma² of these points; None without any.
     """
 
     cross_correlation: float
@@ -42,6 +44,7 @@ class PathScores:
     valid_error_percent: float
     all_is_right: bool
     sigma_points: int
+    nees: float | None = None
 
 
 @dataclass(frozen=True)
@@ -125,7 +128,8 @@ def _score(
     pairs = [whole.whole(*ends) for ends in stretches]
     every = [_error(pair) for pair in pairs]
     rest = [_error(valid.whole(*ends)) for ends in stretches]
-    inside = _two_sigma(compared, _scored(compared, stretches), sigma)
+    error, stated = _with_sigma(compared, _scored(compared, stretches), sigma)
+    inside = np.abs(error) <= 2.0 * stated
     return PathScores(
         min(1.0 - correlation(pair, compared.track, {}).value for pair in pairs),
         max(percent for percent, _ in every),
@@ -134,6 +138,7 @@ def _score(
         max(percent for percent, _ in rest),
         all(map(_is_right, every)),
         inside.size,
+        mean_nees(error, stated)[0],
     )
 
 
@@ -155,14 +160,13 @@ def _road(pair: Pair) -> float:
     return float(np.abs(iri_trace(pair.truth, pair.interval_m)[pair.counted]).mean())
 
 
-def _two_sigma(
+def _with_sigma(
     compared: Compared, scored: BoolArray, sigma: tuple[FloatArray, FloatArray]
-) -> BoolArray:
-    """Return of every scored point that has one whether it is within two sigma; maybe empty."""
+) -> tuple[FloatArray, FloatArray]:
+    """Return error and sigma in m of every scored point that has one; both maybe empty."""
     places, values = sigma
     if places.size == 0:
-        return np.empty(0, dtype=np.bool_)
+        return np.empty(0), np.empty(0)
     at = np.interp(compared.distance_m, places, values)
     counted = scored & np.isfinite(compared.result)
-    error = np.abs(compared.result - compared.truth)[counted]
-    return np.asarray(error <= 2.0 * at[counted])
+    return (compared.result - compared.truth)[counted], at[counted]

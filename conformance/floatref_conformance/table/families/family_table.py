@@ -35,6 +35,7 @@ class AxisSummary:
             any profile.
         within_two_sigma_median_percent: None without sigma.
         right_percent: of the wheel paths, those whose valid points are right.
+        nees_median: of the mean NEES of the wheel paths; None without sigma.
     """
 
     cross_correlation_median: float
@@ -45,6 +46,7 @@ class AxisSummary:
     iri_error_percentile_90_percent: float | None
     within_two_sigma_median_percent: float | None
     right_percent: float
+    nees_median: float | None = None
 
 
 @dataclass(frozen=True)
@@ -124,6 +126,7 @@ def _summarize_axis(scores: Sequence[PathScores], lacking: int) -> AxisSummary:
         float(np.percentile(errors, 90)) if errors else None,
         _median(shares),
         100.0 * sum(each.valid_is_right for each in scores) / len(correlations),
+        _median([n for each in scores if (n := each.nees) is not None]),
     )
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from floatref.measures import high_pass, on_common_grid
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
+from floatref_conformance.checks.nees import mean_nees
 from floatref_conformance.checks.stretches import points
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.proving_ground.drives.runs import SECTION_START_M
@@ -32,6 +33,9 @@ class StopScores:
         cross_correlation_encoder, iri_error_encoder_percent: the first two along the encoder's
             distance, so that they leave out the error of the axis; the others, but for the share
             above, are along the true distance.
+        nees: mean of error² over sigma² of the points that the share is of, along the encoder's
+            distance; None where the profile has no sigma.
+        nees_true_distance: the same along the true distance.
     """
 
     cross_correlation: float
@@ -41,6 +45,8 @@ class StopScores:
     within_two_sigma_true_distance_percent: float | None = None
     cross_correlation_encoder: float | None = None
     iri_error_encoder_percent: float | None = None
+    nees: float | None = None
+    nees_true_distance: float | None = None
 
 
 def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict[str, StopScores]:
@@ -62,6 +68,8 @@ def stop_scores(truth: Profile, encoder_m: FloatArray, profile: Profile) -> dict
             _within_two_sigma(reference, profile, name),
             beside[name].cross_correlation,
             beside[name].iri_error_percent,
+            _nees(text, profile, name),
+            _nees(reference, profile, name),
         )
         for name, scores in score(reference, profile).items()
     }
@@ -95,9 +103,20 @@ def _high_pass(profile: Profile) -> Profile:
 
 def _within_two_sigma(reference: Profile, profile: Profile, name: str) -> float | None:
     """Return the share in percent on the profile's own points; a sigma of NaN contains no point."""
+    error, sigma = _errors(reference, profile, name)
+    return None if sigma is None else 100.0 * float(np.mean(np.abs(error) <= 2.0 * sigma))
+
+
+def _nees(reference: Profile, profile: Profile, name: str) -> float | None:
+    error, sigma = _errors(reference, profile, name)
+    return None if sigma is None else mean_nees(error, sigma)[0]
+
+
+def _errors(
+    reference: Profile, profile: Profile, name: str
+) -> tuple[FloatArray, FloatArray | None]:
+    """Return error and sigma in m of the profile's own points within `STRETCH_M`."""
     found, true = on_common_grid(profile, reference)
     inside, track = points(found, *STRETCH_M), found.track(name)
-    if track.sigma is None:
-        return None
-    error = np.abs(true.track(name).elevation - track.elevation)[inside]
-    return 100.0 * float(np.mean(error <= 2.0 * track.sigma[inside]))
+    error = (track.elevation - true.track(name).elevation)[inside]
+    return error, None if track.sigma is None else track.sigma[inside]

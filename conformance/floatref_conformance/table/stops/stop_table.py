@@ -78,6 +78,7 @@ class StopSummary:
             of each wheel path, as in `StopScores`; None without sigma.
         cross_correlation_encoder_median, cross_correlation_encoder_percentile_1,
             cross_correlation_encoder_lowest: along the encoder's distance; None without.
+        nees, nees_true_distance: of the mean NEES of each wheel path; None without sigma.
     """
 
     wheel_paths: int
@@ -91,6 +92,8 @@ class StopSummary:
     cross_correlation_encoder_median: float | None = None
     cross_correlation_encoder_percentile_1: float | None = None
     cross_correlation_encoder_lowest: float | None = None
+    nees: Ends | None = None
+    nees_true_distance: Ends | None = None
 
 
 def summary(paths: Sequence[WheelPath]) -> StopSummary:
@@ -110,11 +113,11 @@ def summary(paths: Sequence[WheelPath]) -> StopSummary:
         max(errors),
         _ends([each.within_two_sigma_percent for each in scores]),
         _ends([each.within_two_sigma_true_distance_percent for each in scores]),
-        *(
-            (float(np.median(beside)), float(np.percentile(beside, 1)), min(beside))
-            if beside
-            else (None, None, None)
-        ),
+        float(np.median(beside)) if beside else None,
+        float(np.percentile(beside, 1)) if beside else None,
+        min(beside) if beside else None,
+        _ends([each.nees for each in scores]),
+        _ends([each.nees_true_distance for each in scores]),
     )
 
 

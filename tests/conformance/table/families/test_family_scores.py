@@ -120,3 +120,13 @@ def test_a_sigma_that_is_too_small_contains_little(truth):
     off = perfect(truth, lambda z: z + 0.01, sigma=np.full(X.size, 1e-3))
     assert scored(truth, off).true.within_two_sigma_percent < 1.0
     assert scored(truth, perfect(truth)).true.within_two_sigma_percent is None
+
+
+@pytest.mark.parametrize("off", [0.5, 2.0])
+def test_the_nees_is_the_square_of_errors_over_sigma(truth, off):
+    sigma = np.full(X.size, 1e-3)
+    error = off * sigma * np.where(np.arange(X.size) % 2, 1.0, -1.0)
+    found = scored(truth, perfect(truth, lambda z: z + error, sigma=sigma))
+    for axis in (found.true, found.encoder):
+        assert axis.nees == pytest.approx(off**2)
+    assert scored(truth, perfect(truth)).true.nees is None

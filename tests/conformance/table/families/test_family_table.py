@@ -101,3 +101,14 @@ def test_a_pipeline_that_fails_on_a_drive_does_not_end_the_table(monkeypatch):
     assert failures["temporal-basic"] == ""
     assert "it broke" in failures["spatial-basic"]
     assert len(table.paths) == 4
+
+
+def test_the_nees_of_wheel_paths_is_summed_up_by_its_median(hand_families):
+    table = hand_families({})
+    paths = [
+        replace(path, scores=replace(path.scores, true=replace(path.scores.true, nees=nees)))
+        for path, nees in zip(3 * table.paths[:1], (1.0, 9.0, None), strict=True)
+    ]
+    found = summarize(paths)
+    assert found.true.nees_median == 5.0
+    assert found.encoder.nees_median is None

@@ -88,6 +88,8 @@ def test_the_document_holds_every_wheel_path(table):
         "within_two_sigma_true_distance_percent": 64.0,
         "cross_correlation_encoder": None,
         "iri_error_encoder_percent": None,
+        "nees": None,
+        "nees_true_distance": None,
     }
     (pipeline,) = made["pipelines"]
     assert pipeline["all"] == pipeline["vehicles"]["minivan"]

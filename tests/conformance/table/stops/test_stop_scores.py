@@ -54,6 +54,23 @@ def test_points_within_two_sigma_are_counted(errors, share):
     assert scores.within_two_sigma_true_distance_percent == pytest.approx(share, abs=0.1)
 
 
+@pytest.mark.parametrize("off", [0.5, 1.0, 3.0])
+def test_the_nees_is_the_square_of_errors_over_sigma(off):
+    sigma = 1e-3 * (1.0 + X / LENGTH_M)
+    scores = scored(FILTERED + off * sigma * np.where(np.arange(X.size) % 2, 1.0, -1.0), sigma)
+    assert scores.nees == pytest.approx(off**2, rel=1e-3)
+    assert scores.nees_true_distance == pytest.approx(off**2, rel=1e-3)
+    assert scored(FILTERED).nees is None
+
+
+def test_the_nees_along_the_true_distance_has_the_error_of_the_axis():
+    encoder_m = 1.002 * X
+    shifted = np.interp(X, encoder_m, rough(X))
+    scores = scored(high_pass(shifted, DX), np.full(X.size, 1e-4), encoder_m)
+    assert scores.nees < 0.1
+    assert scores.nees_true_distance > 10.0
+
+
 def test_only_points_around_the_stop_count_for_sigma():
     off = np.where(INSIDE, 0.0, 1.0)
     assert scored(FILTERED + off, np.full(X.size, 1e-6)).within_two_sigma_percent == 100.0
