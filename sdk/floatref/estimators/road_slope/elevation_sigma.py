@@ -3,8 +3,9 @@
 import numpy as np
 from scipy.sparse import csr_array, vstack
 
-from floatref.estimators.road_slope.gauss_newton import Fit, factor
-from floatref.estimators.road_slope.rows import Rows, Stretch
+from floatref.estimators.road_slope.gauss_newton import Fit
+from floatref.estimators.road_slope.rows import Stretch
+from floatref.estimators.road_slope.sparse.elimination import Elimination
 from floatref.estimators.road_slope.stretches import BRAKING_MPS2
 from floatref.estimators.smoothing.sigma import REACH, high_pass
 from floatref.values.arrays import FloatArray, IndexArray
@@ -27,8 +28,8 @@ def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> Float
     gain[0, stretch.layout.place("gain")] = 1.0
     weights = np.concatenate((_delivered(stretch, marks_m, wavelength_m), gain))
     derivative = vstack([rows.derivative, _known_outside(stretch)], format="csr")
-    solved = factor(Rows(derivative, rows.misfit)).solve(np.ascontiguousarray(weights.T))
-    covariance = weights @ solved
+    plan = Elimination.of(derivative, stretch.order)
+    covariance = plan.factor(derivative).covariance(weights)
     by_gain = covariance[:-1, -1] / covariance[-1, -1]
     doubt = np.hypot(GAIN_DOUBT, TURN_DOUBT * turn(fit)) * fit.of("gain")
     found: FloatArray = np.sqrt(np.diag(covariance)[:-1] + np.square(doubt * by_gain))

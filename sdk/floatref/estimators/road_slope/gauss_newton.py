@@ -1,6 +1,6 @@
 """Gauss–Newton over a stretch: the unknowns of least squares."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -59,13 +59,19 @@ class Fit(NamedTuple):
         return self.stretch.rows(self.unknowns, self.stretch.weights(self.unknowns, self.bends))
 
     def covariance(self, weights: FloatArray) -> FloatArray:
-        """Return that of the sums of all unknowns by ``weights``, shape (m, unknowns): (m, m)."""
-        solved = factor(self.rows()).solve(np.ascontiguousarray(weights.T))
-        return np.asarray(weights @ solved)
+        """Return that of the sums of all unknowns by ``weights``, shape (m, unknowns): (m, m).
+
+        Raises LinAlgError where rounding leaves none.
+        """
+        factors = self.stretch.elimination.factor(self.rows().derivative)
+        return np.asarray(weights @ np.array([factors.solve(each) for each in weights]).T)
 
 
 def fit(stretch: Stretch) -> Fit:
-    """Return the unknowns with the least sum of squares, from the model's own start."""
+    """Return the unknowns with the least sum of squares, from the model's own start.
+
+    It is not settled where rounding leaves no positive matrix of a pass.
+    """
     y, bends = stretch.start(), first_bends(stretch.layout.points, stretch.model)
     changed, number = np.inf, 0
     while number < PASSES and not (changed < SETTLED_RAD and number >= FEWEST):
@@ -73,20 +79,15 @@ def fit(stretch: Stretch) -> Fit:
         if number == 0:
             held = held._replace(sagged=np.full(held.sagged.size, stretch.model.first_sag_m))
         rows = stretch.rows(y, held)
-        step = factor(rows).solve(rows.derivative.T @ rows.misfit)
+        try:
+            factors = stretch.elimination.factor(rows.derivative)
+        except np.linalg.LinAlgError:
+            return Fit(stretch, y, bends, number, np.inf)
+        step = factors.solve(rows.derivative.T @ rows.misfit)
         y = _go(stretch, y, step, float(rows.misfit @ rows.misfit), held)
         bends = renew_bends(y[stretch.layout.slope], stretch.model)
         changed, number = float(np.abs(step[stretch.layout.pitch]).max()), number + 1
     return Fit(stretch, y, bends, number, changed)
-
-
-def factor(rows: Rows) -> Any:
-    """Return the factors of JᵀJ; the order that keeps them sparse is that of a symmetric matrix."""
-    from scipy.sparse.linalg import splu
-
-    normal = (rows.derivative.T @ rows.derivative).tocsc()
-    options = {"SymmetricMode": True}
-    return splu(normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
 
 def _go(

@@ -1,5 +1,6 @@
 """Which unknown is where in the vector, and matrices of rows over all of them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -94,7 +95,7 @@ class Layout:
         return np.asarray(flat.row), np.asarray(flat.col + where.start), np.asarray(flat.data)
 
 
-def triples(middles: IndexArray, nodes: int, shares: tuple[float, float, float]) -> csr_array:
+def triples(middles: IndexArray, nodes: int, shares: Sequence[float]) -> csr_array:
     """Return the matrix of ``shares`` of the nodes before, at and behind ``middles``."""
     count = middles.size
     rows = np.tile(np.arange(count), 3)

@@ -1,6 +1,7 @@
 """The pitch of all fits over a run: what the smoother gets, bin by bin."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,7 +96,10 @@ def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray
         return np.full(distance.size, UNKNOWN_M)
     begin, end = float(distance[0]), float(distance[-1])
     marks = np.linspace(begin, end, max(2, round((end - begin) / MARKS_M) + 1))
-    return np.interp(distance, marks, elevation_sigma(result, marks, wavelength_m))
+    try:
+        return np.interp(distance, marks, elevation_sigma(result, marks, wavelength_m))
+    except np.linalg.LinAlgError:
+        return np.full(distance.size, UNKNOWN_M)
 
 
 def _ramp(size: int, step: float) -> FloatArray:
@@ -107,7 +111,10 @@ def _ramp(size: int, step: float) -> FloatArray:
 
 
 def known_gains(fits: Sequence[Fit]) -> list[tuple[FloatArray, FloatArray]]:
-    """Return -λ and -κ of every settled fit, shape (2,), with their covariance, shape (2, 2)."""
+    """Return -λ and -κ of every settled fit, shape (2,), with their covariance, shape (2, 2).
+
+    A fit whose covariance is lost in rounding is left out.
+    """
     found = []
     for each in fits:
         if is_settled(each):
@@ -115,5 +122,6 @@ def known_gains(fits: Sequence[Fit]) -> list[tuple[FloatArray, FloatArray]]:
             weights = np.zeros((2, size))
             weights[0, place("lean")] = weights[1, place("gain")] = -1.0
             estimate = np.array([-each.of("lean"), -each.of("gain")])
-            found.append((estimate, each.covariance(weights)))
+            with suppress(np.linalg.LinAlgError):
+                found.append((estimate, each.covariance(weights)))
     return found

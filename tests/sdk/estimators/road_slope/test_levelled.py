@@ -4,10 +4,20 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.sdk.estimators.road_slope.short_runs import at_speed
 
 from floatref.estimators.road_slope.constants import Places, SlopeModel
-from floatref.estimators.road_slope.levelled import RAMP_S, Levelled, known_gains
+from floatref.estimators.road_slope.gauss_newton import Fit, fit
+from floatref.estimators.road_slope.levelled import (
+    RAMP_S,
+    UNKNOWN_M,
+    Levelled,
+    _sigma,
+    is_settled,
+    known_gains,
+)
 from floatref.estimators.road_slope.readings import Drive
+from floatref.estimators.road_slope.rows import Stretch
 
 STEP, PLACES = 0.01, Places(4.0, 0.6, 0.0)
 
@@ -66,3 +76,27 @@ def test_gains_have_the_sign_of_the_smoother_and_their_covariance() -> None:
     ((estimate, covariance),) = known_gains(found.fits)
     assert estimate == pytest.approx([0.0001, -0.001], abs=1e-6)
     assert np.sqrt(np.diag(covariance)) == pytest.approx([1e-7, 1e-7], rel=1e-2)
+
+
+def over(stretch: Stretch) -> Fit:
+    return Fit(stretch, stretch.start(), np.full(stretch.layout.points - 1, 1e-5), 7, 0.0)
+
+
+def test_a_stretch_without_a_positive_matrix_is_not_settled() -> None:
+    """A force that is no number crept in: nothing is known, and nothing breaks."""
+    found = fit(at_speed(np.full(40, 10.0), force=np.full(40, np.nan)))
+    assert found.passes == 0
+    assert not is_settled(found)
+    assert known_gains([found]) == []
+    sigma_m = _sigma(found, np.linspace(0.0, 20.0, 9), 30.0)
+    np.testing.assert_array_equal(sigma_m, UNKNOWN_M)
+
+
+def test_a_fit_whose_covariance_is_lost_has_neither_gains_nor_a_sigma() -> None:
+    stretch = at_speed(np.full(40, 10.0), force=np.full(40, np.nan))
+    found = over(stretch)
+    assert is_settled(found)
+    assert known_gains([found, over(at_speed(np.full(40, 10.0)))])[0][1].shape == (2, 2)
+    assert len(known_gains([found])) == 0
+    sigma_m = _sigma(found, np.linspace(0.0, 20.0, 9), 30.0)
+    np.testing.assert_array_equal(sigma_m, UNKNOWN_M)

@@ -1,0 +1,1 @@
+"""Rows of which few unknowns are together, and how they are solved."""
