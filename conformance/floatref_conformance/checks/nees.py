@@ -60,7 +60,7 @@ def nees_of(truth: Profile, profile: Profile) -> tuple[PathNees, ...]:
     """Return the mean NEES of all valid points of each wheel path of ``truth`` with a sigma.
 
     ``truth`` is high-pass filtered as profiles are; its distance is the true one, so that an error
-    of the axis counts as an error. A profile that does not overlap with it has none.
+    of the axis counts as an error. Empty for a profile that does not overlap with it.
     """
     try:
         found, true = on_common_grid(profile, truth)

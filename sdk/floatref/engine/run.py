@@ -115,7 +115,7 @@ def run(
 
     Results of ``known``, the screening of an earlier run, for the same channels are reused. With
     ``diagnostics`` the normalized innovations are kept, and summed up in the profile's record;
-    InputError for a pipeline that has none.
+    InputError for a pipeline without any.
     """
     order = replace(_settle(plugins(), recording, pipeline, settings), diagnostics=diagnostics)
     forward = leave_out_steps_back(order.recording)

@@ -35,7 +35,7 @@ NARROWEST, WIDEST = 4.5, FARTHEST
 TOGETHER = 64
 """So many innovations of the sample make one point of the line of their root mean square."""
 APART = 2.5
-"""They are apart in time if they take so many times as long as usual."""
+"""They are apart in time if they take longer than usual by this factor."""
 LINE_POINTS = (2.8, 1.4)
 """Widths of the lines of the first wheel path, and of others, which may lie upon it."""
 
@@ -76,6 +76,8 @@ def _draw_kind(
     """Draw all wheel paths of one ``kind`` in its two panels."""
     most = max(float(np.abs(each.sample).max()) for _, each in own)
     highest = float(np.clip(1.05 * most, NARROWEST, WIDEST))
+    every = NEAR if highest < 3.0 * NEAR else 2.0 * NEAR
+    ticks = every * np.arange(-(highest // every), highest // every + 1)
     for number, ((track, each), colour) in enumerate(zip(own, cycle(COLOURS), strict=False)):
         _draw_points(along, each, colour, highest)
         name = f"{label_of(track)}: {_figures(each)}"
@@ -85,6 +87,7 @@ def _draw_kind(
     normal = np.exp(-0.5 * z * z) / sqrt(2.0 * pi)
     beside.plot(normal, z, color=REFERENCE_COLOUR, linewidth=1.0, linestyle="--")
     for ax in (along, beside):
+        ax.set_yticks(ticks)
         ax.set_ylim(-highest, highest)
         for bound in (-NEAR, NEAR):
             ax.axhline(bound, color=REFERENCE_COLOUR, linewidth=0.8, linestyle=":")

@@ -23,6 +23,7 @@ class Misfits:
         step: between two samples, in s.
         edge: square of how many deviations a reading at a standstill is off at an edge.
         kinds: `MOVING` and `STANDING`.
+        begun: whether there was a reading, from which the height begins; it does not count.
     """
 
     origin_s: float
@@ -31,6 +32,7 @@ class Misfits:
     kinds: dict[str, Innovations] = field(
         default_factory=lambda: {MOVING: Innovations(), STANDING: Innovations()}
     )
+    begun: bool = False
 
     def add(self, nodes: Nodes, ends: Records) -> None:
         """Take the readings of ``nodes``; for ``ends`` see `road_prior_values`.
@@ -43,9 +45,12 @@ class Misfits:
         z = updates["innovation"] / np.sqrt(updates["information"])
         standing = ends["travel"][seen] <= 0.0
         gone = standing & are_let_go(nodes, self.edge)
+        counts = ~gone
+        if not self.begun and z.size:
+            counts[0], self.begun = False, True
         times_s = self.origin_s + self.step * nodes.at[seen]
         self.kinds[STANDING].left_out += int(np.count_nonzero(gone))
-        for name, chosen in ((MOVING, ~standing), (STANDING, standing & ~gone)):
+        for name, chosen in ((MOVING, ~standing & counts), (STANDING, standing & counts)):
             self.kinds[name].add(times_s[chosen], z[chosen])
 
     def finish(self) -> dict[str, Innovations]:
