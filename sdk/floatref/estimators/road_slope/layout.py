@@ -91,23 +91,28 @@ class Layout:
         if isinstance(where, str):
             rows = np.arange(part.shape[0])
             return rows, np.full(rows.size, self.place(where)), np.asarray(part, np.float64)
-        flat = coo_array(part)
-        return np.asarray(flat.row), np.asarray(flat.col + where.start), np.asarray(flat.data)
+        rows, columns = places(csr_array(part))
+        return rows, columns + where.start, np.asarray(part.data, np.float64)
+
+
+def places(matrix: csr_array) -> tuple[IndexArray, IndexArray]:
+    """Return rows and columns of all values of a ``matrix``, in their order."""
+    rows = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+    return rows, np.asarray(matrix.indices, np.int64)
 
 
 def triples(middles: IndexArray, nodes: int, shares: Sequence[float]) -> csr_array:
     """Return the matrix of ``shares`` of the nodes before, at and behind ``middles``."""
     count = middles.size
-    rows = np.tile(np.arange(count), 3)
-    columns = np.concatenate((middles - 1, middles, middles + 1))
-    return csr_array((np.repeat(shares, count), (rows, columns)), (count, nodes))
+    columns = np.column_stack((middles - 1, middles, middles + 1)).ravel()
+    begins = 3 * np.arange(count + 1)
+    return csr_array((np.tile(shares, count), columns, begins), (count, nodes))
 
 
 def between_points(places: FloatArray, first: float, spacing: float, points: int) -> csr_array:
     """Return the matrix of the lines between ``points`` of the road at ``places``, in m."""
     at = (places - first) / spacing
     low = np.clip(np.floor(at).astype(np.int64), 0, points - 2)
-    share, rows = at - low, np.arange(places.size)
-    values = np.concatenate((1.0 - share, share))
-    columns = np.concatenate((low, low + 1))
-    return csr_array((values, (np.tile(rows, 2), columns)), (places.size, points))
+    values = np.column_stack((1.0 - (at - low), at - low)).ravel()
+    columns = np.column_stack((low, low + 1)).ravel()
+    return csr_array((values, columns, 2 * np.arange(places.size + 1)), (places.size, points))

@@ -103,7 +103,7 @@ class Factors(NamedTuple):
         columns = np.zeros((self.diagonal.size, weights.shape[0]))
         columns[: order.size] = weights.T[order]
         multiply_inverse(self.panel, self.diagonal, self.plan.pivots, columns, product)
-        return np.tril(product) + np.tril(product, -1).T
+        return -(np.tril(product) + np.tril(product, -1).T)
 
 
 def _slots(at: IndexArray, begins: IndexArray, count: int) -> tuple[IndexArray, int]:

@@ -1,9 +1,9 @@
 """The order in which unknowns are eliminated, so that few are together in rows at a time."""
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import csr_array
 
-from floatref.estimators.road_slope.layout import GLOBALS, IN_TIME, Layout
+from floatref.estimators.road_slope.layout import GLOBALS, IN_TIME, Layout, places
 from floatref.values.arrays import FloatArray, IndexArray
 
 BEFORE, BEHIND = -0.75, 0.25
@@ -31,9 +31,8 @@ def elimination_order(
 
 def _last_touch(*under: csr_array) -> FloatArray:
     """Return the last node that touches each point, between those touched as if evenly."""
-    flat = [coo_array(each) for each in under]
     last = np.full(under[0].shape[1], -1)
-    for each in flat:
-        np.maximum.at(last, each.col, each.row)
+    for nodes, points in map(places, under):
+        np.maximum.at(last, points, nodes)
     touched = np.flatnonzero(last >= 0)
     return np.asarray(np.interp(np.arange(last.size), touched, last[touched]))

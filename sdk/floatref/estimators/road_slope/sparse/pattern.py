@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
-from floatref.estimators.road_slope.layout import Layout
+from floatref.estimators.road_slope.layout import Layout, places
 from floatref.values.arrays import FloatArray, IndexArray
 
 Part = tuple[slice, csr_array] | str
@@ -16,8 +16,8 @@ class Pattern:
     def __init__(self, layout: Layout, *parts: Part) -> None:
         """Take the places of ``parts``, of which the first is a matrix."""
         count = parts[0][1].shape[0] if isinstance(parts[0], tuple) else 0
-        places = [_places(layout, part, count) for part in parts]
-        rows, columns = (np.concatenate(each) for each in zip(*places, strict=True))
+        found = [_places(layout, part, count) for part in parts]
+        rows, columns = (np.concatenate(each) for each in zip(*found, strict=True))
         shape = count, layout.size
         numbered = csr_array(coo_array((np.arange(rows.size), (rows, columns)), shape))
         numbered.sort_indices()
@@ -34,8 +34,8 @@ def _places(layout: Layout, part: Part, count: int) -> tuple[IndexArray, IndexAr
     """Return rows and columns of a part."""
     if isinstance(part, str):
         return np.arange(count), np.full(count, layout.place(part))
-    flat = coo_array(part[1])
-    return np.asarray(flat.row, np.int64), np.asarray(flat.col + part[0].start, np.int64)
+    rows, columns = places(part[1])
+    return rows, columns + part[0].start
 
 
 def in_common(*matrices: csr_array) -> tuple[csr_array, FloatArray]:
@@ -43,11 +43,11 @@ def in_common(*matrices: csr_array) -> tuple[csr_array, FloatArray]:
 
     The latter has the shape (matrices, places).
     """
-    flat, width = [coo_array(each) for each in matrices], matrices[0].shape[1]
-    keys = [np.asarray(each.row, np.int64) * width + each.col for each in flat]
+    width = matrices[0].shape[1]
+    keys = [rows * width + columns for rows, columns in map(places, matrices)]
     every, at = np.unique(np.concatenate(keys), return_inverse=True)
     parts = np.split(at, np.cumsum([key.size for key in keys])[:-1])
-    values = [np.bincount(i, m.data, every.size) for i, m in zip(parts, flat, strict=True)]
+    values = [np.bincount(i, m.data, every.size) for i, m in zip(parts, matrices, strict=True)]
     rows, columns = np.divmod(every, width)
     where = csr_array(coo_array((np.ones(every.size), (rows, columns)), matrices[0].shape))
     return where, np.array(values)
