@@ -59,6 +59,7 @@ class Constants(NamedTuple):
         known_m: 1-σ of the road's second difference outside of a brake, m.
         gain_doubt: share of κ that is not sure, as a real body is no half car.
         turn_doubt: what a change of β of 1 over a wheelbase adds to it.
+        grade_doubt: 1-σ of the mean slope of the stretch, at least.
     """
 
     interval_s: float = 0.06
@@ -109,4 +110,5 @@ class Constants(NamedTuple):
     gyration_sigma: float = 0.15
     known_m: float = 2e-3
     gain_doubt: float = 0.045
-    turn_doubt: float = 2.0
+    turn_doubt: float = 1.0
+    grade_doubt: float = 0.016

@@ -1,4 +1,4 @@
-"""How sure the elevation is: the covariance for it, and the doubt of the gain of a real body."""
+"""How sure the elevation is: the covariance for it, and the doubt of gain and grade."""
 
 from math import sqrt
 
@@ -123,7 +123,7 @@ def gain_doubt(beta: Vector, stretch: Stretch) -> float:
     """Return the share of the gain that is not sure.
 
     Equation:
-        ε = √(0.045² + (2 τ)²)
+        ε = √(0.045² + τ²)
 
     Args:
         beta: β_k, shape (K,).
@@ -133,33 +133,58 @@ def gain_doubt(beta: Vector, stretch: Stretch) -> float:
     return sqrt(c.gain_doubt**2 + (c.turn_doubt * turning(beta, stretch)) ** 2)
 
 
-def deviation(weights: Matrix, covariance: Matrix, gain: int, doubt: float) -> Vector:
+def deviation(weights: Matrix, covariance: Matrix, doubted: Matrix, doubts: Vector) -> Vector:
     """Return the 1-σ of weighted sums of unknowns, as a high-pass of the road forms them.
 
     Equation:
-        √(w_mᵀ C w_m + (ε κ w_mᵀ C e_κ/(e_κᵀ C e_κ))²)
+        √(w_mᵀ C w_m + Σ_i (ε_i w_mᵀ C e_i/(e_iᵀ C e_i))²)
 
     Args:
         weights: w_m of n marks, shape (n, M).
         covariance: C, shape (M, M).
-        gain: index of κ.
-        doubt: ε κ, rad per m/s².
+        doubted: e_i, weights of the sums in doubt, shape (p, M).
+        doubts: ε_i, their 1-σ, shape (p,).
 
     Returns:
         Shape (n,).
     """
     sigmas = []
     for w in weights:
-        by_gain = doubt * (w @ covariance[:, gain]) / covariance[gain, gain]
-        sigmas.append(np.sqrt(w @ covariance @ w + by_gain**2))
+        variance = w @ covariance @ w
+        for e, doubt in zip(doubted, doubts, strict=True):
+            variance += (doubt * (w @ covariance @ e) / (e @ covariance @ e)) ** 2
+        sigmas.append(np.sqrt(variance))
     return np.array(sigmas)
+
+
+def in_doubt(points: int, nodes: int, unknowns: int) -> Matrix:
+    """Return the weights of the gain and of the mean slope in the unknowns.
+
+    Equation:
+        e_1: 1 at κ; e_2: 1/N at each s_j
+
+    Args:
+        points: N.
+        nodes: K.
+        unknowns: M.
+
+    Returns:
+        Shape (2, M).
+    """
+    where = by_name(np.arange(unknowns), points, nodes)
+    found = np.zeros((2, unknowns))
+    found[0, int(where.gain)] = 1.0
+    for j in where.slope:
+        found[1, int(j)] = 1.0 / points
+    return found
 
 
 def elevation_sigma(weights: Matrix, answer: Answer, stretch: Stretch) -> Vector:
     """Return the 1-σ of the elevation that levelling adds.
 
     Equation:
-        `deviation` with C of `known_covariance` and ε of `gain_doubt`, at the unknowns found
+        `deviation` with C of `known_covariance`, ε_1 = ε κ by `gain_doubt` and ε_2 = 0.016, at
+        the unknowns found
 
     Args:
         weights: w_m of n marks, shape (n, M).
@@ -170,7 +195,7 @@ def elevation_sigma(weights: Matrix, answer: Answer, stretch: Stretch) -> Vector
         Shape (n,).
     """
     vector, x = as_vector(answer.unknowns), answer.unknowns
-    where = by_name(np.arange(len(vector)), len(x.slope), len(x.pitch))
     C = known_covariance(vector, stretch, answer.held)
-    doubt = gain_doubt(answer.held.beta, stretch) * float(x.gain)
-    return deviation(weights, C, int(where.gain), doubt)
+    gain = gain_doubt(answer.held.beta, stretch) * float(x.gain)
+    doubted = in_doubt(len(x.slope), len(x.pitch), len(vector))
+    return deviation(weights, C, doubted, np.array([gain, stretch.constants.grade_doubt]))

@@ -66,7 +66,7 @@ def test_a_road_that_turns_evenly_does_so_over_a_wheelbase(turn: float) -> None:
     tau = doubt.turning(turn * stretch.readings.place, stretch)
     assert tau == pytest.approx(abs(turn) * 2.7)
     beta = turn * stretch.readings.place
-    assert doubt.gain_doubt(beta, stretch) == pytest.approx(np.hypot(0.045, 5.4 * turn))
+    assert doubt.gain_doubt(beta, stretch) == pytest.approx(np.hypot(0.045, 2.7 * turn))
 
 
 def test_before_the_first_node_the_road_is_as_there() -> None:
@@ -86,14 +86,17 @@ def test_of_equal_places_the_first_counts() -> None:
 
 
 def test_a_weighted_sum_deviates_as_its_draws_do() -> None:
-    """Of which the gain is off by more, and all that goes with it."""
+    """Of which two sums are off by more, and all that goes with them."""
     rng = np.random.default_rng(3)
     root, weights = rng.normal(size=(4, 4)), rng.normal(size=(3, 4))
     C = root @ root.T
     draws = root @ rng.normal(size=(4, 40_000))
-    draws += np.outer(C[:, 2] / C[2, 2], 2.5 * rng.normal(size=40_000))
+    doubted, doubts = np.array([[0, 0, 1, 0], [0.5, 0.5, 0, 0]]), np.array([2.5, 1.5])
+    for e, off in zip(doubted, doubts, strict=True):
+        draws += np.outer(C @ e / (e @ C @ e), off * rng.normal(size=40_000))
     expected = np.std(weights @ draws, axis=1)
-    assert doubt.deviation(weights, C, 2, 2.5) == pytest.approx(expected, rel=0.03)
+    found = doubt.deviation(weights, C, doubted, doubts)
+    assert found == pytest.approx(expected, rel=0.03)
 
 
 def test_it_is_that_of_the_answer(drawn: Any, stopping: Any) -> None:
@@ -108,9 +111,11 @@ def test_it_is_that_of_the_answer(drawn: Any, stopping: Any) -> None:
     weights[0, where.elevation[[0, 5, 10]]] = 1, -2, 1
     weights[1, where.gain] = 1
     found = doubt.elevation_sigma(weights, answer, stretch)
-    epsilon = doubt.gain_doubt(held.beta, stretch) * truth.gain
-    assert found == pytest.approx(doubt.deviation(weights, cov, where.gain, epsilon))
-    assert found[1] == pytest.approx(np.hypot(np.sqrt(cov[where.gain, where.gain]), epsilon))
+    doubted = np.zeros((2, len(vector)))
+    doubted[0, where.gain], doubted[1, where.slope] = 1, 1 / len(truth.slope)
+    doubts = np.array([doubt.gain_doubt(held.beta, stretch) * truth.gain, 0.016])
+    assert found == pytest.approx(doubt.deviation(weights, cov, doubted, doubts))
+    assert found[1] > np.hypot(np.sqrt(cov[where.gain, where.gain]), doubts[0])
 
 
 def test_what_is_known_makes_the_road_more_sure(drawn: Any, stopping: Any) -> None:

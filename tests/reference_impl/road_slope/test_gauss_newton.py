@@ -112,7 +112,7 @@ def test_a_run_gives_back_the_pitch_and_the_constants_it_was_drawn_with(
     assert np.sqrt(answer.covariance[where.gain, where.gain]) < 0.5 * C.gain_sigma
     contrast = np.zeros((1, len(answer.covariance)))
     contrast[0, where.pitch[[0, 19]]] = 1, -1
-    (sigma,) = deviation(contrast, answer.covariance, int(where.gain), 0.0)
+    (sigma,) = deviation(contrast, answer.covariance, contrast, np.zeros(1))
     found = answer.unknowns.pitch
     assert sigma < 0.003
     assert abs(found[0] - found[19] - truth.pitch[0] + truth.pitch[19]) < 4.5 * sigma

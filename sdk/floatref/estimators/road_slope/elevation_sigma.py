@@ -13,9 +13,10 @@ from floatref.values.arrays import FloatArray, IndexArray
 KNOWN_M, APART_M, BESIDE_M = 2e-3, 8.0, 2.0
 """1-σ, from the smoother, of a second difference of the road over so much travel, so far from
 where the vehicle brakes: its own 1-σ is there already."""
-GAIN_DOUBT, TURN_DOUBT = 0.045, 2.0
+GAIN_DOUBT, TURN_DOUBT, GRADE_DOUBT = 0.045, 1.0, 0.016
 """A body is no half car: its gain is sure within this part, and for each rad by which the road
-turns under a wheelbase within so much more."""
+turns under a wheelbase within so much more. The grade of the whole stretch, which ½gP² tells, is
+not surer than this: rows that count as drawn one by one err together where a brake ends."""
 
 
 def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> FloatArray:
@@ -23,16 +24,22 @@ def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> Float
 
     Beyond the stretch the road goes on with the slope of its end.
     """
-    stretch, rows = fit.stretch, fit.rows()
-    gain = np.zeros((1, stretch.layout.size))
-    gain[0, stretch.layout.place("gain")] = 1.0
-    weights = np.concatenate((_delivered(stretch, marks_m, wavelength_m), gain))
+    stretch, rows, n = fit.stretch, fit.rows(), marks_m.size
+    weights = np.concatenate((_delivered(stretch, marks_m, wavelength_m), _doubted(stretch)))
     derivative = vstack([rows.derivative, _known_outside(stretch)], format="csr")
     plan = Elimination.of(derivative, stretch.order)
     covariance = plan.factor(derivative).covariance(weights)
-    by_gain = covariance[:-1, -1] / covariance[-1, -1]
-    doubt = np.hypot(GAIN_DOUBT, TURN_DOUBT * turn(fit)) * fit.of("gain")
-    found: FloatArray = np.sqrt(np.diag(covariance)[:-1] + np.square(doubt * by_gain))
+    by_doubted = covariance[:n, n:] / np.diag(covariance)[n:]
+    gain = np.hypot(GAIN_DOUBT, TURN_DOUBT * turn(fit)) * fit.of("gain")
+    doubted = np.square(by_doubted) @ np.square([gain, GRADE_DOUBT])
+    return np.asarray(np.sqrt(np.diag(covariance)[:n] + doubted))
+
+
+def _doubted(stretch: Stretch) -> FloatArray:
+    """Return the weights of all unknowns in the gain and the mean slope, shape (2, unknowns)."""
+    found = np.zeros((2, stretch.layout.size))
+    found[0, stretch.layout.place("gain")] = 1.0
+    found[1, stretch.layout.slope] = 1.0 / stretch.layout.points
     return found
 
 

@@ -73,24 +73,29 @@ def assert_plain(
     J = np.vstack([found.rows().derivative.toarray(), known_road(found)])
     size = np.linalg.norm(J, axis=0)
     covariance = np.linalg.inv((J / size).T @ (J / size)) / np.outer(size, size)
-    by_gain = covariance[found.stretch.layout.place("gain")]
-    by_gain = by_gain / by_gain[found.stretch.layout.place("gain")]
+    lay = found.stretch.layout
+    gain, grade = np.zeros((2, lay.size))
+    gain[lay.place("gain")], grade[lay.slope] = 1.0, 1.0 / lay.points
+    moved = [covariance @ e / (e @ covariance @ e) for e in (gain, grade)]
     doubt = np.hypot(module.GAIN_DOUBT, module.TURN_DOUBT * turn(found)) * found.of("gain")
+    doubts = doubt, module.GRADE_DOUBT
     marks = marks_of(found.stretch, *shares)
     sigma = elevation_sigma(found, marks, wavelength_m)
     for mark, each in zip(marks, sigma, strict=True):
         w = plainly(found, mark, wavelength_m)
-        expected = np.sqrt(w @ covariance @ w + (doubt * (w @ by_gain)) ** 2)
+        more = [(off * (w @ by)) ** 2 for off, by in zip(doubts, moved, strict=True)]
+        expected = np.sqrt(w @ covariance @ w + sum(more))
         assert each == pytest.approx(expected, rel=tolerance)
 
 
 @dense
 @given(run=RUNS, share=st.floats(0.0, 1.0))
-def test_it_is_that_of_the_weights_and_of_a_gain_in_doubt(run: Run, share: float) -> None:
-    """The doubt is so large that it matters."""
+def test_it_is_that_of_the_weights_and_of_gain_and_grade_in_doubt(run: Run, share: float) -> None:
+    """The doubts are so large that they matter."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "GAIN_DOUBT", 1.0)
         patch.setattr(module, "TURN_DOUBT", 50.0)
+        patch.setattr(module, "GRADE_DOUBT", 0.5)
         assert_plain(drawn_fit(run._replace(nodes=12)), (share,), 12.0, 1e-2)
 
 

@@ -1,4 +1,4 @@
-"""A gain that is in doubt, more so on a road that turns: what that is of the elevation's 1-σ."""
+"""Gain and grade in doubt, the gain more on a road that turns: what they are of the 1-σ."""
 
 import numpy as np
 import pytest
@@ -67,6 +67,29 @@ def test_a_doubt_of_the_gain_is_worth_what_another_gain_does_to_the_road(run: Ru
     wanted = -J[:, gain] * found.of("gain")
     moved = np.zeros(size.size)
     moved[others] = np.linalg.lstsq((J / size)[:, others], wanted, rcond=1e-14)[0] / size[others]
+    expected = np.square(_delivered(found.stretch, marks, 12.0) @ moved)
+    largest = squares[1].max()
+    np.testing.assert_allclose(squares[1] - squares[0], expected, rtol=0.02, atol=1e-4 * largest)
+
+
+@dense
+@given(run=RUNS)
+def test_a_doubt_of_the_grade_is_worth_what_another_grade_does_to_the_road(run: Run) -> None:
+    """By least squares of all rows, with the mean slope held at another value."""
+    found = drawn_fit(run._replace(nodes=12))
+    lay, marks = found.stretch.layout, marks_of(found.stretch, 0.3, 0.7)
+    squares = []
+    for doubt in (0.0, 0.1):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(module, "GRADE_DOUBT", doubt)
+            squares.append(np.square(elevation_sigma(found, marks, 12.0)))
+    J = found.rows().derivative.toarray()
+    size = np.linalg.norm(J, axis=0)
+    mean = np.zeros((1, lay.size))
+    mean[0, lay.slope] = 1e6 / lay.points
+    held = np.concatenate((J / size, mean / size))
+    wanted = np.append(np.zeros(J.shape[0]), 1e6 * 0.1)
+    moved = np.linalg.lstsq(held, wanted, rcond=1e-14)[0] / size
     expected = np.square(_delivered(found.stretch, marks, 12.0) @ moved)
     largest = squares[1].max()
     np.testing.assert_allclose(squares[1] - squares[0], expected, rtol=0.02, atol=1e-4 * largest)
