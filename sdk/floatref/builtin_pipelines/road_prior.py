@@ -52,6 +52,15 @@ def _constants(context: Context) -> RoadPrior:
     return RoadPrior(**{CONSTANTS[name]: context.setting(name) for name in names})
 
 
+def _level(context: Context) -> Sequence[Stage]:
+    """Level the forces, and carry the heights, by the pitch of the body on the run's own road."""
+    from floatref.estimators.road_slope import LevelByRoad
+
+    levers_m = {track: ahead for track, (ahead, _) in levers_of(context.header).items()}
+    wavelength_m = context.setting("cutoff_wavelength_m")
+    return (LevelByRoad(levers_m, _constants(context), wavelength_m),)
+
+
 def _estimate(context: Context) -> Sequence[Stage]:
     smoother = RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m"))
     return smoother, Seams(), Drop(TRAVEL_SPEED)
@@ -72,7 +81,11 @@ ROAD_PRIOR = (
             "distance_scale_sigma": 2e-4,
             **{name: _USUAL[field] for name, field in CONSTANTS.items()},
         },
-        {"temporal_condition": condition, "temporal_estimate": _estimate},
+        {
+            "temporal_laser": _level,
+            "temporal_condition": condition,
+            "temporal_estimate": _estimate,
+        },
         signed=EXPECTED,
     ),
 )
@@ -130,6 +143,11 @@ ROAD_PRIOR_SPATIAL = (
 
 NOTHING = 1e-9
 """1-σ of known values."""
+ATTITUDE_WALK = 2e-4
+"""What is left of the tilt by acceleration, in 1/√s: the attitude drifts by 0.2 mrad in a second.
+With the slope of the road out of the bias, a crown is of the road and no longer of the sensor."""
+FREE_WAVES = 2e-5
+"""Long waves before the run has shown its own, in 1/m: those of a crown of 50 mm over 20 m."""
 
 
 def _condition_levelled(context: Context) -> Sequence[Stage]:
@@ -152,6 +170,8 @@ ROAD_PRIOR_IMU = (
             **ROAD_PRIOR[0].settings,
             "attitude_blend_s": BLENDED_S,
             "tilt_sigma": NOTHING,
+            "acceleration_walk_along": ATTITUDE_WALK,
+            "long_waves_per_m": FREE_WAVES,
         },
         {
             **ROAD_PRIOR[0].answers,
