@@ -80,14 +80,18 @@ def fit(stretch: Stretch) -> Fit:
             held = held._replace(sagged=np.full(held.sagged.size, stretch.model.first_sag_m))
         rows = stretch.rows(y, held)
         try:
-            factors = stretch.elimination.factor(rows.derivative)
+            step = _step(stretch, rows)
         except np.linalg.LinAlgError:
             return Fit(stretch, y, bends, number, np.inf)
-        step = factors.solve(rows.derivative.T @ rows.misfit)
         y = _go(stretch, y, step, float(rows.misfit @ rows.misfit), held)
         bends = renew_bends(y[stretch.layout.slope], stretch.model)
         changed, number = float(np.abs(step[stretch.layout.pitch]).max()), number + 1
     return Fit(stretch, y, bends, number, changed)
+
+
+def _step(stretch: Stretch, rows: Rows) -> FloatArray:
+    """Return the step to the least sum of squares of ``rows``."""
+    return stretch.elimination.factor(rows.derivative).solve(rows.derivative.T @ rows.misfit)
 
 
 def _go(

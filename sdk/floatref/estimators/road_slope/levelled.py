@@ -34,7 +34,7 @@ class Levelled:
         lean: λ in rad there.
         grade: the mean slope of the road there, which a high-pass removes.
         sigma_m: 1-σ of the high-passed elevation that comes from both.
-        fits: of all stretches.
+        gains: of all stretches, see `known_gains`. A fit itself, of 4 MB, is let go.
     """
 
     share: FloatArray
@@ -42,7 +42,7 @@ class Levelled:
     lean: FloatArray
     grade: FloatArray
     sigma_m: FloatArray
-    fits: list[Fit]
+    gains: list[tuple[FloatArray, FloatArray]]
 
     @classmethod
     def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
@@ -54,7 +54,7 @@ class Levelled:
             weight = _ramp(inside.stop - inside.start, drive.step)
             fitted[inside] += weight
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
-            found.fits.append(result)
+            found.gains += known_gains([result])
             sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
             found.sigma_m[inside] += weight * sigma_m
             if is_settled(result):

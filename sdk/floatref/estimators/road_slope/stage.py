@@ -10,7 +10,7 @@ from floatref.estimators.laser_place.pitching import model_pitch, second_derivat
 from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.estimators.road_slope.constants import Places, SlopeModel
-from floatref.estimators.road_slope.levelled import Levelled, known_gains
+from floatref.estimators.road_slope.levelled import Levelled
 from floatref.estimators.road_slope.readings import Drive
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
@@ -66,7 +66,7 @@ class LevelByRoad(HeightByModel):
     def list_learned(self) -> Mapping[str, float]:
         """Return the estimate of lean and tilt from all stretches, see `learned.pool`."""
         found: Levelled | None = self.memory["levelled"]
-        gains = [] if found is None else known_gains(found.fits)
+        gains = [] if found is None else found.gains
         return pool([Brake(*each) for each in gains], self.constants)
 
     def find_pitch(self, bins: FloatArray) -> FloatArray:

@@ -40,7 +40,7 @@ def test_each_stop_is_levelled_for_itself() -> None:
     model = SlopeModel()
     both, alone = (drive_over_bumps(count) for count in (2, 1))
     two, one = (Levelled.of(drive, PLACES, model, 30.0) for drive in (both, alone))
-    assert len(two.fits) == 2
+    assert len(two.gains) == 2
     end = alone.force.size
     np.testing.assert_allclose(two.pitch[: end - 3000], one.pitch[: end - 3000], atol=1e-12)
     assert np.abs(two.pitch).max() < 1e-2
@@ -73,7 +73,7 @@ def test_between_stretches_values_are_bent_to_meet_what_is_known(
 def test_gains_have_the_sign_of_the_smoother_and_their_covariance() -> None:
     model = SlopeModel(gain=0.001, gain_sigma=1e-7, lean_rad=-0.0001, lean_sigma_rad=1e-7)
     found = Levelled.of(drive_over_bumps(1), PLACES, model, 30.0)
-    ((estimate, covariance),) = known_gains(found.fits)
+    ((estimate, covariance),) = found.gains
     assert estimate == pytest.approx([0.0001, -0.001], abs=1e-6)
     assert np.sqrt(np.diag(covariance)) == pytest.approx([1e-7, 1e-7], rel=1e-2)
 
