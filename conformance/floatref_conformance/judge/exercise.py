@@ -23,6 +23,8 @@ MIN_INTERVAL_M = 0.001
 """Smallest profile interval, in m; a recording cannot request a smaller one."""
 MAX_ELEVATION_M = 1e6
 """A larger elevation, in m, is an error of the device and not drift."""
+ROUNDING_M = 1e-9
+"""Of places in m: a limit that is met exactly is met."""
 
 Answer = TypeVar("Answer")
 
@@ -139,7 +141,7 @@ def _check_axis(profile: Profile, recording: Recording, delivery: Delivery) -> N
     slack = 2.0 * max(profile.interval_m, recording.setup.profile_interval_m)
     end_m = profile.start_m + profile.length_m
     ends = [farthest] if delivery.true_end_m is None else [farthest, delivery.true_end_m]
-    reached = any(-slack <= to - end_m <= max(slack, delivery.early_m) for to in ends)
+    reached = any(-slack <= to - end_m <= max(slack, delivery.early_m) + ROUNDING_M for to in ends)
     if abs(profile.start_m - first) > slack or not reached:
         raise DeviceError(
             f"profile from {profile.start_m:.3f} m over {profile.length_m:.3f} m; "

@@ -31,8 +31,9 @@ def alarms_of(monkeypatch):
 
 def moved(stated_ms: float, *others: str):
     """Return a profile whose left height was moved by ``stated_ms``, and its lines."""
-    laser = {"left": {"later_s": 1e-3 * stated_ms}, "right": {}}
-    line = f"channel left.height: {stated_ms:.2f} ± 0.10 ms later than its accelerometer"
+    later_s = 1e-3 * stated_ms
+    laser = {"left": {"later_s": later_s}, "right": {}}
+    line = f"channel left.height: {1e3 * later_s:.2f} ± 0.10 ms later than its accelerometer"
     return SimpleNamespace(provenance={"laser": laser}), (line, *others)
 
 
