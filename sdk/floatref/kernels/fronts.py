@@ -223,8 +223,8 @@ def _divide(
 ) -> None:
     """Add what the ``front`` has of the ``pivots`` to their ``rows``, and divide these by L."""
     for p in range(PIVOTS):
-        if pivots[p] >= 0:
-            rows[p] += front[pivots[p]]
+        for j in range(rows.shape[1] if pivots[p] >= 0 else 0):
+            rows[p, j] += front[pivots[p], j]
     for p in range(PIVOTS):
         for later in range(p + 1, PIVOTS):
             share = panel[p, pivots[later]] / diagonal[p] if pivots[later] >= 0 else 0.0
