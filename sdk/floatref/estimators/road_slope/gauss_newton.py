@@ -61,7 +61,7 @@ class Fit(NamedTuple):
     def covariance(self, weights: FloatArray) -> FloatArray:
         """Return that of the sums of all unknowns by ``weights``, shape (m, unknowns): (m, m).
 
-        Raises LinAlgError where rounding leaves none.
+        Raises LinAlgError where it is lost in rounding.
         """
         factors = self.stretch.elimination.factor(self.rows().derivative)
         return np.asarray(weights @ np.array([factors.solve(each) for each in weights]).T)
