@@ -1,9 +1,9 @@
-"""What `LevelByRoad` makes of drawn stops: the table of `conformance table --family stops`.
+"""What `LevelByRoad` is worth: drawn stops with it and without, as `conformance table` has them.
 
-No pipeline has the stage yet: `road-prior-smoother` is driven with it here by a plug-in, or
-without it (--pipeline road-prior-smoother) for comparison.
+`road-prior-smoother` is the pipeline with the stage; a plug-in has the same with `HeightByModel`
+in its place, which carries the heights alone.
 
-    python tests/benchmarks/bench_levelled_stops.py --drives 200 --jobs 2 --json stops.json
+    python tests/benchmarks/bench_levelled_stops.py --drives 65 --jobs 2 --json stops.json
 """
 
 import argparse
@@ -27,30 +27,29 @@ from floatref_conformance.table.families.family_table import FamilyTable
 from floatref_conformance.table.families.family_text import print_families
 from floatref_conformance.table.passes import encoder_along_truth
 
-BASE, LEVELLED = "road-prior-smoother", "levelled-road-prior"
+BASE, UNLEVELLED = "road-prior-smoother", "road-prior-unlevelled"
 
 
-def level(context):
-    """Level forces and carry heights through brakes and stops."""
+def carry(context):
+    """Carry heights by a modelled pitch, and leave forces as they are."""
     setup, tracks = context.header.setup, context.header.tracks
     levers_m = {name: setup.track(name).laser_offset_m[0] for name in tracks}
-    wavelength_m = context.setting("cutoff_wavelength_m")
-    return (floatref.make_stage("LevelByRoad", levers_m, None, wavelength_m),)
+    return (floatref.make_stage("HeightByModel", levers_m),) if any(levers_m.values()) else ()
 
 
-class Levelled:
+class Unlevelled:
     """The plug-in."""
 
     @floatref.hookimpl
     def floatref_register_pipelines(self, register):
-        """Add the road prior with its forces levelled by the road."""
+        """Add the road prior without levelled forces."""
         base = floatref.pipeline(BASE)
-        register(base.with_answers(name=LEVELLED, summary="levelled", temporal_laser=level))
+        register(base.with_answers(name=UNLEVELLED, summary="unlevelled", temporal_laser=carry))
 
 
 def add_plugin():
     """Load the plug-in, in every process."""
-    plugins().add(Levelled(), "levelled")
+    plugins().add(Unlevelled(), "unlevelled")
 
 
 def drive(task):
@@ -66,25 +65,25 @@ def drive(task):
 
 
 def main():
-    """Drive, and print the table."""
+    """Drive, and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--drives", type=int, default=10, help="of each shape")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--pipeline", default=LEVELLED, choices=(LEVELLED, BASE))
+    parser.add_argument("--pipeline", nargs="+", default=(BASE, UNLEVELLED))
     parser.add_argument("--json", type=Path, help="write the table there")
     given = parser.parse_args()
     add_plugin()
-    places = [(c, n) for n in range(given.drives) for c in range(len(STOPS))]
-    tasks = [(given.pipeline, given.seed, c, n) for c, n in places]
-    settings = FamilySettings(STOPS_FAMILY, given.seed, given.drives, (given.pipeline,))
+    names, shapes = tuple(given.pipeline), range(len(STOPS))
+    tasks = [(p, given.seed, c, n) for p in names for n in range(given.drives) for c in shapes]
+    settings = FamilySettings(STOPS_FAMILY, given.seed, given.drives, names)
     table = FamilyTable(settings)
     workers = ProcessPoolExecutor(given.jobs, get_context("spawn"), initializer=add_plugin)
     with workers as pool:
         scores = track(pool.map(drive, tasks), "Driving", total=len(tasks))
-        for (c, n), scored in zip(places, scores, strict=True):
-            scenario = draw_drive(given.seed, STOPS[c], n, frozenset())
-            table.paths += wheel_paths(given.pipeline, STOPS[c], scenario, scored)
+        for (name, seed, c, n), scored in zip(tasks, scores, strict=True):
+            scenario = draw_drive(seed, STOPS[c], n, frozenset())
+            table.paths += wheel_paths(name, STOPS[c], scenario, scored)
     print_families(table, Console(width=150, emoji=False))
     if given.json:
         text = json.dumps(family_document(table), indent=1, allow_nan=False)

@@ -15,7 +15,7 @@ KNOWN_M, APART_M, BESIDE_M = 2e-3, 8.0, 2.0
 where the vehicle brakes: its own 1-σ is there already."""
 GAIN_DOUBT, TURN_DOUBT, GRADE_DOUBT = 0.045, 1.0, 0.016
 """A body is no half car: its gain is sure within this part, and for each rad by which the road
-turns under a wheelbase within so much more. The grade of the whole stretch, which ½gP² tells, is
+turns under a wheelbase within so much more. The grade of the whole stretch, which ½gP² shows, is
 not surer than this: rows that count as drawn one by one err together where a brake ends."""
 
 
