@@ -146,19 +146,9 @@ NOTHING = 1e-9
 ATTITUDE_WALK = 2e-4
 """What is left of the tilt by acceleration, in 1/√s: the attitude drifts by 0.2 mrad in a second.
 With the slope of the road out of the bias, a crown is of the road and no longer of the sensor."""
-FREE_WAVES = 2e-5
-"""Long waves before the run has shown its own, in 1/m: those of a crown of 50 mm over 20 m."""
-
-
-def _condition_levelled(context: Context) -> Sequence[Stage]:
-    """Level, carry heights; LPF_B3 at 1000 Hz on both where the rate allows it; add the speed."""
-    levers = levers_of(context.header)
-    stages: list[Stage] = [Level(context.setting("attitude_blend_s"), levers)]
-    if context.header.rate > basic_steps.LEAST_RATE_HZ:
-        cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
-        stages += low_pass_b3(ACCELERATION, cutoff)
-        stages += low_pass_b3(HEIGHT, cutoff)
-    return (*stages, TravelSpeed())
+FREE_WAVES = 4e-6
+"""Long waves before the run has shown its own, in 1/m: twenty times those of a plain road. A crown
+needs more, and a creeping vehicle less: its bias is as slow as a wave."""
 
 
 ROAD_PRIOR_IMU = (
