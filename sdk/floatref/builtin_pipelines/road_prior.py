@@ -151,6 +151,17 @@ FREE_WAVES = 4e-6
 needs more, and a creeping vehicle less: its bias is as slow as a wave."""
 
 
+def _condition_levelled(context: Context) -> Sequence[Stage]:
+    """Level, carry heights; LPF_B3 at 1000 Hz on both where the rate allows it; add the speed."""
+    levers = levers_of(context.header)
+    stages: list[Stage] = [Level(context.setting("attitude_blend_s"), levers)]
+    if context.header.rate > basic_steps.LEAST_RATE_HZ:
+        cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
+        stages += low_pass_b3(ACCELERATION, cutoff)
+        stages += low_pass_b3(HEIGHT, cutoff)
+    return (*stages, TravelSpeed())
+
+
 ROAD_PRIOR_IMU = (
     Pipeline(
         "road-prior-smoother-imu",
