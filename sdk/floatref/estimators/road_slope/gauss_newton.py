@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.estimators.road_slope.bends import first_bends, renew_bends
+from floatref.estimators.road_slope.known_rows import known_before
 from floatref.estimators.road_slope.rows import Rows, Stretch, Weights
 from floatref.values.arrays import FloatArray
 
@@ -53,6 +54,13 @@ class Fit(NamedTuple):
     def grade(self) -> float:
         """The mean slope of the road."""
         return float(self.unknowns[self.stretch.layout.slope].mean())
+
+    @property
+    def oddity(self) -> float:
+        """Sum of the squares by which constants are off what is `known_before`, over their 1-σ."""
+        known = known_before(self.stretch.layout, self.stretch.model)
+        means, sigmas = np.array(list(known.values())).T
+        return float(np.sum(np.square((self.unknowns[list(known)] - means) / sigmas)))
 
     def rows(self) -> Rows:
         """Return all rows where the fit has ended."""

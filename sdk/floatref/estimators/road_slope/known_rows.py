@@ -42,15 +42,20 @@ def _in_time(lay: Layout, model: SlopeModel, seen: Readings) -> Known:
     return found
 
 
-def _priors(lay: Layout, model: SlopeModel) -> Known:
-    """Return a row for each of `GLOBALS`, and for the first of each that walks."""
-    spread = {
+def known_before(lay: Layout, model: SlopeModel) -> dict[int, tuple[float, float]]:
+    """Return mean and 1-σ of `GLOBALS`, and of the first of each that walks, by their places."""
+    return {
         lay.bias.start: (0.0, model.bias),
         lay.in_time("offset").start: (0.0, model.offset_m),
         lay.in_time("moment").start: (0.0, model.moment),
         lay.elevation.start: (0.0, model.start_m),
         **{lay.place(name): (model.means[name], model.sigmas[name]) for name in GLOBALS},
     }
+
+
+def _priors(lay: Layout, model: SlopeModel) -> Known:
+    """Return a row for each of `known_before`."""
+    spread = known_before(lay, model)
     means, sigmas = np.array(list(spread.values())).T
     shape = len(spread), lay.size
     rows = csr_array((np.ones(len(spread)), (np.arange(len(spread)), list(spread))), shape)

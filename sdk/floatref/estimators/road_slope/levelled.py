@@ -16,8 +16,13 @@ from floatref.values.arrays import FloatArray
 
 UNSETTLED_RAD = 3e-3
 """Change of a pitch by the last pass with which nothing is known of a stretch."""
+UNLIKELY = 33.0
+"""Sum of the squares by which twelve constants are off what is known before, over their 1-σ: one
+vehicle in a thousand has that. Above it something else went into them."""
+LOST_S = 0.03
+"""Without the encoder for longer, the brake of a stretch is not known."""
 UNKNOWN_M = 0.05
-"""1-σ of the elevation there, so that it is flagged."""
+"""1-σ of the elevation where nothing is known, so that it is flagged."""
 RAMP_S = 1.0
 """Time in which the correction comes and goes at the ends of a stretch."""
 MARKS_M = 8.0
@@ -53,11 +58,14 @@ class Levelled:
             inside = slice(pieces[0].start, pieces[-1].stop)
             weight = _ramp(inside.stop - inside.start, drive.step)
             fitted[inside] += weight
+            if drive.lost[inside].sum() * drive.step > LOST_S:
+                found.sigma_m[inside] += weight * UNKNOWN_M
+                continue
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
             found.gains += known_gains([result])
             sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
             found.sigma_m[inside] += weight * sigma_m
-            if is_settled(result):
+            if is_believed(result):
                 found._add(result, inside, weight)
         known = np.maximum(found.share, np.finfo(np.float64).tiny)
         for each in (found.pitch, found.lean, found.grade):
@@ -85,14 +93,14 @@ class Levelled:
         return outside + off
 
 
-def is_settled(result: Fit) -> bool:
-    """Return whether the pitch of a fit is known."""
-    return result.changed_rad < UNSETTLED_RAD
+def is_believed(result: Fit) -> bool:
+    """Return whether a fit has settled on a vehicle that there may be."""
+    return result.changed_rad < UNSETTLED_RAD and result.oddity < UNLIKELY
 
 
 def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray:
     """Return 1-σ of the high-passed elevation at every ``distance``, shape (n,), in m."""
-    if not is_settled(result):
+    if not is_believed(result):
         return np.full(distance.size, UNKNOWN_M)
     begin, end = float(distance[0]), float(distance[-1])
     marks = np.linspace(begin, end, max(2, round((end - begin) / MARKS_M) + 1))
@@ -111,13 +119,13 @@ def _ramp(size: int, step: float) -> FloatArray:
 
 
 def known_gains(fits: Sequence[Fit]) -> list[tuple[FloatArray, FloatArray]]:
-    """Return -λ and -κ of every settled fit, shape (2,), with their covariance, shape (2, 2).
+    """Return -λ and -κ, shape (2,), of every fit that is believed, and their covariance, (2, 2).
 
     A fit whose covariance is lost in rounding is left out.
     """
     found = []
     for each in fits:
-        if is_settled(each):
+        if is_believed(each):
             size, place = each.stretch.layout.size, each.stretch.layout.place
             weights = np.zeros((2, size))
             weights[0, place("lean")] = weights[1, place("gain")] = -1.0

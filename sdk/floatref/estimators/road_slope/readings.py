@@ -22,6 +22,7 @@ class Drive(NamedTuple):
         distance: of the encoder, in m.
         speed: in m/s.
         along: acceleration along the road, in m/s².
+        lost: whether the encoder gave no distance, and it is bridged.
         step: in s from bin to bin.
     """
 
@@ -31,6 +32,7 @@ class Drive(NamedTuple):
     distance: FloatArray
     speed: FloatArray
     along: FloatArray
+    lost: BoolArray
     step: float
 
 

@@ -95,7 +95,8 @@ class LevelByRoad(HeightByModel):
         long = distance.size >= pitching.LEAST_SAMPLES
         along = second_derivative(distance, step) if long else np.zeros(distance.size)
         height = np.where(unseen, np.nan, height)
-        return Drive(np.nan_to_num(force), lost, height, distance, speed, along, step)
+        unplaced = np.isnan(bins[-1])
+        return Drive(np.nan_to_num(force), lost, height, distance, speed, along, unplaced, step)
 
     def _model(self) -> SlopeModel:
         """Return the constants of the fit from those of the smoother."""

@@ -2,22 +2,25 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.sdk.estimators.road_slope.short_runs import at_speed
 
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.gauss_newton import Fit, fit
+from floatref.estimators.road_slope.layout import GLOBALS
 from floatref.estimators.road_slope.levelled import (
     RAMP_S,
     UNKNOWN_M,
+    UNLIKELY,
     Levelled,
     _sigma,
-    is_settled,
+    is_believed,
     known_gains,
 )
 from floatref.estimators.road_slope.readings import Drive
 from floatref.estimators.road_slope.rows import Stretch
+from floatref.estimators.road_slope.stretches import find_stretches
 
 STEP, PLACES = 0.01, Places(4.0, 0.6, 0.0)
 
@@ -32,7 +35,7 @@ def drive_over_bumps(stops: int, seed: int = 0) -> Drive:
     speed = np.interp(t, times, [fast, *(v for _, v in corners)])
     noise = 1e-3 * rng.normal(size=(t.size, 2)).T
     distance, along = np.cumsum(speed) * STEP, np.gradient(speed, STEP)
-    return Drive(noise[0], t < 0, 0.3 + 0.1 * noise[1], distance, speed, along, STEP)
+    return Drive(noise[0], t < 0, 0.3 + 0.1 * noise[1], distance, speed, along, t < 0, STEP)
 
 
 @pytest.mark.slow
@@ -54,6 +57,23 @@ def test_its_share_comes_and_goes_within_a_second() -> None:
     rising = np.diff(found.share)
     assert np.abs(rising).max() <= 1.01 * STEP / RAMP_S
     assert found.share.max() == 1.0
+
+
+@given(begin=st.integers(0, 3000), count=st.integers(1, 40))
+@settings(deadline=None, max_examples=5)
+def test_a_stretch_without_the_encoder_is_left_and_unsure(begin: int, count: int) -> None:
+    """Longer than 0.03 s and anywhere in it; elsewhere it changes nothing."""
+    drive = drive_over_bumps(1)
+    ((pieces),) = find_stretches(drive)
+    inside = slice(pieces[0].start, pieces[-1].stop)
+    lost = np.zeros(drive.force.size, np.bool_)
+    lost[begin : begin + count] = True
+    found = Levelled.of(drive._replace(lost=lost), PLACES, SlopeModel(), 30.0)
+    if lost[inside].sum() > 3:
+        assert not found.share.any()
+        assert (found.sigma_m[inside][100:-100] == UNKNOWN_M).all()
+    else:
+        assert found.share.any()
 
 
 @given(outside=st.floats(-1, 1), inside=st.floats(-1, 1))
@@ -82,11 +102,23 @@ def over(stretch: Stretch) -> Fit:
     return Fit(stretch, stretch.start(), np.full(stretch.layout.points - 1, 1e-5), 7, 0.0)
 
 
+@given(many=st.floats(0.0, 12.0), name=st.sampled_from(GLOBALS))
+def test_constants_that_no_vehicle_has_are_not_believed(many: float, name: str) -> None:
+    """Sigmas by which one is off, squared."""
+    found = over(at_speed(np.full(40, 10.0)))
+    assert found.oddity == pytest.approx(0.0, abs=1e-20)
+    y, model = found.unknowns.copy(), found.stretch.model
+    y[found.stretch.layout.place(name)] += many * model.sigmas[name]
+    odd = found._replace(unknowns=y)
+    assert odd.oddity == pytest.approx(many**2, rel=1e-9, abs=1e-15)
+    assert is_believed(odd) == (odd.oddity < UNLIKELY)
+
+
 def test_a_stretch_without_a_positive_matrix_is_not_settled() -> None:
     """A force that is no number crept in: nothing is known, and nothing breaks."""
     found = fit(at_speed(np.full(40, 10.0), force=np.full(40, np.nan)))
     assert found.passes == 0
-    assert not is_settled(found)
+    assert not is_believed(found)
     assert known_gains([found]) == []
     sigma_m = _sigma(found, np.linspace(0.0, 20.0, 9), 30.0)
     np.testing.assert_array_equal(sigma_m, UNKNOWN_M)
@@ -95,7 +127,7 @@ def test_a_stretch_without_a_positive_matrix_is_not_settled() -> None:
 def test_a_fit_whose_covariance_is_lost_has_neither_gains_nor_a_sigma() -> None:
     stretch = at_speed(np.full(40, 10.0), force=np.full(40, np.nan))
     found = over(stretch)
-    assert is_settled(found)
+    assert is_believed(found)
     assert known_gains([found, over(at_speed(np.full(40, 10.0)))])[0][1].shape == (2, 2)
     assert len(known_gains([found])) == 0
     sigma_m = _sigma(found, np.linspace(0.0, 20.0, 9), 30.0)

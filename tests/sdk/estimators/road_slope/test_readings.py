@@ -17,9 +17,8 @@ def drive(count: int, **changed: Any) -> Drive:
     """Return a drive whose readings are drawn, but for those that are ``changed``."""
     rng = np.random.default_rng(count)
     force, height, speed, along = rng.normal(size=(4, count))
-    usual = Drive(
-        force, np.zeros(count, np.bool_), height, np.arange(count) / 10, speed, along, STEP
-    )
+    never = np.zeros(count, np.bool_)
+    usual = Drive(force, never, height, np.arange(count) / 10, speed, along, never, STEP)
     return usual._replace(**changed)
 
 

@@ -29,7 +29,7 @@ INTERVAL_S = SlopeModel().interval_s
 def drive_at(speed: np.ndarray) -> Drive:
     zero = np.zeros(speed.size)
     distance = np.cumsum(speed) * STEP
-    return Drive(zero, zero > 0, zero, distance, speed, np.gradient(speed, STEP), STEP)
+    return Drive(zero, zero > 0, zero, distance, speed, np.gradient(speed, STEP), zero > 0, STEP)
 
 
 def speeds(*corners: tuple[float, float]) -> np.ndarray:
