@@ -20,7 +20,15 @@ ROWS = [
     for line in re.findall(r"^\|.+\|$", PAGE, re.M)[2:]
 ]
 BORNE = ("none", "long stop", "boarding", "hill", "engine", "mount", "encoder scale", "slip")
+MORE_THAN_IT_BEARS = {("slip in the brake", "30 %/g")}
 LEAST = 0.96
+
+
+def is_refused(row):
+    """Whether the screening has refused the recording: there are no figures."""
+    refused = "lowest" not in CELLS[(*row[:2], OURS)]
+    assert refused == (set(row[2:]) == {"refused"})
+    return refused
 
 
 def test_every_case_has_its_row():
@@ -30,6 +38,8 @@ def test_every_case_has_its_row():
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: ", ".join(row[:2]))
 def test_figures_are_those_measured(row):
+    if is_refused(row):
+        return
     kind, severity, mean, lowest, iri, within, valid, *others = row
     ours = CELLS[kind, severity, OURS]
     found = [float(mean), float(lowest.strip(" !")), float(iri), float(within), float(valid)]
@@ -43,17 +53,24 @@ def test_figures_are_those_measured(row):
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: ", ".join(row[:2]))
 def test_the_mark_stands_where_the_lowest_is_too_low(row):
+    if is_refused(row):
+        return
     assert ("!" in row[3]) == (CELLS[(*row[:2], OURS)]["lowest"] < LEAST)
 
 
 def test_what_it_bears_it_bears():
-    borne = [c for (kind, _, p), c in CELLS.items() if p == OURS and kind.startswith(BORNE)]
+    borne = [
+        cell
+        for (kind, severity, pipeline), cell in CELLS.items()
+        if pipeline == OURS and kind.startswith(BORNE) and "lowest" in cell
+        if (kind, severity) not in MORE_THAN_IT_BEARS
+    ]
     assert len(borne) >= 2 * len(BORNE)
     assert min(cell["lowest"] for cell in borne) >= 0.98
 
 
 def test_it_is_better_than_the_others_wherever_it_is_adequate():
     for (kind, severity, pipeline), cell in CELLS.items():
-        if pipeline == OURS and cell["lowest"] >= LEAST:
+        if pipeline == OURS and cell.get("lowest", 0.0) >= LEAST:
             others = [CELLS[kind, severity, name]["cross_correlation"] for name in OTHERS]
             assert cell["cross_correlation"] > max(others)
