@@ -52,7 +52,7 @@ def record_laser(setup: Setup, tracks: Sequence[str], stages: Sequence[Stage]) -
     """
     carried = {stage.name for stage in stages if getattr(stage, "levers_m", None)}
     how = "measured" if carried else "ignored"
-    how = "modelled" if carried & {"HeightByModel", "LevelByRoad"} else how
+    how = "modelled" if carried & {"HeightByModel", "LevelByRoad", "LevelTriggered"} else how
     found = {}
     for track, shift_m in _shifts_m(setup, tracks).items():
         place = setup.track(track)

@@ -119,10 +119,16 @@ def _condition(context: Context) -> Sequence[Stage]:
 
 
 def _estimate_triggered(context: Context) -> Sequence[Stage]:
-    """Change to the time axis, estimate there, and sample the result at the triggers."""
+    """Change to the time axis, level and estimate there, and sample the result at the triggers."""
+    from floatref.estimators.road_slope import AddRoad, LevelTriggered
+
+    levers_m = {track: ahead for track, (ahead, _) in levers_of(context.header).items()}
+    constants, wavelength_m = _constants(context), context.setting("cutoff_wavelength_m")
     return (
         ToTime(context.setting("unknown_after_s")),
-        RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m")),
+        LevelTriggered(levers_m, constants, wavelength_m),
+        RoadPriorSmoother(constants, wavelength_m),
+        AddRoad(),
         Seams(),
         Drop(MISSING_SHARE),
         ToDistance(context.setting("interval_m"), context.origin_m),
@@ -135,7 +141,11 @@ ROAD_PRIOR_SPATIAL = (
         "spatial",
         "the same from one sample per profile interval, triggered by the encoder",
         {**SETTINGS, "acceleration_anti_alias_hz": 100.0, "unknown_after_s": 0.8},
-        {"spatial_condition": _condition, "spatial_estimate": _estimate_triggered},
+        {
+            "spatial_laser": (),
+            "spatial_condition": _condition,
+            "spatial_estimate": _estimate_triggered,
+        },
         signed=EXPECTED,
     ),
 )

@@ -35,3 +35,6 @@ LEVELLED = "levelled"
 tracks."""
 LEVELLING_SIGMA = "levelling_sigma"
 """1-σ in m that this leaves in the elevation as it is delivered; shared by all tracks."""
+EXPECTED_ROAD = "expected_road"
+"""Elevation in m that is left out of the vertical acceleration, to be added to the elevation found
+from it; shared by all tracks."""

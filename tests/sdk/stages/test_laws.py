@@ -27,7 +27,8 @@ from floatref_conformance.testing.stage_laws import CUTS, SEEDS, assert_same, la
 from floatref_conformance.testing.streams import LENGTH, Stream, marks_of
 
 BY_STAGE_LAWS = {"Advance", "CompareTravel", "Denoise", "EstimateRoad", "JoinTyres", "KalmanFilter"}
-BY_STAGE_LAWS |= {"Abeam", "HeightByAttitude", "HeightByModel", "LevelByRoad"}
+BY_STAGE_LAWS |= {"Abeam", "AddRoad", "HeightByAttitude", "HeightByModel"}
+BY_STAGE_LAWS |= {"LevelByRoad", "LevelTriggered"}
 BY_STAGE_LAWS |= {"KalmanSmoother", "Level", "RestoreContact", "RoadPriorSmoother", "Seams"}
 BY_STAGE_LAWS |= {"ShiftAlong", "ToRate", "ToTime"}
 """Stages that are held to the laws in tests of their own."""

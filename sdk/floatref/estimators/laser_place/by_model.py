@@ -1,6 +1,7 @@
 """The height carried to the accelerometer by a pitch that the road under the axles explains."""
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,10 +27,13 @@ class HeightByModel(Stage):
     `model_pitch`, for which the engine shows this stage the whole run first. The body has one
     pitch, so sensors of all wheel paths have a part in it, and roll has no part. A height has the
     flags of its own accelerometer, too; a sample that is missing is bridged in the pitch.
+
+    ``force`` is the name of what the accelerometers give.
     """
 
     surveys = True
     declared = Declared(linear=False, zero_in_zero_out=False)
+    force: ClassVar[str] = SPECIFIC_FORCE
 
     def __init__(self, levers_m: Mapping[str, float]) -> None:
         """Carry by ``levers_m`` of each wheel path: its laser ahead of its accelerometer."""
@@ -42,7 +46,7 @@ class HeightByModel(Stage):
         """Ask for force and height of every track and the encoder, in time."""
         if header.axis is not Axis.TIME:
             raise InputError(f"stage {self.name}: the stream is not on the time axis")
-        own = [channel for track in header.tracks for channel in _own(track)]
+        own = [channel for track in header.tracks for channel in self.own(track)]
         header.require(self.name, *own, ChannelId(DISTANCE))
         self._header = header
         self._every = max(1, round(1.0 / (BINS_HZ * header.step)))
@@ -52,31 +56,34 @@ class HeightByModel(Stage):
 
     def survey(self, block: Block) -> None:
         """Add the block to the means of the bins."""
-        assert self._header is not None
-        names = [channel for track in self._header.tracks for channel in _own(track)]
-        rows = [_trusted_samples(block, name) for name in (*names, ChannelId(DISTANCE))]
-        self.memory["bins"].append(self.memory["means"].take(np.stack(rows)))
+        self.memory["bins"].append(self.memory["means"].take(np.stack(self.rows(block))))
         if self.memory["begin"] is None and len(block):
             self.memory["begin"] = block.first
+
+    def rows(self, block: Block) -> list[FloatArray]:
+        """Return force and height of every track, and the distance, NaN where not to be trusted."""
+        assert self._header is not None
+        names = [channel for track in self._header.tracks for channel in self.own(track)]
+        return [trusted(block, name) for name in (*names, ChannelId(DISTANCE))]
 
     def advance(self, block: Block) -> Block:
         """Carry the heights of the block."""
         if len(block) == 0:
             return block
         if self.memory["raised"] is None:
-            self.memory["raised"] = self.find_pitch(self._whole_bins())
+            self.memory["raised"] = self.find_pitch(self.whole_bins())
         values, flags = {}, {}
         raised = self.between_bins(block, self.memory["raised"])
         for track, lever_m in self.levers_m.items():
             height = ChannelId(HEIGHT, track)
             values[height] = block[height] - lever_m * raised
-            marks = flags_of(block, *_own(track))
+            marks = flags_of(block, *self.own(track))
             if marks is not None:
                 flags[height] = marks
         return block.setting(values, flags)
 
-    def _whole_bins(self) -> FloatArray:
-        """Return all bins, without a last one that is cut short.
+    def whole_bins(self) -> FloatArray:
+        """Return all bins, rows as in `rows`, without a last one that is cut short.
 
         The mean of a few samples lies before the middle of their bin, which is a brake to whoever
         differentiates the distance.
@@ -94,9 +101,13 @@ class HeightByModel(Stage):
         return found
 
     def find_pitch(self, bins: FloatArray) -> FloatArray:
-        """Return sin θ of every bin of all that was surveyed, rows as in `survey`."""
+        """Return sin θ of every bin of all that was surveyed, rows as in `rows`."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
         return np.sin(model_pitch(force, height, bins[-1], self.places()))
+
+    def own(self, track: str) -> tuple[ChannelId, ChannelId]:
+        """Return the channels of accelerometer and laser of the ``track``."""
+        return ChannelId(self.force, track), ChannelId(HEIGHT, track)
 
     def places(self) -> Places:
         """Return where the middle of the sensors is, and the axles."""
@@ -106,10 +117,6 @@ class HeightByModel(Stage):
         laser_m = at_m + float(np.mean([self.levers_m[t] for t in tracks]))
         step = self._every * self._header.step
         return Places(at_m, laser_m, setup.axles_about(tracks[0]), step)
-
-
-def _own(track: str) -> tuple[ChannelId, ChannelId]:
-    return ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
 
 
 def middle(rows: FloatArray) -> FloatArray:
@@ -122,6 +129,7 @@ def middle(rows: FloatArray) -> FloatArray:
     return np.asarray(np.mean(bridged, axis=0))
 
 
-def _trusted_samples(block: Block, channel: ChannelId) -> FloatArray:
+def trusted(block: Block, channel: ChannelId) -> FloatArray:
+    """Return the samples of ``channel``, NaN where they are flagged."""
     flags = block.flags.get(channel)
     return block[channel] if flags is None else np.where(flags == 0, block[channel], np.nan)

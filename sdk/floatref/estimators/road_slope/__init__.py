@@ -4,5 +4,6 @@ docs/road-prior-slope.md has the equations; `floatref_reference.road_slope` the 
 """
 
 from floatref.estimators.road_slope.stage import LevelByRoad
+from floatref.estimators.road_slope.triggered import AddRoad, LevelTriggered
 
-__all__ = ["LevelByRoad"]
+__all__ = ["AddRoad", "LevelByRoad", "LevelTriggered"]

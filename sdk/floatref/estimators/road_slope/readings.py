@@ -17,7 +17,7 @@ class Drive(NamedTuple):
 
     Attributes:
         force: vertical specific force less 1 g, in m/s², no value missing.
-        missing: whether it was, and is bridged.
+        missing: share of it that was, and is bridged.
         height: of the sensors, in m, NaN where a reading is missing.
         distance: of the encoder, in m.
         speed: in m/s.
@@ -27,7 +27,7 @@ class Drive(NamedTuple):
     """
 
     force: FloatArray
-    missing: BoolArray
+    missing: FloatArray | BoolArray
     height: FloatArray
     distance: FloatArray
     speed: FloatArray

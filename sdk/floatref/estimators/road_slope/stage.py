@@ -72,7 +72,7 @@ class LevelByRoad(HeightByModel):
     def find_pitch(self, bins: FloatArray) -> FloatArray:
         """Return sin θ of every bin, and keep what the forces have to be raised by."""
         drive, places = self._drive(bins), self.places()
-        found = Levelled.of(drive, _from_laser(places), self._model(), self.wavelength_m)
+        found = Levelled.of(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)
         if any(self.levers_m.values()):
             pitch = model_pitch(drive.force, drive.height, bins[-1], places)
@@ -128,7 +128,7 @@ def _with_bridged(block: Block, force: ChannelId, height: ChannelId) -> FlagArra
     return bridged if marks is None else marks | bridged
 
 
-def _from_laser(places: pitching.Places) -> Places:
+def from_laser(places: pitching.Places) -> Places:
     """Return the places of a vehicle as seen from its laser."""
     front_m = places.axles.front_axle_m - places.laser_m
     lever_m = places.laser_m - places.accelerometer_m
