@@ -12,15 +12,16 @@ from floatref.estimators.road_slope.gauss_newton import Fit, fit
 from floatref.estimators.road_slope.readings import Drive, Readings
 from floatref.estimators.road_slope.rows import Stretch
 from floatref.estimators.road_slope.stretches import find_stretches
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
 
 UNSETTLED_RAD = 3e-3
 """Change of a pitch by the last pass with which nothing is known of a stretch."""
 UNLIKELY = 33.0
 """Sum of the squares by which twelve constants are off what is known before, over their 1-σ: one
 vehicle in a thousand has that. Above it something else went into them."""
-LOST_S = 0.03
-"""Without the encoder for longer, the brake of a stretch is not known."""
+LOST_S, LOST_REACH_M = 0.03, 40.0
+"""Without the encoder for longer, the brake of a stretch is not known; what is then off by the road
+under the wheels is off about where the vehicle is slowest, for two lengths of a crown."""
 UNKNOWN_M = 0.05
 """1-σ of the elevation where nothing is known, so that it is flagged."""
 RAMP_S = 1.0
@@ -59,7 +60,7 @@ class Levelled:
             weight = _ramp(inside.stop - inside.start, drive.step)
             fitted[inside] += weight
             if drive.lost[inside].sum() * drive.step > LOST_S:
-                found.sigma_m[inside] += weight * UNKNOWN_M
+                found.sigma_m[inside] += weight * UNKNOWN_M * _about_the_slowest(drive, inside)
                 continue
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
             found.gains += known_gains([result])
@@ -91,6 +92,13 @@ class Levelled:
         bins = np.arange(values.size)
         off = np.interp(bins, known, values[known] - outside[known])
         return outside + off
+
+
+def _about_the_slowest(drive: Drive, inside: slice) -> BoolArray:
+    """Return which bins are within `LOST_REACH_M` of where the vehicle is slowest, shape (n,)."""
+    place = drive.distance[inside]
+    slowest = place[np.argmin(drive.speed[inside])]
+    return np.asarray(np.abs(place - slowest) <= LOST_REACH_M)
 
 
 def is_believed(result: Fit) -> bool:
