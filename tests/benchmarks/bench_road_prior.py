@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import road_prior_peers as peers
+from bench_levelled_stops import UNLEVELLED, add_plugin
 from kalman_task import TRACK, Prepared
 from kind_drives import KIND
 from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
@@ -108,6 +109,23 @@ def report_peers() -> None:
         )
 
 
+def report_levelling(drive: Scenario) -> None:
+    """Print what levelling takes of a pipeline where there is a stop in each kilometre."""
+    recording = simulate(drive).recording
+    add_plugin()
+    whole, without = in_turns(
+        lambda: floatref.process(recording, PIPELINE),
+        lambda: floatref.process(recording, UNLEVELLED),
+    )
+    count = recording.channel("vertical_specific_force", TRACK).values.size
+    levelling = [one - other for one, other in zip(whole, without, strict=True)]
+    print(f"{drive.stops} stops, one in each kilometre, {count / RATE_HZ:.1f} s")
+    for name, times in ((PIPELINE, whole), (UNLEVELLED, without), ("levelling", levelling)):
+        print(f"  {name:26} {line(times, count)}")
+    print(f"  {'levelling of one stop':26} {1e3 * np.median(levelling) / drive.stops:6.0f} ms")
+    sys.stdout.flush()
+
+
 def main(length_m: float) -> None:
     """Report on a drive at constant speed, and on one with a stop."""
     nominal = {"tracks": (TRACK,), "imu": False, "gnss": False, **KIND}
@@ -115,6 +133,10 @@ def main(length_m: float) -> None:
     stop = scenario_of_run("sg_10.7s_0.20g", **nominal)
     for name, scenario in (("72 km/h", constant), ("stop", stop)):
         report_stage(name, simulate(scenario).recording)
+    often = {"stops": 3, "stop_spacing_m": 1000.0, "event_at_m": 500.0, "length_m": 3000.0}
+    report_levelling(
+        Scenario(manoeuvre="stop", speed_kmh=72.0, final_speed_kmh=58.0, **often, **nominal)
+    )
     report_peers()
     report_start(simulate(Scenario(length_m=100.0, **nominal)).recording, PIPELINE)
 
