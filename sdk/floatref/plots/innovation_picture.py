@@ -33,7 +33,7 @@ WIDTHS_INCHES = (9.0, 2.6)
 NARROWEST, WIDEST = 4.5, FARTHEST
 """Sigma at the ends of an axis; what lies farther is drawn as a triangle at the end."""
 TOGETHER = 64
-"""So many innovations of the sample make one point of the line of their root mean square."""
+"""Number of innovations of the sample in one point of the line of their root mean square."""
 APART = 2.5
 """They are apart in time if they take longer than usual by this factor."""
 LINE_POINTS = (2.8, 1.4)

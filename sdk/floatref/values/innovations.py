@@ -19,7 +19,7 @@ FARTHEST, BIN = 12.0, 0.25
 EDGES = np.arange(-FARTHEST, FARTHEST + BIN / 2, BIN)
 """Edges of the bins, shape (97,); the first and the last bin also hold what lies beyond."""
 NEAR = 2.0
-"""Within so many sigma lies the `share_near` of innovations: 95.45 % of normal ones."""
+"""Number of sigma within which the `share_near` of innovations lies: 95.45 % of normal ones."""
 
 
 @dataclass(eq=False)
@@ -33,7 +33,7 @@ class Innovations:
         near: how many were within `NEAR` sigma.
         left_out: readings that the filter did not believe; they are in no other number.
         bins: how many fell into each bin of `EDGES`, shape (96,).
-        every: one of so many is in the sample, the first among them.
+        every: one in `every` innovations is in the sample, the first among them.
         times_s: times of the sample since the first of the recording, shape (n,).
         sample: z of the sample, shape (n,).
     """
