@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -19,8 +20,8 @@ UNSETTLED_RAD = 3e-3
 UNLIKELY = 33.0
 """Sum of the squares by which twelve constants are off what is known before, over their 1-σ: one
 vehicle in a thousand has that. Above it something else went into them."""
-LOST_S, LOST_REACH_M = 0.03, 40.0
-"""Without the encoder for longer, the brake of a stretch is not known; what is then off by the road
+LOST_REACH_M = 40.0
+"""Without the encoder somewhere in a stretch its brake is not known; what is then off by the road
 under the wheels is off about where the vehicle is slowest, for two lengths of a crown."""
 UNKNOWN_M = 0.05
 """1-σ of the elevation where nothing is known, so that it is flagged."""
@@ -49,6 +50,8 @@ class Levelled:
     grade: FloatArray
     sigma_m: FloatArray
     gains: list[tuple[FloatArray, FloatArray]]
+    unknown_reach_m: ClassVar[float] = np.inf
+    """How far about the place of the least speed a stretch is unsure whose fit is not believed."""
 
     @classmethod
     def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
@@ -59,15 +62,18 @@ class Levelled:
             inside = slice(pieces[0].start, pieces[-1].stop)
             weight = _ramp(inside.stop - inside.start, drive.step)
             fitted[inside] += weight
-            if drive.lost[inside].sum() * drive.step > LOST_S:
-                found.sigma_m[inside] += weight * UNKNOWN_M * _about_the_slowest(drive, inside)
+            if drive.lost[inside].any():
+                near = _about_the_slowest(drive, inside, LOST_REACH_M)
+                found.sigma_m[inside] += weight * UNKNOWN_M * near
                 continue
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
             found.gains += known_gains([result])
             sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
-            found.sigma_m[inside] += weight * sigma_m
             if is_believed(result):
                 found._add(result, inside, weight)
+            else:
+                sigma_m = sigma_m * _about_the_slowest(drive, inside, cls.unknown_reach_m)
+            found.sigma_m[inside] += weight * sigma_m
         known = np.maximum(found.share, np.finfo(np.float64).tiny)
         for each in (found.pitch, found.lean, found.grade):
             each /= known
@@ -94,11 +100,11 @@ class Levelled:
         return outside + off
 
 
-def _about_the_slowest(drive: Drive, inside: slice) -> BoolArray:
-    """Return which bins are within `LOST_REACH_M` of where the vehicle is slowest, shape (n,)."""
+def _about_the_slowest(drive: Drive, inside: slice, reach_m: float) -> BoolArray:
+    """Return which bins are within ``reach_m`` of where the vehicle is slowest, shape (n,)."""
     place = drive.distance[inside]
     slowest = place[np.argmin(drive.speed[inside])]
-    return np.asarray(np.abs(place - slowest) <= LOST_REACH_M)
+    return np.asarray(np.abs(place - slowest) <= reach_m)
 
 
 def is_believed(result: Fit) -> bool:

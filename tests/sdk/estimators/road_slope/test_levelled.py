@@ -63,14 +63,14 @@ def test_its_share_comes_and_goes_within_a_second() -> None:
 @given(begin=st.integers(0, 3000), count=st.integers(1, 40))
 @settings(deadline=None, max_examples=5)
 def test_a_stretch_without_the_encoder_is_left_and_unsure(begin: int, count: int) -> None:
-    """Longer than 0.03 s and anywhere in it; elsewhere it changes nothing."""
+    """Anywhere in it; elsewhere it changes nothing."""
     drive = drive_over_bumps(1)
     ((pieces),) = find_stretches(drive)
     inside = slice(pieces[0].start, pieces[-1].stop)
     lost = np.zeros(drive.force.size, np.bool_)
     lost[begin : begin + count] = True
     found = Levelled.of(drive._replace(lost=lost), PLACES, SlopeModel(), 30.0)
-    if lost[inside].sum() > 3:
+    if lost[inside].any():
         assert not found.share.any()
         place, sigma_m = drive.distance[inside][100:-100], found.sigma_m[inside][100:-100]
         near = np.abs(place - drive.distance[np.argmin(drive.speed)]) < LOST_REACH_M

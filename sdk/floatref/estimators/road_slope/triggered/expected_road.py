@@ -1,13 +1,13 @@
 """The road that the fits of a run have found, for the smoother to expect."""
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.gauss_newton import Fit
-from floatref.estimators.road_slope.levelled import Levelled
+from floatref.estimators.road_slope.levelled import LOST_REACH_M, Levelled
 from floatref.estimators.road_slope.readings import Drive
 from floatref.values.arrays import FloatArray
 
@@ -49,6 +49,7 @@ class LevelledRoad(Levelled):
     weight: FloatArray = field(init=False)
     gains_weighted: FloatArray = field(init=False)
     slopes_weighted: FloatArray = field(init=False)
+    unknown_reach_m: ClassVar[float] = LOST_REACH_M
 
     def __post_init__(self) -> None:
         """Know nothing."""

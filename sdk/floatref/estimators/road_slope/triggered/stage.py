@@ -1,4 +1,4 @@
-"""The stage that levels triggered samples, of which a standstill has none."""
+"""The stage that levels triggered samples, without those of the standstill."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -127,7 +127,7 @@ class LevelTriggered(LevelByRoad):
 def _with_doubts(block: Block, force: ChannelId, height: ChannelId) -> FlagArray | None:
     """Return the flags of ``force``, and as one that is bridged those of the ``height`` beside it.
 
-    A height that is only missing is none of them: away from triggers every one is.
+    A height that is only missing does not count: away from triggers every one is.
     """
     marks, more = flags_of(block, force), flags_of(block, height)
     if more is None:
