@@ -20,8 +20,14 @@ pytestmark = pytest.mark.slow
 PIPELINES = "road-prior-smoother", "road-prior-smoother-imu"
 DRIVES, SEED = 8, 4
 SHAPES = [condition.name for condition in STOPS]
-LESS = {("road-prior-smoother-imu", name): 60.0 for name in ("hump, gutter", "break of 6 %")}
-"""Where sigma is too small: docs/road-prior-imu.md says so."""
+TOO_SMALL = {("road-prior-smoother-imu", name) for name in ("hump, gutter", "break of 6 %")}
+"""Where sigma falls short of what is asked, 85 %: docs/road-prior-imu.md says so."""
+SHORT = pytest.mark.xfail(reason="sigma has no share for an error of the attitude", strict=True)
+CASES = [
+    pytest.param(name, shape, marks=[SHORT] if (name, shape) in TOO_SMALL else [])
+    for name in PIPELINES
+    for shape in SHAPES
+]
 
 
 @cache
@@ -37,10 +43,9 @@ def within(pipeline: str, shape: str) -> float:
     return float(np.mean([s.encoder.within_two_sigma_percent for s in scores if s]))
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("pipeline", PIPELINES)
+@pytest.mark.parametrize(("pipeline", "shape"), CASES)
 def test_sigma_contains_the_truth_on_every_shape(pipeline: str, shape: str) -> None:
-    assert within(pipeline, shape) >= LESS.get((pipeline, shape), 85.0)
+    assert within(pipeline, shape) >= 85.0
 
 
 @pytest.mark.parametrize("pipeline", PIPELINES)

@@ -41,6 +41,13 @@ def test_what_is_asked_of_stops_is_on_the_page():
         assert 85.0 <= within <= 99.5
 
 
+def test_the_flags_that_are_more_than_asked_are_those_the_page_names():
+    """30 m at the 95th percentile are asked of every shape."""
+    more = {shape for shape, (_, _, _, flagged, _) in ROWS.items() if flagged[1] > 30.0}
+    assert more == {"hump, gutter"}
+    assert "On humps the 95th percentile is 43 m" in PAGE
+
+
 @pytest.mark.slow
 def test_the_first_drive_of_each_shape_is_as_the_page_says():
     """No worse than the first percentile of the page, and right."""

@@ -25,9 +25,6 @@ SCALE_OFF, UNUSABLE = 0.25, 0.3
 PITCHES_ABOUT_M = 1.5
 """Shortest distance in m from the sensors to the point that a body pitches about, half a wheelbase:
 a laser ahead of its accelerometer by a part of it moves by as much more or less."""
-STEEPEST, LASER_M = 0.1, 0.5
-"""Slope of a hump and height of a laser over the road: the spot of a laser that pitches with the
-body goes along the road, and up or down its slope."""
 LATE_S, CERTAIN = 0.005, 3.0
 """Lag in s beyond the latency of a laser, up to 3 ms, and in standard deviations of it."""
 LOOK_S, STANDS_S, STANDS_M = 0.05, 0.7, 0.002
@@ -50,7 +47,7 @@ def stop_doubts(recording: Recording, tracks: Collection[str]) -> Iterator[Doubt
             parts = [[cut(c, *stop) for c in (force, height, encoder)] for stop in stops]
             known = [[c for c in part if c is not None] for part in parts]
             whole = [(part[0], part[1], part[2]) for part in known if len(part) == 3]
-            yield from _scale(whole, (abs(ahead_m) + STEEPEST * LASER_M) / PITCHES_ABOUT_M)
+            yield from _scale(whole, abs(ahead_m) / PITCHES_ABOUT_M)
             yield from _lag(whole)
 
 

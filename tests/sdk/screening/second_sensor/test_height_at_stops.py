@@ -64,10 +64,9 @@ def test_a_sound_pair_raises_no_doubt() -> None:
 
 
 @pytest.mark.parametrize(
-    ("gain", "fatal"), [(-1.0, True), (0.5, True), (0.69, False), (1.31, False), (2.0, True)]
+    ("gain", "fatal"), [(-1.0, True), (0.5, True), (0.73, False), (1.28, False), (2.0, True)]
 )
 def test_a_wrong_gain_is_named_and_refused_beyond_three_tenths(gain: float, fatal: bool) -> None:
-    """And what the slope under a laser makes of them, a thirtieth."""
     doubt = doubts(gain)[0]
     assert doubt.fatal == fatal
     assert f"moves {gain:.3g} times as far" in doubt.line
