@@ -59,7 +59,9 @@ class Constants(NamedTuple):
         known_m: 1-σ of the road's second difference outside of a brake, m.
         gain_doubt: share of κ that is not sure, as a real body is no half car.
         turn_doubt: what a change of β of 1 over a wheelbase adds to it.
-        grade_doubt: 1-σ of the mean slope of the stretch, at least.
+        grade_together: by how many times the mean slope of the stretch is less sure than its rows
+            have it, as they err together.
+        grade_doubt: 1-σ of that slope at most.
     """
 
     interval_s: float = 0.06
@@ -111,4 +113,5 @@ class Constants(NamedTuple):
     known_m: float = 2e-3
     gain_doubt: float = 0.045
     turn_doubt: float = 1.0
+    grade_together: float = 8.0
     grade_doubt: float = 0.016

@@ -133,6 +133,21 @@ def gain_doubt(beta: Vector, stretch: Stretch) -> float:
     return sqrt(c.gain_doubt**2 + (c.turn_doubt * turning(beta, stretch)) ** 2)
 
 
+def grade_doubt(covariance: Matrix, mean_slope: Vector, stretch: Stretch) -> float:
+    """Return the 1-σ of the grade of the stretch that its rows do not have.
+
+    Equation:
+        ε_2 = min(8 √(e_2ᵀ C e_2), 0.016)
+
+    Args:
+        covariance: C, shape (M, M).
+        mean_slope: e_2, shape (M,).
+        stretch: what is known.
+    """
+    c = stretch.constants
+    return min(c.grade_together * sqrt(mean_slope @ covariance @ mean_slope), c.grade_doubt)
+
+
 def deviation(weights: Matrix, covariance: Matrix, doubted: Matrix, doubts: Vector) -> Vector:
     """Return the 1-σ of weighted sums of unknowns, as a high-pass of the road forms them.
 
@@ -183,8 +198,8 @@ def elevation_sigma(weights: Matrix, answer: Answer, stretch: Stretch) -> Vector
     """Return the 1-σ of the elevation that levelling adds.
 
     Equation:
-        `deviation` with C of `known_covariance`, ε_1 = ε κ by `gain_doubt` and ε_2 = 0.016, at
-        the unknowns found
+        `deviation` with C of `known_covariance`, ε_1 = ε κ by `gain_doubt` and ε_2 by
+        `grade_doubt`, at the unknowns found
 
     Args:
         weights: w_m of n marks, shape (n, M).
@@ -198,4 +213,5 @@ def elevation_sigma(weights: Matrix, answer: Answer, stretch: Stretch) -> Vector
     C = known_covariance(vector, stretch, answer.held)
     gain = gain_doubt(answer.held.beta, stretch) * float(x.gain)
     doubted = in_doubt(len(x.slope), len(x.pitch), len(vector))
-    return deviation(weights, C, doubted, np.array([gain, stretch.constants.grade_doubt]))
+    grade = grade_doubt(C, doubted[1], stretch)
+    return deviation(weights, C, doubted, np.array([gain, grade]))

@@ -13,10 +13,13 @@ from floatref.values.arrays import FloatArray, IndexArray
 KNOWN_M, APART_M, BESIDE_M = 2e-3, 8.0, 2.0
 """1-σ, from the smoother, of a second difference of the road over so much travel, so far from
 where the vehicle brakes: its own 1-σ is there already."""
-GAIN_DOUBT, TURN_DOUBT, GRADE_DOUBT = 0.045, 1.0, 0.016
+GAIN_DOUBT, TURN_DOUBT = 0.045, 1.0
 """A body is no half car: its gain is sure within this part, and for each rad by which the road
-turns under a wheelbase within so much more. The grade of the whole stretch, which ½gP² shows, is
-not surer than this: rows that count as drawn one by one err together where a brake ends."""
+turns under a wheelbase within so much more."""
+TOGETHER, GRADE_DOUBT = 8.0, 0.016
+"""The grade of the whole stretch, which ½gP² shows, is off by this number of times what the rows
+make of it, and by the second at most: rows that count as drawn one by one err together where a
+brake ends."""
 
 
 def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> FloatArray:
@@ -31,7 +34,8 @@ def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> Float
     covariance = plan.factor(derivative).covariance(weights)
     by_doubted = covariance[:n, n:] / np.diag(covariance)[n:]
     gain = np.hypot(GAIN_DOUBT, TURN_DOUBT * turn(fit)) * fit.of("gain")
-    doubted = np.square(by_doubted) @ np.square([gain, GRADE_DOUBT])
+    grade = min(TOGETHER * float(np.sqrt(covariance[-1, -1])), GRADE_DOUBT)
+    doubted = np.square(by_doubted) @ np.square([gain, grade])
     return np.asarray(np.sqrt(np.diag(covariance)[:n] + doubted))
 
 

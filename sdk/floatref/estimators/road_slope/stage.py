@@ -12,6 +12,7 @@ from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.levelled import Levelled
 from floatref.estimators.road_slope.readings import Drive
+from floatref.estimators.road_slope.stretches import rolled_back
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
@@ -94,9 +95,11 @@ class LevelByRoad(HeightByModel):
         speed = np.gradient(distance, step) if distance.size > 1 else np.zeros(distance.size)
         long = distance.size >= pitching.LEAST_SAMPLES
         along = second_derivative(distance, step) if long else np.zeros(distance.size)
-        height = np.where(unseen, np.nan, height)
         unplaced = np.isnan(bins[-1])
-        return Drive(np.nan_to_num(force), lost, height, distance, speed, along, unplaced, step)
+        rolled = rolled_back(unplaced, distance, step)
+        height = np.where(unseen | rolled, np.nan, height)
+        places = distance, speed, along, unplaced & ~rolled
+        return Drive(np.nan_to_num(force), lost, height, *places, step)
 
     def _model(self) -> SlopeModel:
         """Return the constants of the fit from those of the smoother."""

@@ -5,7 +5,7 @@ height is the body's own motion: its ratio to the twice integrated acceleration 
 the road.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -20,8 +20,11 @@ WINDOW_S, STANDS_S = 1.5, 0.7
 STANDS_M = 0.002
 """Travel in m during `STANDS_S` below which a vehicle is stationary."""
 LEAST_COHERENCE = 0.99
-LEAST_MOTION_M = 2e-4
-"""Least motion by the accelerometer in m."""
+LEAST_MOTION_M, STILL_SEEN_M = 2e-4, 2e-5
+"""Least motion by the accelerometer, in m, of a window that gives a gain, and of one that denies
+it."""
+RIGHT = 0.1
+"""Largest deviation from 1 of a gain that denies a strange one."""
 LARGEST_SKEW_S = 0.02
 """Largest skew in s: with a greater one an axle that hops has the other sign."""
 SLOWEST_HZ = 100.0
@@ -34,7 +37,9 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
 
     Windows of 1.5 s count where the vehicle is stationary by its ``distance`` and both sensors
     measure one motion. The window with the most motion gives the gain; a negative gain is a height
-    of the wrong sign.
+    of the wrong sign. A wrong unit is wrong in every window: where another one is right, that one
+    gives the gain. On a hump the jolt of a stop pitches the body, and its laser's spot goes up or
+    down the slope; a second later it does no more.
     """
     begin = max(force.span_s[0], height.span_s[0])
     end = min(force.span_s[1], height.span_s[1])
@@ -46,10 +51,24 @@ def sensor_gain(force: Channel, height: Channel, distance: Channel) -> float:
         return np.nan
     force_series, height_series = on_grid(force, grid), on_grid(height, grid)
     for sign in (1.0, -1.0):
-        found = [w for w in _windows(force_series, sign * height_series, stands) if _is_usable(w)]
-        if found:
-            return sign * max(found, key=lambda window: window.motion_m / window.gain).gain
+        alike = [w for w in _windows(force_series, sign * height_series, stands) if _is_one(w)]
+        if any(_moved_m(window) >= LEAST_MOTION_M for window in alike):
+            return sign * _choose(alike).gain
     return np.nan
+
+
+def _choose(alike: Sequence[SkewWindow]) -> SkewWindow:
+    """Return the window with the most motion, or one that denies its gain."""
+    most = max(alike, key=_moved_m)
+    if abs(most.gain - 1.0) <= STRANGE:
+        return most
+    right = min(alike, key=lambda window: abs(window.gain - 1.0))
+    return right if abs(right.gain - 1.0) <= RIGHT else most
+
+
+def _moved_m(window: SkewWindow) -> float:
+    """Return the motion by the accelerometer, in m."""
+    return window.motion_m / window.gain
 
 
 def gain_warning(gain: float, height: Channel) -> str | None:
@@ -72,7 +91,8 @@ def _windows(force: FloatArray, height: FloatArray, stands: BoolArray) -> Iterat
                 yield window
 
 
-def _is_usable(window: SkewWindow) -> bool:
-    moves = window.motion_m >= LEAST_MOTION_M * window.gain
+def _is_one(window: SkewWindow) -> bool:
+    """Return whether both sensors measure one motion there."""
+    moves = _moved_m(window) >= STILL_SEEN_M
     one = 1.0 - window.rest**2 >= LEAST_COHERENCE
     return moves and one and abs(window.skew_s) <= LARGEST_SKEW_S

@@ -78,7 +78,8 @@ def assert_plain(
     gain[lay.place("gain")], grade[lay.slope] = 1.0, 1.0 / lay.points
     moved = [covariance @ e / (e @ covariance @ e) for e in (gain, grade)]
     doubt = np.hypot(module.GAIN_DOUBT, module.TURN_DOUBT * turn(found)) * found.of("gain")
-    doubts = doubt, module.GRADE_DOUBT
+    own = float(np.sqrt(grade @ covariance @ grade))
+    doubts = doubt, min(module.TOGETHER * own, module.GRADE_DOUBT)
     marks = marks_of(found.stretch, *shares)
     sigma = elevation_sigma(found, marks, wavelength_m)
     for mark, each in zip(marks, sigma, strict=True):

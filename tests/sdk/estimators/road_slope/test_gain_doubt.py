@@ -82,6 +82,7 @@ def test_a_doubt_of_the_grade_is_worth_what_another_grade_does_to_the_road(run: 
     for doubt in (0.0, 0.1):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(module, "GRADE_DOUBT", doubt)
+            patch.setattr(module, "TOGETHER", 1e9)
             squares.append(np.square(elevation_sigma(found, marks, 12.0)))
     J = found.rows().derivative.toarray()
     size = np.linalg.norm(J, axis=0)

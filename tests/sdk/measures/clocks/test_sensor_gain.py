@@ -97,3 +97,12 @@ def test_what_moves_too_little_or_otherwise_tells_nothing() -> None:
 def test_the_window_with_the_most_motion_tells() -> None:
     parts = [(0.001, 3.0, 6.0), (0.02, 1.0, 6.0), (0.001, 3.0, 6.0)]
     assert swinging(parts) == pytest.approx(1.0, rel=0.02)
+
+
+def test_a_wrong_unit_is_wrong_in_every_window() -> None:
+    jolt, swing, still = (0.002, 1.4, 6.0), (0.0001, 1.0, 6.0), (0.00001, 1.0, 6.0)
+    assert swinging([jolt, swing]) == pytest.approx(1.0, rel=0.02)
+    assert swinging([jolt, still]) == pytest.approx(1.4, rel=0.05)
+    for gain in (0.5, 1.4, 3.0, -1.0):
+        always = [(motion_m, gain, seconds) for motion_m, _, seconds in (jolt, swing)]
+        assert swinging(always) == pytest.approx(gain, rel=0.02)
