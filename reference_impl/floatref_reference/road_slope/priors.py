@@ -13,6 +13,10 @@ STANDING = 0.02
 """V in m/s below which a node stands."""
 BOARDING = 1.0 - 1e-9
 """Seconds of standing after which somebody may board, less rounding."""
+SETTLED = 3e-3
+"""Change of the pitch in rad from which an answer has not settled."""
+UNLIKELY = 33.0
+"""Sum of twelve squared misfits that one vehicle in a thousand has."""
 
 
 def bias_rows(x: Unknowns, stretch: Stretch) -> list[Values]:
@@ -140,3 +144,31 @@ def prior_rows(x: Unknowns, c: Constants) -> list[Values]:
     for name, (mean, sigma) in known_before(c).items():
         rows.append((getattr(x, name) - mean) / sigma)
     return rows
+
+
+def prior_misfit(x: Unknowns, c: Constants) -> float:
+    """Return by how much the unknowns are off what was known of them before, squared.
+
+    Equation:
+        Σ ((x - mean)/σ)² over z_0, b_0, o_0, μ_0 and the constants of the vehicle
+
+    Args:
+        x: what least squares found.
+        c: means and 1-σ.
+    """
+    starts = x.bias[0] / c.bias, x.offset[0] / c.offset_m, x.moment[0] / c.moment
+    return float(sum(misfit**2 for misfit in (*starts, *prior_rows(x, c))))
+
+
+def is_believed(x: Unknowns, c: Constants, change: float) -> bool:
+    """Tell whether an answer is that of a vehicle that there may be.
+
+    Equation:
+        The last |Δθ| is below 3 mrad, and `prior_misfit` below 33
+
+    Args:
+        x: what least squares found.
+        c: means and 1-σ.
+        change: the largest |Δθ| of the last pass, rad.
+    """
+    return change < SETTLED and prior_misfit(x, c) < UNLIKELY

@@ -56,7 +56,7 @@ class Fit(NamedTuple):
         return float(self.unknowns[self.stretch.layout.slope].mean())
 
     @property
-    def oddity(self) -> float:
+    def prior_misfit(self) -> float:
         """Sum of the squares by which constants are off what is `known_before`, over their 1-σ."""
         known = known_before(self.stretch.layout, self.stretch.model)
         means, sigmas = np.array(list(known.values())).T

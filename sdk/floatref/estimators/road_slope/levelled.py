@@ -109,7 +109,7 @@ def _about_the_slowest(drive: Drive, inside: slice, reach_m: float) -> BoolArray
 
 def is_believed(result: Fit) -> bool:
     """Return whether a fit has settled on a vehicle that there may be."""
-    return result.changed_rad < UNSETTLED_RAD and result.oddity < UNLIKELY
+    return result.changed_rad < UNSETTLED_RAD and result.prior_misfit < UNLIKELY
 
 
 def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray:

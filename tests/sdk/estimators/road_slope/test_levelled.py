@@ -109,12 +109,12 @@ def over(stretch: Stretch) -> Fit:
 def test_constants_that_no_vehicle_has_are_not_believed(many: float, name: str) -> None:
     """Sigmas by which one is off, squared."""
     found = over(at_speed(np.full(40, 10.0)))
-    assert found.oddity == pytest.approx(0.0, abs=1e-20)
+    assert found.prior_misfit == pytest.approx(0.0, abs=1e-20)
     y, model = found.unknowns.copy(), found.stretch.model
     y[found.stretch.layout.place(name)] += many * model.sigmas[name]
-    odd = found._replace(unknowns=y)
-    assert odd.oddity == pytest.approx(many**2, rel=1e-9, abs=1e-15)
-    assert is_believed(odd) == (odd.oddity < UNLIKELY)
+    off = found._replace(unknowns=y)
+    assert off.prior_misfit == pytest.approx(many**2, rel=1e-9, abs=1e-15)
+    assert is_believed(off) == (off.prior_misfit < UNLIKELY)
 
 
 def test_a_stretch_without_a_positive_matrix_is_not_settled() -> None:

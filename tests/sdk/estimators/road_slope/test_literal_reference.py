@@ -11,6 +11,8 @@ from tests.sdk.estimators.road_slope.short_runs import MODEL, RUNS, Case, Run, d
 from floatref.estimators.road_slope.bends import first_bends
 from floatref.estimators.road_slope.elevation_sigma import elevation_sigma, turn
 from floatref.estimators.road_slope.gauss_newton import SETTLED_RAD, Fit, _go, fit
+from floatref.estimators.road_slope.known_rows import known_before
+from floatref.estimators.road_slope.levelled import is_believed
 from floatref.estimators.road_slope.rows import Stretch, Weights
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_reference.road_slope import doubt
@@ -23,6 +25,8 @@ from floatref_reference.road_slope.gauss_newton import (
     least_squares,
 )
 from floatref_reference.road_slope.held import Held, first_held
+from floatref_reference.road_slope.priors import is_believed as is_believed_literally
+from floatref_reference.road_slope.priors import prior_misfit
 from floatref_reference.road_slope.rows import misfits
 from floatref_reference.road_slope.symbols import Places, Readings
 from floatref_reference.road_slope.symbols import Stretch as Literal
@@ -215,3 +219,19 @@ def test_first_passes_agree(run: Run) -> None:
     held = held._replace(sagged=np.full(held.sagged.size, case.ours.model.first_sag_m))
     total = float(np.sum(misfits(y, known, first_held(known)) ** 2))
     assert abs(case.ours.misfit(y, held) / total - 1) < 1e-9
+
+
+@few
+@given(run=RUNS, seed=SEEDS, spread=st.floats(0.1, 3.0), change=st.floats(0.0, 6e-3))
+def test_both_believe_the_same_answers(run: Run, seed: int, spread: float, change: float) -> None:
+    """Of unknowns that are off what was known of them by some of its 1-σ."""
+    case = draw(run)
+    y, rng = case.ours.start(), np.random.default_rng(seed)
+    known = known_before(case.ours.layout, case.ours.model)
+    means, sigmas = np.array(list(known.values())).T
+    y[list(known)] = means + spread * sigmas * rng.normal(size=means.size)
+    ours = Fit(case.ours, y, np.full(case.ours.layout.points - 1, 1e-5), 7, change)
+    x = by_name(y, case.ours.layout.points, case.ours.layout.nodes)
+    constants = literal(case.ours).constants
+    assert ours.prior_misfit == pytest.approx(prior_misfit(x, constants), rel=1e-9)
+    assert is_believed(ours) == is_believed_literally(x, constants, change)
