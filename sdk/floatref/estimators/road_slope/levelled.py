@@ -56,8 +56,8 @@ class Levelled:
     @classmethod
     def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
         """Fit every stretch of ``drive`` and blend those that share their ends."""
-        share, pitch, lean, grade, sigma_m, fitted = np.zeros((6, drive.force.size))
-        found = cls(share, pitch, lean, grade, sigma_m, [])
+        share, pitch, lean, grade, sigma, fitted = np.zeros((6, drive.force.size))
+        found = cls(share, pitch, lean, grade, sigma, [])
         for pieces in find_stretches(drive):
             inside = slice(pieces[0].start, pieces[-1].stop)
             weight = _ramp(inside.stop - inside.start, drive.step)
@@ -67,19 +67,29 @@ class Levelled:
                 found.sigma_m[inside] += weight * UNKNOWN_M * near
                 continue
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
-            found.gains += known_gains([result])
-            sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
-            if is_believed(result):
-                found._add(result, inside, weight)
-            else:
-                sigma_m = sigma_m * _about_the_slowest(drive, inside, cls.unknown_reach_m)
+            sigma_m = found._take(result, drive, inside, weight, wavelength_m)
             found.sigma_m[inside] += weight * sigma_m
-        known = np.maximum(found.share, np.finfo(np.float64).tiny)
-        for each in (found.pitch, found.lean, found.grade):
-            each /= known
-        found.sigma_m /= np.maximum(fitted, 1.0)
-        found.share = np.minimum(found.share, 1.0)
+        found._blend(fitted)
         return found
+
+    def _take(
+        self, result: Fit, drive: Drive, inside: slice, weight: FloatArray, wavelength_m: float
+    ) -> FloatArray:
+        """Add one fit with its ``weight`` if it is believed, and return its 1-σ in m."""
+        self.gains += known_gains([result])
+        sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
+        if not is_believed(result):
+            return sigma_m * _about_the_slowest(drive, inside, self.unknown_reach_m)
+        self._add(result, inside, weight)
+        return sigma_m
+
+    def _blend(self, fitted: FloatArray) -> None:
+        """Make means of the weighted sums; ``fitted`` is the weight of all fits, shape (n,)."""
+        known = np.maximum(self.share, np.finfo(np.float64).tiny)
+        for each in (self.pitch, self.lean, self.grade):
+            each /= known
+        self.sigma_m /= np.maximum(fitted, 1.0)
+        self.share = np.minimum(self.share, 1.0)
 
     def _add(self, result: Fit, inside: slice, weight: FloatArray) -> None:
         """Add one fit with its ``weight`` in the bins ``inside``."""
