@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING, Any
 from floatref.version import __version__ as __version__
 
 if TYPE_CHECKING:
+    from floatref.engine.automatic import process as process
     from floatref.engine.lookup import make_stage as make_stage
     from floatref.engine.lookup import pipeline as pipeline
     from floatref.engine.lookup import stage_names as stage_names
     from floatref.engine.run import FloatrefWarning as FloatrefWarning
     from floatref.engine.run import pipeline_capabilities as pipeline_capabilities
     from floatref.engine.run import pipelines as pipelines
-    from floatref.engine.run import process as process
     from floatref.errors import FloatrefError as FloatrefError
     from floatref.errors import InputError as InputError
     from floatref.errors import PluginError as PluginError
@@ -174,7 +174,7 @@ _PUBLIC = {
     "pipeline": "engine.lookup",
     "pipeline_capabilities": "engine.run",
     "pipelines": "engine.run",
-    "process": "engine.run",
+    "process": "engine.automatic",
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",

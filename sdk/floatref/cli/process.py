@@ -16,6 +16,7 @@ from floatref.cli.diagnostics import (
 )
 from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
+from floatref.engine.choosing import AUTO
 from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     metavar="FILE.toml",
     help="Channel map of a native file.",
 )
-@click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
+@click.option("--pipeline", default=AUTO, show_default=True, metavar="NAME")
 @click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
 @click.option("--format", "form", type=FormatName(), help="By default, from the suffix of --out.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing target.")
@@ -119,6 +120,7 @@ def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str,
     lines = list(warnings)
     return {
         "pipeline": profile.pipeline,
+        "reason": profile.provenance.get("chosen", {}).get("reason"),
         "profile": str(out),
         "interval_m": profile.interval_m,
         "length_m": profile.length_m,
@@ -147,6 +149,8 @@ def _print_tables(report: dict[str, Any], profile: Profile) -> None:
         for t in report["tracks"]
     ]
     print_table(report["profile"], ("track", "length m", "IRI m/km", "invalid m"), rows)
+    if report["reason"]:
+        click.echo(f"Pipeline {report['pipeline']}, since {report['reason']}")
     for line in report["warnings"]:
         click.echo(f"Warning: {line}", err=True)
     architecture = profile.provenance["architecture"]

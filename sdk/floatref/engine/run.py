@@ -5,7 +5,6 @@ blocks, ask the plug-ins for stages, run the stages, collect the profile. Then i
 of the heights.
 """
 
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -52,23 +51,6 @@ class Result:
     warnings: tuple[str, ...]
     screening: Screening = field(repr=False, compare=False)
     innovations: flow.Kept = field(default_factory=dict, repr=False, compare=False)
-
-
-def process(
-    recording: Recording,
-    pipeline: str = "temporal-basic",
-    settings: Mapping[str, Any] | None = None,
-) -> Profile:
-    """Return the profile of ``recording`` by ``pipeline``.
-
-    ``settings`` replaces the pipeline's defaults by name. Warns with `FloatrefWarning`. Raises
-    InputError for a recording, pipeline or setting that cannot be used and PluginError if two
-    plug-ins answer the same point.
-    """
-    result = run(recording, pipeline, settings)
-    for line in result.warnings:
-        warnings.warn(line, FloatrefWarning, stacklevel=2)
-    return result.profile
 
 
 def pipelines() -> tuple[str, ...]:

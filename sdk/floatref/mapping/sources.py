@@ -142,10 +142,11 @@ def make_profile(
     InputError with one line naming the source for a recording, pipeline or setting that cannot be
     used.
     """
-    from floatref.engine.run import run
+    from floatref.engine.automatic import run_named_or_best
 
+    order = pipeline, settings, progress, diagnostics
     with name_errors(read.path), read.name_errors_natively():
-        result = run(read.recording, pipeline, settings, progress, diagnostics=diagnostics)
+        result = run_named_or_best(read.recording, *order)
     provenance = {**result.profile.provenance, **read.origin}
     warnings = (*read.warnings, *map(read.name_natively, result.warnings))
     profile = replace(result.profile, provenance=provenance)

@@ -18,7 +18,7 @@ from floatref import (
     hookimpl,
 )
 from floatref.engine.plugins import Plugins
-from floatref.engine.run import process
+from floatref.engine.automatic import process
 
 OWN = StageCall("RemoveMean", "elevation")
 THEIRS = StageCall("FromFirst", "elevation")

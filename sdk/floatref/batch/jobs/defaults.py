@@ -7,8 +7,9 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from floatref.engine.automatic import resolve_named_or_best
+from floatref.engine.choosing import AUTO
 from floatref.engine.formats import get_reader, is_native
-from floatref.engine.run import resolve_settings
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ChannelMap
 from floatref.mapping.channel_map.map_document import read_map
@@ -20,7 +21,7 @@ class Defaults:
 
     adapter: str | None = None
     channel_map: Path | None = None
-    pipeline: str = "temporal-basic"
+    pipeline: str = AUTO
     settings: Mapping[str, Any] = field(default_factory=dict)
     segment_m: float | None = None
 
@@ -31,7 +32,7 @@ def read_given_map(options: Defaults) -> ChannelMap | None:
     Raises InputError for a pipeline, adapter, setting, map or segment that no file can be
     processed with.
     """
-    resolve_settings(options.pipeline, options.settings)
+    resolve_named_or_best(options.pipeline, options.settings)
     native = options.adapter is None or is_native(get_reader(options.adapter))
     length = options.segment_m
     if length is not None and not (isfinite(length) and length > 0):

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from floatref.engine.choosing import AUTO
+
 PROFILES, RECORDS = "profiles", "records"
 """Folders below the output directory; a job's name is its path in both."""
 
@@ -30,7 +32,7 @@ class Job:
     out: Path
     adapter: str | None = None
     channel_map: Path | None = None
-    pipeline: str = "temporal-basic"
+    pipeline: str = AUTO
     settings: Mapping[str, Any] = field(default_factory=dict)
     segment_m: float | None = None
     size_bytes: int = 0

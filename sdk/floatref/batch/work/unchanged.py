@@ -9,7 +9,7 @@ from typing import Any
 from floatref.batch.jobs.defaults import files_of
 from floatref.batch.jobs.job import Job
 from floatref.batch.results.record import Record
-from floatref.engine.plugins import plugins
+from floatref.engine.automatic import resolve_named_or_best
 from floatref.errors import FloatrefError, InputError
 from floatref.files import fingerprint_native
 from floatref.files.document import plain
@@ -59,7 +59,7 @@ def holds(record: Record, job: Job) -> bool:
 def _resolve(job: Job) -> dict[str, Any]:
     """Return all settings before the recording decides any; empty if they cannot be used."""
     try:
-        return dict(plugins().pipeline(job.pipeline).resolve(job.settings))
+        return resolve_named_or_best(job.pipeline, job.settings)
     except FloatrefError:
         return {}
 

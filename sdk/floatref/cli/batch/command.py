@@ -12,6 +12,7 @@ from floatref.cli.batch.batch_report import print_report
 from floatref.cli.batch.batch_work import Work, work_through
 from floatref.cli.batch.interruption import interruptible
 from floatref.cli.printing import print_json
+from floatref.engine.choosing import AUTO
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.files.settings_file import read_settings
@@ -37,7 +38,7 @@ SOME_FAILED = 5
     metavar="FILE.toml",
     help="Channel map of the native files.",
 )
-@click.option("--pipeline", default="temporal-basic", show_default=True, metavar="NAME")
+@click.option("--pipeline", default=AUTO, show_default=True, metavar="NAME")
 @click.option("--settings", type=click.Path(path_type=Path), help="JSON file of settings.")
 @click.option(
     "--segment",

@@ -1,0 +1,69 @@
+"""`auto`: the pipeline that measures most of what a recording holds, and why it is that one.
+
+The order is that of docs/families.md: which pipeline bears most, of those
+whose sensors were recorded. A pipeline for which a channel is absent is not among the choices.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from floatref.builtin_pipelines.signal_flows import NEEDS
+from floatref.errors import InputError
+from floatref.interfaces.pipeline import Pipeline
+from floatref.values.needs import nominal_needs
+from floatref.values.recording import Recording
+
+AUTO = "auto"
+BEST = (
+    ("kalman-smoother-reflection", "inertial unit and GNSS are recorded"),
+    ("road-prior-smoother", "an accelerometer, a height sensor and the encoder are recorded"),
+    ("response-joint-input-state", "sensors of the vehicle's response are recorded"),
+)
+"""Pipelines from the one that bears most, and what of the sensors decides for each."""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A pipeline that the recording has all channels for.
+
+    Attributes:
+        pipeline: its name.
+        reason: what decides for it.
+    """
+
+    pipeline: str
+    reason: str
+
+    @property
+    def line(self) -> str:
+        """The choice in one line."""
+        return f"pipeline {self.pipeline}: {self.reason}"
+
+
+def choices_for(recording: Recording, known: Mapping[str, Pipeline]) -> tuple[Choice, ...]:
+    """Return the pipelines that ``recording`` has the channels for, the best first.
+
+    Raises InputError, which names a channel, if it has them for none.
+    """
+    found = tuple(_choices(recording, known))
+    if not found:
+        # It names the channel of a profiler that is absent.
+        nominal_needs(recording).channels(recording)
+    return found
+
+
+def _choices(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[Choice]:
+    for name, reason in BEST:
+        if name in known and _has_channels(recording, known[name]):
+            yield Choice(name, reason)
+
+
+def _has_channels(recording: Recording, pipeline: Pipeline) -> bool:
+    """Return whether every channel that ``pipeline`` reads is there, for every wheel path."""
+    try:
+        needs = NEEDS[pipeline.architecture](recording)
+        needs.channels(recording)
+    except InputError:
+        return False
+    named = *pipeline.channels, *pipeline.readings
+    return all(recording.find(name, track) is not None for track in needs.tracks for name in named)
