@@ -47,7 +47,7 @@ def beyond_tolerance(
     """List where the deviation is larger than a tolerance, upwards or downwards.
 
     Equation:
-        |d(x_k)| > tolerance
+        d(x_k) > tolerance, or -d(x_k) > tolerance; the two are areas of their own.
 
     Args:
         z: elevation, m, shape (N,).
@@ -59,8 +59,10 @@ def beyond_tolerance(
         The areas, in order.
     """
     d, n = midpoint_deviation(z, dx, length), half_length(dx, length)
-    areas = areas_above([abs(value) for value in d], tolerance) if d else []
-    return [
-        Place((n + area.first) * dx, (n + area.last) * dx, (n + area.peak) * dx, d[area.peak])
-        for area in areas
-    ]
+    found: list[Place] = []
+    if d:
+        for signed in (d, [-value for value in d]):
+            for area in areas_above(signed, tolerance):
+                first, last, peak = (n + k for k in area)
+                found.append(Place(first * dx, last * dx, peak * dx, d[area.peak]))
+    return sorted(found)

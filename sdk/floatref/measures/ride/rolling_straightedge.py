@@ -90,6 +90,7 @@ def rolling_straightedge(
 ) -> StraightedgeResult:
     """Return where the deviations of `straightedge_deviation` are beyond ``tolerance_m``.
 
+    High and low places are areas of their own, in order of position.
     ``start_m`` is the position of point 0 in m. Without ``valid``, finite points are valid. Raises
     InputError as `straightedge_deviation`, and for a tolerance that is not above zero.
     """
@@ -99,7 +100,7 @@ def rolling_straightedge(
     half = straightedge_half(length_m, interval_m)
     sound = valid_throughout(valid_points(valid, np.asarray(elevation)), half, half)
     size, measured = np.abs(deviation), np.isfinite(deviation)
-    areas = tuple(
+    areas = [
         OutOfTolerance(
             start_m + area.first * interval_m,
             start_m + (area.end - 1) * interval_m,
@@ -107,8 +108,11 @@ def rolling_straightedge(
             float(deviation[area.peak]),
             share(sound[area.first : area.end]),
         )
-        for area in list_areas(size, tolerance_m)
-    )
+        for sign in (1.0, -1.0)
+        for area in list_areas(sign * deviation, tolerance_m)
+    ]
+    areas.sort(key=lambda area: area.start_m)
     largest = float(size[measured].max()) if measured.any() else float("nan")
     beyond, reliable = size[measured] > tolerance_m, sound[measured]
-    return StraightedgeResult(2 * half * interval_m, largest, share(beyond), share(reliable), areas)
+    found = (largest, share(beyond), share(reliable), tuple(areas))
+    return StraightedgeResult(2 * half * interval_m, *found)

@@ -15,7 +15,6 @@ from floatref.measures.roughness.gaps import bridge, check_elevation, measured_s
 from floatref.measures.roughness.wavebands import Waveband, pass_band
 from floatref.values.arrays import FloatArray
 
-
 CONTINUED = 3
 """Longest wavelengths by which a profile is continued: of a run-in e^-3π, 1e-4, is left then."""
 

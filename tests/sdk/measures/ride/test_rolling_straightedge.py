@@ -40,6 +40,14 @@ def test_one_bump_is_seen_by_the_middle_and_by_both_wheels() -> None:
     assert result.defective_share == pytest.approx(12 / 360)
 
 
+def test_a_low_place_beside_a_high_one_is_an_area_of_its_own() -> None:
+    z = np.zeros(400)
+    z[200 : 200 + 2 * HALF] = 0.010
+    low, high, last = rolling_straightedge(z, INTERVAL).areas
+    assert [area.deviation_m for area in (low, high, last)] == [-0.005, 0.005, -0.005]
+    assert high.start_m - low.end_m == pytest.approx(INTERVAL)
+
+
 def test_a_deviation_at_the_tolerance_is_within_it() -> None:
     z = np.zeros(400)
     z[200] = 0.004
